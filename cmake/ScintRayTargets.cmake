@@ -1,0 +1,27 @@
+# scintray_module(NAME SOURCES... [LINK modules and libraries]) makes the static library
+# scintray_NAME of src/NAME. Headers are included as "scintray/NAME/header.hpp", here through a link
+# in the build folder, and in the same way once installed.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/scintray SYMBOLIC)
+
+add_library(scintray_options INTERFACE)
+target_compile_features(scintray_options INTERFACE cxx_std_20)
+target_compile_options(scintray_options INTERFACE
+  $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
+if(SCINTRAY_SANITIZE)
+  target_compile_options(scintray_options INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
+  target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+endif()
+
+function(scintray_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  set(target scintray_${name})
+  add_library(${target} STATIC ${MODULE_SOURCES})
+  add_library(scintray::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(${target} PUBLIC scintray_options ${MODULE_LINK} PRIVATE ${MODULE_PRIVATE_LINK})
+endfunction()

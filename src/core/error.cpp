@@ -1,0 +1,83 @@
+#include "scintray/core/error.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace scintray {
+
+namespace {
+
+std::string join(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.text();
+  }
+  return text;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string FileLocation::text() const {
+  std::string text = file;
+  if (line > 0) text += ":" + std::to_string(line);
+  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  return text;
+}
+
+std::string Problem::text() const {
+  const std::string place = where.text();
+  std::string text = place.empty() ? "error: " + what : place + ": error: " + what;
+  if (!hint.empty()) text += "\n  hint: " + hint;
+  return text;
+}
+
+InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
+
+InputError::InputError(std::vector<Problem> problems)
+    : Error(join(problems)), problems_(std::move(problems)) {}
+
+void Problems::add(FileLocation where, std::string what, std::string hint) {
+  list_.push_back({std::move(where), std::move(what), std::move(hint)});
+}
+
+void Problems::add(Problem problem) { list_.push_back(std::move(problem)); }
+
+void Problems::add(const InputError& error) {
+  list_.insert(list_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Problems::throw_if_any() {
+  if (!list_.empty()) throw InputError(std::move(list_));
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
+  std::string best;
+  std::size_t best_distance = limit + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace scintray

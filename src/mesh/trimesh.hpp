@@ -1,0 +1,26 @@
+#pragma once
+/// Triangle meshes of parts.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scintray/core/vec.hpp"
+
+namespace scintray {
+
+/// A triangle mesh, mm, triangles counter-clockwise seen from outside.
+struct TriMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Per triangle, index into `groups`: the glTF material or OBJ group it came with.
+  std::vector<std::uint32_t> group;
+  std::vector<std::string> groups;
+
+  Vec3 area_vector(std::size_t triangle) const;  ///< normal times area, mm2
+  double area() const;                           ///< mm2
+  double volume() const;                         ///< mm3, positive when oriented outwards
+};
+
+}  // namespace scintray

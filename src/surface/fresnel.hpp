@@ -1,0 +1,57 @@
+#pragma once
+/// Reflection and refraction at a smooth facet between two lossless dielectrics.
+///
+/// Formulae: M. Born and E. Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. (20), (21).
+
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray {
+
+/// Power reflectances for the two polarisations, and the refraction angle.
+struct FresnelCoefficients {
+  double reflectance_s = 1.0;  ///< electric field across the plane of incidence
+  double reflectance_p = 1.0;  ///< electric field in the plane of incidence
+  double cos_refracted = 0.0;  ///< 0 under total reflection
+
+  double unpolarised() const { return 0.5 * (reflectance_s + reflectance_p); }
+};
+
+/// Coefficients for light in index n1 that meets index n2 at incidence-angle cosine cos_i in [0,1].
+inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
+  const double ratio = n1 / n2;
+  const double sin2_t = ratio * ratio * (1.0 - cos_i * cos_i);
+  if (sin2_t >= 1.0) return {};
+  const double cos_t = std::sqrt(1.0 - sin2_t);
+  const double r_s = (n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t);
+  const double r_p = (n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t);
+  return {r_s * r_s, r_p * r_p, cos_t};
+}
+
+/// A travelling photon's direction and linear polarisation. A zero polarisation vector means
+/// unpolarised light: Fresnel then uses the mean of the two reflectances.
+struct Ray {
+  Vec3 direction;
+  Vec3 polarisation;
+};
+
+/// Reflects at a facet with unit normal `m` (either orientation). The polarisation component along
+/// the normal is kept and the others change sign, as for total reflection without the phase lag
+/// between s and p, which one linear polarisation vector cannot carry.
+inline void reflect(Ray& ray, const Vec3& m) {
+  ray.direction = mirror(ray.direction, m);
+  ray.polarisation = -mirror(ray.polarisation, m);
+}
+
+/// Meets a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
+/// polarisation and turns the polarisation accordingly.
+///
+/// @param m   unit normal against the ray: direction . m <= 0
+/// @param n1  index where the ray is; @param n2 index behind the facet
+/// @return true when the ray was refracted into n2.
+bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng);
+
+}  // namespace scintray

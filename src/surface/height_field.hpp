@@ -1,0 +1,53 @@
+#pragma once
+/// A periodic height field, met ray by ray: the reference that surface tables must agree with.
+
+#include <cstdint>
+#include <vector>
+
+#include "scintray/surface/microsurface.hpp"
+
+namespace scintray {
+
+/// What happened to one ray on the height field.
+struct HeightFieldExit {
+  Side side = Side::inside;    ///< medium the ray left in
+  int facets_met = 0;          ///< number of facets met, at least 1
+  double first_slope_rad = 0;  ///< angle between the first facet's normal and the mean normal
+  bool cut = false;            ///< followed for longer than the step limit and released as it was
+};
+
+/// Heights on a periodic rectangular lattice; each cell is split along the diagonal from
+/// (i, j+1) to (i+1, j) into two triangles. Units are um, but only ratios matter.
+///
+/// The height of a ray above the surface is a continuous, piecewise linear function of the path,
+/// and its sign says in which medium the ray is; a crossing is a change of sign. So direction and
+/// medium cannot disagree, and no ray is ever unclassified.
+class HeightField {
+ public:
+  HeightField() = default;
+  /// @param heights row-major, heights[j * columns + i] at (i * pitch_x, j * pitch_y), one period
+  ///        (the row after the last is the first again); at least 2 x 2, all finite.
+  HeightField(std::vector<float> heights, std::uint32_t columns, std::uint32_t rows, double pitch_x_um,
+              double pitch_y_um);
+
+  /// Follows a ray from outside the roughness, at the lateral position (x, y) um where it crosses
+  /// the plane of extreme heights, until it leaves on either side. Directions are in the map's own
+  /// frame: x, y lateral, z the mean normal. Uniform (x, y) gives the projected-area weighting of a
+  /// parallel beam.
+  HeightFieldExit follow(Ray& ray, Side side, double x_um, double y_um, const IndexPair& index,
+                         Rng& rng) const;
+
+  /// As every microsurface: random position and, about `normal`, random azimuth of the map.
+  Side scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const;
+
+  double period_x_um() const { return pitch_x_ * columns_; }
+  double period_y_um() const { return pitch_y_ * rows_; }
+
+ private:
+  std::vector<float> heights_;
+  std::uint32_t columns_ = 0, rows_ = 0;
+  double pitch_x_ = 0, pitch_y_ = 0;
+  double low_ = 0, high_ = 0;
+};
+
+}  // namespace scintray

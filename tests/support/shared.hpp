@@ -1,0 +1,20 @@
+#pragma once
+/// Reference data that lies beside the checkout on some machines only.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace scintray::test {
+
+/// `relative` inside the shared folder beside the repository, or nothing (and a line that marks the
+/// test as skipped) when it is not there.
+std::optional<std::filesystem::path> shared_file(const std::string& relative);
+
+/// A file of this repository.
+std::filesystem::path source_file(const std::string& relative);
+
+/// An empty folder for one test's files, below the build folder.
+std::filesystem::path scratch_folder(const std::string& name);
+
+}  // namespace scintray::test

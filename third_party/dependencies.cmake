@@ -1,0 +1,15 @@
+# Every dependency is a Debian package found here and nowhere else; third_party/README.md says which
+# package, version and licence each is, and what it is used for.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(embree 3.13 REQUIRED)
+find_package(CGAL 5.5 REQUIRED)
+find_package(assimp 5.2 REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(toml11 3.7 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(spdlog 1.10 REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(ZLIB REQUIRED)
+find_package(Threads REQUIRED)
