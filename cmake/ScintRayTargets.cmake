@@ -8,6 +8,8 @@ add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  # GCC 12 takes temporaries of a throw expression for uninitialised.
+  $<BUILD_INTERFACE:-Wno-maybe-uninitialized>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
 if(SCINTRAY_SANITIZE)
   target_compile_options(scintray_options INTERFACE

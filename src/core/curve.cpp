@@ -11,13 +11,14 @@ namespace {
 
 void check_table(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.empty() || x.size() != y.size())
-    throw InputError({{},
-                      "a table of " + std::to_string(x.size()) + " abscissae and " +
-                          std::to_string(y.size()) + " values",
-                      "give as many values as abscissae, at least one"});
+    throw InputError(
+        {{},
+         "a table of " + std::to_string(x.size()) + " abscissae and " + std::to_string(y.size()) + " values",
+         "give as many values as abscissae, at least one"});
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
-      throw InputError({{}, "row " + std::to_string(i + 1) + " of a table is not finite", "remove or mend the row"});
+      throw InputError(
+          {{}, "row " + std::to_string(i + 1) + " of a table is not finite", "remove or mend the row"});
     if (i > 0 && !(x[i] > x[i - 1]))
       throw InputError({{},
                         "a table is not sorted: row " + std::to_string(i + 1) + " has abscissa " +
@@ -66,7 +67,8 @@ double Curve::max_y() const { return *std::max_element(y_.begin(), y_.end()); }
 CurveSampler::CurveSampler(const Curve& density) : x_(density.x()), y_(density.y()) {
   for (std::size_t i = 0; i < y_.size(); ++i)
     if (y_[i] < 0.0)
-      throw InputError({{}, "a spectrum is negative (" + std::to_string(y_[i]) + ") at " + std::to_string(x_[i]),
+      throw InputError({{},
+                        "a spectrum is negative (" + std::to_string(y_[i]) + ") at " + std::to_string(x_[i]),
                         "a spectrum is a density and cannot be negative"});
   cumulative_.assign(1, 0.0);
   for (std::size_t i = 1; i < x_.size(); ++i)

@@ -16,10 +16,10 @@ std::array<std::uint64_t, 4> philox4x64(std::array<std::uint64_t, 4> counter,
 /// Which independent family of streams a generator draws from; photons never share numbers with
 /// other uses of the same seed.
 enum class StreamKind : std::uint64_t {
-  photon = 0,      ///< (event, photon)
-  event = 1,       ///< (event, 0): positions and energies of a whole event
-  table = 2,       ///< (incidence node and side, ray): building a surface table
-  synthesis = 3,   ///< generating a height map
+  photon = 0,     ///< (event, photon)
+  event = 1,      ///< (event, 0): positions and energies of a whole event
+  table = 2,      ///< (incidence node and side, ray): building a surface table
+  synthesis = 3,  ///< generating a height map
   other = 4,
 };
 

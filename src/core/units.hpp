@@ -11,15 +11,15 @@
 namespace scintray {
 
 enum class Dimension {
-  length,               ///< mm
-  inverse_length,       ///< 1/mm
-  wavelength,           ///< nm; photon energies ("2.95 eV") convert through hc
-  time,                 ///< ns
-  angle,                ///< rad
-  energy,               ///< keV
-  density,              ///< g/cm3
-  photons_per_energy,   ///< photons/keV
-  dimensionless,        ///< 1; "97 %" is accepted
+  length,              ///< mm
+  inverse_length,      ///< 1/mm
+  wavelength,          ///< nm; photon energies ("2.95 eV") convert through hc
+  time,                ///< ns
+  angle,               ///< rad
+  energy,              ///< keV
+  density,             ///< g/cm3
+  photons_per_energy,  ///< photons/keV
+  dimensionless,       ///< 1; "97 %" is accepted
 };
 
 /// Name of a dimension and its accepted units, for messages: "length", {"nm","um","mm",...}.

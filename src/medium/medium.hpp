@@ -19,8 +19,8 @@ struct DecayComponent {
 
 /// Properties of a medium at one wavelength, as the tracer uses them.
 struct MediumOptics {
-  double index = 1.0;             ///< refractive index n
-  double group_index = 1.0;       ///< n - wavelength dn/dwavelength
+  double index = 1.0;        ///< refractive index n
+  double group_index = 1.0;  ///< n - wavelength dn/dwavelength
   double absorption_per_mm = 0.0;
   double scattering_per_mm = 0.0;
 };
@@ -28,17 +28,17 @@ struct MediumOptics {
 /// A medium of the library (`materials/NAME.toml`) or of a scene file.
 struct Medium {
   std::string name;
-  Curve index;                ///< refractive index against wavelength (nm)
-  Curve absorption_per_mm;    ///< 1/absorption length against wavelength (nm); 0 means none
-  Curve scattering_per_mm;    ///< 1/scattering length against wavelength (nm)
+  Curve index;              ///< refractive index against wavelength (nm)
+  Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm); 0 means none
+  Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
 
   // Scintillation; a medium that does not scintillate has a zero yield.
-  double yield_per_keV = 0.0;         ///< photons per keV
-  Curve emission;                     ///< relative photon number per nm against wavelength (nm)
+  double yield_per_keV = 0.0;  ///< photons per keV
+  Curve emission;              ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
-  double density_g_per_cm3 = 0.0;     ///< 0 when not given
-  std::vector<std::string> sources;   ///< published sources, for reports
+  double density_g_per_cm3 = 0.0;    ///< 0 when not given
+  std::vector<std::string> sources;  ///< published sources, for reports
 
   /// Optics at a wavelength (nm). The group index uses the slope of the index table
   /// (n_g = n - lambda dn/dlambda, e.g. Born & Wolf, Principles of Optics, section 1.3.4); a

@@ -31,8 +31,8 @@ using Microsurface = std::variant<SmoothSurface, UnifiedSurface, std::shared_ptr
 /// A sheet that reflects or absorbs, from either of its sides.
 struct Reflector {
   std::string name;
-  Curve reflectance;             ///< against wavelength (nm)
-  double specular_share = 0.0;   ///< share of reflected light that is mirrored; the rest Lambertian
+  Curve reflectance;            ///< against wavelength (nm)
+  double specular_share = 0.0;  ///< share of reflected light that is mirrored; the rest Lambertian
 };
 
 /// What a photon's meeting with a surface came to.
@@ -49,8 +49,8 @@ struct Surface {
   ///
   /// @param normal  outward normal of the part whose face it is
   /// @param index   indices of the media on the two sides
-  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, const IndexPair& index,
-                      double wavelength_nm, Rng& rng) const;
+  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, double wavelength_nm,
+                      Rng& rng) const;
 
   /// True when no light passes to the other side.
   bool opaque() const { return reflector.has_value(); }

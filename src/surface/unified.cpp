@@ -1,5 +1,7 @@
 #include "scintray/surface/unified.hpp"
 
+#include <algorithm>
+
 #include "scintray/core/sampling.hpp"
 
 namespace scintray {
@@ -21,18 +23,32 @@ double sample_facet_angle(const UnifiedSurface& surface, Rng& rng) {
   }
 }
 
-/// Facet normal, within 90 deg of `normal`, that faces a ray of direction k.
-Vec3 sample_facet(const UnifiedSurface& surface, const Vec3& k, const Vec3& normal, const Frame& frame, Rng& rng) {
-  if (surface.sigma_alpha_rad == 0.0) return normal;
+/// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
+/// bounds the area that a facet can show.
+constexpr double kWidestFacet_sigma = 6.0;
+
+/// Largest cosine between the reversed direction of a ray and any facet normal.
+double greatest_facing(const UnifiedSurface& surface, double cos_incidence) {
+  const double widest = kWidestFacet_sigma * surface.sigma_alpha_rad;
+  const double incidence = std::acos(std::clamp(cos_incidence, 0.0, 1.0));
+  return incidence <= widest ? 1.0 : std::cos(incidence - widest);
+}
+
+/// Facet normal, within 90 deg of `frame.z`, that faces a ray of direction k.
+Vec3 sample_facet(const UnifiedSurface& surface, const Vec3& k, const Frame& frame, Rng& rng) {
+  if (surface.sigma_alpha_rad == 0.0) return frame.z;
+  const bool weighted = surface.sampling == FacetSampling::projected_area;
+  const double bound = weighted ? greatest_facing(surface, -k.dot(frame.z)) : 1.0;
   for (;;) {
     const double alpha = sample_facet_angle(surface, rng);
+    if (weighted && alpha > kWidestFacet_sigma * surface.sigma_alpha_rad) continue;
     const double azimuth = kTwoPi * rng.uniform();
     const double sine = std::sin(alpha);
-    const Vec3 m = sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y + std::cos(alpha) * normal;
+    const Vec3 m =
+        sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y + std::cos(alpha) * frame.z;
     const double facing = -k.dot(m);
     if (facing <= 0.0) continue;
-    // Seen area of a facet per mean-plane area is facing / cos(alpha).
-    if (surface.sampling == FacetSampling::projected_area && rng.uniform() * 1.0 > facing) continue;
+    if (weighted && rng.uniform() * bound > facing) continue;
     return m;
   }
 }
@@ -48,6 +64,40 @@ Lobe sample_lobe(const UnifiedSurface& surface, Rng& rng) {
   return Lobe::lambertian;
 }
 
+/// Replaces a mirror reflection at a facet by the chosen lobe. `before` is the ray as it came.
+void apply_lobe(Lobe lobe, Ray& ray, const Ray& before, const Vec3& against, Rng& rng) {
+  switch (lobe) {
+    case Lobe::facet:
+      return;
+    case Lobe::spike:
+      ray = before;
+      reflect(ray, against);
+      return;
+    case Lobe::backscatter:
+      ray = {-before.direction, before.polarisation};
+      return;
+    case Lobe::lambertian:
+      ray.direction = sample_lambertian(against, rng);
+      if (!before.polarisation.isZero(0.0)) ray.polarisation = sample_polarisation(ray.direction, rng);
+      return;
+  }
+}
+
 }  // namespace
+
+Side UnifiedSurface::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index,
+                             Rng& rng) const {
+  for (;;) {
+    const Vec3 against = side == Side::inside ? Vec3(-normal) : normal;
+    const Vec3 facet = sample_facet(*this, ray.direction, Frame::about(against), rng);
+    const Ray before = ray;
+    if (meet_facet(ray, facet, index.on(side), index.on(other(side)), rng))
+      side = other(side);
+    else
+      apply_lobe(sample_lobe(*this, rng), ray, before, against, rng);
+    const double outward = ray.direction.dot(normal);
+    if (side == Side::inside ? outward < 0.0 : outward > 0.0) return side;
+  }
+}
 
 }  // namespace scintray
