@@ -1,0 +1,44 @@
+#pragma once
+/// Scene files: parse, then transform (sweeps), then instantiate (SceneSpec).
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scintray/scene/spec.hpp"
+#include "scintray/scene/sweep.hpp"
+
+namespace scintray {
+
+/// Instantiates a parsed scene (its sweeps are ignored: expand them first). `text` is the file's.
+/// Everything wrong is added to `problems`; the result may be used only when there is nothing.
+SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems);
+
+/// Every key a scene file may hold, as "part.place.gap", sorted.
+std::vector<std::string> scene_keys();
+
+/// A scene file with its sweeps; reads one scene per point.
+class SceneFile {
+ public:
+  /// Reads the file and every point of its sweeps. Throws InputError with every distinct problem.
+  static SceneFile load(const std::filesystem::path& path);
+  /// The same for a scene in memory; `file` is used in messages and for relative paths.
+  static SceneFile from_text(const std::string& text, const std::string& file);
+
+  /// Product of the numbers of swept values; 1 without a sweep.
+  std::size_t points() const;
+  /// Headings of the swept keys, slowest first.
+  std::vector<std::string> sweep_keys() const;
+  /// Value of each swept key at a point, as written ("2 mm").
+  std::vector<std::string> parameters(std::size_t point) const;
+  /// The scene at a point, 0 <= point < points().
+  SceneSpec spec(std::size_t point) const;
+  const std::string& text() const { return text_; }
+
+ private:
+  TomlNodePtr document_;
+  std::vector<SweepSpec> sweeps_;
+  std::string text_;
+};
+
+}  // namespace scintray

@@ -1,0 +1,208 @@
+#pragma once
+/// A scene as its file says it: names and numbers, nothing looked up or built yet. Lengths mm,
+/// wavelengths nm, times ns, angles rad.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
+#include "scintray/scene/toml_reader.hpp"
+
+namespace scintray {
+
+/// A name that refers to something, and where it was written. Empty: not given.
+struct NameRef {
+  std::string name;
+  FileLocation where;
+  bool empty() const { return name.empty(); }
+};
+
+/// The medium that absorbs whatever enters it.
+inline constexpr const char* kOpaqueMedium = "opaque";
+
+/// An axis-aligned box, mm.
+struct BoxSpec {
+  Vec3 low = Vec3::Zero();
+  Vec3 high = Vec3::Zero();
+  FileLocation where;
+};
+
+/// A mesh file, CAD or triangles.
+struct MeshFileSpec {
+  std::filesystem::path path;       ///< absolute, or relative to the working folder; it exists
+  std::optional<double> unit_mm;    ///< length of the file's unit; nothing: the file must say
+  double scale = 1.0;
+  FileLocation where;
+};
+
+/// A closed prism about the z axis, from z = 0 up.
+struct CylinderSpec {
+  double radius_mm = 0.0;    ///< of the circle through the vertices
+  double height_mm = 0.0;
+  int segments = 64;         ///< flat sides
+  FileLocation where;
+};
+
+using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec>;
+
+/// A turn about an axis through the origin of the part's own frame.
+struct RotationSpec {
+  Vec3 axis = Vec3::UnitZ();   ///< unit vector
+  double angle_rad = 0.0;      ///< counter-clockwise seen against the axis
+  FileLocation where;
+};
+
+/// A side of a bounding box.
+struct BoxSide {
+  int axis = 2;    ///< 0, 1, 2 for x, y, z
+  int sign = -1;   ///< -1 or +1
+};
+
+/// Puts a part against a side of another's bounding box, centred on it laterally.
+struct TouchSpec {
+  NameRef part;          ///< touched; a part that stands earlier in the file
+  BoxSide side;          ///< of the touched part's bounding box
+  double gap_mm = 0.0;
+  NameRef fill;          ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
+                         ///< both bounding boxes, as thick as the gap. Empty: the gap is ambient
+  FileLocation where;
+};
+
+/// Where a part goes: rotated (in order), then moved against another part, then translated.
+struct PlacementSpec {
+  std::vector<RotationSpec> rotate;
+  std::optional<TouchSpec> touch;
+  Vec3 translate = Vec3::Zero();  ///< mm
+};
+
+/// Picks triangles of a part, in the placed (world) frame. Every criterion given must hold.
+struct FaceSelectorSpec {
+  std::optional<Vec3> normal;              ///< unit; within `tolerance_rad` of the outward normal
+  double tolerance_rad = kDegree;
+  std::optional<BoxSpec> box;              ///< the triangle's centroid lies in it
+  std::optional<Vec3> flat_region;         ///< point, mm: the connected flat patch nearest to it
+  std::optional<Vec3> nearest;             ///< point, mm: the connected smooth face nearest to it
+  NameRef group;                           ///< glTF material or OBJ group of the mesh file
+  FileLocation where;
+};
+
+/// What is special about some of a part's faces.
+struct FaceRuleSpec {
+  std::string name;          ///< unique within its part; "face1", "face2"... when not given
+  FaceSelectorSpec select;
+  NameRef surface;           ///< empty: the part's
+  NameRef sensor;            ///< light that crosses outwards here is detected by it
+  FileLocation where;
+};
+
+struct PartSpec {
+  NameRef name;
+  ShapeSpec shape;
+  PlacementSpec placement;
+  NameRef medium;    ///< kOpaqueMedium allowed; empty only for a part that is a sensor
+  NameRef surface;   ///< of every face that no rule matches; empty: rules must cover every face
+  NameRef sensor;    ///< the whole part is a sensor
+  std::vector<FaceRuleSpec> faces;
+  FileLocation where;
+};
+
+/// How the touching faces of two parts meet.
+enum class ContactKind {
+  bonded,  ///< optical contact: one interface between both media
+  dry,     ///< an air gap of no thickness: each side keeps its surface to the ambient medium
+};
+
+struct ContactSpec {
+  std::array<NameRef, 2> between;
+  ContactKind kind = ContactKind::bonded;
+  NameRef surface;   ///< of the shared interface; empty: the surfaces of the two faces decide
+  FileLocation where;
+};
+
+/// Points of a part (or of an explicit point) from which light starts.
+struct RegionSpec {
+  NameRef part;
+  std::optional<std::array<double, 2>> slab_z_mm;  ///< world z, low then high
+  std::optional<BoxSpec> box;                      ///< world
+  FileLocation where;
+};
+
+enum class DirectionKind { isotropic, beam, cone, lambertian };
+
+struct DirectionSpec {
+  DirectionKind kind = DirectionKind::isotropic;
+  Vec3 axis = Vec3::UnitZ();     ///< unit; of a beam, a cone (uniform in solid angle), a Lambertian lobe
+  double half_angle_rad = 0.0;   ///< of a cone, up to pi
+  FileLocation where;
+};
+
+/// type = "photons": photons from a region or a point.
+struct SourceSpec {
+  std::variant<RegionSpec, Vec3> origin;   ///< uniform in a region, or one point (mm, world)
+  FileLocation origin_where;
+  DirectionSpec direction;
+  std::optional<double> wavelength_nm;     ///< nothing: drawn from the emission of the medium there
+  FileLocation wavelength_where;
+  std::optional<double> time_ns = 0.0;     ///< nothing: drawn from the decay of the medium there
+  FileLocation time_where;
+  bool unpolarised = false;   ///< Fresnel's mean at every surface; else each photon carries a
+                              ///< polarisation, drawn uniformly across its direction
+  std::uint64_t photons = 0;
+  std::uint64_t photons_per_event = 1000;  ///< the last event may have fewer
+  FileLocation where;
+};
+
+enum class AcceleratorKind { automatic, embree, planes };
+
+struct RunSpec {
+  std::uint64_t seed = 1;
+  std::uint64_t max_interactions = 100000;   ///< boundary interactions per photon
+  std::optional<double> max_time_ns;
+  std::optional<int> threads;                ///< nothing: all cores
+  double contact_tolerance_mm = 1e-4;
+  AcceleratorKind accelerator = AcceleratorKind::automatic;
+  bool photon_list = false;                  ///< stream every detected photon to the results
+  std::filesystem::path output;              ///< results file; empty: the command decides
+  FileLocation where;
+};
+
+/// Histogram of crossing angles at a face.
+struct ExitAngleTallySpec {
+  std::string name;
+  NameRef part;      ///< face = "part:face"
+  NameRef face;
+  bool detected_only = false;
+  int bins = 18;     ///< over 0 to 90 deg
+  FileLocation where;
+};
+
+/// A definition written in the scene file, in the form of a library file: the library parses it.
+using InlineTables = std::map<std::string, TomlNodePtr>;
+
+struct SceneSpec {
+  std::string title;
+  NameRef ambient;                 ///< medium around everything
+  ContactKind contacts_default = ContactKind::bonded;
+  bool contacts_default_given = false;
+  std::vector<PartSpec> parts;
+  std::vector<ContactSpec> contacts;
+  SourceSpec source;
+  RunSpec run;
+  std::vector<ExitAngleTallySpec> exit_angles;
+  InlineTables media;        ///< [media.NAME], as materials/media/NAME.toml
+  InlineTables surfaces;     ///< [surfaces.NAME]
+  InlineTables sensors;      ///< [sensors.NAME]
+  InlineTables reflectors;   ///< [reflectors.NAME]
+  std::filesystem::path file;      ///< the scene file as it was named
+  std::filesystem::path folder;    ///< relative paths in the scene count from here
+  std::string text;                ///< the whole file
+};
+
+}  // namespace scintray
