@@ -26,4 +26,5 @@ function(scintray_module name)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(${target} PUBLIC scintray_options ${MODULE_LINK} PRIVATE ${MODULE_PRIVATE_LINK})
+  set_property(GLOBAL APPEND PROPERTY SCINTRAY_LIBRARIES ${target})
 endfunction()

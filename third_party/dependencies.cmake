@@ -1,15 +1,23 @@
-# Every dependency is a Debian package found here and nowhere else; third_party/README.md says which
-# package, version and licence each is, and what it is used for.
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(TBB REQUIRED)
-find_package(embree 3.13 REQUIRED)
-find_package(CGAL 5.5 REQUIRED)
-find_package(assimp 5.2 REQUIRED)
-find_package(TinyGLTF REQUIRED)
-find_package(toml11 3.7 REQUIRED)
-find_package(CLI11 2.1 REQUIRED)
-find_package(fmt 9 REQUIRED)
-find_package(spdlog 1.10 REQUIRED)
-find_package(HDF5 REQUIRED COMPONENTS C)
-find_package(ZLIB REQUIRED)
-find_package(Threads REQUIRED)
+# What the libraries are built on. Every dependency is a Debian package found here and nowhere else;
+# third_party/README.md says which package, version and licence each is, and what it is used for.
+#
+# The same list serves this build, where scintray_dependency is find_package(... REQUIRED), and the
+# installed package, where it is find_dependency(...).
+scintray_dependency(Eigen3 3.4 NO_MODULE)
+scintray_dependency(Threads)
+scintray_dependency(TBB)
+scintray_dependency(embree)
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
+scintray_dependency(CGAL 5.5)
+scintray_dependency(assimp 5.2)
+scintray_dependency(TinyGLTF)
+scintray_dependency(toml11 3.7)
+scintray_dependency(fmt 9)
+scintray_dependency(spdlog 1.10)
+scintray_dependency(HDF5 COMPONENTS C)
+scintray_dependency(ZLIB)
+
+# embree's own version file accepts no other major number than its own; 3 and 4 both serve.
+if(EMBREE_VERSION VERSION_LESS 3.13)
+  message(FATAL_ERROR "Embree ${EMBREE_VERSION} was found; ScintRay needs 3.13 or newer (libembree-dev)")
+endif()

@@ -1,0 +1,29 @@
+# cmake --install: libraries, headers, program, data, and the package that find_package(ScintRay) reads.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/ScintRay)
+
+# scintray::scintray is everything a program may use: all modules but the command line.
+get_property(libraries GLOBAL PROPERTY SCINTRAY_LIBRARIES)
+add_library(scintray INTERFACE)
+add_library(scintray::scintray ALIAS scintray)
+target_link_libraries(scintray INTERFACE ${libraries})
+set_target_properties(scintray_options PROPERTIES EXPORT_NAME options)
+
+install(TARGETS scintray scintray_options ${libraries} EXPORT ScintRayTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET scintray_cli)
+  install(TARGETS scintray_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY src/ DESTINATION include/scintray FILES_MATCHING PATTERN "*.hpp"
+  PATTERN cli EXCLUDE PATTERN python EXCLUDE)
+install(DIRECTORY materials scenes geometry DESTINATION share/scintray)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/scintray)
+
+install(EXPORT ScintRayTargets NAMESPACE scintray:: DESTINATION ${package_folder})
+configure_package_config_file(cmake/ScintRayConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/ScintRayConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ScintRayConfig.cmake ${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
+  third_party/dependencies.cmake DESTINATION ${package_folder})

@@ -1,0 +1,33 @@
+/// The program: `scintray COMMAND ...`. Each command is in a file of its own.
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/failures.hpp"
+#include "scintray/core/version.hpp"
+
+namespace {
+
+/// Exit code for a command line that was not run, after explaining it: 0 for --help and --version,
+/// the code a command asked for with CLI::RuntimeError, else bad usage.
+int explain(const CLI::App& app, const CLI::ParseError& error) {
+  const int code = app.exit(error);
+  const bool asked_for = code == 0 || error.get_name() == "RuntimeError";
+  return asked_for ? code : static_cast<int>(scintray::cli::kBadUsage);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Follows scintillation light through detectors made of triangle meshes.", "scintray");
+  app.set_version_flag("--version", "scintray " + scintray::version());
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+
+  try {
+    return scintray::cli::run_guarded([&] { app.parse(argc, argv); }, std::cerr);
+  } catch (const CLI::ParseError& error) {
+    return explain(app, error);
+  }
+}

@@ -1,0 +1,47 @@
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/version.hpp"
+
+using namespace scintray;
+
+namespace {
+
+struct Answer {
+  int exit_code = -1;
+  std::string output;
+};
+
+Answer run_program(const std::string& arguments) {
+  const std::string command = std::string("'") + SCINTRAY_PROGRAM + "' " + arguments + " 2>&1";
+  Answer answer;
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::array<char, 4096> buffer{};
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    answer.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
+  return answer;
+}
+
+}  // namespace
+
+TEST_CASE("--version prints the release and succeeds") {
+  const Answer answer = run_program("--version");
+  CHECK(answer.exit_code == cli::kSuccess);
+  CHECK(answer.output.rfind("scintray " + release(), 0) == 0);
+}
+
+TEST_CASE("--help succeeds, a wrong command line is bad usage and shows the help") {
+  CHECK(run_program("--help").exit_code == cli::kSuccess);
+  const Answer nothing = run_program("");
+  CHECK(nothing.exit_code == cli::kBadUsage);
+  CHECK(nothing.output.find("Usage: scintray") != std::string::npos);
+  CHECK(run_program("frobnicate").exit_code == cli::kBadUsage);
+}
