@@ -10,11 +10,31 @@
 
 namespace scintray {
 
-/// Distribution of directions that leave on one side for one incidence node, as equal-probability
-/// quantiles: `polar` splits the polar angle (rad, from the outgoing normal of the side) into equal
-/// shares, and within each share `azimuth` splits |azimuth| from the plane of incidence (rad, 0 is
-/// forward, the specular side). Sampling needs no search, is continuous inside bins, and bins are
-/// narrow where light is dense. Empty when no ray left that way.
+inline constexpr int kPolarBins = 64;
+inline constexpr int kAzimuthBins = 32;
+
+/// Cumulative probability at polar edge k in [0, kPolarBins]. Bins hold equal steps of s with
+/// P = 2 s^2 below the median and, mirrored, 1 - 2 (1 - s)^2 above. Steps are fine in both tails,
+/// and a density that vanishes linearly at an end (sin(theta) at the pole, the cosine law at the
+/// horizon) becomes uniform in s there, so that linear interpolation inside bins is right.
+constexpr double polar_level(int k) {
+  const double s = static_cast<double>(k) / kPolarBins;
+  return s < 0.5 ? 2.0 * s * s : 1.0 - 2.0 * (1.0 - s) * (1.0 - s);
+}
+
+/// Cumulative probability at |azimuth| edge k in [0, kAzimuthBins]: P = 1 - (1 - s)^2. The density
+/// of |azimuth| is level at 0 and bins are fine in the tail.
+constexpr double azimuth_level(int k) {
+  const double s = static_cast<double>(k) / kAzimuthBins;
+  return s * (2.0 - s);
+}
+
+/// Distribution of directions that leave on one side for one incidence node, as quantiles at fixed
+/// levels: `polar` holds the quantiles of the polar angle (rad, from the outgoing normal of the
+/// side) at `polar_level`, and within each polar bin `azimuth` those of |azimuth| from the plane of
+/// incidence (rad, 0 is forward, the specular side) at `azimuth_level`. Sampling needs no search,
+/// is continuous inside bins, and bins are narrow where light is dense. Empty when no ray left that
+/// way.
 struct DirectionQuantiles {
   std::vector<float> polar;    ///< kPolarBins + 1 edges
   std::vector<float> azimuth;  ///< kPolarBins x (kAzimuthBins + 1) edges, row-major
@@ -22,15 +42,23 @@ struct DirectionQuantiles {
   bool empty() const { return polar.empty(); }
 };
 
-inline constexpr int kPolarBins = 64;
-inline constexpr int kAzimuthBins = 32;
+/// One direction that left: polar angle and |azimuth|, rad.
+struct ExitAngles {
+  float polar = 0.0f;
+  float azimuth = 0.0f;
+};
+
+/// Quantiles of a sample of directions (reordered). Quantiles of n values sit at the order
+/// statistics (k + 1/2)/n, linear between, level beyond. An empty sample gives an empty result.
+DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample);
 
 /// One incidence angle met from one side.
 struct TableNode {
   double incidence_rad = 0.0;
   double reflectance = 0.0;
-  double reflectance_error = 0.0;  ///< one-sigma
-  double mean_slope_rad = 0.0;     ///< mean angle of the first facet met to the mean normal
+  double reflectance_error = 0.0;     ///< one-sigma
+  double mean_slope_rad = 0.0;        ///< mean angle of the first facet met to the mean normal
+  double traced_incidence_rad = 0.0;  ///< where it was traced: below incidence_rad at 90 deg only
   std::uint64_t rays = 0;
   DirectionQuantiles reflected, transmitted;
 };
@@ -52,7 +80,9 @@ struct TableProvenance {
 class SurfaceTable {
  public:
   SurfaceTable() = default;
-  /// Nodes strictly increasing in incidence from 0 to pi/2 on each side; InputError otherwise.
+  /// Nodes strictly increasing in incidence from 0 to pi/2 on each side, reflectances in [0, 1],
+  /// quantiles of the right number, increasing and within [0, pi/2] and [0, pi], and present
+  /// wherever the reflectance says that light leaves; InputError with every fault otherwise.
   SurfaceTable(IndexPair index, std::vector<TableNode> from_inside, std::vector<TableNode> from_outside,
                TableProvenance provenance);
 
@@ -68,8 +98,17 @@ class SurfaceTable {
   const TableProvenance& provenance() const { return provenance_; }
 
  private:
+  /// Where an incidence angle falls between two nodes.
+  struct Place {
+    std::uint32_t node = 0;  ///< the lower one
+    double share = 0.0;      ///< of the way to the next, in [0, 1]
+  };
+  Place place(int side, double incidence_rad) const;
+  ExitAngles sample(int side, const Place& place, bool reflected, Rng& rng) const;
+
   IndexPair index_;
   std::vector<TableNode> nodes_[2];
+  std::vector<std::uint32_t> lookup_[2];  ///< first candidate node for equal steps of incidence
   TableProvenance provenance_;
 };
 
