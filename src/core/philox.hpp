@@ -23,12 +23,12 @@ enum class StreamKind : std::uint64_t {
   other = 4,
 };
 
-/// A random stream addressed by (seed, kind, a, b). Streams with different addresses are
+/// A random stream addressed by (seed, kind, a, b, set). Streams with different addresses are
 /// independent; the same address always gives the same numbers, on any thread.
 class Rng {
  public:
-  Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0)
-      : counter_{0, b, a, static_cast<std::uint64_t>(kind)}, key_{seed, 0} {}
+  Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0, std::uint64_t set = 0)
+      : counter_{0, b, a, static_cast<std::uint64_t>(kind)}, key_{seed, set} {}
 
   /// 64 random bits.
   std::uint64_t bits() {

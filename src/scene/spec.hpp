@@ -13,6 +13,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
@@ -82,14 +83,16 @@ struct PlacementSpec {
   Vec3 translate = Vec3::Zero();  ///< mm
 };
 
-/// Picks triangles of a part, in the placed (world) frame. Every criterion given must hold.
+/// Picks triangles of a part in world coordinates, after placement. Every criterion given must hold; they
+/// mean what they mean in FaceSelector (mesh/face_selection.hpp).
 struct FaceSelectorSpec {
   std::optional<Vec3> normal;              ///< unit; within `tolerance_rad` of the outward normal
   double tolerance_rad = kDegree;
-  std::optional<BoxSpec> box;              ///< the triangle's centroid lies in it
+  std::optional<BoxSpec> box;              ///< the whole triangle lies in it
   std::optional<Vec3> flat_region;         ///< point, mm: the connected flat patch nearest to it
-  std::optional<Vec3> nearest;             ///< point, mm: the connected smooth face nearest to it
-  NameRef group;                           ///< glTF material or OBJ group of the mesh file
+  std::optional<Vec3> nearest;             ///< point, mm: the one triangle nearest to it
+  NameRef group;                           ///< glTF material or OBJ group of the mesh file; side
+                                           ///< "-z" of a box, "side" of a cylinder
   FileLocation where;
 };
 
@@ -158,8 +161,6 @@ struct SourceSpec {
   std::uint64_t photons_per_event = 1000;  ///< the last event may have fewer
   FileLocation where;
 };
-
-enum class AcceleratorKind { automatic, embree, planes };
 
 struct RunSpec {
   std::uint64_t seed = 1;

@@ -1,0 +1,279 @@
+#include "scintray/scene/accelerator.hpp"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Rays start this far ahead, relative to the region's size, so that they do not meet the triangle
+/// they start on; single precision resolves about 1e-7.
+constexpr double kStartAhead = 1e-6;
+/// How far behind its start, relative to the region's size, a ray may already have left the region.
+constexpr double kBehind = 1e-5;
+/// Vertices this close to a plane, relative to the region's size, lie on it.
+constexpr double kCoplanar = 1e-10;
+constexpr std::size_t kMostPlanes = 32;
+constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
+/// Meetings with the plane the ray starts on and leaves inwards that are stepped over before the exact
+/// search.
+constexpr int kMostSelfHits = 2;
+
+/// Distance in the plane from `point` to the triangle; 0 inside.
+double distance_outside(const BoundaryTriangle& triangle, const Vec3& normal, const Vec3& point) {
+  double outside = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& a = triangle[static_cast<std::size_t>(i)];
+    const Vec3 edge = triangle[static_cast<std::size_t>((i + 1) % 3)] - a;
+    const double beyond = -normal.cross(edge).dot(point - a);
+    if (beyond <= 0.0) continue;
+    const double length2 = edge.squaredNorm();
+    const double t = std::clamp((point - a).dot(edge) / length2, 0.0, 1.0);
+    outside = std::max(outside, (point - a - t * edge).norm());
+  }
+  return outside;
+}
+
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& hit) { rtcIntersect1(scene, &hit); }
+#else
+void intersect(RTCScene scene, RTCRayHit& hit) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &hit);
+}
+#endif
+
+RTCRayHit make_ray(const Vec3& origin, const Vec3& direction, double start) {
+  RTCRayHit hit;
+  hit.ray.org_x = static_cast<float>(origin.x());
+  hit.ray.org_y = static_cast<float>(origin.y());
+  hit.ray.org_z = static_cast<float>(origin.z());
+  hit.ray.dir_x = static_cast<float>(direction.x());
+  hit.ray.dir_y = static_cast<float>(direction.y());
+  hit.ray.dir_z = static_cast<float>(direction.z());
+  hit.ray.tnear = static_cast<float>(start);
+  hit.ray.tfar = std::numeric_limits<float>::infinity();
+  hit.ray.time = 0.0f;
+  hit.ray.mask = 0xffffffffu;
+  hit.ray.flags = 0;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return hit;
+}
+
+}  // namespace
+
+struct Accelerator::EmbreeScene {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  explicit EmbreeScene(const std::vector<BoundaryTriangle>& triangles) {
+    device = rtcNewDevice("set_affinity=0");
+    if (!device) throw SystemError("Embree could not start on this machine");
+    scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+    if (!vertices || !indices) throw SystemError("Embree could not allocate its mesh buffers");
+    unsigned next = 0;
+    for (const BoundaryTriangle& triangle : triangles)
+      for (const Vec3& vertex : triangle) {
+        for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
+        *indices++ = next++;
+      }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      throw SystemError("Embree could not build its hierarchy (error " + std::to_string(error) + ")");
+  }
+  ~EmbreeScene() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+};
+
+Accelerator::Accelerator(std::vector<BoundaryTriangle> triangles, const std::vector<std::uint32_t>& labels,
+                         bool closed, AcceleratorKind kind)
+    : triangles_(std::move(triangles)), closed_(closed) {
+  Eigen::AlignedBox3d bounds;
+  for (const BoundaryTriangle& t : triangles_) {
+    normals_.push_back((t[1] - t[0]).cross(t[2] - t[0]).normalized());
+    offsets_.push_back(normals_.back().dot(t[0]));
+    for (const Vec3& vertex : t) bounds.extend(vertex);
+  }
+  size_mm_ = triangles_.empty() ? 0.0 : bounds.diagonal().norm();
+  if (kind != AcceleratorKind::embree && make_planes(labels)) return;
+  if (kind == AcceleratorKind::planes && closed_)
+    throw InputError(Problem{{},
+                             "accelerator \"planes\" is asked for, but a region is not convex with at most " +
+                                 std::to_string(kMostPlanes) + " planes",
+                             "use accelerator = \"auto\" or \"embree\""});
+  if (!triangles_.empty()) embree_ = std::make_unique<EmbreeScene>(triangles_);
+}
+
+Accelerator::~Accelerator() = default;
+
+bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
+  if (!closed_ || triangles_.empty()) return false;
+  const double tolerance = kCoplanar * size_mm_;
+  std::vector<Plane> planes;
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const auto on_plane = [&](const Plane& plane) {
+      return plane.normal.dot(normals_[i]) > 0.0 &&
+             std::all_of(triangles_[i].begin(), triangles_[i].end(), [&](const Vec3& v) {
+               return std::abs(plane.normal.dot(v) - plane.offset) <= tolerance;
+             });
+    };
+    auto plane = std::find_if(planes.begin(), planes.end(), on_plane);
+    if (plane == planes.end()) {
+      if (planes.size() == kMostPlanes) return false;
+      planes.push_back({normals_[i], offsets_[i], i, {}});
+      plane = planes.end() - 1;
+    }
+    plane->triangles.push_back(i);
+  }
+  for (Plane& plane : planes) {
+    for (const BoundaryTriangle& triangle : triangles_)
+      for (const Vec3& vertex : triangle)
+        if (plane.normal.dot(vertex) > plane.offset + tolerance) return false;
+    const bool one_label = std::all_of(plane.triangles.begin(), plane.triangles.end(),
+                                       [&](std::uint32_t t) { return labels[t] == labels[plane.first]; });
+    if (one_label)
+      plane.triangles.clear();
+    else if (plane.triangles.size() > kMostTrianglesOnMixedPlane)
+      return false;
+  }
+  planes_ = std::move(planes);
+  return true;
+}
+
+Exit Accelerator::find_exit(const Vec3& origin, const Vec3& direction) const {
+  if (!planes_.empty()) return exit_by_planes(origin, direction);
+  if (!embree_) return {};
+  return exit_by_embree(origin, direction);
+}
+
+Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) const {
+  double nearest = kInfinity;
+  const Plane* exit = nullptr;
+  for (const Plane& plane : planes_) {
+    const double along = plane.normal.dot(direction);
+    if (along <= 0.0) continue;
+    const double distance = (plane.offset - plane.normal.dot(origin)) / along;
+    if (distance < nearest) {
+      nearest = distance;
+      exit = &plane;
+    }
+  }
+  nearest = std::max(nearest, 0.0);
+  std::uint32_t triangle = exit->first;
+  if (!exit->triangles.empty()) {
+    const Vec3 point = origin + nearest * direction;
+    double least_outside = kInfinity;
+    for (const std::uint32_t candidate : exit->triangles) {
+      const double outside = distance_outside(triangles_[candidate], normals_[candidate], point);
+      if (outside >= least_outside) continue;
+      least_outside = outside;
+      triangle = candidate;
+      if (outside == 0.0) break;
+    }
+  }
+  return {nearest, triangle, false};
+}
+
+double Accelerator::distance_to_plane(std::uint32_t triangle, const Vec3& origin,
+                                      const Vec3& direction) const {
+  return (offsets_[triangle] - normals_[triangle].dot(origin)) / normals_[triangle].dot(direction);
+}
+
+Exit Accelerator::exit_by_embree(const Vec3& origin, const Vec3& direction) const {
+  double start = kStartAhead * size_mm_;
+  for (int self_hits = 0; self_hits <= kMostSelfHits; ++self_hits) {
+    RTCRayHit hit = make_ray(origin, direction, start);
+    intersect(embree_->scene, hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+      if (!closed_) return {};
+      break;
+    }
+    const std::uint32_t triangle = hit.hit.primID;
+    if (normals_[triangle].dot(direction) > 0.0)
+      return {std::max(0.0, distance_to_plane(triangle, origin, direction)), triangle, false};
+    if (std::abs(offsets_[triangle] - normals_[triangle].dot(origin)) > kStartAhead * size_mm_) break;
+    start = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) + kStartAhead * size_mm_;
+  }
+  return exit_by_search(origin, direction);
+}
+
+Exit Accelerator::exit_by_search(const Vec3& origin, const Vec3& direction) const {
+  const double behind = kBehind * size_mm_;
+  double entered = kInfinity;  // where the ray would come in again from outside
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    if (normals_[i].dot(direction) >= 0.0) continue;
+    const double distance = distance_to_plane(i, origin, direction);
+    if (distance > behind && distance < entered &&
+        distance_outside(triangles_[i], normals_[i], origin + distance * direction) == 0.0)
+      entered = distance;
+  }
+  // The nearest triangle really met, or failing that the one that was missed by least.
+  Exit exit{0.0, kNoTriangle, true};
+  double least_miss = kInfinity;
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    if (normals_[i].dot(direction) <= 0.0) continue;
+    const double distance = distance_to_plane(i, origin, direction);
+    if (!(distance >= -behind && distance <= entered + behind)) continue;
+    const double outside = distance_outside(triangles_[i], normals_[i], origin + distance * direction);
+    const double miss = outside + (distance < -kCoplanar * size_mm_ ? -distance : 0.0);
+    if (miss < least_miss || (miss == least_miss && distance < exit.distance_mm)) {
+      least_miss = miss;
+      exit.distance_mm = distance;
+      exit.triangle = i;
+    }
+  }
+  // An unbounded region is left through infinity unless the ray really went through an edge.
+  if (!closed_ && least_miss > behind) return {0.0, kNoTriangle, true};
+  exit.distance_mm = std::max(0.0, exit.distance_mm);
+  return exit;
+}
+
+bool Accelerator::contains(const Vec3& point) const {
+  if (!planes_.empty())
+    return std::all_of(planes_.begin(), planes_.end(),
+                       [&](const Plane& plane) { return plane.normal.dot(point) <= plane.offset; });
+  // Inside when the nearest triangle along a ray is met from inside; a fixed skew direction keeps
+  // clear of the edges that axis-aligned meshes have.
+  static const Vec3 direction = Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
+  double nearest = kInfinity;
+  bool inside = false;
+  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const double along = normals_[i].dot(direction);
+    if (along == 0.0) continue;
+    const double distance = distance_to_plane(i, point, direction);
+    if (distance < 0.0 || distance >= nearest) continue;
+    if (distance_outside(triangles_[i], normals_[i], point + distance * direction) > 0.0) continue;
+    nearest = distance;
+    inside = along > 0.0;
+  }
+  return inside;
+}
+
+}  // namespace scintray

@@ -1,0 +1,205 @@
+#include "scintray/tally/block_tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scintray {
+
+namespace {
+
+constexpr double kPathBin_mm = 10.0;
+
+int angle_bin(double cosine, int bins) {
+  const double angle = std::acos(std::clamp(cosine, 0.0, 1.0));
+  return std::min(bins - 1, static_cast<int>(angle / (0.5 * kPi) * bins));
+}
+
+std::uint32_t find_face(const ExitAngleTallySpec& spec, const Scene& scene) {
+  const std::string wanted = spec.part.name + ":" + spec.face.name;
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
+    if (scene.faces[i].name == wanted) return i;
+    names.push_back(scene.faces[i].name);
+  }
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  const std::string near = nearest_word(wanted, names);
+  throw InputError({spec.face.where.file.empty() ? spec.where : spec.face.where,
+                    "no face is called \"" + wanted + "\"",
+                    (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the faces are: " + list)});
+}
+
+}  // namespace
+
+TallyPlan::TallyPlan(const Scene& scene, const std::vector<ExitAngleTallySpec>& specs, bool list)
+    : photon_list(list) {
+  const std::size_t ways = 2 * scene.interfaces.size();
+  exit_angles_at.resize(ways);
+  sensor_faces.assign(ways, kNoSensor);
+  for (const ExitAngleTallySpec& spec : specs)
+    exit_angles.push_back({spec.name, find_face(spec, scene), spec.detected_only, spec.bins});
+
+  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    for (const bool from_back : {false, true}) {
+      const std::size_t way = 2 * i + (from_back ? 1 : 0);
+      const std::int32_t left_face = from_back ? interface.back_face : interface.front_face;
+      for (std::uint32_t tally = 0; tally < exit_angles.size(); ++tally)
+        if (left_face == static_cast<std::int32_t>(exit_angles[tally].face))
+          exit_angles_at[way].push_back(tally);
+
+      const std::int32_t sensor = from_back ? interface.front_sensor : interface.back_sensor;
+      if (sensor == kNone) continue;
+      const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+      const std::int32_t own = from_back ? interface.front_face : interface.back_face;
+      const std::int32_t face = own != kNone ? own : left_face;
+      const auto same = [&](const SensorFaceCount& known) {
+        return known.part == part && static_cast<std::int32_t>(known.face) == face;
+      };
+      auto known = std::find_if(sensor_face_names.begin(), sensor_face_names.end(), same);
+      if (known == sensor_face_names.end()) {
+        sensor_face_names.push_back({part, static_cast<std::uint32_t>(face), 0, 0});
+        known = sensor_face_names.end() - 1;
+      }
+      sensor_faces[way] = static_cast<std::uint32_t>(known - sensor_face_names.begin());
+    }
+  }
+}
+
+PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
+  PointResult result;
+  result.absorbed_in_medium.assign(scene.media.size(), 0);
+  result.absorbed_at_surface.assign(scene.surfaces.size(), 0);
+  result.sensor_faces = plan.sensor_face_names;
+  for (const ExitAngleRequest& request : plan.exit_angles) {
+    ExitAngleTally tally{request.name, request.face, request.detected_only, {}, {}};
+    tally.inside.assign(static_cast<std::size_t>(request.bins), 0);
+    tally.outside = tally.inside;
+    result.exit_angles.push_back(tally);
+  }
+  return result;
+}
+
+BlockTally::BlockTally(const Scene& scene, const TallyPlan& plan)
+    : plan_(plan),
+      scene_(scene),
+      result_(empty_result(scene, plan)),
+      last_crossing_(plan.exit_angles.size()) {}
+
+void BlockTally::start(std::uint64_t event, std::uint64_t photon) {
+  event_ = event;
+  photon_ = photon;
+  std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
+}
+
+void BlockTally::count_step(const Step& step) {
+  ++result_.segments;
+  if (step.resolved) ++result_.resolved_misses;
+}
+
+void BlockTally::note_crossing(const Step& step) {
+  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
+  for (const std::uint32_t tally : plan_.exit_angles_at[way]) {
+    const int bins = plan_.exit_angles[tally].bins;
+    const Angles angles{angle_bin(step.cos_before, bins), angle_bin(step.cos_after, bins)};
+    last_crossing_[tally] = angles;
+    if (plan_.exit_angles[tally].detected_only) continue;
+    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
+    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
+  }
+}
+
+void BlockTally::record(const Photon&, const Step& step) {
+  count_step(step);
+  if (step.kind == StepKind::crossed) note_crossing(step);
+}
+
+void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point) {
+  count_step(step);
+  switch (step.kind) {
+    case StepKind::absorbed_in_medium:
+      ++result_.absorbed_in_medium[step.where];
+      return finish(photon, Fate::absorbed_in_medium);
+    case StepKind::absorbed_at_surface:
+      ++result_.absorbed_at_surface[step.where];
+      return finish(photon, Fate::absorbed_at_surface);
+    case StepKind::escaped:
+      return finish(photon, Fate::escaped);
+    case StepKind::detected:
+    case StepKind::unconverted:
+      break;
+    default:
+      return;  // no end: the run then finds a photon without a fate and says so
+  }
+  note_crossing(step);
+  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
+  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[way]];
+  if (step.kind == StepKind::unconverted) {
+    ++at_face.unconverted;
+    return finish(photon, Fate::unconverted);
+  }
+  ++at_face.detected;
+  result_.detected_path_mm.add(photon.path_mm);
+  result_.detected_time_ns.add(photon.time_ns);
+  result_.detected_interactions.add(photon.interactions);
+  const auto last = result_.detected_path_histogram.size() - 1;
+  ++result_.detected_path_histogram[std::min(last, static_cast<std::size_t>(photon.path_mm / kPathBin_mm))];
+  for (std::size_t tally = 0; tally < last_crossing_.size(); ++tally) {
+    const Angles& angles = last_crossing_[tally];
+    if (!plan_.exit_angles[tally].detected_only || angles.inside < 0) continue;
+    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
+    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
+  }
+  if (plan_.photon_list) {
+    const Vec3 &p = photon.position, &d = photon.ray.direction;
+    photons_.push_back({point,
+                        event_,
+                        photon_,
+                        at_face.part,
+                        at_face.face,
+                        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
+                        {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())},
+                        static_cast<float>(photon.wavelength_nm),
+                        static_cast<float>(photon.time_ns),
+                        static_cast<float>(photon.path_mm),
+                        photon.interactions});
+  }
+  finish(photon, Fate::detected);
+}
+
+void BlockTally::cut(const Photon& photon, Fate fate) { finish(photon, fate); }
+
+void BlockTally::finish(const Photon& photon, Fate fate) {
+  ++result_.photons;
+  ++result_.fates[static_cast<std::size_t>(fate)];
+  result_.interactions.add(photon.interactions);
+  result_.scatterings += photon.scatterings;
+}
+
+void merge(PointResult& total, const PointResult& block) {
+  const auto add = [](auto& into, const auto& from) {
+    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
+  };
+  total.photons += block.photons;
+  add(total.fates, block.fates);
+  add(total.absorbed_in_medium, block.absorbed_in_medium);
+  add(total.absorbed_at_surface, block.absorbed_at_surface);
+  for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
+    total.sensor_faces[i].detected += block.sensor_faces[i].detected;
+    total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
+  }
+  for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
+    add(total.exit_angles[i].inside, block.exit_angles[i].inside);
+    add(total.exit_angles[i].outside, block.exit_angles[i].outside);
+  }
+  total.interactions.merge(block.interactions);
+  total.detected_path_mm.merge(block.detected_path_mm);
+  total.detected_time_ns.merge(block.detected_time_ns);
+  total.detected_interactions.merge(block.detected_interactions);
+  add(total.detected_path_histogram, block.detected_path_histogram);
+  total.scatterings += block.scatterings;
+  total.segments += block.segments;
+  total.resolved_misses += block.resolved_misses;
+}
+
+}  // namespace scintray

@@ -1,0 +1,43 @@
+#pragma once
+/// Many photons: fixed blocks over threads.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "scintray/source/photon_source.hpp"
+#include "scintray/tally/block_tally.hpp"
+
+namespace scintray {
+
+struct RunSettings {
+  std::uint64_t seed = 1;
+  std::uint32_t point = 0;                   ///< sweep point: each has its own random streams
+  std::uint64_t max_interactions = 100'000;  ///< boundary interactions after which a photon is cut
+  std::optional<double> max_time_ns;         ///< time after which a photon is cut
+  int threads = 0;                           ///< 0: all cores
+};
+
+/// What a run tells while it goes on. Any may be empty. All are called from one thread at a time.
+struct RunHooks {
+  std::function<void(std::uint64_t photons_done)> progress;
+  std::function<void(const std::vector<DetectedPhoton>&)> detected;  ///< in the order of photons
+  const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the blocks under way and return
+};
+
+/// The random stream of one photon of a run.
+Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon);
+
+/// Traces all photons of a source. The result does not depend on the number of threads, to the last
+/// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
+/// the photons of the blocks before the stop and says `complete = false`.
+/// @throws InternalError when a photon has no fate.
+PointResult run_point(const Scene& scene, const PhotonSource& source, const TallyPlan& plan,
+                      const RunSettings& settings, const RunHooks& hooks = {});
+
+/// Follows one photon again; `visit` sees every step. Returns the photon as it ended.
+Photon replay(const Scene& scene, const PhotonSource& source, const RunSettings& settings,
+              std::uint64_t event, std::uint64_t photon,
+              const std::function<void(const Photon&, const Step&)>& visit);
+
+}  // namespace scintray

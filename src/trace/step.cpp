@@ -1,0 +1,167 @@
+#include "scintray/trace/step.hpp"
+
+#include <cmath>
+
+#include "scintray/core/sampling.hpp"
+
+namespace scintray {
+
+namespace {
+
+void advance(Photon& photon, double distance_mm) {
+  photon.position += distance_mm * photon.ray.direction;
+  photon.path_mm += distance_mm;
+  photon.time_ns += distance_mm * photon.optics.group_index / kSpeedOfLight_mm_per_ns;
+}
+
+/// Turns the photon with the dipole pattern about its polarisation; for unpolarised light with
+/// 3/4 (1 + cos^2) (Born & Wolf, section 14.5.2).
+void scatter_rayleigh(Ray& ray, Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  for (;;) {
+    const Vec3 direction = sample_isotropic(rng);
+    const double along = direction.dot(polarised ? ray.polarisation : ray.direction);
+    const double weight = polarised ? 1.0 - along * along : 0.5 * (1.0 + along * along);
+    if (rng.uniform() >= weight) continue;
+    if (polarised) ray.polarisation = (ray.polarisation - along * direction).normalized();
+    ray.direction = direction;
+    return;
+  }
+}
+
+void scatter_isotropic(Ray& ray, Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  ray.direction = sample_isotropic(rng);
+  if (polarised) ray.polarisation = sample_polarisation(ray.direction, rng);
+}
+
+Step interact_in_bulk(const Region& region, const SceneMedium& medium, Photon& photon, Rng& rng) {
+  const double absorption = photon.optics.absorption_per_mm;
+  const double total = absorption + photon.optics.scattering_per_mm;
+  Step result;
+  if (rng.uniform() * total < absorption) {
+    result.kind = StepKind::absorbed_in_medium;
+    result.where = region.medium;
+    return result;
+  }
+  if (medium.medium().scattering == ScatteringKind::rayleigh)
+    scatter_rayleigh(photon.ray, rng);
+  else
+    scatter_isotropic(photon.ray, rng);
+  photon.optical_depth = sample_exponential(rng);
+  ++photon.scatterings;
+  result.kind = StepKind::scattered;
+  return result;
+}
+
+/// Outcome at an interface: which region the ray is in, or which surface absorbed it.
+struct Meeting {
+  bool in_front = false;
+  std::int32_t absorbed_by = kNone;
+};
+
+/// Lets the ray meet the interface's surfaces from the back region to the front region and to and
+/// fro between them until it is in one of the regions or absorbed.
+Meeting meet_interface(const Scene& scene, const Interface& interface, bool from_back, const Vec3& normal,
+                       double back_index, double front_index, Ray& ray, double wavelength_nm, Rng& rng) {
+  const bool dry = interface.gap_medium != kNone;
+  const double gap_index =
+      dry ? scene.media[static_cast<std::size_t>(interface.gap_medium)].index(wavelength_nm) : 0.0;
+  const bool has_back = interface.back_surface != kNone, has_front = interface.front_surface != kNone;
+  bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces is met next
+  bool came_from_back = from_back;
+  for (;;) {
+    const std::int32_t id = at_back ? interface.back_surface : interface.front_surface;
+    const Surface& surface = scene.surfaces[static_cast<std::size_t>(id)];
+    // A surface's inside is the region of the part it belongs to.
+    const Vec3 outward = at_back ? normal : Vec3(-normal);
+    const double beyond = dry ? gap_index : (at_back ? front_index : back_index);
+    const IndexPair index{at_back ? back_index : front_index, beyond};
+    const Side side = came_from_back == at_back ? Side::inside : Side::outside;
+    const SurfaceOutcome outcome = surface.meet(ray, side, outward, index, wavelength_nm, rng);
+    if (outcome == SurfaceOutcome::absorbed) return {false, id};
+    if (outcome == SurfaceOutcome::inside) return {!at_back, kNone};
+    if (!dry) return {at_back, kNone};
+    came_from_back = at_back;  // in the gap, on the way from this surface to the other
+    at_back = !at_back;
+  }
+}
+
+Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t triangle, Photon& photon,
+                   Rng& rng) {
+  const BoundaryLink link = region.links[triangle];
+  const Interface& interface = scene.interfaces[link.interface];
+  const Vec3 outward = region.direction_to_world(region.accelerator->normal(triangle));
+  const std::uint32_t next = link.from_back ? interface.front : interface.back;
+  const SceneMedium& next_medium = scene.media[scene.regions[next].medium];
+
+  Step result;
+  result.interface = link.interface;
+  result.from_back = link.from_back;
+  result.cos_before = std::abs(photon.ray.direction.dot(outward));
+  const double here = photon.optics.index, there = next_medium.index(photon.wavelength_nm);
+  if (!interface.plain || here != there) ++photon.interactions;
+
+  bool crossed;
+  if (interface.plain) {
+    crossed = meet_facet(photon.ray, -outward, here, there, rng);
+  } else {
+    const Vec3 normal = link.from_back ? outward : Vec3(-outward);
+    const Meeting meeting =
+        meet_interface(scene, interface, link.from_back, normal, link.from_back ? here : there,
+                       link.from_back ? there : here, photon.ray, photon.wavelength_nm, rng);
+    if (meeting.absorbed_by != kNone) {
+      result.kind = StepKind::absorbed_at_surface;
+      result.where = static_cast<std::uint32_t>(meeting.absorbed_by);
+      return result;
+    }
+    crossed = meeting.in_front == link.from_back;
+  }
+  result.cos_after = std::abs(photon.ray.direction.dot(outward));
+  if (!crossed) {
+    result.kind = StepKind::returned;
+    return result;
+  }
+
+  const std::int32_t sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
+  photon.region = next;
+  photon.optics = next_medium.at(photon.wavelength_nm);
+  if (sensor != kNone) {
+    const double probability =
+        scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(photon.wavelength_nm);
+    result.kind = rng.uniform() < probability ? StepKind::detected : StepKind::unconverted;
+    result.where = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+  } else if (next_medium.is_opaque()) {
+    result.kind = StepKind::absorbed_in_medium;
+    result.where = scene.regions[next].medium;
+  } else {
+    result.kind = StepKind::crossed;
+  }
+  return result;
+}
+
+}  // namespace
+
+Step step(const Scene& scene, Photon& photon, Rng& rng) {
+  const Region& region = scene.regions[photon.region];
+  const Exit exit = region.accelerator->find_exit(region.point_to_local(photon.position),
+                                                  region.direction_to_local(photon.ray.direction));
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  const bool leaves_scene = exit.triangle == kNoTriangle;
+  const double depth = leaves_scene ? (attenuation > 0.0 ? HUGE_VAL : 0.0) : attenuation * exit.distance_mm;
+  Step result;
+  if (depth > photon.optical_depth) {
+    advance(photon, photon.optical_depth / attenuation);
+    result = interact_in_bulk(region, scene.media[region.medium], photon, rng);
+  } else if (leaves_scene) {
+    result.kind = StepKind::escaped;
+  } else {
+    photon.optical_depth -= depth;
+    advance(photon, exit.distance_mm);
+    result = meet_boundary(scene, region, exit.triangle, photon, rng);
+  }
+  result.resolved = exit.resolved;
+  return result;
+}
+
+}  // namespace scintray
