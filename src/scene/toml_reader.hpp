@@ -9,13 +9,11 @@
 ///     table.finish();           // keys that nobody asked for are problems
 ///     problems.throw_if_any();
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
@@ -154,6 +152,8 @@ class TomlTable {
   std::vector<TomlTable> named_tables(const std::string& key) const;
   /// The raw value, taken as read together with everything in it; nullptr when absent.
   TomlNodePtr take(const std::string& key) const;
+  /// Takes every key here as read: for a table given up on, so that one mistake is reported once.
+  void skip() const;
 
   /// Reports keys that nobody read, here and in every sub-table that was opened, with the nearest
   /// known key. Call once, on the outermost table, when everything has been read.
@@ -165,9 +165,11 @@ class TomlTable {
 
  private:
   struct Session;
+  std::size_t problem_count() const;
   TomlTable(TomlNodePtr node, std::string path, std::shared_ptr<Session> session);
   const TomlNode* read(const std::string& key, bool required) const;
-  void report_at(const TomlNode& value, const std::string& key, std::string what, std::string hint) const;
+  void report_at(const FileLocation& where, const std::string& key, std::string what, std::string hint) const;
+  void mark_bad(const std::string& key) const;
   std::string quoted(const std::string& key) const;
   TomlTable child(const TomlNode& node, const std::string& key) const;
   std::optional<double> quantity_of(const std::string& key, const TomlNode& value, Dimension dimension) const;
