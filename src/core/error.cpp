@@ -35,8 +35,11 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string FileLocation::text() const {
   std::string text = file;
-  if (line > 0) text += ":" + std::to_string(line);
-  if (line > 0 && column > 0) text += ":" + std::to_string(column);
+  for (const long number : {line, line > 0 ? column : 0}) {
+    if (number <= 0) continue;
+    if (!text.empty()) text += ':';
+    text += std::to_string(number);
+  }
   return text;
 }
 

@@ -13,6 +13,7 @@ namespace {
 /// (Numerical Recipes 3rd ed., section 6.2).
 double upper_gamma(double a, double x) {
   if (x <= 0.0) return 1.0;
+  if (std::isinf(x)) return 0.0;
   const double scale = std::exp(-x + a * std::log(x) - std::lgamma(a));
   if (x < a + 1.0) {
     double term = 1.0 / a, sum = term;
@@ -73,23 +74,30 @@ double chi_square_p_value(double chi2, double degrees) {
 ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<const double> expected) {
   if (observed.size() != expected.size()) throw std::invalid_argument("chi_square_test: sizes differ");
   constexpr double kLeastExpected = 10.0;
-  ChiSquare result;
-  double o = 0.0, e = 0.0, rest_o = 0.0, rest_e = 0.0;
+  struct Bin {
+    double observed = 0.0, expected = 0.0;
+  };
+  std::vector<Bin> bins;
+  Bin bin;
+  bool impossible = false;  // counts where none can be
   for (std::size_t i = 0; i < observed.size(); ++i) {
-    o += static_cast<double>(observed[i]);
-    e += expected[i];
-    if (e < kLeastExpected) continue;
-    result.chi2 += (o - e) * (o - e) / e;
-    result.degrees += 1.0;
-    o = e = 0.0;
+    impossible = impossible || (observed[i] > 0 && !(expected[i] > 0.0));
+    bin.observed += static_cast<double>(observed[i]);
+    bin.expected += expected[i];
+    if (bin.expected < kLeastExpected) continue;
+    bins.push_back(bin);
+    bin = {};
   }
-  rest_o = o;
-  rest_e = e;
-  if (rest_e > 0.0) {
-    result.chi2 += (rest_o - rest_e) * (rest_o - rest_e) / rest_e;
+  if (bins.empty()) bins.emplace_back();
+  bins.back().observed += bin.observed;
+  bins.back().expected += bin.expected;
+
+  ChiSquare result;
+  if (impossible) return {std::numeric_limits<double>::infinity(), static_cast<double>(bins.size() - 1), 0.0};
+  for (const Bin& merged : bins) {
+    if (merged.expected > 0.0)
+      result.chi2 += (merged.observed - merged.expected) * (merged.observed - merged.expected) / merged.expected;
     result.degrees += 1.0;
-  } else if (rest_o > 0.0) {
-    result.chi2 = std::numeric_limits<double>::infinity();  // counts where none can be
   }
   result.degrees -= 1.0;
   result.p_value = chi_square_p_value(result.chi2, result.degrees);
@@ -104,23 +112,30 @@ ChiSquare chi_square_two_samples(std::span<const std::uint64_t> a, std::span<con
     total_a += static_cast<double>(a[i]);
     total_b += static_cast<double>(b[i]);
   }
-  ChiSquare result;
-  if (total_a == 0.0 || total_b == 0.0) return result;
-  const double weight_a = std::sqrt(total_b / total_a), weight_b = std::sqrt(total_a / total_b);
-  double sum_a = 0.0, sum_b = 0.0;
-  const auto add_bin = [&] {
-    if (sum_a + sum_b == 0.0) return;
-    const double difference = weight_a * sum_a - weight_b * sum_b;
-    result.chi2 += difference * difference / (sum_a + sum_b);
-    result.degrees += 1.0;
-    sum_a = sum_b = 0.0;
+  if (total_a == 0.0 || total_b == 0.0) return {};
+  struct Bin {
+    double a = 0.0, b = 0.0;
   };
+  std::vector<Bin> bins;
+  Bin bin;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    sum_a += static_cast<double>(a[i]);
-    sum_b += static_cast<double>(b[i]);
-    if (sum_a + sum_b >= kLeastTogether) add_bin();
+    bin.a += static_cast<double>(a[i]);
+    bin.b += static_cast<double>(b[i]);
+    if (bin.a + bin.b < kLeastTogether) continue;
+    bins.push_back(bin);
+    bin = {};
   }
-  add_bin();
+  if (bins.empty()) bins.emplace_back();
+  bins.back().a += bin.a;
+  bins.back().b += bin.b;
+
+  ChiSquare result;
+  const double weight_a = std::sqrt(total_b / total_a), weight_b = std::sqrt(total_a / total_b);
+  for (const Bin& merged : bins) {
+    const double difference = weight_a * merged.a - weight_b * merged.b;
+    result.chi2 += difference * difference / (merged.a + merged.b);
+    result.degrees += 1.0;
+  }
   result.degrees -= 1.0;
   result.p_value = chi_square_p_value(result.chi2, result.degrees);
   return result;

@@ -53,11 +53,13 @@ struct ChiSquare {
 };
 
 /// Chi-square of observed counts against expected counts; neighbouring bins are merged until each
-/// expects at least 10. Sizes must agree (std::invalid_argument).
+/// expects at least 10. A count where nothing is expected gives p = 0. Sizes must agree
+/// (std::invalid_argument).
 ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<const double> expected);
 
 /// Chi-square that two histograms are samples of one distribution, whatever their totals
 /// (Numerical Recipes 3rd ed., eq. 14.3.3); bins are merged until both together hold at least 20.
+/// An empty histogram says nothing about shape: p = 1, so compare totals as well.
 ChiSquare chi_square_two_samples(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b);
 
 }  // namespace scintray

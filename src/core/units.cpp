@@ -1,5 +1,6 @@
 #include "scintray/core/units.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -60,7 +61,12 @@ std::string accepted(Dimension dimension) {
   return text;
 }
 
-std::string example(Dimension dimension) { return "\"2 " + units_of(dimension).back() + "\""; }
+/// A quantity as one would write it, in the unit ScintRay itself uses where that has a name.
+std::string example(Dimension dimension) {
+  const std::vector<Unit>& units = table_of(dimension);
+  const auto own = std::find_if(units.begin(), units.end(), [](const Unit& unit) { return unit.factor == 1.0; });
+  return std::string("\"2 ") + (own != units.end() ? own->name : units.front().name) + "\"";
+}
 
 std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
