@@ -41,6 +41,11 @@ class Group {
   template <typename T>
   std::vector<T> read(const std::string& name, Shape* shape = nullptr) const;
   std::vector<std::string> read_strings(const std::string& name) const;
+  /// At most `count` values of a one-dimensional dataset from `offset` on; fewer at its end.
+  template <typename T>
+  std::vector<T> read_part(const std::string& name, std::uint64_t offset, std::uint64_t count) const;
+  /// Shape of a dataset.
+  Shape shape(const std::string& name) const;
 
   /// Attributes on a member ("" for the group itself).
   void set_attribute(const std::string& member, const std::string& name, const std::string& value);
