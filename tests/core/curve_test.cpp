@@ -1,0 +1,95 @@
+#include "scintray/core/curve.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/philox.hpp"
+#include "scintray/core/statistics.hpp"
+
+using namespace scintray;
+using doctest::Approx;
+
+TEST_CASE("A curve interpolates linearly and keeps its end values outside") {
+  const Curve curve({400, 500, 700}, {1.0, 2.0, 0.0});
+  CHECK(curve(400) == 1.0);
+  CHECK(curve(450) == Approx(1.5));
+  CHECK(curve(600) == Approx(1.0));
+  CHECK(curve(700) == 0.0);
+  CHECK(curve(300) == 1.0);
+  CHECK(curve(900) == 0.0);
+  CHECK(curve.min_y() == 0.0);
+  CHECK(curve.max_y() == 2.0);
+}
+
+TEST_CASE("A curve knows its range; a constant covers everything") {
+  const Curve curve({400, 700}, {1.0, 2.0});
+  CHECK(curve.covers(400, 700));
+  CHECK_FALSE(curve.covers(399, 700));
+  CHECK_FALSE(curve.covers(400, 701));
+  CHECK(Curve::constant(1.5).covers(-1e9, 1e9));
+  CHECK(Curve::constant(1.5)(123.0) == 1.5);
+  CHECK(Curve::constant(1.5).derivative(123.0) == 0.0);
+}
+
+TEST_CASE("The slope of a straight line is exact, that of a parabola at its inner points") {
+  const Curve line({0, 1, 3, 4}, {1, 3, 7, 9});
+  for (const double x : {-1.0, 0.0, 0.3, 1.0, 2.0, 3.5, 4.0, 9.0}) CHECK(line.derivative(x) == Approx(2.0));
+  const Curve parabola({0, 1, 2, 3}, {0, 1, 4, 9});
+  CHECK(parabola.derivative(1.0) == Approx(2.0));
+  CHECK(parabola.derivative(1.5) == Approx(3.0));
+}
+
+TEST_CASE("Malformed tables are refused") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(Curve({}, {}), InputError);
+  CHECK_THROWS_AS(Curve({1, 2}, {1}), InputError);
+  CHECK_THROWS_AS(Curve({1, 1}, {1, 2}), InputError);
+  CHECK_THROWS_AS(Curve({2, 1}, {1, 2}), InputError);
+  CHECK_THROWS_AS(Curve({1, nan}, {1, 2}), InputError);
+  CHECK_THROWS_AS(Curve({1, 2}, {1, nan}), InputError);
+}
+
+TEST_CASE("A spectrum must be a density") {
+  CHECK_THROWS_AS(CurveSampler(Curve({1, 2}, {1, -1})), InputError);
+  CHECK_THROWS_AS(CurveSampler(Curve({1, 2}, {0, 0})), InputError);
+}
+
+TEST_CASE("The sampler inverts the integral of the curve") {
+  // Triangle with peak 1 at x = 1 over [0, 3]: the integral up to x is x^2/3 before the peak.
+  const CurveSampler sampler(Curve({0, 1, 3}, {0, 1, 0}));
+  CHECK(sampler.sample(0.0) == 0.0);
+  for (const double x : {0.1, 0.5, 0.9}) CHECK(sampler.sample(x * x / 3.0) == Approx(x));
+  for (const double x : {1.5, 2.9}) CHECK(sampler.sample(1.0 - (3 - x) * (3 - x) / 6.0) == Approx(x));
+  CHECK(sampler.sample(std::nextafter(1.0, 0.0)) <= 3.0);
+  CHECK(sampler.mean() == Approx(4.0 / 3.0));  // mean of a triangle's corners 0, 1, 3
+  CHECK(CurveSampler(Curve::constant(420.0)).sample(0.7) == 0.0);
+}
+
+TEST_CASE("Nothing is sampled where the spectrum is zero") {
+  const CurveSampler sampler(Curve({0, 1, 2, 3}, {1, 0, 0, 1}));
+  for (int i = 0; i < 1000; ++i) {
+    const double x = sampler.sample(i / 1000.0);
+    CHECK((x <= 1.0 || x >= 2.0));
+  }
+}
+
+TEST_CASE("Sampled wavelengths follow the spectrum") {
+  // False-alarm rate of the bound: 6.3e-5, as 4 standard errors.
+  const Curve spectrum({380, 420, 440, 600}, {0.0, 1.0, 0.4, 0.1});
+  const CurveSampler sampler(spectrum);
+  const double area = 0.5 * (40 * 1.0 + 20 * 1.4 + 160 * 0.5);
+  constexpr int kBins = 22;  // of 10 nm, so that the corners are bin edges
+  constexpr int kSamples = 200000;
+  std::vector<std::uint64_t> observed(kBins);
+  std::vector<double> expected(kBins);
+  for (int i = 0; i < kBins; ++i) expected[i] = kSamples * 10.0 * spectrum(385.0 + 10 * i) / area;
+  Rng rng(7, StreamKind::other, 0);
+  for (int i = 0; i < kSamples; ++i)
+    ++observed.at(static_cast<std::size_t>((sampler.sample(rng.uniform()) - 380) / 10));
+  CHECK(chi_square_test(observed, expected).p_value > 6.3e-5);
+}
