@@ -1,0 +1,225 @@
+#include "scintray/scene/assemble.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "scintray/scene/regions.hpp"
+
+namespace scintray {
+
+namespace {
+
+using InterfaceKey = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+
+std::string name_or_smooth(const std::string& surface) { return surface.empty() ? "smooth" : surface; }
+
+/// Turns groups of interface triangles into interfaces.
+class InterfaceMaker {
+ public:
+  InterfaceMaker(const Assembly& assembly, Scene& scene, Problems& problems)
+      : assembly_(assembly),
+        scene_(scene),
+        problems_(problems),
+        contact_used_(assembly.contacts.size(), false) {}
+
+  std::uint32_t interface_of(const InterfaceTriangle& t) {
+    const InterfaceKey key{t.back, t.front, t.back_face, t.front_face};
+    const auto [known, is_new] =
+        known_.try_emplace(key, static_cast<std::uint32_t>(scene_.interfaces.size()));
+    if (is_new) {
+      scene_.interfaces.push_back(make(t));
+      scene_.interface_area_mm2.push_back(0.0);
+    }
+    return known->second;
+  }
+
+  void report_unused_contacts() {
+    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+      if (contact_used_[i]) continue;
+      const ContactSpec& contact = assembly_.contacts[i];
+      problems_.add(
+          contact.where,
+          "parts \"" + contact.between[0].name + "\" and \"" + contact.between[1].name +
+              "\" of this contact do not touch",
+          "check their positions (scintray check lists every interface), or raise run.contact_tolerance");
+    }
+  }
+
+ private:
+  Interface make(const InterfaceTriangle& t) {
+    Interface result;
+    result.back = static_cast<std::uint32_t>(t.back + 1);
+    result.front = static_cast<std::uint32_t>(t.front + 1);
+    result.back_face = t.back_face;
+    result.front_face = t.front_face;
+    bind_sensors(t, result);
+    if (t.back_face != kNoFace && t.front_face != kNoFace)
+      make_contact(t, result);
+    else if (t.back_face != kNoFace)
+      result.back_surface = surface(face(t.back_face).surface, medium(t.back), medium(t.front));
+    else
+      result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
+    const std::int32_t only = result.back_surface != kNone ? result.back_surface : result.front_surface;
+    const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
+    if (one && result.gap_medium == kNone) {
+      const Surface& s = scene_.surfaces[static_cast<std::size_t>(only)];
+      result.plain = std::holds_alternative<SmoothSurface>(s.microsurface) && !s.reflector;
+    }
+    return result;
+  }
+
+  /// A sensor part detects what enters it; a sensor face what leaves its part there.
+  void bind_sensors(const InterfaceTriangle& t, Interface& result) const {
+    const auto bind = [&](std::int32_t entered, std::int32_t left, std::int32_t left_face,
+                          std::int32_t& sensor, std::uint32_t& part) {
+      if (entered != kAmbient && assembly_.parts[static_cast<std::size_t>(entered)].sensor != kNone) {
+        sensor = assembly_.parts[static_cast<std::size_t>(entered)].sensor;
+        part = static_cast<std::uint32_t>(entered);
+      } else if (left_face != kNoFace && face(left_face).sensor != kNone) {
+        sensor = face(left_face).sensor;
+        part = static_cast<std::uint32_t>(left);
+      }
+    };
+    bind(t.front, t.back, t.back_face, result.front_sensor, result.front_sensor_part);
+    bind(t.back, t.front, t.front_face, result.back_sensor, result.back_sensor_part);
+  }
+
+  void make_contact(const InterfaceTriangle& t, Interface& result) {
+    const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
+    const ContactSpec* contact = find_contact(t.back, t.front);
+    const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
+    if (kind == ContactKind::dry) {
+      result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
+      result.back_surface = surface(back.surface, medium(t.back), assembly_.ambient);
+      result.front_surface = surface(front.surface, medium(t.front), assembly_.ambient);
+      return;
+    }
+    if (contact && !contact->surface.empty()) {
+      const bool back_is_first = part(t.back).geometry.name == contact->between[0].name;
+      set_surface(t, result, back_is_first, contact->surface.name);
+    } else if (front.surface.empty() || back.surface == front.surface) {
+      set_surface(t, result, true, back.surface);
+    } else if (back.surface.empty()) {
+      set_surface(t, result, false, front.surface);
+    } else {
+      problems_.add(contact ? contact->where : FileLocation{},
+                    "faces \"" + back.name + "\" (surface \"" + name_or_smooth(back.surface) + "\") and \"" +
+                        front.name + "\" (surface \"" + name_or_smooth(front.surface) +
+                        "\") are bonded, but an interface has one surface",
+                    "add [[contact]] between = [\"" + part(t.back).geometry.name + "\", \"" +
+                        part(t.front).geometry.name + "\"] with the surface of the joint, or kind = \"dry\"");
+      set_surface(t, result, true, std::string());
+    }
+  }
+
+  void set_surface(const InterfaceTriangle& t, Interface& result, bool of_back, const std::string& name) {
+    if (of_back)
+      result.back_surface = surface(name, medium(t.back), medium(t.front));
+    else
+      result.front_surface = surface(name, medium(t.front), medium(t.back));
+  }
+
+  const ContactSpec* find_contact(std::int32_t a, std::int32_t b) {
+    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+      const auto& [first, second] = assembly_.contacts[i].between;
+      const std::string &name_a = part(a).geometry.name, &name_b = part(b).geometry.name;
+      if ((first.name == name_a && second.name == name_b) ||
+          (first.name == name_b && second.name == name_a)) {
+        contact_used_[i] = true;
+        return &assembly_.contacts[i];
+      }
+    }
+    return nullptr;
+  }
+
+  /// A surface for two media, made once per triple.
+  std::int32_t surface(const std::string& name, std::uint32_t inside, std::uint32_t outside) {
+    const auto [known, is_new] =
+        surfaces_.try_emplace({name, inside, outside}, static_cast<std::int32_t>(scene_.surfaces.size()));
+    if (is_new) {
+      Surface made;
+      try {
+        made = assembly_.make_surface(name, inside, outside);
+      } catch (const InputError& error) {
+        problems_.add(error);
+      }
+      made.name = name_or_smooth(name) + " (" + assembly_.media[inside].medium().name + " to " +
+                  assembly_.media[outside].medium().name + ")";
+      scene_.surfaces.push_back(std::move(made));
+    }
+    return known->second;
+  }
+
+  const AssemblyFace& face(std::int32_t id) const { return assembly_.faces[static_cast<std::size_t>(id)]; }
+  const AssemblyPart& part(std::int32_t id) const { return assembly_.parts[static_cast<std::size_t>(id)]; }
+  std::uint32_t medium(std::int32_t id) const { return id == kAmbient ? assembly_.ambient : part(id).medium; }
+
+  const Assembly& assembly_;
+  Scene& scene_;
+  Problems& problems_;
+  std::vector<bool> contact_used_;
+  std::map<InterfaceKey, std::uint32_t> known_;
+  std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
+};
+
+double triangle_area(const InterfaceTriangle& t) {
+  return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
+}
+
+void describe_parts(const Assembly& assembly, Scene& scene) {
+  for (const AssemblyFace& face : assembly.faces)
+    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0});
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
+    const PlacedPart& geometry = assembly.parts[i].geometry;
+    PartInfo info;
+    info.name = geometry.name;
+    info.region = static_cast<std::uint32_t>(i + 1);
+    info.sensor = assembly.parts[i].sensor;
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+      const auto& [a, b, c] = geometry.triangles[t];
+      const Vec3 &va = geometry.vertices[a], &vb = geometry.vertices[b], &vc = geometry.vertices[c];
+      const Vec3& origin = geometry.vertices.front();  // keeps far-away parts exact
+      info.volume_mm3 += (va - origin).dot((vb - origin).cross(vc - origin)) / 6.0;
+      for (const Vec3& v : {va, vb, vc}) info.bounds.extend(v);
+      FaceInfo& face = scene.faces[geometry.face[t]];
+      face.area_mm2 += 0.5 * (vb - va).cross(vc - va).norm();
+      ++face.triangles;
+    }
+    scene.parts.push_back(info);
+  }
+}
+
+}  // namespace
+
+Scene assemble(const Assembly& assembly) {
+  Scene scene;
+  scene.media = assembly.media;
+  scene.sensors = assembly.sensors;
+  scene.low_nm = assembly.low_nm;
+  scene.high_nm = assembly.high_nm;
+  describe_parts(assembly, scene);
+
+  std::vector<PlacedPart> placed;
+  for (const AssemblyPart& part : assembly.parts) placed.push_back(part.geometry);
+  const std::vector<InterfaceTriangle> triangles = resolve_contacts(placed, assembly.contact_tolerance_mm);
+
+  Problems problems;
+  InterfaceMaker maker(assembly, scene, problems);
+  std::vector<std::uint32_t> interface_of;
+  for (const InterfaceTriangle& triangle : triangles) {
+    interface_of.push_back(maker.interface_of(triangle));
+    const double area = triangle_area(triangle);
+    scene.interface_area_mm2[interface_of.back()] += area;
+    if (triangle.back_face == kNoFace || triangle.front_face == kNoFace) continue;
+    scene.faces[static_cast<std::size_t>(triangle.back_face)].contact_area_mm2 += area;
+    scene.faces[static_cast<std::size_t>(triangle.front_face)].contact_area_mm2 += area;
+  }
+  maker.report_unused_contacts();
+  problems.throw_if_any();
+  build_regions(assembly, triangles, interface_of, scene);
+  return scene;
+}
+
+}  // namespace scintray

@@ -1,0 +1,125 @@
+#include "scintray/scene/regions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace scintray {
+
+namespace {
+
+/// Vertices equal within about this length are the same when boundaries are compared, mm.
+constexpr double kSameVertex_mm = 1e-6;
+/// Keeps round coordinates away from the edges of the comparison grid.
+constexpr double kGridShift = 0.37;
+
+using GridPoint = std::array<std::int64_t, 3>;
+using GridTriangle = std::array<GridPoint, 3>;
+
+/// A boundary triangle in the region's frame, with what orders and identifies it.
+struct Entry {
+  GridTriangle key;
+  BoundaryTriangle local;
+  BoundaryLink link;
+};
+
+/// What makes two boundaries the same.
+struct Shape {
+  std::vector<GridTriangle> triangles;
+  std::vector<std::uint32_t> labels;
+  auto operator<=>(const Shape&) const = default;
+};
+
+GridPoint on_grid(const Vec3& v) {
+  GridPoint point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[static_cast<std::size_t>(axis)] = std::llround(std::floor(v[axis] / kSameVertex_mm + kGridShift));
+  return point;
+}
+
+Entry make_entry(BoundaryTriangle local, BoundaryLink link) {
+  GridTriangle key{on_grid(local[0]), on_grid(local[1]), on_grid(local[2])};
+  const auto first = std::min_element(key.begin(), key.end()) - key.begin();
+  std::rotate(key.begin(), key.begin() + first, key.end());
+  std::rotate(local.begin(), local.begin() + first, local.end());
+  return {key, local, link};
+}
+
+/// Numbers what the triangles lead to in order of first appearance.
+std::vector<std::uint32_t> pattern_of(const std::vector<Entry>& entries) {
+  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> seen;
+  std::vector<std::uint32_t> labels;
+  for (const Entry& entry : entries)
+    labels.push_back(seen.try_emplace({entry.link.interface, entry.link.from_back},
+                                      static_cast<std::uint32_t>(seen.size()))
+                         .first->second);
+  return labels;
+}
+
+std::vector<std::vector<std::pair<std::uint32_t, bool>>> triangles_by_region(
+    const std::vector<InterfaceTriangle>& triangles, std::size_t regions) {
+  std::vector<std::vector<std::pair<std::uint32_t, bool>>> by_region(regions);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    by_region[static_cast<std::size_t>(triangles[i].back + 1)].push_back({i, true});
+    by_region[static_cast<std::size_t>(triangles[i].front + 1)].push_back({i, false});
+  }
+  return by_region;
+}
+
+}  // namespace
+
+void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle>& triangles,
+                   const std::vector<std::uint32_t>& interface_of, Scene& scene) {
+  const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
+  std::map<Shape, std::shared_ptr<const Accelerator>> known;
+  for (std::size_t r = 0; r < by_region.size(); ++r) {
+    const bool ambient = r == kAmbientRegion;
+    Region region;
+    region.name = ambient ? "ambient" : assembly.parts[r - 1].geometry.name;
+    region.part = ambient ? kNone : static_cast<std::int32_t>(r - 1);
+    region.medium = ambient ? assembly.ambient : assembly.parts[r - 1].medium;
+    if (!ambient) region.rotation = assembly.parts[r - 1].rotation;
+    region.rotated = !region.rotation.isIdentity(0.0);
+
+    Eigen::AlignedBox3d bounds;  // in the part's own orientation
+    for (const auto& [index, is_back] : by_region[r])
+      for (const Vec3& vertex : triangles[index].vertex) bounds.extend(region.rotation.transpose() * vertex);
+    if (!bounds.isEmpty()) region.centre = region.rotation * bounds.center();
+
+    std::vector<Entry> entries;
+    for (const auto& [index, is_back] : by_region[r]) {
+      BoundaryTriangle local;
+      for (std::size_t i = 0; i < 3; ++i)
+        local[i] = region.rotation.transpose() * (triangles[index].vertex[i] - region.centre);
+      if (!is_back) std::swap(local[1], local[2]);
+      entries.push_back(make_entry(local, {interface_of[index], is_back}));
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.key < b.key; });
+
+    Shape shape;
+    std::vector<BoundaryTriangle> boundary;
+    shape.labels = pattern_of(entries);
+    for (const Entry& entry : entries) {
+      shape.triangles.push_back(entry.key);
+      boundary.push_back(entry.local);
+      region.links.push_back(entry.link);
+    }
+    if (ambient) {
+      region.accelerator = std::make_shared<Accelerator>(boundary, shape.labels, false, assembly.accelerator);
+      ++scene.accelerators;
+    } else {
+      auto& shared = known[shape];
+      if (!shared) {
+        shared = std::make_shared<Accelerator>(boundary, shape.labels, true, assembly.accelerator);
+        ++scene.accelerators;
+      }
+      region.accelerator = shared;
+    }
+    scene.regions.push_back(std::move(region));
+  }
+}
+
+}  // namespace scintray
