@@ -96,7 +96,8 @@ ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<con
   if (impossible) return {std::numeric_limits<double>::infinity(), static_cast<double>(bins.size() - 1), 0.0};
   for (const Bin& merged : bins) {
     if (merged.expected > 0.0)
-      result.chi2 += (merged.observed - merged.expected) * (merged.observed - merged.expected) / merged.expected;
+      result.chi2 +=
+          (merged.observed - merged.expected) * (merged.observed - merged.expected) / merged.expected;
     result.degrees += 1.0;
   }
   result.degrees -= 1.0;

@@ -64,7 +64,8 @@ std::string accepted(Dimension dimension) {
 /// A quantity as one would write it, in the unit ScintRay itself uses where that has a name.
 std::string example(Dimension dimension) {
   const std::vector<Unit>& units = table_of(dimension);
-  const auto own = std::find_if(units.begin(), units.end(), [](const Unit& unit) { return unit.factor == 1.0; });
+  const auto own =
+      std::find_if(units.begin(), units.end(), [](const Unit& unit) { return unit.factor == 1.0; });
   return std::string("\"2 ") + (own != units.end() ? own->name : units.front().name) + "\"";
 }
 

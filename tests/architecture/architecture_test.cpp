@@ -37,7 +37,9 @@ TEST_CASE("Includes in src point down only") { expect_none(find_upward_includes(
 
 TEST_CASE("CMake links in src point down only") { expect_none(find_upward_links(source_file("src"))); }
 
-TEST_CASE("Every folder of src is one of the layers") { expect_none(find_unlisted_modules(source_file("src"))); }
+TEST_CASE("Every folder of src is one of the layers") {
+  expect_none(find_unlisted_modules(source_file("src")));
+}
 
 TEST_CASE("geometry, materials and scenes hold data only") {
   for (const char* folder : {"geometry", "materials", "scenes"})
@@ -65,13 +67,15 @@ TEST_CASE("The checker finds an include that points up, and says where") {
 
 TEST_CASE("The checker finds includes of unknown modules and includes by another way") {
   const fs::path source = sound_tree("architecture_include_form");
-  write(source / "mesh/m.cpp", "#include \"../trace/t.hpp\"\n#include \"m.hpp\"\n#include \"scintray/tracer/t.hpp\"\n");
+  write(source / "mesh/m.cpp",
+        "#include \"../trace/t.hpp\"\n#include \"m.hpp\"\n#include \"scintray/tracer/t.hpp\"\n");
   CHECK(find_upward_includes(source).size() == 3);
 }
 
 TEST_CASE("The checker finds a link that points up, under either name of the target") {
   const fs::path source = sound_tree("architecture_link");
-  write(source / "core/CMakeLists.txt", "scintray_module(core\n  SOURCES a.cpp\n  LINK scintray::mesh scintray_trace)\n");
+  write(source / "core/CMakeLists.txt",
+        "scintray_module(core\n  SOURCES a.cpp\n  LINK scintray::mesh scintray_trace)\n");
   CHECK(find_upward_links(source).size() == 2);
 }
 
@@ -93,7 +97,8 @@ TEST_CASE("The checker finds code among data") {
 TEST_CASE("The checker finds machine paths, and leaves relative paths and addresses alone") {
   const fs::path folder = scratch_folder("architecture_paths");
   const std::string slash = "/";
-  write(folder / "fine.md", "see docs/home/index and https://example.org/home/page, ${HOME}/work/x, a/tmp/b\n");
+  write(folder / "fine.md",
+        "see docs/home/index and https://example.org/home/page, ${HOME}/work/x, a/tmp/b\n");
   CHECK(find_machine_paths(folder).empty());
   write(folder / "bad.md", "in " + slash + "home/someone/x\n\"" + slash + "tmp/y\"\n");
   CHECK(find_machine_paths(folder).size() == 2);

@@ -33,7 +33,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
        ++entry) {
     const std::string name = entry->path().filename().string();
-    const bool passed_over = name == ".git" || name == ".cache" || name == "out" || name.rfind("build", 0) == 0;
+    const bool passed_over =
+        name == ".git" || name == ".cache" || name == "out" || name.rfind("build", 0) == 0;
     if (entry->is_directory() && passed_over) entry.disable_recursion_pending();
     if (entry->is_regular_file()) files.push_back(entry->path());
   }
@@ -55,7 +56,8 @@ std::string wrong_direction(const std::vector<std::string>& layers, const std::s
                             const std::string& to) {
   const std::size_t target = rank_of(layers, to);
   if (target == layers.size()) return "\"" + to + "\" is not a module";
-  if (target > rank_of(layers, from)) return from + " uses " + to + ", which stands below it in the list of layers";
+  if (target > rank_of(layers, from))
+    return from + " uses " + to + ", which stands below it in the list of layers";
   return {};
 }
 
@@ -112,7 +114,8 @@ Violations find_upward_links(const fs::path& source) {
       const std::string code = lines[i].substr(0, lines[i].find('#'));
       for (std::sregex_iterator match(code.begin(), code.end(), own_target), end; match != end; ++match) {
         const std::string target = (*match)[1].str();
-        if (rank_of(layers, target) == layers.size()) continue;  // not a module: scintray_module, scintray_version
+        if (rank_of(layers, target) == layers.size())
+          continue;  // not a module: scintray_module, scintray_version
         const std::string wrong = wrong_direction(layers, module, target);
         if (!wrong.empty()) found.push_back(at_line(file, i) + wrong);
       }
@@ -145,7 +148,16 @@ Violations find_code_among_data(const fs::path& folder) {
 
 Violations find_machine_paths(const fs::path& repository) {
   // The names are put together here, so that this file does not break its own rule.
-  static const std::string tops = "(?:ho" "me|ro" "ot|Us" "ers|wo" "rk|fa" "rm|t" "mp|m" "nt|med" "ia)";
+  static const std::string tops =
+      "(?:ho"
+      "me|ro"
+      "ot|Us"
+      "ers|wo"
+      "rk|fa"
+      "rm|t"
+      "mp|m"
+      "nt|med"
+      "ia)";
   static const std::regex path("(?:^|[^A-Za-z0-9_./})>-])/" + tops + "/[A-Za-z0-9_.-]");
   Violations found;
   for (const fs::path& file : files_below(repository)) {
@@ -153,7 +165,8 @@ Violations find_machine_paths(const fs::path& repository) {
     if (text.find('\0') != std::string::npos) continue;
     const std::vector<std::string> lines = lines_of(text);
     for (std::size_t i = 0; i < lines.size(); ++i)
-      if (lines[i].find('/') != std::string::npos && lines[i].size() < 2000 && std::regex_search(lines[i], path))
+      if (lines[i].find('/') != std::string::npos && lines[i].size() < 2000 &&
+          std::regex_search(lines[i], path))
         found.push_back(at_line(file, i) + "a path of somebody's machine");
   }
   return found;

@@ -21,7 +21,9 @@ Problem problem_of(const std::string& text, Dimension dimension) {
   return {};
 }
 
-bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -44,9 +46,9 @@ TEST_CASE("Quantities come out in internal units") {
 }
 
 TEST_CASE("Every unit that a dimension lists is understood in it") {
-  for (const Dimension dimension :
-       {Dimension::length, Dimension::inverse_length, Dimension::wavelength, Dimension::time, Dimension::angle,
-        Dimension::energy, Dimension::density, Dimension::photons_per_energy, Dimension::dimensionless}) {
+  for (const Dimension dimension : {Dimension::length, Dimension::inverse_length, Dimension::wavelength,
+                                    Dimension::time, Dimension::angle, Dimension::energy, Dimension::density,
+                                    Dimension::photons_per_energy, Dimension::dimensionless}) {
     CAPTURE(dimension_name(dimension));
     CHECK_FALSE(units_of(dimension).empty());
     for (const std::string& unit : units_of(dimension)) CHECK(parse_quantity("2 " + unit, dimension) > 0.0);
