@@ -23,6 +23,7 @@ namespace {
 constexpr std::uint64_t kCompressFromBytes = 4096;
 constexpr std::uint64_t kChunkBytes = 1 << 20;
 constexpr unsigned kDeflateLevel = 4;
+constexpr std::uint64_t kChunkCacheBytes = 1 << 20;  ///< HDF5's default for each dataset
 /// Deflate cannot shrink by more than 1032:1 (zlib technical details), so a dataset that claims more
 /// than this per stored byte is damaged.
 constexpr std::uint64_t kLargestDeflateRatio = 1032;
@@ -155,17 +156,28 @@ Handle transfer_properties() {
   return properties;
 }
 
-/// Writes a few pages to a new file, so that a folder without permission or a disk without space is
-/// found before HDF5 starts: HDF5 cannot let go of a file whose very first write failed.
-void probe_writing(const std::filesystem::path& path, const std::filesystem::path& name) {
+/// Makes [from, to) of a file real disk space. 0 or an errno value.
+int allocate(int descriptor, off_t from, off_t to) {
+  if (::fallocate(descriptor, 0, from, to - from) == 0) return 0;
+  if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
+  const std::vector<char> zeros(static_cast<std::size_t>(std::min<off_t>(to - from, 1 << 20)), '\0');
+  for (off_t at = from; at < to;) {
+    const auto length = static_cast<std::size_t>(std::min<off_t>(to - at, static_cast<off_t>(zeros.size())));
+    const ssize_t written = ::pwrite(descriptor, zeros.data(), length, at);
+    if (written <= 0) return written < 0 ? errno : ENOSPC;
+    at += written;
+  }
+  return 0;
+}
+
+/// Makes a new file with disk space for HDF5's first write, so that a folder without permission or a
+/// full disk is found before HDF5 starts.
+void take_space(const std::filesystem::path& path, const std::filesystem::path& name) {
+  constexpr off_t kFirstBytes = 1 << 16;
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  const std::vector<char> pages(65536, '\0');
-  const auto written = descriptor < 0 ? -1 : ::pwrite(descriptor, pages.data(), pages.size(), 0);
-  const int cause = errno;
+  const int cause = descriptor < 0 ? errno : allocate(descriptor, 0, kFirstBytes);
   if (descriptor >= 0) ::close(descriptor);
-  if (written == static_cast<ssize_t>(pages.size())) return;
-  if (descriptor >= 0) ::unlink(path.c_str());
-  throw SystemError(name.string() + ": cannot write: " + std::strerror(written < 0 ? cause : ENOSPC));
+  if (cause != 0) throw SystemError(name.string() + ": cannot write: " + std::strerror(cause));
 }
 
 /// Delayed writing errors (quotas, network file systems) show only here. `name` is for the message.
@@ -179,22 +191,42 @@ void sync_to_disk(const std::filesystem::path& path, const std::filesystem::path
 }
 
 /// What a file and its groups know of each other: groups may outlive the file.
+///
+/// HDF5 cannot let go of a file whose caches it could not write: closing fails, and the process crashes
+/// in HDF5's exit handler. So disk space is taken before HDF5 needs it, and a full disk is met here.
 struct Life {
   hid_t file = -1;  ///< -1 once closed
   bool writing = false;
-  std::string failure;  ///< message of the first failed write; nothing is written after it
+  std::string failure;             ///< message of the first failed write; nothing is written after it
+  std::uint64_t reserved = 0;      ///< bytes of the file known to have disk space
+  std::uint64_t stream_bytes = 0;  ///< most that the chunk caches of all streams can hold back
 
-  /// HDF5 cannot let go of a file whose caches it cannot write: closing it fails, and the process
-  /// crashes in HDF5's exit handler. A file that failed is thrown away anyhow, so from then on its
-  /// descriptor points to memory, where the remaining few cached pages go and the file closes.
+  int descriptor() const {
+    void* handle = nullptr;
+    return H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 ? -1 : *static_cast<const int*>(handle);
+  }
+
+  /// Takes disk space for `bytes` more of data and for what describes it. 0 or an errno value.
+  int reserve(std::uint64_t bytes) {
+    constexpr std::uint64_t kMetadata = 1 << 18, kStep = 1 << 20;
+    hsize_t size = 0;
+    H5Fget_filesize(file, &size);
+    const std::uint64_t needed = size + bytes + stream_bytes + kMetadata;
+    if (needed <= reserved) return 0;
+    const std::uint64_t target = std::max(needed, reserved + kStep);
+    const int cause = allocate(descriptor(), static_cast<off_t>(reserved), static_cast<off_t>(target));
+    if (cause == 0) reserved = target;
+    return cause;
+  }
+
+  /// Should a write fail all the same, the file is thrown away: from then on its descriptor points to
+  /// memory, where what the caches still hold goes when the file is closed.
   void give_up(const std::string& message) {
     if (!writing || file < 0 || !failure.empty()) return;
     failure = message;
-    void* descriptor = nullptr;
-    if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0) return;
-    const int memory = ::memfd_create("scintray-discarded", MFD_CLOEXEC);
+    const int target = descriptor(), memory = ::memfd_create("scintray-discarded", MFD_CLOEXEC);
     if (memory < 0) return;
-    ::dup2(memory, *static_cast<const int*>(descriptor));
+    if (target >= 0) ::dup2(memory, target);
     ::close(memory);
   }
   void require_usable(const std::string& name) const {
@@ -252,6 +284,15 @@ struct Group::State {
                            const std::string& reason) const {
     throw SystemError(file + ": cannot " + action + " " + object(member) + ": " + reason);
   }
+  void reserve(std::uint64_t bytes, const std::string& action, const std::string& member) const {
+    require_open();
+    const int cause = life->reserve(bytes);
+    if (cause == 0) return;
+    const std::string message =
+        file + ": cannot " + action + " " + object(member) + ": " + std::strerror(cause);
+    life->give_up(message);
+    throw SystemError(message);
+  }
   void require_open() const { life->require_usable(file + ": " + name); }
 
   /// The object that carries attributes: a member or, for "", the group itself.
@@ -294,6 +335,7 @@ struct Group::State {
 
   void write_attribute(const std::string& member, const std::string& attribute, hid_t file_type,
                        hid_t memory_type, const void* value) const {
+    reserve(0, "write attribute \"" + attribute + "\" of", member);
     const Handle owner = attribute_owner(member);
     if (H5Aexists(owner.id(), attribute.c_str()) > 0) H5Adelete(owner.id(), attribute.c_str());
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -331,8 +373,8 @@ Handle creation_order_properties(hid_t kind) {
 }  // namespace
 
 Group Group::create_group(const std::string& name) {
-  state_->require_open();
   const Quiet quiet;
+  state_->reserve(0, "create group", name);
   const Handle properties = creation_order_properties(H5P_GROUP_CREATE);
   Handle created(H5Gcreate2(state_->group.id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
                  H5Gclose);
@@ -386,10 +428,10 @@ std::vector<std::string> Group::members() const {
 
 template <typename T>
 void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape) {
-  state_->require_open();
   if (product(shape) != values.size())
     throw InternalError(state_->object(name) + ": shape and number of values differ");
   const Quiet quiet;
+  state_->reserve(values.size() * sizeof(T), "write dataset", name);
   const Handle space = space_of(shape);
   const Handle properties = dataset_properties();
   if (values.size() * sizeof(T) > kCompressFromBytes) compress(properties, chunk_of(shape, sizeof(T)));
@@ -405,8 +447,11 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
 }
 
 void Group::write_strings(const std::string& name, const std::vector<std::string>& values) {
-  state_->require_open();
   const Quiet quiet;
+  constexpr std::uint64_t kReferenceBytes = 64;  // a text's address, length and share of its heap
+  std::uint64_t bytes = 0;
+  for (const std::string& value : values) bytes += value.size() + kReferenceBytes;
+  state_->reserve(bytes, "write dataset", name);
   const Handle type = text_type();
   const Handle space = space_of({values.size()});
   const Handle properties = dataset_properties();
@@ -542,8 +587,9 @@ std::int64_t Group::integer_attribute(const std::string& member, const std::stri
 
 template <typename T>
 void Group::create_stream(const std::string& name, std::uint64_t chunk) {
-  state_->require_open();
   const Quiet quiet;
+  state_->life->stream_bytes += kChunkCacheBytes + chunk * sizeof(T);
+  state_->reserve(0, "create dataset", name);
   const hsize_t none = 0, unlimited = H5S_UNLIMITED;
   const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
   const Handle properties = dataset_properties();
@@ -557,9 +603,9 @@ void Group::create_stream(const std::string& name, std::uint64_t chunk) {
 
 template <typename T>
 void Group::append(const std::string& name, const std::vector<T>& values) {
-  state_->require_open();
   if (values.empty()) return;
   const Quiet quiet;
+  state_->reserve(values.size() * sizeof(T), "append to dataset", name);
   auto found = state_->streams.find(name);
   if (found == state_->streams.end()) found = state_->streams.emplace(name, state_->open_dataset(name)).first;
   const hid_t dataset = found->second.id();
@@ -606,6 +652,23 @@ Handle access_properties() {
 
 }  // namespace
 
+namespace {
+
+/// Cuts off the disk space taken in advance; that HDF5 opens the file shows that it is whole.
+void drop_unused_end(const std::filesystem::path& path, const std::filesystem::path& name) {
+  const Handle access = access_properties();
+  haddr_t end = 0;
+  {
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+    if (!file.valid() || H5Fget_eoa(file.id(), &end) < 0)
+      throw SystemError(failure_text(name.string(), "", "read back"));
+  }
+  if (::truncate(path.c_str(), static_cast<off_t>(end)) != 0)
+    throw SystemError(name.string() + ": cannot write: " + std::strerror(errno));
+}
+
+}  // namespace
+
 File::File() : state_(std::make_unique<State>()) {}
 File::File(File&&) noexcept = default;
 File& File::operator=(File&& other) noexcept {
@@ -634,8 +697,8 @@ File File::create(const std::filesystem::path& path) {
   file.state_->path = path;
   const auto temporary =
       folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".unfinished");
-  probe_writing(temporary, path);
   file.state_->temporary = temporary;
+  take_space(temporary, path);
   const Handle creation = creation_order_properties(H5P_FILE_CREATE);
   const Handle access = access_properties();
   file.state_->life->file = H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.id(), access.id());
@@ -691,6 +754,7 @@ void File::commit() {
   const Quiet quiet;
   if (H5Fclose(state_->life->file) < 0) state_->give_up();
   state_->life->file = -1;
+  drop_unused_end(state_->temporary, state_->path);
   sync_to_disk(state_->temporary, state_->path);
   std::error_code error;
   std::filesystem::rename(state_->temporary, state_->path, error);

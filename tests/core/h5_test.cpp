@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -19,29 +19,41 @@
 
 using namespace scintray;
 
-// A disk that fills up: HDF5 writes through pwrite, which here fails once the allowance for regular files
-// is used up. Only the child processes of the test below set one.
+// A disk that fills up, for the child processes of the test below: taking more disk space than
+// allowed fails, and so does every write to where no space was taken before.
 namespace {
 
-std::atomic<long> allowance_bytes{-1};  ///< -1: no limit
+long allowance_bytes = -1;  ///< -1: no limit
+off_t taken_bytes = 0;
 
-bool disk_is_full(int descriptor, std::size_t count) {
+bool limited(int descriptor) {
   struct stat status {};
-  if (allowance_bytes < 0 || ::fstat(descriptor, &status) != 0) return false;
-  if (!S_ISREG(status.st_mode) || status.st_nlink == 0) return false;  // pipes; unlinked memory files
-  if (allowance_bytes < static_cast<long>(count)) return true;
-  allowance_bytes -= static_cast<long>(count);
-  return false;
+  return allowance_bytes >= 0 && ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+         status.st_nlink > 0;  // not pipes, not unlinked memory files
 }
 
 }  // namespace
 
+extern "C" int fallocate(int descriptor, int mode, off_t offset, off_t length) {
+  using Function = int (*)(int, int, off_t, off_t);
+  static const auto real = reinterpret_cast<Function>(::dlsym(RTLD_NEXT, "fallocate"));
+  if (limited(descriptor) && offset + length > allowance_bytes) {
+    errno = ENOSPC;
+    return -1;
+  }
+  taken_bytes = std::max(taken_bytes, offset + length);
+  return real(descriptor, mode, offset, length);
+}
+
 extern "C" ssize_t pwrite(int descriptor, const void* buffer, size_t count, off_t offset) {
   using Function = ssize_t (*)(int, const void*, size_t, off_t);
   static const auto real = reinterpret_cast<Function>(::dlsym(RTLD_NEXT, "pwrite"));
-  if (!disk_is_full(descriptor, count)) return real(descriptor, buffer, count, offset);
-  errno = ENOSPC;
-  return -1;
+  if (limited(descriptor) && offset + static_cast<off_t>(count) > taken_bytes) {
+    ::dprintf(STDERR_FILENO, "a write where no space was taken\n");
+    errno = ENOSPC;
+    return -1;
+  }
+  return real(descriptor, buffer, count, offset);
 }
 
 namespace {
@@ -260,6 +272,7 @@ template <typename Write>
 ChildEnd run_on_small_disk(long bytes, const Write& write) {
   int channel[2];
   REQUIRE(::pipe(channel) == 0);
+  std::fflush(nullptr);  // else the child prints it again
   const pid_t child = ::fork();
   REQUIRE(child >= 0);
   if (child == 0) {
@@ -296,13 +309,13 @@ TEST_CASE("A disk that fills at any moment ends with a message, no file, and a c
     auto file = h5::File::create(folder / "full.h5");
     auto root = file.root();
     if (stream) root.create_stream<std::uint64_t>("n", 1024);
-    for (int block = 0; block < 8; ++block) {
+    for (const std::string name : {"n0", "n1", "n2", "n3", "n4", "n5", "n6", "n7"}) {
       for (auto& value : noise) value = state = state * 6364136223846793005ULL + 1442695040888963407ULL;
       if (stream) {
         root.append("n", noise);
       } else {
-        root.write("n" + std::to_string(block), noise);
-        root.set_attribute("n" + std::to_string(block), "unit", std::string("mm"));
+        root.write(name, noise);
+        root.set_attribute(name, "unit", std::string("mm"));
       }
     }
     root.write_strings("words", {"a", "b"});
@@ -315,17 +328,30 @@ TEST_CASE("A disk that fills at any moment ends with a message, no file, and a c
     REQUIRE(WEXITSTATUS(whole.status) == 0);
     const auto size = static_cast<long>(std::filesystem::file_size(folder / "full.h5"));
     std::filesystem::remove(folder / "full.h5");
-    for (long bytes = 0; bytes < size; bytes += size / 40) {
+    int fitted = 0, refused = 0;
+    constexpr long kRoomTakenAhead = 4 << 20;
+    for (long bytes = 0; bytes < size + kRoomTakenAhead; bytes += size / 20) {
       CAPTURE(stream);
       CAPTURE(bytes);
       const auto end = run_on_small_disk(bytes, [&] { write(stream); });
       CAPTURE(end.output);
-      CHECK(WIFEXITED(end.status));
+      REQUIRE(WIFEXITED(end.status));
+      if (WEXITSTATUS(end.status) == 0) {  // it fitted
+        CHECK(bytes >= size);
+        CHECK(end.output.empty());
+        CHECK(static_cast<long>(std::filesystem::file_size(folder / "full.h5")) == size);
+        std::filesystem::remove(folder / "full.h5");
+        ++fitted;
+        continue;
+      }
       CHECK(WEXITSTATUS(end.status) == 7);
       CHECK(contains(end.output, "full.h5: cannot "));
       CHECK(contains(end.output, "No space left on device"));
       CHECK(std::count(end.output.begin(), end.output.end(), '\n') == 1);  // nothing from HDF5 itself
       CHECK(files_in(folder) == 0);
+      ++refused;
     }
+    CHECK(fitted > 0);
+    CHECK(refused > 20);
   }
 }
