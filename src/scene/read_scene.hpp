@@ -10,17 +10,18 @@
 
 namespace scintray {
 
-/// Instantiates a parsed scene (its sweeps are ignored: expand them first). `text` is the file's.
+/// Instantiates a parsed scene (its sweeps are checked but not applied). `text` is the file's.
 /// Everything wrong is added to `problems`; the result may be used only when there is nothing.
 SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems);
 
-/// Every key a scene file may hold, as "part.place.gap", sorted.
-std::vector<std::string> scene_keys();
+/// Every key that read_scene looks for in the tables of this document, as "part.place.gap", sorted.
+std::vector<std::string> scene_keys(const TomlNodePtr& document);
 
 /// A scene file with its sweeps; reads one scene per point.
 class SceneFile {
  public:
-  /// Reads the file and every point of its sweeps. Throws InputError with every distinct problem.
+  /// Reads the file, and every value of its sweeps at least once. Throws InputError with every
+  /// distinct problem.
   static SceneFile load(const std::filesystem::path& path);
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
   static SceneFile from_text(const std::string& text, const std::string& file);
@@ -36,6 +37,9 @@ class SceneFile {
   const std::string& text() const { return text_; }
 
  private:
+  const TomlNode& value_at(std::size_t point, std::size_t sweep) const;
+  SceneSpec read_point(std::size_t point, Problems& problems) const;
+
   TomlNodePtr document_;
   std::vector<SweepSpec> sweeps_;
   std::string text_;

@@ -28,6 +28,12 @@ struct NameRef {
 /// The medium that absorbs whatever enters it.
 inline constexpr const char* kOpaqueMedium = "opaque";
 
+/// Name of the face made of a part's triangles that no rule matches; no rule may have it.
+inline constexpr const char* kOtherFaces = "other";
+
+/// What the name of a part and this make is the name of the part that fills the gap under it.
+inline constexpr const char* kFillSuffix = "_fill";
+
 /// An axis-aligned box, mm.
 struct BoxSpec {
   Vec3 low = Vec3::Zero();
@@ -37,17 +43,17 @@ struct BoxSpec {
 
 /// A mesh file, CAD or triangles.
 struct MeshFileSpec {
-  std::filesystem::path path;       ///< absolute, or relative to the working folder; it exists
-  std::optional<double> unit_mm;    ///< length of the file's unit; nothing: the file must say
+  std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
+  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
   double scale = 1.0;
   FileLocation where;
 };
 
 /// A closed prism about the z axis, from z = 0 up.
 struct CylinderSpec {
-  double radius_mm = 0.0;    ///< of the circle through the vertices
+  double radius_mm = 0.0;  ///< of the circle through the vertices
   double height_mm = 0.0;
-  int segments = 64;         ///< flat sides
+  int segments = 64;  ///< flat sides
   FileLocation where;
 };
 
@@ -55,24 +61,24 @@ using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec>;
 
 /// A turn about an axis through the origin of the part's own frame.
 struct RotationSpec {
-  Vec3 axis = Vec3::UnitZ();   ///< unit vector
-  double angle_rad = 0.0;      ///< counter-clockwise seen against the axis
+  Vec3 axis = Vec3::UnitZ();  ///< unit vector
+  double angle_rad = 0.0;     ///< counter-clockwise seen against the axis
   FileLocation where;
 };
 
 /// A side of a bounding box.
 struct BoxSide {
-  int axis = 2;    ///< 0, 1, 2 for x, y, z
-  int sign = -1;   ///< -1 or +1
+  int axis = 2;   ///< 0, 1, 2 for x, y, z
+  int sign = -1;  ///< -1 or +1
 };
 
 /// Puts a part against a side of another's bounding box, centred on it laterally.
 struct TouchSpec {
-  NameRef part;          ///< touched; a part that stands earlier in the file
-  BoxSide side;          ///< of the touched part's bounding box
+  NameRef part;  ///< touched; a part that stands earlier in the file
+  BoxSide side;  ///< of the touched part's bounding box
   double gap_mm = 0.0;
-  NameRef fill;          ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
-                         ///< both bounding boxes, as thick as the gap. Empty: the gap is ambient
+  NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
+                 ///< both bounding boxes, as thick as the gap. Empty: the gap is ambient
   FileLocation where;
 };
 
@@ -86,22 +92,23 @@ struct PlacementSpec {
 /// Picks triangles of a part in world coordinates, after placement. Every criterion given must hold; they
 /// mean what they mean in FaceSelector (mesh/face_selection.hpp).
 struct FaceSelectorSpec {
-  std::optional<Vec3> normal;              ///< unit; within `tolerance_rad` of the outward normal
+  std::optional<Vec3> normal;  ///< unit; within `tolerance_rad` of the outward normal
   double tolerance_rad = kDegree;
-  std::optional<BoxSpec> box;              ///< the whole triangle lies in it
-  std::optional<Vec3> flat_region;         ///< point, mm: the connected flat patch nearest to it
-  std::optional<Vec3> nearest;             ///< point, mm: the one triangle nearest to it
-  NameRef group;                           ///< glTF material or OBJ group of the mesh file; side
-                                           ///< "-z" of a box, "side" of a cylinder
+  std::optional<BoxSpec> box;       ///< the whole triangle lies in it
+  std::optional<Vec3> flat_region;  ///< point, mm: the connected flat patch nearest to it
+  std::optional<Vec3> nearest;      ///< point, mm: the one triangle nearest to it
+  NameRef group;                    ///< glTF material or OBJ group of the mesh file; side
+                                    ///< "-z" of a box, "side" of a cylinder
   FileLocation where;
 };
 
 /// What is special about some of a part's faces.
 struct FaceRuleSpec {
-  std::string name;          ///< unique within its part; "face1", "face2"... when not given
+  std::string name;  ///< unique within its part; when not given, the group, or the side
+                     ///< ("-z") of a normal along an axis, or "face1", "face2"...
   FaceSelectorSpec select;
-  NameRef surface;           ///< empty: the part's
-  NameRef sensor;            ///< light that crosses outwards here is detected by it
+  NameRef surface;  ///< empty: the part's
+  NameRef sensor;   ///< light that crosses outwards here is detected by it
   FileLocation where;
 };
 
@@ -109,9 +116,9 @@ struct PartSpec {
   NameRef name;
   ShapeSpec shape;
   PlacementSpec placement;
-  NameRef medium;    ///< kOpaqueMedium allowed; empty only for a part that is a sensor
-  NameRef surface;   ///< of every face that no rule matches; empty: rules must cover every face
-  NameRef sensor;    ///< the whole part is a sensor
+  NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
+  NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
+  NameRef sensor;   ///< the whole part is a sensor
   std::vector<FaceRuleSpec> faces;
   FileLocation where;
 };
@@ -125,7 +132,7 @@ enum class ContactKind {
 struct ContactSpec {
   std::array<NameRef, 2> between;
   ContactKind kind = ContactKind::bonded;
-  NameRef surface;   ///< of the shared interface; empty: the surfaces of the two faces decide
+  NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
   FileLocation where;
 };
 
@@ -141,22 +148,22 @@ enum class DirectionKind { isotropic, beam, cone, lambertian };
 
 struct DirectionSpec {
   DirectionKind kind = DirectionKind::isotropic;
-  Vec3 axis = Vec3::UnitZ();     ///< unit; of a beam, a cone (uniform in solid angle), a Lambertian lobe
-  double half_angle_rad = 0.0;   ///< of a cone, up to pi
+  Vec3 axis = Vec3::UnitZ();    ///< unit; of a beam, a cone (uniform in solid angle), a Lambertian lobe
+  double half_angle_rad = 0.0;  ///< of a cone, up to pi
   FileLocation where;
 };
 
 /// type = "photons": photons from a region or a point.
 struct SourceSpec {
-  std::variant<RegionSpec, Vec3> origin;   ///< uniform in a region, or one point (mm, world)
+  std::variant<RegionSpec, Vec3> origin;  ///< uniform in a region, or one point (mm, world)
   FileLocation origin_where;
   DirectionSpec direction;
-  std::optional<double> wavelength_nm;     ///< nothing: drawn from the emission of the medium there
+  std::optional<double> wavelength_nm;  ///< nothing: drawn from the emission of the medium there
   FileLocation wavelength_where;
-  std::optional<double> time_ns = 0.0;     ///< nothing: drawn from the decay of the medium there
+  std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay of the medium there
   FileLocation time_where;
-  bool unpolarised = false;   ///< Fresnel's mean at every surface; else each photon carries a
-                              ///< polarisation, drawn uniformly across its direction
+  bool unpolarised = false;  ///< Fresnel's mean at every surface; else each photon carries a
+                             ///< polarisation, drawn uniformly across its direction
   std::uint64_t photons = 0;
   std::uint64_t photons_per_event = 1000;  ///< the last event may have fewer
   FileLocation where;
@@ -164,23 +171,23 @@ struct SourceSpec {
 
 struct RunSpec {
   std::uint64_t seed = 1;
-  std::uint64_t max_interactions = 100000;   ///< boundary interactions per photon
+  std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
   std::optional<double> max_time_ns;
-  std::optional<int> threads;                ///< nothing: all cores
+  std::optional<int> threads;  ///< nothing: all cores
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
-  bool photon_list = false;                  ///< stream every detected photon to the results
-  std::filesystem::path output;              ///< results file; empty: the command decides
+  bool photon_list = false;      ///< stream every detected photon to the results
+  std::filesystem::path output;  ///< results file; empty: the command decides
   FileLocation where;
 };
 
 /// Histogram of crossing angles at a face.
 struct ExitAngleTallySpec {
   std::string name;
-  NameRef part;      ///< face = "part:face"
+  NameRef part;  ///< face = "part:face"
   NameRef face;
   bool detected_only = false;
-  int bins = 18;     ///< over 0 to 90 deg
+  int bins = 18;  ///< over 0 to 90 deg
   FileLocation where;
 };
 
@@ -189,7 +196,7 @@ using InlineTables = std::map<std::string, TomlNodePtr>;
 
 struct SceneSpec {
   std::string title;
-  NameRef ambient;                 ///< medium around everything
+  NameRef ambient;  ///< medium around everything
   ContactKind contacts_default = ContactKind::bonded;
   bool contacts_default_given = false;
   std::vector<PartSpec> parts;
@@ -197,13 +204,13 @@ struct SceneSpec {
   SourceSpec source;
   RunSpec run;
   std::vector<ExitAngleTallySpec> exit_angles;
-  InlineTables media;        ///< [media.NAME], as materials/media/NAME.toml
-  InlineTables surfaces;     ///< [surfaces.NAME]
-  InlineTables sensors;      ///< [sensors.NAME]
-  InlineTables reflectors;   ///< [reflectors.NAME]
-  std::filesystem::path file;      ///< the scene file as it was named
-  std::filesystem::path folder;    ///< relative paths in the scene count from here
-  std::string text;                ///< the whole file
+  InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
+  InlineTables surfaces;         ///< [surfaces.NAME]
+  InlineTables sensors;          ///< [sensors.NAME]
+  InlineTables reflectors;       ///< [reflectors.NAME]
+  std::filesystem::path file;    ///< the scene file as it was named
+  std::filesystem::path folder;  ///< relative paths in the scene count from here
+  std::string text;              ///< the whole file
 };
 
 }  // namespace scintray

@@ -11,14 +11,14 @@ namespace scintray {
 
 /// [[sweep]]: the values a key takes, one after the other.
 struct SweepSpec {
-  std::string key;      ///< dotted path, "source.region.slab_z.center"
-  std::string label;    ///< heading; the key when not given
+  std::string key;    ///< dotted path, "source.region.slab_z.center"
+  std::string label;  ///< heading; the key when not given
   std::vector<TomlNode> values;
-  FileLocation where;   ///< of the key's value
+  FileLocation where;  ///< of the key's value
 };
 
-/// The sweeps of a parsed scene, slowest first. What is wrong is added to `problems`.
-std::vector<SweepSpec> read_sweeps(const TomlNodePtr& document, Problems& problems);
+/// The sweeps of a scene, slowest first. What is wrong is reported, and left out.
+std::vector<SweepSpec> read_sweeps(const TomlTable& scene);
 
 /// A copy of the document in which the key at a sweep's path has the given value, which keeps its
 /// own place in the file so that errors point at the sweep.
@@ -27,6 +27,7 @@ std::vector<SweepSpec> read_sweeps(const TomlNodePtr& document, Problems& proble
 /// "part.crystal.face.exit.surface". Elements of an array of three are x, y and z:
 /// "source.position.z". "slab_z.center" moves a slab and keeps its thickness.
 /// A path that leads nowhere is added to `problems`, and the document returned as it was.
-TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value, Problems& problems);
+TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
+                    Problems& problems);
 
 }  // namespace scintray

@@ -134,7 +134,7 @@ std::optional<Curve> TomlTable::curve_of(const std::string& key, const TomlNode&
   for (std::size_t i = 1; i < xs.values.size(); ++i)
     if (!(xs.values[i] > xs.values[i - 1])) {
       report_at(xs.where[i], key, quoted(key) + ": the values of " + x_key + " are not in order here",
-                              "sort them, rising or falling, each once");
+                "sort them, rising or falling, each once");
       return std::nullopt;
     }
   try {

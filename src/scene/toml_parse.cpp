@@ -86,10 +86,10 @@ void refuse_deep_nesting(const TextPlaces& places) {
     if (c == '.') ++dots;
     if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
     if (depth > kDeepestNesting || dots > kDeepestNesting)
-      throw InputError({places.at(i),
-                        "arrays, tables or dotted keys nested more than " + std::to_string(kDeepestNesting) +
-                            " deep",
-                        "close the brackets that are left open before here"});
+      throw InputError(
+          {places.at(i),
+           "arrays, tables or dotted keys nested more than " + std::to_string(kDeepestNesting) + " deep",
+           "close the brackets that are left open before here"});
   }
 }
 
@@ -180,7 +180,9 @@ class Converter {
     node.key_where = key.empty() || key_at == offset ? node.where : places_.at(key_at);
     const std::string written = places_.text().substr(offset, location.region());
     switch (value.type()) {
-      case toml::value_t::table: convert_members(value, node); break;
+      case toml::value_t::table:
+        convert_members(value, node);
+        break;
       case toml::value_t::array:
         node.kind = TomlNode::Kind::array;
         for (const toml::value& item : value.as_array()) node.items.push_back(convert(item, ""));
@@ -194,7 +196,9 @@ class Converter {
         node.boolean = value.as_boolean();
         node.text = written;
         break;
-      case toml::value_t::integer: convert_integer(value, written, node); break;
+      case toml::value_t::integer:
+        convert_integer(value, written, node);
+        break;
       case toml::value_t::floating:
         node.kind = TomlNode::Kind::number;
         node.number = value.as_floating();
@@ -213,7 +217,9 @@ class Converter {
   void convert_members(const toml::value& value, TomlNode& node) {
     node.kind = TomlNode::Kind::table;
     for (const auto& [name, member] : value.as_table()) node.items.push_back(convert(member, name));
-    const auto order = [](const TomlNode& n) { return std::tie(n.key_where.line, n.key_where.column, n.key); };
+    const auto order = [](const TomlNode& n) {
+      return std::tie(n.key_where.line, n.key_where.column, n.key);
+    };
     std::sort(node.items.begin(), node.items.end(),
               [&](const TomlNode& a, const TomlNode& b) { return order(a) < order(b); });
   }
@@ -271,7 +277,8 @@ TomlNodePtr parse_toml(const std::string& text, const std::string& file) {
   const TextPlaces places(body, file);
   const auto zero = body.find('\0');
   if (zero != std::string::npos)
-    throw InputError({places.at(zero), "a zero byte: this is not a text file", "give a TOML file (UTF-8 text)"});
+    throw InputError(
+        {places.at(zero), "a zero byte: this is not a text file", "give a TOML file (UTF-8 text)"});
   refuse_deep_nesting(places);
   toml::value document;
   try {

@@ -13,28 +13,44 @@ using Kind = TomlNode::Kind;
 
 std::string kind_name(const TomlNode& value) {
   switch (value.kind) {
-    case Kind::string: return "the string \"" + value.text + "\"";
-    case Kind::integer: return "the integer " + value.text;
-    case Kind::number: return "the number " + value.text;
-    case Kind::boolean: return "the boolean " + value.text;
-    case Kind::date: return "the date or time " + value.text;
-    case Kind::array: return "an array";
-    case Kind::table: return "a table";
+    case Kind::string:
+      return "the string \"" + value.text + "\"";
+    case Kind::integer:
+      return "the integer " + value.text;
+    case Kind::number:
+      return "the number " + value.text;
+    case Kind::boolean:
+      return "the boolean " + value.text;
+    case Kind::date:
+      return "the date or time " + value.text;
+    case Kind::array:
+      return "an array";
+    case Kind::table:
+      return "a table";
   }
   throw InternalError("unknown kind of TOML value");
 }
 
 std::string usual_unit(Dimension dimension) {
   switch (dimension) {
-    case Dimension::length: return "mm";
-    case Dimension::inverse_length: return "1/mm";
-    case Dimension::wavelength: return "nm";
-    case Dimension::time: return "ns";
-    case Dimension::angle: return "deg";
-    case Dimension::energy: return "keV";
-    case Dimension::density: return "g/cm3";
-    case Dimension::photons_per_energy: return "photons/MeV";
-    case Dimension::dimensionless: return "";
+    case Dimension::length:
+      return "mm";
+    case Dimension::inverse_length:
+      return "1/mm";
+    case Dimension::wavelength:
+      return "nm";
+    case Dimension::time:
+      return "ns";
+    case Dimension::angle:
+      return "deg";
+    case Dimension::energy:
+      return "keV";
+    case Dimension::density:
+      return "g/cm3";
+    case Dimension::photons_per_energy:
+      return "photons/MeV";
+    case Dimension::dimensionless:
+      return "";
   }
   throw InternalError("unknown dimension");
 }
@@ -87,7 +103,7 @@ struct TomlTable::Session {
 };
 
 TomlTable::TomlTable(TomlNodePtr table, Problems& problems)
-    : node_(std::move(table)), session_(std::make_shared<Session>()) {
+    : node_(std::move(table)), path_(node_->key), session_(std::make_shared<Session>()) {
   session_->problems = &problems;
   Session::Marks& marks = session_->of(node_, path_);
   if (node_->kind == Kind::table) return;
@@ -145,7 +161,8 @@ void TomlTable::report(const std::string& key, std::string what, std::string hin
   report_at(where(key), key, std::move(what), std::move(hint));
 }
 
-void TomlTable::expect(const std::string& key, bool ok, const std::string& what, const std::string& hint) const {
+void TomlTable::expect(const std::string& key, bool ok, const std::string& what,
+                       const std::string& hint) const {
   if (!ok && good(key)) report(key, what, hint);
 }
 
@@ -180,10 +197,10 @@ const TomlNode* TomlTable::read(const std::string& key, bool required) const {
   if (value) marks.read.insert(key);
   if (!value && required && !marks.absent) {
     marks.bad.insert(key);
-    session_->problems->add(node_->where,
-                            (path_.empty() ? "the file" : "[" + path_ + "]") + " has no \"" + key +
-                                "\", which is needed",
-                            "add " + key + " = ... there");
+    session_->problems->add(
+        node_->where,
+        (path_.empty() ? "the file" : "[" + path_ + "]") + " has no \"" + key + "\", which is needed",
+        "add " + key + " = ... there");
   }
   return value;
 }
@@ -211,7 +228,9 @@ std::string TomlTable::string(const std::string& key, const std::string& fallbac
   return optional_string(key).value_or(fallback);
 }
 
-bool TomlTable::boolean(const std::string& key) const { return read(key, true) ? boolean(key, false) : false; }
+bool TomlTable::boolean(const std::string& key) const {
+  return read(key, true) ? boolean(key, false) : false;
+}
 
 bool TomlTable::boolean(const std::string& key, bool fallback) const {
   const TomlNode* value = read(key, false);
@@ -269,11 +288,11 @@ std::optional<double> TomlTable::quantity_of(const std::string& key, const TomlN
   const bool bare = value.kind == Kind::integer || value.kind == Kind::number;
   if (bare && dimension == Dimension::dimensionless) return number_of(key, value);
   if (value.kind != Kind::string) {
-    report_at(value.where, key,
-              quoted(key) + " is " + kind_name(value) + ", but " + expected_quantity(dimension) +
-                  ", is expected",
-              bare ? "write it as a string with its unit, as \"" + value.text + " " + usual_unit(dimension) + "\""
-                   : "accepted units: " + list_of(units_of(dimension)));
+    report_at(
+        value.where, key,
+        quoted(key) + " is " + kind_name(value) + ", but " + expected_quantity(dimension) + ", is expected",
+        bare ? "write it as a string with its unit, as \"" + value.text + " " + usual_unit(dimension) + "\""
+             : "accepted units: " + list_of(units_of(dimension)));
     return std::nullopt;
   }
   try {
@@ -308,9 +327,10 @@ std::string TomlTable::choice(const std::string& key, const std::vector<std::str
   if (!value) return fallback;
   if (value->kind == Kind::string && std::find(allowed.begin(), allowed.end(), value->text) != allowed.end())
     return value->text;
-  report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but one of " + list_quoted(allowed) +
-                             " is expected",
-            did_you_mean(value->text, allowed) + "write one of these words in quotes");
+  report_at(
+      value->where, key,
+      quoted(key) + " is " + kind_name(*value) + ", but one of " + list_quoted(allowed) + " is expected",
+      did_you_mean(value->text, allowed) + "write one of these words in quotes");
   return allowed.front();
 }
 
@@ -319,7 +339,8 @@ const TomlNode* TomlTable::array(const std::string& key, std::size_t count, bool
   if (!value) return nullptr;
   const std::string wanted = count == 0 ? "an array" : "an array of " + std::to_string(count);
   if (value->kind != Kind::array) {
-    report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but " + wanted + " is expected",
+    report_at(value->where, key,
+              quoted(key) + " is " + kind_name(*value) + ", but " + wanted + " is expected",
               "write the elements in brackets, with commas");
     return nullptr;
   }
@@ -340,8 +361,9 @@ std::vector<std::string> TomlTable::strings(const std::string& key, std::size_t 
     if (item.kind == Kind::string && !item.text.empty())
       result.push_back(item.text);
     else
-      report_at(item.where, key, "an element of " + quoted(key) + " is " + kind_name(item) +
-                               ", but a string that is not empty is expected",
+      report_at(item.where, key,
+                "an element of " + quoted(key) + " is " + kind_name(item) +
+                    ", but a string that is not empty is expected",
                 "write it in quotes");
   }
   return good(key) ? result : std::vector<std::string>{};
@@ -393,12 +415,12 @@ std::filesystem::path TomlTable::existing_file(const std::string& key, bool requ
   if (path.is_relative()) path = std::filesystem::path(where(key).file).parent_path() / path;
   std::error_code status;
   if (std::filesystem::is_regular_file(path, status)) return path;
-  report(key,
-         quoted(key) + ": " +
-             (std::filesystem::is_directory(path, status)
-                  ? "\"" + path.string() + "\" is a folder, not a file"
-                  : "the file \"" + path.string() + "\" does not exist"),
-         "check the name; a relative path counts from the folder of the file that names it");
+  report(
+      key,
+      quoted(key) + ": " +
+          (std::filesystem::is_directory(path, status) ? "\"" + path.string() + "\" is a folder, not a file"
+                                                       : "the file \"" + path.string() + "\" does not exist"),
+      "check the name; a relative path counts from the folder of the file that names it");
   return {};
 }
 
@@ -419,11 +441,13 @@ std::optional<TomlTable> TomlTable::optional_table(const std::string& key) const
   const TomlNode* value = read(key, false);
   if (!value) return std::nullopt;
   if (value->kind == Kind::table) return child(*value, key);
-  const bool list = value->kind == Kind::array && !value->items.empty() && value->items[0].kind == Kind::table;
-  report_at(value->where, key,
-            quoted(key) + " is " + (list ? "a list of tables" : kind_name(*value)) + ", but a table is expected",
-            list ? "write it once, as [" + key + "]"
-                 : "write [" + key + "] and its keys below, or " + key + " = { ... }");
+  const bool list =
+      value->kind == Kind::array && !value->items.empty() && value->items[0].kind == Kind::table;
+  report_at(
+      value->where, key,
+      quoted(key) + " is " + (list ? "a list of tables" : kind_name(*value)) + ", but a table is expected",
+      list ? "write it once, as [" + key + "]"
+           : "write [" + key + "] and its keys below, or " + key + " = { ... }");
   return std::nullopt;
 }
 
@@ -433,7 +457,8 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   if (!value) return result;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   if (value->kind != Kind::array) {
-    report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but a list of tables is expected",
+    report_at(value->where, key,
+              quoted(key) + " is " + kind_name(*value) + ", but a list of tables is expected",
               "write [[" + full + "]], in two pairs of brackets, for every one");
     return result;
   }
@@ -441,7 +466,8 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
     if (item.kind == Kind::table)
       result.push_back(child(item, key));
     else
-      report_at(item.where, key, "an element of " + quoted(key) + " is " + kind_name(item) + ", but a table is expected",
+      report_at(item.where, key,
+                "an element of " + quoted(key) + " is " + kind_name(item) + ", but a table is expected",
                 "write [[" + full + "]], in two pairs of brackets, for every one");
   }
   return result;
@@ -474,7 +500,8 @@ void TomlTable::finish() const {
     for (const TomlNode& member : node->items) {
       if (marks.read.count(member.key) > 0) continue;
       if (marks.known.count(member.key) > 0)
-        found.push_back({member.key_where, "\"" + member.key + "\" " + place + " has no meaning beside the other keys there",
+        found.push_back({member.key_where,
+                         "\"" + member.key + "\" " + place + " has no meaning beside the other keys there",
                          "remove it"});
       else
         found.push_back({member.key_where, "unknown key \"" + member.key + "\" " + place,
@@ -482,7 +509,8 @@ void TomlTable::finish() const {
     }
   }
   const auto order = [](const Problem& p) { return std::tie(p.where.line, p.where.column); };
-  std::sort(found.begin(), found.end(), [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
+  std::sort(found.begin(), found.end(),
+            [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
   for (Problem& problem : found) session_->problems->add(std::move(problem));
 }
 

@@ -28,11 +28,11 @@ struct TomlNode {
   enum class Kind { string, integer, number, boolean, date, array, table };
 
   Kind kind = Kind::table;
-  std::string key;           ///< name within its table; empty in an array and at the root
-  FileLocation where;        ///< of the value; of its header for a [table]
-  FileLocation key_where;    ///< of the key; that of the value where there is none
-  std::string text;          ///< a string's content; any other scalar as written
-  double number = 0.0;       ///< of an integer or number
+  std::string key;         ///< name within its table; empty in an array and at the root
+  FileLocation where;      ///< of the value; of its header for a [table]
+  FileLocation key_where;  ///< of the key; that of the value where there is none
+  std::string text;        ///< a string's content; any other scalar as written
+  double number = 0.0;     ///< of an integer or number
   std::int64_t integer = 0;
   bool boolean = false;
   std::vector<TomlNode> items;  ///< elements of an array, or members of a table in file order
@@ -65,6 +65,7 @@ std::string read_text_file(const std::filesystem::path& path, const FileLocation
 /// share their state. The collector must outlive the table.
 class TomlTable {
  public:
+  /// The outermost table of a document, or a table taken from one. A value of another kind is a problem.
   TomlTable(TomlNodePtr table, Problems& problems);
 
   /// Place of the table, of a key's value (the table's place when absent), and name as in
@@ -175,7 +176,8 @@ class TomlTable {
   std::optional<double> quantity_of(const std::string& key, const TomlNode& value, Dimension dimension) const;
   std::optional<double> number_of(const std::string& key, const TomlNode& value) const;
   const TomlNode* array(const std::string& key, std::size_t count, bool required) const;
-  std::optional<Curve> curve_of(const std::string& key, const TomlNode& value, Dimension y, Dimension x) const;
+  std::optional<Curve> curve_of(const std::string& key, const TomlNode& value, Dimension y,
+                                Dimension x) const;
 
   TomlNodePtr node_;
   std::string path_;

@@ -1,0 +1,40 @@
+#pragma once
+/// The pieces of read_scene, one for each kind of table.
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scintray/scene/spec.hpp"
+
+namespace scintray {
+
+/// A string that names something, with its place; empty when absent and not required.
+NameRef read_name(const TomlTable& table, const std::string& key, bool required);
+
+/// { low = [...], high = [...] } under `key`; nothing when absent or wrong.
+std::optional<BoxSpec> read_low_high(const TomlTable& table, const std::string& key);
+
+/// [[part]], with the names checked against each other.
+std::vector<PartSpec> read_parts(const TomlTable& scene);
+
+/// Names of all parts, the fills that placements make included, in file order.
+std::vector<std::string> part_names(const std::vector<PartSpec>& parts);
+
+/// Reports at `key` unless the name is one of a part.
+void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
+                 const std::vector<std::string>& parts);
+
+/// [[contact]].
+std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts);
+
+/// [source].
+SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);
+
+/// [run].
+RunSpec read_run(const TomlTable& scene);
+
+/// [[tally]].
+std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts);
+
+}  // namespace scintray

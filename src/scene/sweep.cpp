@@ -1,0 +1,192 @@
+#include "scintray/scene/sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace scintray {
+
+namespace {
+
+using Kind = TomlNode::Kind;
+
+/// Keys of the run as a whole, which cannot differ between the points of one results file.
+const std::set<std::string> kFixedKeys{"title", "run.output", "run.threads"};
+
+std::vector<std::string> segments_of(const std::string& path) {
+  std::vector<std::string> segments;
+  std::string segment;
+  std::istringstream stream(path);
+  while (std::getline(stream, segment, '.')) segments.push_back(segment);
+  if (path.empty() || path.back() == '.') segments.emplace_back();
+  return segments;
+}
+
+std::string name_of(const TomlNode& entry) {
+  const TomlNode* name = entry.find("name");
+  return name && name->kind == Kind::string ? name->text : "";
+}
+
+/// What can follow a node in a path.
+std::vector<std::string> continuations(const TomlNode& node) {
+  std::vector<std::string> names;
+  if (node.kind != Kind::table && node.kind != Kind::array) return names;
+  for (const TomlNode& item : node.items) {
+    const std::string name = node.kind == Kind::table ? item.key : name_of(item);
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+std::optional<std::size_t> coordinate(const TomlNode& node, const std::string& segment) {
+  static const std::vector<std::string> names{"x", "y", "z"};
+  const auto found = std::find(names.begin(), names.end(), segment);
+  if (node.kind != Kind::array || node.items.size() != 3 || found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+TomlNode* step_into(TomlNode& node, const std::string& segment) {
+  if (node.kind == Kind::table) return node.find(segment);
+  if (const auto index = coordinate(node, segment)) return &node.items[*index];
+  if (node.kind != Kind::array) return nullptr;
+  for (TomlNode& entry : node.items)
+    if (!segment.empty() && name_of(entry) == segment) return &entry;
+  return nullptr;
+}
+
+void report_dead_end(const SweepSpec& sweep, const std::string& so_far, const std::string& segment,
+                     const TomlNode& node, Problems& problems) {
+  const std::vector<std::string> names = continuations(node);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  const std::string near = nearest_word(segment, names);
+  problems.add(sweep.where,
+               "the swept key \"" + sweep.key + "\" leads nowhere: " +
+                   (so_far.empty() ? "the scene" : "\"" + so_far + "\"") + " has no \"" + segment + "\"",
+               (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
+                   (list.empty() ? "nothing can follow there" : "what can follow there: " + list));
+}
+
+std::string millimetres(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(digits.data(), end) + " mm";
+}
+
+/// Moves [low, high] so that its middle is `value`; leaves what is wrong to the reader of the slab.
+void move_slab(TomlNode& slab, const TomlNode& value, const SweepSpec& sweep, Problems& problems) {
+  std::array<double, 3> mm{};
+  const std::array<const TomlNode*, 3> nodes{&slab.items[0], &slab.items[1], &value};
+  for (std::size_t i = 0; i < 3; ++i) {
+    try {
+      if (nodes[i]->kind != Kind::string)
+        throw InputError({{},
+                          nodes[i]->as_written() + " has no unit, but a length is expected",
+                          "write it as a string with its unit, as \"2 mm\""});
+      mm[i] = parse_quantity(nodes[i]->text, Dimension::length);
+    } catch (const InputError& error) {
+      if (i < 2) return;
+      for (const Problem& problem : error.problems())
+        problems.add(value.where, "a value of the sweep over \"" + sweep.key + "\": " + problem.what,
+                     problem.hint);
+      return;
+    }
+  }
+  const double half = 0.5 * (mm[1] - mm[0]);
+  const std::array<double, 2> ends{mm[2] - half, mm[2] + half};
+  for (std::size_t i = 0; i < 2; ++i) {
+    slab.items[i].text = millimetres(ends[i]);
+    slab.items[i].where = slab.items[i].key_where = value.where;
+  }
+}
+
+std::optional<SweepSpec> read_sweep(const TomlTable& table) {
+  SweepSpec sweep;
+  sweep.key = table.string("key");
+  sweep.label = table.string("label", sweep.key);
+  sweep.where = table.where("key");
+  const TomlNodePtr values = table.take("values");
+  if (!values) {
+    table.report("values", "[sweep] has no \"values\", which is needed", "add values = [ ... ] there");
+    return std::nullopt;
+  }
+  if (values->kind != Kind::array || values->items.empty()) {
+    table.report("values", "\"sweep.values\" is not an array of one value or more",
+                 "write values = [\"2 mm\", \"6 mm\"]");
+    return std::nullopt;
+  }
+  sweep.values = values->items;
+  table.expect("key", kFixedKeys.count(sweep.key) == 0 && sweep.key.rfind("sweep", 0) != 0,
+               "\"" + sweep.key + "\" is the same for a whole run and cannot be swept",
+               "sweep a key of the scene, or make one scene file for each value");
+  if (!table.good("key")) return std::nullopt;
+  return sweep;
+}
+
+}  // namespace
+
+std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
+  /// Beyond this a sweep is surely a mistake, and its results would not fit in memory.
+  constexpr std::size_t kMostPoints = 1000000;
+  std::vector<SweepSpec> sweeps;
+  std::set<std::string> keys;
+  std::size_t points = 1;
+  for (const TomlTable& table : scene.tables("sweep")) {
+    const std::optional<SweepSpec> sweep = read_sweep(table);
+    if (!sweep) continue;
+    table.expect("key", keys.insert(sweep->key).second, "\"" + sweep->key + "\" is swept twice",
+                 "put all its values into one [[sweep]]");
+    table.expect("key", sweep->values.size() <= kMostPoints / points,
+                 "the sweeps together have more than " + std::to_string(kMostPoints) + " points",
+                 "several sweeps multiply: give fewer values");
+    if (!table.good("key")) continue;
+    points *= sweep->values.size();
+    sweeps.push_back(*sweep);
+  }
+  return sweeps;
+}
+
+TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
+                    Problems& problems) {
+  TomlNode edited = document;
+  const std::vector<std::string> segments = segments_of(sweep.key);
+  TomlNode* node = &edited;
+  std::string so_far;
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+    TomlNode* next = step_into(*node, segments[i]);
+    if (!next) {
+      report_dead_end(sweep, so_far, segments[i], *node, problems);
+      return edited;
+    }
+    node = next;
+    so_far += (so_far.empty() ? "" : ".") + segments[i];
+  }
+  const std::string& last = segments.back();
+  if (last == "center" && node->key == "slab_z" && node->kind == Kind::array && node->items.size() == 2) {
+    move_slab(*node, value, sweep, problems);
+    return edited;
+  }
+  TomlNode* target = step_into(*node, last);
+  const bool whole_entry = target && node->kind == Kind::array && target->kind == Kind::table;
+  if (whole_entry) {
+    problems.add(sweep.where, "the swept key \"" + sweep.key + "\" names a whole table, not a key",
+                 "go on with one of its keys, as \"" + sweep.key + ".surface\"");
+    return edited;
+  }
+  if (!target) {
+    if (node->kind != Kind::table || last.empty()) {
+      report_dead_end(sweep, so_far, last, *node, problems);
+      return edited;
+    }
+    target = &node->items.emplace_back();
+  }
+  *target = value;
+  target->key = node->kind == Kind::table ? last : "";
+  target->key_where = value.where;
+  return edited;
+}
+
+}  // namespace scintray
