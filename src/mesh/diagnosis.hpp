@@ -26,26 +26,22 @@ struct Defects {
 struct MeshDiagnosis {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  Defects open_edges;             ///< edges of one triangle only
-  Defects nonmanifold_edges;      ///< edges of three or more triangles
-  Defects flipped_edges;          ///< edges whose two triangles run along them in the same direction
-  Defects degenerate_triangles;   ///< no area (see is_degenerate)
-  Defects duplicate_triangles;    ///< same three vertices as an earlier triangle, in any order
-  Defects self_intersections;     ///< pairs of triangles that meet other than in shared vertices/edges
-  Defects inverted_bodies;        ///< closed bodies whose inside is on the wrong side, given nesting
-  std::size_t bodies = 0;         ///< sets of triangles connected through edges
-  double volume_mm3 = 0.0;        ///< signed; meaningful when closed and consistently oriented
+  Defects open_edges;            ///< edges of one triangle only
+  Defects nonmanifold_edges;     ///< edges of three or more triangles
+  Defects flipped_edges;         ///< edges whose two triangles run along them in the same direction
+  Defects degenerate_triangles;  ///< no area (see is_degenerate)
+  Defects duplicate_triangles;   ///< same three vertices as an earlier triangle, in any order
+  Defects self_intersections;    ///< pairs of triangles that meet other than in shared vertices/edges
+  Defects inverted_bodies;       ///< closed bodies whose inside is on the wrong side, given nesting
+  std::size_t bodies = 0;        ///< sets of triangles connected through edges
+  double volume_mm3 = 0.0;       ///< signed; meaningful when closed and consistently oriented
   double area_mm2 = 0.0;
-  Eigen::AlignedBox3d bounds;     ///< of the vertices that triangles use; empty without triangles
+  Eigen::AlignedBox3d bounds;  ///< of the vertices that triangles use; empty without triangles
 
   /// Every edge has exactly two triangles, and there is at least one triangle.
-  bool closed() const {
-    return triangles > 0 && open_edges.count == 0 && nonmanifold_edges.count == 0;
-  }
+  bool closed() const { return triangles > 0 && open_edges.count == 0 && nonmanifold_edges.count == 0; }
   /// Triangles agree with their neighbours and normals point out of the solid.
-  bool outward() const {
-    return flipped_edges.count == 0 && inverted_bodies.count == 0 && volume_mm3 > 0.0;
-  }
+  bool outward() const { return flipped_edges.count == 0 && inverted_bodies.count == 0 && volume_mm3 > 0.0; }
   /// Fit to be a part: closed, outward, and without self-intersection.
   bool sound() const {
     return closed() && outward() && self_intersections.count == 0 && degenerate_triangles.count == 0;

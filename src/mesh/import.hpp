@@ -11,9 +11,9 @@
 namespace scintray {
 
 struct MeshImport {
-  TriMesh mesh;                ///< mm, vertices welded, no triangle of zero area
-  std::string unit_from_file;  ///< "m" for glTF; "" when the file does not say
-  std::vector<std::string> notes;  ///< everything that was left out, repaired or warned about
+  TriMesh mesh;                          ///< mm, vertices welded, no triangle of zero area
+  std::string unit_from_file;            ///< "m" for glTF; "" when the file does not say
+  std::vector<std::string> notes;        ///< everything that was left out, repaired or warned about
   std::size_t degenerate_triangles = 0;  ///< triangles of the file that had no area and were kept out
 };
 

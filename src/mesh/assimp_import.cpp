@@ -1,0 +1,186 @@
+#include "scintray/mesh/assimp_import.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
+
+#include <mutex>
+#include <set>
+#include <string_view>
+
+#include "scintray/mesh/file_checks.hpp"
+
+namespace scintray {
+namespace {
+
+using AssimpMatrix = aiMatrix4x4t<double>;
+
+/// Keeps assimp's warnings and errors: they tell what it skipped. The logger is one per process, so
+/// imports take turns.
+class WarningCapture {
+ public:
+  WarningCapture() : lock_(mutex()) {
+    if (!Assimp::DefaultLogger::isNullLogger()) return;  // the host program has its own
+    Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(new Stream(*this), Assimp::Logger::Warn | Assimp::Logger::Err);
+    ours_ = true;
+  }
+  WarningCapture(const WarningCapture&) = delete;
+  WarningCapture& operator=(const WarningCapture&) = delete;
+  ~WarningCapture() {
+    if (ours_) Assimp::DefaultLogger::kill();
+  }
+  const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  class Stream : public Assimp::LogStream {
+   public:
+    explicit Stream(WarningCapture& owner) : owner_(owner) {}
+    void write(const char* message) override { owner_.keep(message); }
+
+   private:
+    WarningCapture& owner_;
+  };
+
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+
+  void keep(std::string_view message) {
+    constexpr std::size_t kMost = 20;
+    while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.remove_suffix(1);
+    if (message.empty() || messages_.size() > kMost) return;
+    messages_.push_back(messages_.size() == kMost ? "assimp: and more" : "assimp: " + std::string(message));
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  std::vector<std::string> messages_;
+  bool ours_ = false;
+};
+
+AssimpMatrix to_double(const aiMatrix4x4& m) {
+  return {m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4};
+}
+
+std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
+  std::string object = mesh.mName.C_Str();
+  if (object.empty()) object = node.mName.C_Str();
+  if (object.starts_with("<")) object.clear();  // assimp's own names for unnamed roots
+  std::string material;
+  if (mesh.mMaterialIndex < scene.mNumMaterials) {
+    aiString name;
+    if (scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) == AI_SUCCESS)
+      material = name.C_Str();
+    if (material == AI_DEFAULT_MATERIAL_NAME) material.clear();
+  }
+  if (object.empty() && material.empty()) return "default";
+  if (object.empty()) return material;
+  return material.empty() ? object : object + ":" + material;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const aiScene& scene, const std::filesystem::path& path) : scene_(scene), path_(path) {}
+
+  RawMesh read() {
+    visit(*scene_.mRootNode, AssimpMatrix());
+    if (points_and_lines_ > 0) {
+      raw_.notes.push_back(std::to_string(points_and_lines_) +
+                           " points and lines left out: they bound no solid");
+    }
+    for (unsigned m = 0; m < scene_.mNumMeshes; ++m) {
+      if (!used_.contains(m)) {
+        raw_.notes.push_back("object \"" + std::string(scene_.mMeshes[m]->mName.C_Str()) +
+                             "\" left out: no node of the file places it");
+      }
+    }
+    return std::move(raw_);
+  }
+
+ private:
+  void visit(const aiNode& node, const AssimpMatrix& parent) {
+    const AssimpMatrix transform = parent * to_double(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] >= scene_.mNumMeshes)
+        reject_file(path_, "a node refers to an object that does not exist");
+      used_.insert(node.mMeshes[i]);
+      append(*scene_.mMeshes[node.mMeshes[i]], node, transform);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], transform);
+  }
+
+  void append(const aiMesh& source, const aiNode& node, const AssimpMatrix& transform) {
+    TriMesh& mesh = raw_.mesh;
+    if (mesh.vertices.size() + source.mNumVertices > kMostElements ||
+        mesh.triangles.size() + source.mNumFaces > kMostElements) {
+      reject_file(path_, "the mesh has more than 2^31 vertices or triangles", "split it in several files");
+    }
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+      const aiVector3D& p = source.mVertices[v];
+      const aiVector3t<double> moved = transform * aiVector3t<double>(p.x, p.y, p.z);
+      mesh.vertices.emplace_back(moved.x, moved.y, moved.z);
+    }
+    const bool mirrored = transform.Determinant() < 0.0;
+    std::uint32_t group = 0;
+    bool named = false;
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+      const aiFace& face = source.mFaces[f];
+      if (face.mNumIndices != 3) {
+        ++points_and_lines_;
+        continue;
+      }
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        if (face.mIndices[corner] >= source.mNumVertices) {
+          reject_file(path_, "face " + std::to_string(f + 1) + " refers to a vertex that does not exist",
+                      "the file is damaged; export it again");
+        }
+      }
+      if (!named) {
+        group = raw_.group_index(group_name(scene_, source, node));
+        named = true;
+      }
+      const std::uint32_t a = offset + face.mIndices[0], b = offset + face.mIndices[1],
+                          c = offset + face.mIndices[2];
+      mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
+      mesh.group.push_back(group);
+    }
+  }
+
+  const aiScene& scene_;
+  const std::filesystem::path& path_;
+  RawMesh raw_;
+  std::set<unsigned> used_;
+  std::size_t points_and_lines_ = 0;
+};
+
+}  // namespace
+
+RawMesh import_through_assimp(const std::filesystem::path& path) {
+  WarningCapture warnings;
+  Assimp::Importer importer;
+  // Assimp would turn COLLADA's axes; every format keeps the axes of its file here.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = nullptr;
+  std::string reason;
+  try {
+    scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+    reason = importer.GetErrorString();
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    reject_file(
+        path, "cannot read the mesh: " + (reason.empty() ? "assimp gives no reason" : reason),
+        "check that the content fits the ending " + path.extension().string() + ", and export it again");
+  }
+  RawMesh raw = SceneReader(*scene, path).read();
+  raw.notes.insert(raw.notes.end(), warnings.messages().begin(), warnings.messages().end());
+  return raw;
+}
+
+}  // namespace scintray

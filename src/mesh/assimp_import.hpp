@@ -1,0 +1,13 @@
+#pragma once
+/// STL, OBJ, PLY, OFF, 3MF and COLLADA through assimp.
+
+#include <filesystem>
+
+#include "scintray/mesh/raw_mesh.hpp"
+
+namespace scintray {
+
+/// Reads a file whose claimed sizes were checked. Throws InputError for what assimp cannot read.
+RawMesh import_through_assimp(const std::filesystem::path& path);
+
+}  // namespace scintray

@@ -1,0 +1,29 @@
+#pragma once
+/// Looking at a mesh file before a library parses it.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace scintray {
+
+/// Throws InputError naming `path`.
+[[noreturn]] void reject_file(const std::filesystem::path& path, const std::string& what,
+                              const std::string& hint = {});
+
+/// The ending in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
+
+/// Whole content. Throws InputError when the file is missing, a folder, unreadable or empty.
+std::string read_mesh_file(const std::filesystem::path& path);
+
+/// Refuses files whose own counts cannot be true, since parsers allocate by them before they read:
+/// element counts of PLY, OFF, binary STL and COLLADA against the file's size, sizes inside the zip
+/// container of 3MF, and nesting too deep for recursive readers. Throws InputError.
+void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
+                         const std::string& content);
+
+/// Greatest depth of brackets of a JSON text, strings left out.
+std::size_t json_depth(const std::string& text);
+
+}  // namespace scintray

@@ -1,0 +1,27 @@
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray {
+
+Vec3 TriMesh::area_vector(std::size_t triangle) const {
+  const auto& [a, b, c] = triangles[triangle];
+  return 0.5 * (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
+}
+
+double TriMesh::area() const {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) sum += area_vector(t).norm();
+  return sum;
+}
+
+double TriMesh::volume() const {
+  if (triangles.empty()) return 0.0;
+  // Tetrahedra from a vertex of the mesh: far from the origin, tetrahedra from there would cancel.
+  const Vec3 apex = vertices[triangles.front()[0]];
+  double sum = 0.0;
+  for (const auto& [a, b, c] : triangles) {
+    sum += (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6.0;
+  }
+  return sum;
+}
+
+}  // namespace scintray
