@@ -1,0 +1,160 @@
+#include "scintray/scene/library.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "scintray/core/data_folder.hpp"
+#include "scintray/scene/material_forms.hpp"
+#include "scintray/scene/surface_form.hpp"
+
+namespace scintray {
+
+namespace {
+
+struct KindWords {
+  const char* one;     ///< in messages
+  const char* folder;  ///< below a library folder, and the table of a scene file
+};
+
+constexpr std::array<KindWords, 4> kKinds{
+    {{"medium", "media"}, {"surface", "surfaces"}, {"sensor", "sensors"}, {"reflector", "reflectors"}}};
+
+constexpr std::size_t index_of(LibraryKind kind) { return static_cast<std::size_t>(kind); }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? "none" : text;
+}
+
+/// A definition and the definitions that it is based on.
+struct Chain {
+  TomlNode merged;
+  std::vector<std::string> names;  ///< the asked one first
+  std::vector<std::string> sources;
+};
+
+}  // namespace
+
+Library::Library(const std::vector<std::filesystem::path>& folders) : folders_(folders) {
+  Problems problems;
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code status;
+    if (!std::filesystem::is_directory(folder, status)) {
+      problems.add({}, "the material folder \"" + folder.string() + "\" does not exist",
+                   "name a folder that holds media/, surfaces/, sensors/ or reflectors/");
+      continue;
+    }
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      const std::filesystem::path below = folder / kKinds[kind].folder;
+      if (!std::filesystem::is_directory(below, status)) continue;
+      for (const auto& entry : std::filesystem::directory_iterator(below))
+        if (entry.path().extension() == ".toml") files_[kind].emplace(entry.path().stem().string(), entry.path());
+    }
+  }
+  problems.throw_if_any();
+}
+
+Library Library::shipped() { return Library({data_folder() / "materials"}); }
+
+void Library::add(LibraryKind kind, const std::map<std::string, TomlNodePtr>& definitions) {
+  for (const auto& [name, node] : definitions) own_[index_of(kind)].insert_or_assign(name, node);
+}
+
+std::vector<std::string> Library::names(LibraryKind kind) const {
+  std::set<std::string> all;
+  for (const auto& [name, node] : own_[index_of(kind)]) all.insert(name);
+  for (const auto& [name, path] : files_[index_of(kind)]) all.insert(name);
+  return {all.begin(), all.end()};
+}
+
+Library::Definition Library::find(LibraryKind kind, const std::string& name, const FileLocation& where) const {
+  const auto& own = own_[index_of(kind)];
+  if (const auto found = own.find(name); found != own.end()) return {found->second, false};
+  const auto& files = files_[index_of(kind)];
+  if (const auto found = files.find(name); found != files.end()) return {parse_toml_file(found->second), true};
+
+  const KindWords& words = kKinds[index_of(kind)];
+  const std::vector<std::string> known = names(kind);
+  const std::string near = nearest_word(name, known);
+  std::vector<std::string> places;
+  for (const std::filesystem::path& folder : folders_) places.push_back((folder / words.folder).string());
+  places.push_back(std::string("[") + words.folder + ".NAME] of the scene");
+  throw InputError({where, std::string("there is no ") + words.one + " \"" + name + "\"",
+                    (near.empty() ? "" : "did you mean \"" + near + "\"? ") + std::string("known: ") +
+                        joined(known) + "; searched: " + joined(places)});
+}
+
+Medium Library::medium(const std::string& name, const FileLocation& where) const {
+  const Definition definition = find(LibraryKind::medium, name, where);
+  Problems problems;
+  const TomlTable table(definition.node, problems);
+  Medium medium =
+      read_medium(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
+  table.finish();
+  problems.throw_if_any();
+  return medium;
+}
+
+Sensor Library::sensor(const std::string& name, const FileLocation& where) const {
+  const Definition definition = find(LibraryKind::sensor, name, where);
+  Problems problems;
+  const TomlTable table(definition.node, problems);
+  Sensor sensor =
+      read_sensor(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
+  table.finish();
+  problems.throw_if_any();
+  return sensor;
+}
+
+Reflector Library::reflector(const std::string& name, const FileLocation& where) const {
+  const Definition definition = find(LibraryKind::reflector, name, where);
+  Problems problems;
+  const TomlTable table(definition.node, problems);
+  Reflector reflector =
+      read_reflector(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
+  table.finish();
+  problems.throw_if_any();
+  return reflector;
+}
+
+SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {
+  Problems problems;
+  Chain chain;
+  std::vector<TomlNodePtr> levels;
+  for (std::string next = name; !next.empty();) {
+    const FileLocation asked = levels.empty() ? where : levels.back()->find("base")->where;
+    if (std::find(chain.names.begin(), chain.names.end(), next) != chain.names.end())
+      throw InputError({asked, "the surface \"" + next + "\" is based on itself (" + joined(chain.names) + ", " +
+                                   next + ")",
+                        "base it on another surface"});
+    const Definition definition = find(LibraryKind::surface, next, asked);
+    chain.names.push_back(next);
+    levels.push_back(definition.node);
+    TomlTable level(definition.node, problems);
+    read_source(level, definition.from_file ? SourceRule::required : SourceRule::optional, chain.sources);
+    next = level.optional_string("base").value_or("");
+    problems.throw_if_any();
+  }
+  chain.merged = *levels.back();
+  for (std::size_t i = levels.size() - 1; i-- > 0;) chain.merged = merge_over_base(chain.merged, *levels[i]);
+
+  const std::vector<std::string> unmet = unmet_needs(chain.merged);
+  if (!unmet.empty())
+    throw InputError({levels.size() == 1 && !where.file.empty() ? where : chain.merged.where,
+                      "the surface \"" + name + "\" leaves to you: " + joined(unmet),
+                      levels.size() == 1 ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
+                                         : "add these keys beside base = \"" + chain.names[1] + "\""});
+
+  const SurfaceLookup lookup{
+      [this](const std::string& medium_name, const FileLocation& at) { return medium(medium_name, at).index; },
+      [this](const std::string& reflector_name, const FileLocation& at) { return reflector(reflector_name, at); }};
+  const TomlTable table(std::make_shared<const TomlNode>(std::move(chain.merged)), problems);
+  SurfaceSpec surface = read_surface(table, name, lookup, problems);
+  table.finish();
+  problems.throw_if_any();
+  surface.sources = std::move(chain.sources);
+  return surface;
+}
+
+}  // namespace scintray

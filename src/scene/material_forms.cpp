@@ -1,0 +1,273 @@
+#include "scintray/scene/material_forms.hpp"
+
+#include <cmath>
+
+namespace scintray {
+
+namespace {
+
+constexpr double kGreatestIndex = 5.0;
+constexpr double kFractionTolerance = 1e-6;
+
+/// Reports unless every wavelength of a table is positive.
+void expect_wavelengths(const TomlTable& block, const std::string& key, const Curve& curve) {
+  if (curve.is_constant() && curve.x().front() == 0.0) return;
+  block.expect(key, curve.x().front() > 0.0, "\"" + key + "\" has a wavelength that is not positive",
+               "give wavelengths in nm, or photon energies in eV");
+}
+
+/// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2
+/// and returns a value that is not finite where the formula has none.
+template <class Formula>
+Curve tabulate(const TomlTable& formula, const Formula& index_at) {
+  const std::vector<double> range = formula.quantities("range", Dimension::wavelength, 2);
+  if (range.empty()) return Curve::constant(1.0);
+  formula.expect("range", range[0] > 0.0 && range[1] > range[0],
+                 "\"range\" must be two positive wavelengths, the smaller first");
+  if (!formula.good("range")) return Curve::constant(1.0);
+  const auto steps = static_cast<std::size_t>(std::ceil((range[1] - range[0]) / kFormulaStep_nm));
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double wavelength_nm =
+        range[0] + (range[1] - range[0]) * static_cast<double>(i) / static_cast<double>(steps);
+    x.push_back(wavelength_nm);
+    y.push_back(index_at(1e6 / (wavelength_nm * wavelength_nm)));
+    if (std::isfinite(y.back())) continue;
+    formula.report("range", "the formula gives no refractive index at " + std::to_string(wavelength_nm) + " nm",
+                   "check the coefficients, or give the range in which the formula holds");
+    return Curve::constant(1.0);
+  }
+  return {std::move(x), std::move(y)};
+}
+
+/// n^2 = 1 + sum_i b_i w^2 / (w^2 - c_i), w in um (W. Sellmeier 1871; the form of SCHOTT's data sheets).
+Curve read_sellmeier(const TomlTable& formula) {
+  const std::vector<double> b = formula.numbers("b");
+  const std::vector<double> c = formula.numbers("c_um2");
+  if (b.size() != c.size() && !b.empty() && !c.empty())
+    formula.report("c_um2",
+                   "\"c_um2\" has " + std::to_string(c.size()) + " numbers, but \"b\" has " +
+                       std::to_string(b.size()),
+                   "give one c_um2 (in um^2) for every b");
+  const bool usable = !b.empty() && b.size() == c.size();
+  return tabulate(formula, [&](double inverse_square) {
+    double n2 = 1.0;
+    for (std::size_t i = 0; usable && i < b.size(); ++i) n2 += b[i] / (1.0 - c[i] * inverse_square);
+    return std::sqrt(n2);
+  });
+}
+
+/// n = a_0 + a_1 / w^2 + a_2 / w^4 + ..., w in um (A.-L. Cauchy 1836).
+Curve read_cauchy(const TomlTable& formula) {
+  const std::vector<double> a = formula.numbers("a");
+  return tabulate(formula, [&](double inverse_square) {
+    double n = 0.0, power = 1.0;
+    for (const double coefficient : a) {
+      n += coefficient * power;
+      power *= inverse_square;
+    }
+    return a.empty() ? 1.0 : n;
+  });
+}
+
+Curve read_index(const TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"n", "sellmeier", "cauchy"}, true);
+  if (!form) return Curve::constant(1.0);
+  const Curve index = *form == "n"           ? block.curve("n", Dimension::dimensionless)
+                      : *form == "sellmeier" ? read_sellmeier(block.table("sellmeier"))
+                                             : read_cauchy(block.table("cauchy"));
+  block.expect(*form, index.min_y() >= 1.0 && index.max_y() <= kGreatestIndex,
+               "a refractive index lies between 1 and 5, but this one runs from " +
+                   std::to_string(index.min_y()) + " to " + std::to_string(index.max_y()),
+               "check the table or the formula's coefficients (wavelength in um)");
+  expect_wavelengths(block, *form, index);
+  return index;
+}
+
+/// A coefficient per mm from `length`, `coefficient`, or `none = true`.
+Curve read_extinction(const TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"length", "coefficient", "none"}, true);
+  if (!form) return Curve::constant(0.0);
+  if (*form == "none") {
+    const bool none = block.boolean("none");
+    block.expect("none", none, "\"none\" can only be true",
+                 "write none = true, or give a length or a coefficient");
+    return Curve::constant(0.0);
+  }
+  if (*form == "coefficient") {
+    const Curve coefficient = block.curve("coefficient", Dimension::inverse_length);
+    block.expect("coefficient", coefficient.min_y() >= 0.0, "a coefficient cannot be negative");
+    expect_wavelengths(block, "coefficient", coefficient);
+    return coefficient;
+  }
+  const Curve length = block.curve("length", Dimension::length);
+  block.expect("length", length.min_y() > 0.0, "a length must be positive",
+               "for no absorption or scattering write none = true");
+  expect_wavelengths(block, "length", length);
+  if (!block.good("length")) return Curve::constant(0.0);
+  std::vector<double> coefficients;
+  for (const double mm : length.y()) coefficients.push_back(1.0 / mm);
+  return {length.x(), std::move(coefficients)};
+}
+
+Curve read_emission(const TomlTable& block) {
+  const Curve spectrum = block.curve("spectrum", Dimension::dimensionless);
+  block.expect("spectrum", spectrum.x().front() > 0.0,
+               "an emission spectrum needs wavelengths, but this is one value",
+               "write { wavelength = [...], wavelength_unit = \"nm\", value = [...] }");
+  block.expect("spectrum", spectrum.min_y() >= 0.0, "an emission spectrum cannot be negative");
+  block.expect("spectrum", spectrum.max_y() > 0.0, "this emission spectrum is zero everywhere");
+  return spectrum;
+}
+
+std::vector<DecayComponent> read_decay(const TomlTable& table, SourceRule rule,
+                                       std::vector<std::string>& sources) {
+  std::vector<DecayComponent> components;
+  double sum = 0.0;
+  const std::vector<TomlTable> blocks = table.tables("decay");
+  for (const TomlTable& block : blocks) {
+    read_source(block, rule, sources);
+    DecayComponent component;
+    component.decay_ns = block.quantity("time", Dimension::time);
+    component.rise_ns = block.quantity("rise", Dimension::time);
+    component.fraction = block.quantity("fraction", Dimension::dimensionless);
+    block.expect("time", component.decay_ns > 0.0, "a decay time must be positive");
+    block.expect("rise", component.rise_ns >= 0.0, "a rise time cannot be negative");
+    block.expect("fraction", component.fraction > 0.0 && component.fraction <= 1.0,
+                 "a fraction lies above 0 and up to 1");
+    sum += component.fraction;
+    components.push_back(component);
+  }
+  if (!components.empty() && std::abs(sum - 1.0) > kFractionTolerance)
+    table.report("decay", "the fractions of the decay components sum to " + std::to_string(sum) + ", not to 1",
+                 "give shares of all the light");
+  return components;
+}
+
+void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium) {
+  const bool any = table.has("yield") || table.has("emission") || table.has("decay");
+  if (!any) return;
+  for (const char* key : {"yield", "emission", "decay"})
+    if (!table.has(key))
+      table.report(key, std::string("a medium that scintillates needs \"") + key + "\" too",
+                   "give [yield], [emission] and [[decay]], or none of them");
+  if (const std::optional<TomlTable> block = table.optional_table("yield")) {
+    read_source(*block, rule, medium.sources);
+    medium.yield_per_keV = block->quantity("value", Dimension::photons_per_energy);
+    block->expect("value", medium.yield_per_keV > 0.0, "a light yield must be positive",
+                  "a medium that does not scintillate has no [yield], [emission] and [[decay]]");
+  }
+  if (const std::optional<TomlTable> block = table.optional_table("emission")) {
+    read_source(*block, rule, medium.sources);
+    medium.emission = read_emission(*block);
+  }
+  medium.decay = read_decay(table, rule, medium.sources);
+}
+
+/// Reports unless a curve stays within 0 and 1.
+void expect_share(const TomlTable& block, const std::string& key, const Curve& curve, const std::string& what) {
+  block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
+               what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
+                   " to " + std::to_string(curve.max_y()),
+               "percent are written with value_unit = \"%\", or as \"97 %\"");
+  expect_wavelengths(block, key, curve);
+}
+
+}  // namespace
+
+void read_source(const TomlTable& block, SourceRule rule, std::vector<std::string>& sources) {
+  const std::string prefix = block.path().empty() ? "" : block.path() + ": ";
+  if (const std::optional<std::string> source = block.optional_string("source")) {
+    sources.push_back(prefix + *source);
+  } else if (rule == SourceRule::required && !block.has("source")) {
+    block.report("source",
+                 (block.path().empty() ? "the file" : "[" + block.path() + "]") +
+                     " does not say where its numbers were published",
+                 "add source = \"author or maker, year, table or figure, DOI\", or \"assumed: why\"");
+  }
+}
+
+Medium read_medium(const TomlTable& table, const std::string& name, SourceRule rule) {
+  Medium medium;
+  medium.name = name;
+  const TomlTable index = table.table("index");
+  if (table.has("index")) {
+    read_source(index, rule, medium.sources);
+    medium.index = read_index(index);
+  }
+  const TomlTable absorption = table.table("absorption");
+  if (table.has("absorption")) {
+    read_source(absorption, rule, medium.sources);
+    medium.absorption_per_mm = read_extinction(absorption);
+  }
+  const TomlTable scattering = table.table("scattering");
+  if (table.has("scattering")) {
+    read_source(scattering, rule, medium.sources);
+    medium.scattering_per_mm = read_extinction(scattering);
+    if (!scattering.has("none"))
+      medium.scattering = scattering.choice("kind", {"rayleigh", "isotropic"}) == "rayleigh"
+                              ? ScatteringKind::rayleigh
+                              : ScatteringKind::isotropic;
+  }
+  if (const std::optional<TomlTable> density = table.optional_table("density")) {
+    read_source(*density, rule, medium.sources);
+    medium.density_g_per_cm3 = density->quantity("value", Dimension::density);
+    density->expect("value", medium.density_g_per_cm3 > 0.0, "a density must be positive");
+  }
+  read_scintillation(table, rule, medium);
+  return medium;
+}
+
+Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule rule) {
+  Sensor sensor;
+  sensor.name = name;
+  const TomlTable window = table.table("window");
+  if (table.has("window")) {
+    read_source(window, rule, sensor.sources);
+    sensor.window_index = window.number("index");
+    window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
+                  "a refractive index lies between 1 and 5");
+  }
+  const TomlTable efficiency = table.table("efficiency");
+  if (!table.has("efficiency")) return sensor;
+  read_source(efficiency, rule, sensor.sources);
+  sensor.efficiency = efficiency.curve("value", Dimension::dimensionless);
+  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
+  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
+  sensor.definition = external ? EfficiencyDefinition::external : EfficiencyDefinition::internal;
+  if (external) {
+    sensor.reference_index = efficiency.number("reference_index");
+    efficiency.expect("reference_index",
+                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
+                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    const double r =
+        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
+    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
+                      "this external efficiency is above what the window lets in (" +
+                          std::to_string(1.0 - r * r) + " at normal incidence)",
+                      "check the efficiency and the two indices, or write definition = \"internal\"");
+  }
+  return sensor;
+}
+
+Reflector read_reflector(const TomlTable& table, const std::string& name, SourceRule rule) {
+  Reflector reflector;
+  reflector.name = name;
+  std::vector<std::string> sources;
+  const TomlTable reflectance = table.table("reflectance");
+  if (table.has("reflectance")) {
+    read_source(reflectance, rule, sources);
+    reflector.reflectance = reflectance.curve("value", Dimension::dimensionless);
+    expect_share(reflectance, "value", reflector.reflectance, "a reflectance");
+  }
+  const TomlTable direction = table.table("direction");
+  if (table.has("direction")) {
+    read_source(direction, rule, sources);
+    reflector.specular_share = direction.quantity("specular_share", Dimension::dimensionless);
+    direction.expect("specular_share", reflector.specular_share >= 0.0 && reflector.specular_share <= 1.0,
+                     "a share lies between 0 and 1");
+  }
+  return reflector;
+}
+
+}  // namespace scintray

@@ -1,0 +1,31 @@
+#pragma once
+/// The forms of the material, sensor and reflector files (docs/materials.md).
+
+#include <string>
+#include <vector>
+
+#include "scintray/detector/sensor.hpp"
+#include "scintray/medium/medium.hpp"
+#include "scintray/scene/toml_reader.hpp"
+#include "scintray/surface/surface.hpp"
+
+namespace scintray {
+
+/// Whether every number must say where it was published: always in the library's files, by choice in
+/// a scene's own definitions.
+enum class SourceRule { required, optional };
+
+/// Step at which dispersion formulae are tabulated, nm. Linear interpolation at 2 nm is within 1e-5
+/// of the formula for every shipped medium (tests/materials).
+inline constexpr double kFormulaStep_nm = 2.0;
+
+/// Each reads one definition from its outermost table, and adds what is wrong to the collector of the
+/// table. The result may be used only when nothing was. The caller calls `table.finish()`.
+Medium read_medium(const TomlTable& table, const std::string& name, SourceRule rule);
+Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule rule);
+Reflector read_reflector(const TomlTable& table, const std::string& name, SourceRule rule);
+
+/// Reads `source` from a block and appends "BLOCK: source" to `sources`.
+void read_source(const TomlTable& block, SourceRule rule, std::vector<std::string>& sources);
+
+}  // namespace scintray

@@ -1,0 +1,335 @@
+#include "scintray/scene/surface_form.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace scintray {
+
+namespace {
+
+using Kind = TomlNode::Kind;
+
+/// The models and the table that each reads beside [tracing].
+constexpr std::array<std::pair<const char*, const char*>, 6> kModels{{{"smooth", ""},
+                                                                      {"painted", ""},
+                                                                      {"unified", "unified"},
+                                                                      {"table", "table"},
+                                                                      {"height_map", "height_map"},
+                                                                      {"recipe", "recipe"}}};
+
+void drop(TomlNode& table, const std::string& key) {
+  std::erase_if(table.items, [&](const TomlNode& member) { return member.key == key; });
+}
+
+/// The value at a dotted key, or nullptr.
+const TomlNode* find_path(const TomlNode& table, const std::string& path) {
+  const TomlNode* node = &table;
+  for (std::size_t start = 0; node && start <= path.size();) {
+    const std::size_t end = std::min(path.find('.', start), path.size());
+    node = node->kind == Kind::table ? node->find(path.substr(start, end - start)) : nullptr;
+    start = end + 1;
+  }
+  return node;
+}
+
+double read_share(const TomlTable& table, const std::string& key, std::optional<double> fallback) {
+  const double share = fallback ? table.quantity(key, Dimension::dimensionless, *fallback)
+                                : table.quantity(key, Dimension::dimensionless);
+  table.expect(key, share >= 0.0 && share <= 1.0, "\"" + key + "\" is a share and lies between 0 and 1");
+  return share;
+}
+
+UnifiedSurface read_unified(const TomlTable& table) {
+  UnifiedSurface surface;
+  surface.sigma_alpha_rad = table.quantity("sigma_alpha", Dimension::angle);
+  table.expect("sigma_alpha", surface.sigma_alpha_rad >= 0.0 && surface.sigma_alpha_rad < 90.0 * kDegree,
+               "\"sigma_alpha\" lies between 0 and 90 deg");
+  surface.definition = table.choice("definition", {"solid_angle", "polar_angle"}) == "solid_angle"
+                           ? SigmaAlphaDefinition::solid_angle
+                           : SigmaAlphaDefinition::polar_angle;
+  surface.sampling = table.choice("facets", {"projected_area", "geant4"}) == "projected_area"
+                         ? FacetSampling::projected_area
+                         : FacetSampling::geant4;
+  surface.lobe = read_share(table, "lobe", std::nullopt);
+  surface.spike = read_share(table, "spike", 0.0);
+  surface.backscatter = read_share(table, "backscatter", 0.0);
+  const double sum = surface.lobe + surface.spike + surface.backscatter;
+  table.expect("lobe", sum <= 1.0 + 1e-12,
+               "spike, lobe and backscatter sum to " + std::to_string(sum) + ", above 1",
+               "they are shares of the reflected light; what is left of 1 is Lambertian");
+  return surface;
+}
+
+double read_positive(const TomlTable& table, const std::string& key, Dimension dimension, double fallback) {
+  const double value = table.quantity(key, dimension, fallback);
+  table.expect(key, value > 0.0, "\"" + key + "\" must be positive");
+  return value;
+}
+
+std::uint64_t read_count(const TomlTable& table, const std::string& key, std::uint64_t fallback,
+                         std::int64_t least) {
+  const std::int64_t value = table.integer(key, static_cast<std::int64_t>(fallback));
+  table.expect(key, value >= least, "\"" + key + "\" must be at least " + std::to_string(least));
+  return value < least ? fallback : static_cast<std::uint64_t>(value);
+}
+
+/// [tracing]: nothing for rays traced on the spot, else how the table is made.
+std::optional<TableSettings> read_tracing(const TomlTable& surface) {
+  TableSettings settings;
+  const std::optional<TomlTable> table = surface.optional_table("tracing");
+  if (!table) return settings;
+  const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}) == "on_the_spot";
+  if (on_the_spot) {
+    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine"}) table->has(key);
+    return std::nullopt;
+  }
+  settings.incidence_step_rad =
+      read_positive(*table, "incidence_step", Dimension::angle, settings.incidence_step_rad);
+  settings.azimuth_step_rad = read_positive(*table, "azimuth_step", Dimension::angle, settings.azimuth_step_rad);
+  settings.rays = read_count(*table, "rays", settings.rays, 1);
+  settings.seed = read_count(*table, "seed", settings.seed, 0);
+  settings.refine = table->boolean("refine", settings.refine);
+  return settings;
+}
+
+std::optional<double> read_optional_um(const TomlTable& table, const std::string& key) {
+  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
+  if (!length_mm) return std::nullopt;
+  table.expect(key, *length_mm > 0.0, "\"" + key + "\" must be positive");
+  return *length_mm * 1e3;
+}
+
+double read_um(const TomlTable& table, const std::string& key, double fallback_um, bool zero_allowed) {
+  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
+  if (!length_mm) return fallback_um;
+  table.expect(key, zero_allowed ? *length_mm >= 0.0 : *length_mm > 0.0,
+               "\"" + key + "\" must " + (zero_allowed ? "not be negative" : "be positive"));
+  return *length_mm * 1e3;
+}
+
+LevelingSpec read_leveling(const TomlTable& table) {
+  using Leveling = LevelingSpec::Kind;
+  const std::string word = table.choice("level", {"none", "mean", "plane", "polynomial"});
+  LevelingSpec leveling;
+  leveling.kind = word == "none"    ? Leveling::none
+                  : word == "mean"  ? Leveling::mean
+                  : word == "plane" ? Leveling::plane
+                                    : Leveling::polynomial;
+  table.has("degree");
+  if (leveling.kind == Leveling::polynomial) {
+    leveling.degree = static_cast<int>(table.integer("degree"));
+    table.expect("degree", leveling.degree >= 1 && leveling.degree <= 6,
+                 "the degree of the levelling polynomial lies between 1 and 6");
+  }
+  leveling.loess_width_um = read_optional_um(table, "loess_width");
+  return leveling;
+}
+
+HeightMapSpec read_height_map_spec(const TomlTable& surface) {
+  const TomlTable table = surface.table("height_map");
+  HeightMapSpec spec;
+  spec.where = table.where();
+  spec.path = table.existing_file("file");
+  spec.options.pitch_um = read_optional_um(table, "pitch");
+  spec.options.width_um = read_optional_um(table, "width");
+  spec.options.height_unit_um = read_optional_um(table, "height_unit");
+  spec.options.periodic = table.boolean("periodic", false);
+  table.expect("width", !spec.options.pitch_um || !spec.options.width_um,
+               "\"pitch\" and \"width\" are both given, but each follows from the other", "keep one of them");
+  if (surface.has("height_map")) spec.leveling = read_leveling(table);
+  const std::string tiling = table.choice("tiling", {"automatic", "mirror", "periodic"}, "automatic");
+  spec.tiling = tiling == "mirror"     ? Tiling::mirror
+                : tiling == "periodic" ? Tiling::periodic
+                                       : Tiling::automatic;
+  spec.table = read_tracing(surface);
+  return spec;
+}
+
+void read_relief(const TomlTable& table, const std::string& kind, SynthesisRecipe& recipe) {
+  const bool bare = kind == "gaussian" || kind == "fracture";
+  for (const char* key : {"rms_height", "correlation_length", "spacing", "rise"}) table.has(key);
+  const auto need = [&](const std::string& key) {
+    if (!table.has(key))
+      table.report(key, "a recipe of kind \"" + kind + "\" needs \"" + key + "\"",
+                   "give it, or start from kind = \"ground\" or \"polished\"");
+  };
+  if (bare) {
+    need("rms_height");
+    need("correlation_length");
+  }
+  recipe.gaussian.rms_height_um = read_um(table, "rms_height", recipe.gaussian.rms_height_um, true);
+  recipe.gaussian.correlation_length_um =
+      read_um(table, "correlation_length", recipe.gaussian.correlation_length_um, false);
+  if (kind == "gaussian" || kind == "polished") return;
+  if (kind == "fracture") {
+    need("spacing");
+    need("rise");
+  }
+  FractureRelief& fracture = recipe.fracture;
+  fracture.spacing_um = read_um(table, "spacing", fracture.spacing_um, false);
+  fracture.rise_um = read_um(table, "rise", fracture.rise_um, true);
+  fracture.exponent = table.number("exponent", fracture.exponent);
+  table.expect("exponent", fracture.exponent >= 1.0, "\"exponent\" must be at least 1");
+  fracture.depth_spread_um = read_um(table, "depth_spread", fracture.depth_spread_um, true);
+  fracture.size_spread = table.number("size_spread", fracture.size_spread);
+  table.expect("size_spread", fracture.size_spread >= 0.0 && fracture.size_spread < 1.0,
+               "\"size_spread\" lies between 0 and 1, 1 excluded");
+}
+
+RecipeSpec read_recipe(const TomlTable& surface) {
+  const TomlTable table = surface.table("recipe");
+  RecipeSpec spec;
+  spec.where = table.where();
+  if (!surface.has("recipe")) return spec;
+  const std::string kind = table.choice("kind", {"ground", "polished", "gaussian", "fracture"});
+  if (kind == "ground") spec.recipe = ground_recipe();
+  if (kind == "polished") spec.recipe = polished_recipe();
+  if (kind == "gaussian" || kind == "fracture") spec.recipe.name = kind;
+  read_relief(table, kind, spec.recipe);
+  spec.recipe.pitch_um = read_um(table, "pitch", spec.recipe.pitch_um, false);
+  spec.recipe.columns = static_cast<std::uint32_t>(read_count(table, "columns", spec.recipe.columns, 2));
+  spec.recipe.rows = static_cast<std::uint32_t>(read_count(table, "rows", spec.recipe.rows, 2));
+  spec.recipe.seed = read_count(table, "seed", spec.recipe.seed, 0);
+  spec.table = read_tracing(surface);
+  return spec;
+}
+
+MicrosurfaceSpec read_microsurface(const TomlTable& table) {
+  std::vector<std::string> models;
+  for (const auto& [model, own] : kModels) {
+    models.emplace_back(model);
+    if (*own) table.has(own);
+  }
+  table.has("tracing");
+  const std::string model = table.choice("model", models);
+  if (!table.good("model") || model == "smooth") return SmoothSpec{};
+  if (model == "painted") return PaintedSpec{};
+  if (model == "unified") return read_unified(table.table("unified"));
+  if (model == "height_map") return read_height_map_spec(table);
+  if (model == "recipe") return read_recipe(table);
+  const TomlTable file = table.table("table");
+  return TableFileSpec{file.existing_file("file"), file.where()};
+}
+
+void read_gap(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems, SurfaceSpec& surface) {
+  const TomlNode* value = table.has("gap") ? table.node()->find("gap") : nullptr;
+  if (!value) return;
+  surface.gap = value->as_written();
+  if (value->kind == Kind::string) {
+    surface.gap = table.string("gap");
+    if (surface.gap.empty()) return;
+    try {
+      surface.gap_index = lookup.index_of(surface.gap, value->where);
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+    return;
+  }
+  const double index = table.number("gap");
+  table.expect("gap", index >= 1.0 && index <= 5.0, "the index of a gap lies between 1 and 5",
+               "give an index, or the name of a medium, as gap = \"air\"");
+  surface.gap_index = Curve::constant(index);
+}
+
+void read_surface_reflector(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems,
+                            SurfaceSpec& surface) {
+  const std::optional<std::string> form = table.one_of({"reflector", "reflectance"}, false);
+  table.has("specular_share");
+  if (!form) return;
+  Reflector reflector;
+  if (*form == "reflector") {
+    const std::string name = table.string("reflector");
+    if (name.empty()) return;
+    try {
+      reflector = lookup.reflector(name, table.where("reflector"));
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+    if (table.has("specular_share")) reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  } else {
+    reflector.name = surface.name;
+    reflector.reflectance = table.curve("reflectance", Dimension::dimensionless);
+    table.expect("reflectance", reflector.reflectance.min_y() >= 0.0 && reflector.reflectance.max_y() <= 1.0,
+                 "a reflectance lies between 0 and 1");
+    reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  }
+  surface.reflector = std::move(reflector);
+}
+
+/// The parts of a stack that ask for or exclude each other.
+void check_stack(const TomlTable& table, const SurfaceSpec& surface) {
+  const bool painted = std::holds_alternative<PaintedSpec>(surface.microsurface);
+  const bool reflector = table.has("reflector") || table.has("reflectance");
+  if (painted && !reflector)
+    table.report("reflector", "a painted surface has no reflector",
+                 "give reflector = \"NAME\", or reflectance and specular_share");
+  if (painted && table.has("gap"))
+    table.report("gap", "a painted surface has a gap, but paint lies on the face itself",
+                 "remove the gap, or use model = \"smooth\" under it");
+  if (!painted && reflector && !table.has("gap"))
+    table.report("gap", "a reflector is given without the gap that separates it from the face",
+                 "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
+  if (!reflector && table.has("gap") && !painted)
+    table.report("gap", "a gap is given without a reflector behind it",
+                 "what lies behind a surface without a reflector is the neighbouring part: remove the gap, or "
+                 "give a reflector");
+}
+
+}  // namespace
+
+TomlNode merge_over_base(const TomlNode& base, const TomlNode& over) {
+  TomlNode merged = base;
+  merged.key = over.key;
+  merged.where = over.where;
+  merged.key_where = over.key_where;
+  const TomlNode* model = over.find("model");
+  for (const auto& [name, own] : kModels)
+    if (model && *own && model->text != name) drop(merged, own);
+  if (over.find("reflector")) drop(merged, "reflectance");
+  if (over.find("reflectance")) drop(merged, "reflector");
+  for (const TomlNode& member : over.items) {
+    TomlNode* old = merged.find(member.key);
+    if (!old) {
+      merged.items.push_back(member);
+    } else if (old->kind == Kind::table && member.kind == Kind::table) {
+      const TomlNode inner = merge_over_base(*old, member);
+      *old = inner;
+    } else {
+      *old = member;
+    }
+  }
+  return merged;
+}
+
+std::vector<std::string> unmet_needs(const TomlNode& definition) {
+  std::vector<std::string> unmet;
+  const TomlNode* needs = definition.find("needs");
+  if (!needs || needs->kind != Kind::array) return unmet;
+  for (const TomlNode& need : needs->items) {
+    bool met = false;
+    for (std::size_t start = 0; start <= need.text.size() && !met;) {
+      const std::size_t end = std::min(need.text.find(" or ", start), need.text.size());
+      met = find_path(definition, need.text.substr(start, end - start)) != nullptr;
+      start = end + 4;
+    }
+    if (!met) unmet.push_back(need.text);
+  }
+  return unmet;
+}
+
+SurfaceSpec read_surface(const TomlTable& table, const std::string& name, const SurfaceLookup& lookup,
+                         Problems& problems) {
+  SurfaceSpec surface;
+  surface.name = name;
+  surface.where = table.where();
+  table.optional_string("base");
+  table.optional_string("source");
+  table.strings("needs", 0, false);
+  surface.microsurface = read_microsurface(table);
+  read_gap(table, lookup, problems, surface);
+  read_surface_reflector(table, lookup, problems, surface);
+  check_stack(table, surface);
+  return surface;
+}
+
+}  // namespace scintray

@@ -1,0 +1,70 @@
+#pragma once
+/// A surface as its definition says it: names looked up, nothing traced or built yet. Which surface
+/// object it becomes depends on the media on its two sides, so it is made per interface.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/surface/surface.hpp"
+#include "scintray/surface/unified.hpp"
+#include "scintray/topography/build_table.hpp"
+#include "scintray/topography/height_map.hpp"
+#include "scintray/topography/synthesis.hpp"
+
+namespace scintray {
+
+struct SmoothSpec {};
+
+/// No microsurface: the reflector is in contact with the face.
+struct PaintedSpec {};
+
+/// A table file of ours (HDF5), valid for one pair of indices.
+struct TableFileSpec {
+  std::filesystem::path path;  ///< it exists
+  FileLocation where;
+};
+
+/// What is taken off a height map before use.
+struct LevelingSpec {
+  enum class Kind { none, mean, plane, polynomial };
+  Kind kind = Kind::plane;
+  int degree = 1;                       ///< of the polynomial
+  std::optional<double> loess_width_um;  ///< width of the weighted local regression along each line
+};
+
+/// A measured height map.
+struct HeightMapSpec {
+  std::filesystem::path path;  ///< it exists
+  ReadOptions options;
+  LevelingSpec leveling;
+  Tiling tiling = Tiling::automatic;
+  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  FileLocation where;
+};
+
+/// A height map made from a recipe.
+struct RecipeSpec {
+  SynthesisRecipe recipe;
+  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  FileLocation where;
+};
+
+using MicrosurfaceSpec =
+    std::variant<SmoothSpec, UnifiedSurface, TableFileSpec, HeightMapSpec, RecipeSpec, PaintedSpec>;
+
+struct SurfaceSpec {
+  std::string name;
+  FileLocation where;  ///< of the definition
+  MicrosurfaceSpec microsurface;
+  std::string gap;  ///< medium of the gap under the reflector, or its index as written; empty: none
+  Curve gap_index = Curve::constant(1.0);  ///< against wavelength (nm)
+  std::optional<Reflector> reflector;      ///< looked up, with the surface's own specular share
+  std::vector<std::string> sources;        ///< published sources, its own first, then its bases'
+};
+
+}  // namespace scintray
