@@ -545,6 +545,19 @@ void Group::set_attribute(const std::string& member, const std::string& name, st
   state_->write_attribute(member, name, H5T_NATIVE_INT64, H5T_NATIVE_INT64, &value);
 }
 
+std::vector<std::string> Group::attributes(const std::string& member) const {
+  const Quiet quiet;
+  const Handle owner = state_->attribute_owner(member);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* data) -> herr_t {
+    static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+    return 0;
+  };
+  if (H5Aiterate2(owner.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
+    state_->fail("list the attributes of", member);
+  return names;
+}
+
 bool Group::has_attribute(const std::string& member, const std::string& name) const {
   const Quiet quiet;
   return H5Aexists(state_->attribute_owner(member).id(), name.c_str()) > 0;

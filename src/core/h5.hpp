@@ -51,6 +51,7 @@ class Group {
   void set_attribute(const std::string& member, const std::string& name, const std::string& value);
   void set_attribute(const std::string& member, const std::string& name, double value);
   void set_attribute(const std::string& member, const std::string& name, std::int64_t value);
+  std::vector<std::string> attributes(const std::string& member) const;
   bool has_attribute(const std::string& member, const std::string& name) const;
   std::string string_attribute(const std::string& member, const std::string& name) const;
   double double_attribute(const std::string& member, const std::string& name) const;

@@ -8,13 +8,20 @@ namespace scintray {
 
 const char* fate_name(Fate fate) {
   switch (fate) {
-    case Fate::detected: return "detected";
-    case Fate::unconverted: return "unconverted";
-    case Fate::absorbed_in_medium: return "absorbed_in_medium";
-    case Fate::absorbed_at_surface: return "absorbed_at_surface";
-    case Fate::escaped: return "escaped";
-    case Fate::cut_interactions: return "cut_interactions";
-    case Fate::cut_time: return "cut_time";
+    case Fate::detected:
+      return "detected";
+    case Fate::unconverted:
+      return "unconverted";
+    case Fate::absorbed_in_medium:
+      return "absorbed_in_medium";
+    case Fate::absorbed_at_surface:
+      return "absorbed_at_surface";
+    case Fate::escaped:
+      return "escaped";
+    case Fate::cut_interactions:
+      return "cut_interactions";
+    case Fate::cut_time:
+      return "cut_time";
   }
   throw InternalError("fate " + std::to_string(static_cast<int>(fate)) + " has no name");
 }
@@ -26,7 +33,7 @@ double PointResult::cut_bias_bound() const {
 }
 
 bool RunResult::complete() const {
-  return !points.empty() &&
+  return partial_reason.empty() && !points.empty() &&
          std::all_of(points.begin(), points.end(), [](const PointResult& point) { return point.complete; });
 }
 

@@ -12,13 +12,13 @@ namespace scintray {
 
 /// The one end of each photon.
 enum class Fate : std::uint8_t {
-  detected = 0,         ///< converted by a sensor
-  unconverted,          ///< reached a sensor, not converted
+  detected = 0,  ///< converted by a sensor
+  unconverted,   ///< reached a sensor, not converted
   absorbed_in_medium,
   absorbed_at_surface,
-  escaped,              ///< left the scene through the ambient medium
-  cut_interactions,     ///< stopped at the limit of boundary interactions
-  cut_time,             ///< stopped at the time limit
+  escaped,           ///< left the scene through the ambient medium
+  cut_interactions,  ///< stopped at the limit of boundary interactions
+  cut_time,          ///< stopped at the time limit
 };
 inline constexpr int kFateCount = 7;
 /// "detected", "unconverted", "absorbed_in_medium", ...
@@ -36,32 +36,32 @@ struct SensorFaceCount {
 /// and after the crossing, 0 to 90 deg in equal bins.
 struct ExitAngleTally {
   std::string name;
-  std::uint32_t face = 0;      ///< index into RunHeader::faces
-  bool detected_only = false;  ///< counts each detected photon's last crossing; else every crossing
+  std::uint32_t face = 0;              ///< index into RunHeader::faces
+  bool detected_only = false;          ///< counts each detected photon's last crossing; else every crossing
   std::vector<std::uint64_t> inside;   ///< angle in the medium of the face's part
   std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
 };
 
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
-  std::vector<std::string> parameters;    ///< value of each swept key, as written ("2 mm")
+  std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
   std::uint64_t photons_requested = 0;
-  std::uint64_t photons = 0;              ///< traced to their end
-  bool complete = false;                  ///< false when interrupted
+  std::uint64_t photons = 0;  ///< traced to their end
+  bool complete = false;      ///< false when interrupted
   std::array<std::uint64_t, kFateCount> fates{};
   std::vector<std::uint64_t> absorbed_in_medium;   ///< per RunHeader::media
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<ExitAngleTally> exit_angles;
-  Moments interactions;          ///< boundary interactions per photon
-  Moments detected_path_mm;      ///< path length of detected photons
-  Moments detected_time_ns;      ///< time from emission, plus emission time, of detected photons
+  Moments interactions;      ///< boundary interactions per photon
+  Moments detected_path_mm;  ///< path length of detected photons
+  Moments detected_time_ns;  ///< time from emission, plus emission time, of detected photons
   Moments detected_interactions;
   std::array<std::uint64_t, 51> detected_path_histogram{};  ///< 10 mm bins, last: 500 mm and more
-  std::uint64_t scatterings = 0;        ///< bulk scatterings
-  std::uint64_t segments = 0;           ///< straight flights traced
-  std::uint64_t resolved_misses = 0;    ///< ray queries settled by the exact search
-  std::uint64_t lost = 0;               ///< photons without a fate: zero, checked in every run
+  std::uint64_t scatterings = 0;                            ///< bulk scatterings
+  std::uint64_t segments = 0;                               ///< straight flights traced
+  std::uint64_t resolved_misses = 0;                        ///< ray queries settled by the exact search
+  std::uint64_t lost = 0;  ///< photons without a fate: zero, checked in every run
   double wall_seconds = 0.0;
 
   std::uint64_t count(Fate fate) const { return fates[static_cast<int>(fate)]; }
@@ -74,9 +74,9 @@ struct PointResult {
 struct DetectedPhoton {
   std::uint32_t point = 0;
   std::uint64_t event = 0;
-  std::uint64_t photon = 0;   ///< index within the event: with the seed, enough to replay it
-  std::uint32_t part = 0;     ///< sensor part
-  std::uint32_t face = 0;     ///< face crossed
+  std::uint64_t photon = 0;  ///< index within the event: with the seed, enough to replay it
+  std::uint32_t part = 0;    ///< sensor part
+  std::uint32_t face = 0;    ///< face crossed
   std::array<float, 3> position_mm{};
   std::array<float, 3> direction{};
   float wavelength_nm = 0;
@@ -88,20 +88,22 @@ struct DetectedPhoton {
 /// What the numbers of a run refer to.
 struct RunHeader {
   std::string title;
-  std::string version;         ///< ScintRay version
+  std::string version;  ///< ScintRay version
   std::string scene_file;
-  std::string scene_text;      ///< the whole scene file, so that a result explains itself
+  std::string scene_text;  ///< the whole scene file, so that a result explains itself
   std::uint64_t seed = 0;
-  std::vector<std::string> sweep_keys;    ///< swept keys, slowest first
+  std::vector<std::string> sweep_keys;  ///< swept keys, slowest first
   std::vector<std::string> media, surfaces, parts;
-  std::vector<std::string> faces;         ///< "part:face"
-  std::string note;                       ///< warnings issued, one a line
+  std::vector<std::string> faces;  ///< "part:face"
+  std::string note;                ///< warnings issued, one a line
 };
 
 /// A whole run.
 struct RunResult {
   RunHeader header;
   std::vector<PointResult> points;
+  std::string partial_reason;  ///< why the run ended early; empty when it did not
+  /// Every point was traced to its end and none is missing.
   bool complete() const;
 };
 

@@ -1,0 +1,64 @@
+#pragma once
+/// The results file: HDF5, described field by field in docs/results.md.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scintray/tally/result.hpp"
+
+namespace scintray {
+
+/// Version of the layout; grows when a reader of the older one would misread the newer.
+inline constexpr std::int64_t kResultsVersion = 1;
+
+/// Writes one results file while a run goes on. Nothing is at `path` before commit().
+class ResultsWriter {
+ public:
+  /// Opens the file at once, so that a place that cannot be written is found before hours of work.
+  /// `photon_list` also prepares the list of detected photons. Throws InputError when `path` is taken
+  /// by something that is not a ScintRay result, SystemError when it cannot be written.
+  ResultsWriter(const std::filesystem::path& path, const RunHeader& header, bool photon_list);
+  ResultsWriter(ResultsWriter&&) noexcept;
+  ResultsWriter& operator=(ResultsWriter&&) noexcept;
+  /// Without commit() nothing stays.
+  ~ResultsWriter();
+
+  /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
+  void append_photons(const std::vector<DetectedPhoton>& photons);
+  /// Adds the result of the next point.
+  void add_point(const PointResult& point);
+  /// Replaces the warnings of the header, which may grow during the run.
+  void set_note(const std::string& note);
+  /// Puts the file in place. An interrupted run is committed with complete = false and the reason
+  /// ("interrupted by Ctrl-C"); readers then show it as partial.
+  void commit(bool complete, const std::string& reason_if_partial = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What a file says about being partial.
+struct ResultsStatus {
+  bool complete = false;
+  std::string reason;  ///< empty when complete
+  bool has_photon_list = false;
+  std::uint64_t listed_photons = 0;
+};
+
+/// Reads everything but the photon list. Throws InputError when the file is missing, is not a ScintRay
+/// result, has a version this program does not read (both versions are named) or contradicts itself.
+RunResult read_results(const std::filesystem::path& path);
+ResultsStatus read_results_status(const std::filesystem::path& path);
+
+/// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
+std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
+                                         std::uint64_t count);
+
+/// True when `path` is an HDF5 file that ScintRay wrote as a result, of whatever version.
+bool is_results_file(const std::filesystem::path& path);
+
+}  // namespace scintray

@@ -1,0 +1,89 @@
+#include "scintray/io/results_format.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray::results_format {
+
+namespace {
+
+constexpr std::array kFields = {
+    // the run
+    Field{"seed", "1", "seed of the random streams"},
+    Field{"scene", "", "the scene file, whole"},
+    Field{"note", "", "warnings of the run, one a line"},
+    Field{"sweep_keys", "", "swept keys, the slowest first"},
+    Field{"media", "", "names of the media; absorbed_in_medium is in this order"},
+    Field{"surfaces", "", "names of the surfaces; absorbed_at_surface is in this order"},
+    Field{"parts", "", "names of the parts; columns called part are indices into this"},
+    Field{"faces", "", "names of the faces as part:face; columns called face are indices into this"},
+    Field{"fate_names", "", "names of the fates; the fate datasets are in this order"},
+    // a point
+    Field{"parameters", "", "value of each swept key at this point, as written"},
+    Field{"photons_requested", "1", "photons asked for"},
+    Field{"photons_traced", "1", "photons followed to their end"},
+    Field{"fate_count", "1", "photons per fate"},
+    Field{"fate_fraction", "1", "fate_count / photons_traced"},
+    Field{"fate_error", "1", "binomial standard error of fate_fraction"},
+    Field{"absorbed_in_medium", "1", "photons absorbed in each medium"},
+    Field{"absorbed_at_surface", "1", "photons absorbed at each surface"},
+    Field{"detected_path_histogram", "1",
+          "detected photons per 10 mm of path length; the last bin is 500 mm and more"},
+    Field{"scatterings", "1", "scatterings in media"},
+    Field{"segments", "1", "straight flights traced"},
+    Field{"resolved_misses", "1", "ray queries settled by the exact search"},
+    Field{"lost", "1", "photons without a fate; zero in every sound run"},
+    Field{"wall_seconds", "s", "time the point took"},
+    // sensor_faces
+    Field{"detected", "1", "photons converted by the sensor that came through the face"},
+    Field{"unconverted", "1", "photons not converted by the sensor that came through the face"},
+    // exit_angles
+    Field{"inside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium of the face's part"},
+    Field{"outside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium beyond"},
+    // moments
+    Field{"count", "1", "photons counted"},
+    Field{"sum", "see group", "sum over the photons"},
+    Field{"sum_of_squares", "see group, squared", "sum of squares over the photons"},
+    Field{"mean", "see group", "sum / count"},
+    Field{"mean_error", "see group", "standard error of mean"},
+    // photons
+    Field{"point", "1", "index of the point of the sweep"},
+    Field{"event", "1", "event number"},
+    Field{"photon", "1", "photon number within the event; with seed and event, enough to replay it"},
+    Field{"part", "1", "sensor's part, index into /parts"},
+    Field{"face", "1", "face crossed, index into /faces"},
+    Field{"x_mm", "mm", "position of detection, x"},
+    Field{"y_mm", "mm", "position of detection, y"},
+    Field{"z_mm", "mm", "position of detection, z"},
+    Field{"direction_x", "1", "direction of travel at detection, x"},
+    Field{"direction_y", "1", "direction of travel at detection, y"},
+    Field{"direction_z", "1", "direction of travel at detection, z"},
+    Field{"wavelength_nm", "nm", "wavelength in vacuum"},
+    Field{"time_ns", "ns", "time of detection since the event"},
+    Field{"path_mm", "mm", "path length since emission"},
+    Field{"interactions", "1", "boundary interactions since emission"},
+};
+
+}  // namespace
+
+const Field& field(std::string_view name) {
+  for (const Field& known : kFields)
+    if (name == known.name) return known;
+  throw InternalError("results file: no description of " + std::string(name));
+}
+
+void describe(h5::Group& group, const std::string& name) {
+  const Field& known = field(name);
+  group.set_attribute(name, "description", std::string(known.description));
+  group.set_attribute(name, "unit", std::string(known.unit));
+}
+
+std::string numbered(std::size_t index) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04zu", index);
+  return text.data();
+}
+
+}  // namespace scintray::results_format

@@ -1,0 +1,30 @@
+#pragma once
+/// Names, units and descriptions of everything in a results file, for its writer and its reader.
+
+#include <string>
+#include <string_view>
+
+#include "scintray/core/h5.hpp"
+
+namespace scintray::results_format {
+
+inline constexpr const char* kFormat = "scintray-results";
+
+/// One dataset of the file.
+struct Field {
+  const char* name;
+  const char* unit;  ///< "1" for counts and fractions, "" for text
+  const char* description;
+};
+
+/// The description of dataset `name` ("photons", "path_mm"); InternalError when it has none, so that
+/// nothing undescribed is ever written.
+const Field& field(std::string_view name);
+
+/// Sets `description` and `unit` on a dataset just written.
+void describe(h5::Group& group, const std::string& name);
+
+/// "0007": name of the group of a point or tally.
+std::string numbered(std::size_t index);
+
+}  // namespace scintray::results_format

@@ -1,0 +1,224 @@
+#include <algorithm>
+#include <array>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+#include "scintray/io/photon_columns.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/results_format.hpp"
+
+namespace scintray {
+
+namespace {
+
+InputError wrong(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
+  return InputError({{path.string()}, what, hint});
+}
+
+InputError damaged(const std::filesystem::path& path, const std::string& what) {
+  return wrong(path, "this result contradicts itself: " + what,
+               "copy it again from where it was made, or run again");
+}
+
+bool has_format(const h5::Group& root) {
+  return root.has_attribute("", "format") && root.string_attribute("", "format") == results_format::kFormat;
+}
+
+/// Opens a result and checks that this program can read it.
+h5::File open_results(const std::filesystem::path& path) {
+  h5::File file = h5::File::open(path);
+  const h5::Group root = file.root();
+  if (!has_format(root))
+    throw wrong(path, "this HDF5 file is not a ScintRay result", "name a file that `scintray run` wrote");
+  const std::int64_t version = root.integer_attribute("", "version");
+  if (version != kResultsVersion)
+    throw wrong(path,
+                "this result has format version " + std::to_string(version) + " (written by ScintRay " +
+                    root.string_attribute("", "scintray_version") + "), but this program reads version " +
+                    std::to_string(kResultsVersion),
+                version > kResultsVersion ? "use a newer ScintRay"
+                                          : "run the scene again, or use the older ScintRay");
+  return file;
+}
+
+template <typename T>
+T get(const h5::Group& group, const std::string& name) {
+  const auto values = group.read<T>(name);
+  if (values.size() != 1)
+    throw SystemError(name + " holds " + std::to_string(values.size()) + " values, not one");
+  return values.front();
+}
+
+std::string get_text(const h5::Group& group, const std::string& name) {
+  const auto values = group.read_strings(name);
+  return values.empty() ? "" : values.front();
+}
+
+Moments get_moments(const h5::Group& point, const std::string& name) {
+  const h5::Group group = point.open_group(name);
+  return {get<std::uint64_t>(group, "count"), get<double>(group, "sum"),
+          get<double>(group, "sum_of_squares")};
+}
+
+RunHeader get_header(const h5::Group& root) {
+  RunHeader header;
+  header.title = root.string_attribute("", "title");
+  header.version = root.string_attribute("", "scintray_version");
+  header.scene_file = root.string_attribute("", "scene_file");
+  header.scene_text = get_text(root, "scene");
+  header.seed = get<std::uint64_t>(root, "seed");
+  header.sweep_keys = root.read_strings("sweep_keys");
+  header.media = root.read_strings("media");
+  header.surfaces = root.read_strings("surfaces");
+  header.parts = root.read_strings("parts");
+  header.faces = root.read_strings("faces");
+  header.note = get_text(root, "note");
+  return header;
+}
+
+/// The point `name` of a file, read with checks against the header.
+class PointReader {
+ public:
+  PointReader(const std::filesystem::path& path, const RunHeader& header, const h5::Group& points,
+              const std::string& name)
+      : path_(path), header_(header), name_(name), group_(points.open_group(name)) {}
+
+  PointResult read() const {
+    PointResult point;
+    point.parameters = group_.read_strings("parameters");
+    require(point.parameters.size() == header_.sweep_keys.size(), "parameters do not match the swept keys");
+    point.photons_requested = get<std::uint64_t>(group_, "photons_requested");
+    point.photons = get<std::uint64_t>(group_, "photons_traced");
+    point.complete = group_.integer_attribute("", "complete") != 0;
+    copy("fate_count", point.fates);
+    copy("detected_path_histogram", point.detected_path_histogram);
+    point.absorbed_in_medium = group_.read<std::uint64_t>("absorbed_in_medium");
+    point.absorbed_at_surface = group_.read<std::uint64_t>("absorbed_at_surface");
+    require(point.absorbed_in_medium.size() == header_.media.size(),
+            "absorbed_in_medium does not match media");
+    require(point.absorbed_at_surface.size() == header_.surfaces.size(),
+            "absorbed_at_surface does not match surfaces");
+    point.sensor_faces = sensor_faces();
+    point.exit_angles = exit_angles();
+    point.interactions = get_moments(group_, "interactions_per_photon");
+    point.detected_path_mm = get_moments(group_, "detected_path");
+    point.detected_time_ns = get_moments(group_, "detected_time");
+    point.detected_interactions = get_moments(group_, "detected_interactions");
+    point.scatterings = get<std::uint64_t>(group_, "scatterings");
+    point.segments = get<std::uint64_t>(group_, "segments");
+    point.resolved_misses = get<std::uint64_t>(group_, "resolved_misses");
+    point.lost = get<std::uint64_t>(group_, "lost");
+    point.wall_seconds = get<double>(group_, "wall_seconds");
+    return point;
+  }
+
+ private:
+  void require(bool holds, const std::string& what) const {
+    if (!holds) throw damaged(path_, "in point " + name_ + ", " + what);
+  }
+
+  template <std::size_t Size>
+  void copy(const std::string& dataset, std::array<std::uint64_t, Size>& to) const {
+    const auto values = group_.read<std::uint64_t>(dataset);
+    require(values.size() == Size, dataset + " has " + std::to_string(values.size()) + " values");
+    std::copy(values.begin(), values.end(), to.begin());
+  }
+
+  std::vector<SensorFaceCount> sensor_faces() const {
+    const h5::Group group = group_.open_group("sensor_faces");
+    const auto part = group.read<std::uint32_t>("part"), face = group.read<std::uint32_t>("face");
+    const auto detected = group.read<std::uint64_t>("detected");
+    const auto unconverted = group.read<std::uint64_t>("unconverted");
+    require(face.size() == part.size() && detected.size() == part.size() && unconverted.size() == part.size(),
+            "the columns of sensor_faces differ in length");
+    std::vector<SensorFaceCount> counts;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      require(part[i] < header_.parts.size() && face[i] < header_.faces.size(),
+              "sensor_faces names a part or face that does not exist");
+      counts.push_back({part[i], face[i], detected[i], unconverted[i]});
+    }
+    return counts;
+  }
+
+  std::vector<ExitAngleTally> exit_angles() const {
+    const h5::Group group = group_.open_group("exit_angles");
+    std::vector<ExitAngleTally> tallies;
+    for (const std::string& member : group.members()) {
+      const h5::Group from = group.open_group(member);
+      ExitAngleTally tally;
+      tally.name = from.string_attribute("", "name");
+      const std::int64_t face = from.integer_attribute("", "face");
+      require(face >= 0 && static_cast<std::size_t>(face) < header_.faces.size(),
+              "an exit angle tally names a face that does not exist");
+      tally.face = static_cast<std::uint32_t>(face);
+      tally.detected_only = from.integer_attribute("", "detected_only") != 0;
+      tally.inside = from.read<std::uint64_t>("inside");
+      tally.outside = from.read<std::uint64_t>("outside");
+      tallies.push_back(std::move(tally));
+    }
+    return tallies;
+  }
+
+  const std::filesystem::path& path_;
+  const RunHeader& header_;
+  std::string name_;
+  h5::Group group_;
+};
+
+}  // namespace
+
+bool is_results_file(const std::filesystem::path& path) {
+  try {
+    return has_format(h5::File::open(path).root());
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+RunResult read_results(const std::filesystem::path& path) {
+  const h5::File file = open_results(path);
+  const h5::Group root = file.root();
+  RunResult result;
+  result.header = get_header(root);
+  const h5::Group points = root.open_group("points");
+  for (const std::string& name : points.members())
+    result.points.push_back(PointReader(path, result.header, points, name).read());
+  if (root.integer_attribute("", "complete") == 0) {
+    result.partial_reason = root.string_attribute("", "partial_reason");
+    if (result.partial_reason.empty()) result.partial_reason = "the file is marked partial";
+  }
+  return result;
+}
+
+ResultsStatus read_results_status(const std::filesystem::path& path) {
+  const h5::File file = open_results(path);
+  const h5::Group root = file.root();
+  ResultsStatus status;
+  status.complete = root.integer_attribute("", "complete") != 0;
+  status.reason = root.string_attribute("", "partial_reason");
+  status.has_photon_list = root.has("photons");
+  if (status.has_photon_list) status.listed_photons = root.open_group("photons").shape("point").at(0);
+  return status;
+}
+
+std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
+                                         std::uint64_t count) {
+  const h5::File file = open_results(path);
+  const h5::Group root = file.root();
+  if (!root.has("photons"))
+    throw wrong(path, "this result has no list of detected photons",
+                "ask for the list when running the scene");
+  const h5::Group group = root.open_group("photons");
+  std::vector<DetectedPhoton> photons;
+  bool first = true;
+  results_format::for_each_photon_column([&](const char* name, auto member) {
+    const auto column = group.read_part<results_format::ColumnValue<decltype(member)>>(name, offset, count);
+    if (first) photons.resize(column.size());
+    first = false;
+    if (column.size() != photons.size()) throw damaged(path, "the columns of photons differ in length");
+    for (std::size_t i = 0; i < column.size(); ++i) member(photons[i]) = column[i];
+  });
+  return photons;
+}
+
+}  // namespace scintray

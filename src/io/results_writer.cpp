@@ -1,0 +1,203 @@
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+#include "scintray/io/photon_columns.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/results_format.hpp"
+
+namespace scintray {
+
+namespace {
+
+using results_format::describe;
+using results_format::numbered;
+
+/// Rows kept in memory before they go to disk, and rows compressed together: 4 MB of photons.
+constexpr std::size_t kPhotonBlock = 65536;
+
+void put_text(h5::Group& group, const std::string& name, const std::vector<std::string>& values) {
+  group.write_strings(name, values);
+  describe(group, name);
+}
+
+template <typename T>
+void put(h5::Group& group, const std::string& name, const std::vector<T>& values) {
+  group.write(name, values);
+  describe(group, name);
+}
+
+template <typename T>
+void put(h5::Group& group, const std::string& name, T value) {
+  group.write(name, std::vector<T>{value}, {});
+  describe(group, name);
+}
+
+void put_moments(h5::Group& point, const std::string& name, const std::string& unit,
+                 const std::string& description, const Moments& moments) {
+  h5::Group group = point.create_group(name);
+  group.set_attribute("", "description", description);
+  group.set_attribute("", "unit", unit);
+  put(group, "count", moments.count);
+  put(group, "sum", moments.sum);
+  put(group, "sum_of_squares", moments.sum_of_squares);
+  put(group, "mean", moments.mean().value);
+  put(group, "mean_error", moments.mean().error);
+}
+
+void put_fates(h5::Group& group, const PointResult& point) {
+  std::vector<std::uint64_t> counts(point.fates.begin(), point.fates.end());
+  std::vector<double> fractions, errors;
+  for (int fate = 0; fate < kFateCount; ++fate) {
+    const Estimate estimate = point.fraction(static_cast<Fate>(fate));
+    fractions.push_back(estimate.value);
+    errors.push_back(estimate.error);
+  }
+  put(group, "fate_count", counts);
+  put(group, "fate_fraction", fractions);
+  put(group, "fate_error", errors);
+}
+
+void put_sensor_faces(h5::Group& point, const std::vector<SensorFaceCount>& faces) {
+  h5::Group group = point.create_group("sensor_faces");
+  group.set_attribute("", "description", std::string("photons that reached each sensor through each face"));
+  std::vector<std::uint32_t> part, face;
+  std::vector<std::uint64_t> detected, unconverted;
+  for (const SensorFaceCount& count : faces) {
+    part.push_back(count.part);
+    face.push_back(count.face);
+    detected.push_back(count.detected);
+    unconverted.push_back(count.unconverted);
+  }
+  put(group, "part", part);
+  put(group, "face", face);
+  put(group, "detected", detected);
+  put(group, "unconverted", unconverted);
+}
+
+void put_exit_angles(h5::Group& point, const std::vector<ExitAngleTally>& tallies) {
+  h5::Group group = point.create_group("exit_angles");
+  group.set_attribute("", "description", std::string("histograms of crossing angles, one group a tally"));
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    h5::Group tally = group.create_group(numbered(i));
+    tally.set_attribute("", "name", tallies[i].name);
+    tally.set_attribute("", "face", static_cast<std::int64_t>(tallies[i].face));
+    tally.set_attribute("", "detected_only", static_cast<std::int64_t>(tallies[i].detected_only));
+    put(tally, "inside", tallies[i].inside);
+    put(tally, "outside", tallies[i].outside);
+  }
+}
+
+void put_header(h5::Group& root, const RunHeader& header) {
+  root.set_attribute("", "format", std::string(results_format::kFormat));
+  root.set_attribute("", "version", kResultsVersion);
+  root.set_attribute("", "scintray_version", header.version);
+  root.set_attribute("", "title", header.title);
+  root.set_attribute("", "scene_file", header.scene_file);
+  put(root, "seed", header.seed);
+  put_text(root, "scene", {header.scene_text});
+  put_text(root, "sweep_keys", header.sweep_keys);
+  put_text(root, "media", header.media);
+  put_text(root, "surfaces", header.surfaces);
+  put_text(root, "parts", header.parts);
+  put_text(root, "faces", header.faces);
+  std::vector<std::string> fates;
+  for (int fate = 0; fate < kFateCount; ++fate) fates.emplace_back(fate_name(static_cast<Fate>(fate)));
+  put_text(root, "fate_names", fates);
+}
+
+/// A result may be written anew, anything else may be someone's only copy.
+void refuse_foreign_file(const std::filesystem::path& path) {
+  const auto status = std::filesystem::status(path);
+  if (!std::filesystem::exists(status) || is_results_file(path)) return;
+  throw InputError({{path.string()},
+                    "this exists and is not a ScintRay result, so it is not written over",
+                    "choose another name for the result, or move what is there away"});
+}
+
+}  // namespace
+
+struct ResultsWriter::State {
+  h5::File file;
+  h5::Group root, points;
+  h5::Group photons;
+  bool photon_list = false;
+  std::string note;
+  std::size_t point_count = 0;
+  std::vector<DetectedPhoton> waiting;
+
+  void write_waiting() {
+    results_format::for_each_photon_column([&](const char* name, auto member) {
+      std::vector<results_format::ColumnValue<decltype(member)>> column;
+      column.reserve(waiting.size());
+      for (const DetectedPhoton& photon : waiting) column.push_back(member(photon));
+      photons.append(name, column);
+    });
+    waiting.clear();
+  }
+};
+
+ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader& header, bool photon_list) {
+  refuse_foreign_file(path);
+  h5::File file = h5::File::create(path);
+  h5::Group root = file.root();
+  put_header(root, header);
+  h5::Group points = root.create_group("points");
+  points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
+  state_.reset(new State{std::move(file), root, points, {}, photon_list, header.note, 0, {}});
+  if (!photon_list) return;
+  state_->photons = root.create_group("photons");
+  state_->photons.set_attribute("", "description", std::string("detected photons, one row a photon"));
+  results_format::for_each_photon_column([&](const char* name, auto member) {
+    state_->photons.create_stream<results_format::ColumnValue<decltype(member)>>(name, kPhotonBlock);
+    describe(state_->photons, name);
+  });
+}
+
+ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
+ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
+ResultsWriter::~ResultsWriter() = default;
+
+void ResultsWriter::append_photons(const std::vector<DetectedPhoton>& photons) {
+  if (!state_->photon_list) throw InternalError("photons for a result that has no photon list");
+  for (const DetectedPhoton& photon : photons) {
+    state_->waiting.push_back(photon);
+    if (state_->waiting.size() == kPhotonBlock) state_->write_waiting();
+  }
+}
+
+void ResultsWriter::add_point(const PointResult& point) {
+  h5::Group group = state_->points.create_group(numbered(state_->point_count++));
+  group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
+  put_text(group, "parameters", point.parameters);
+  put(group, "photons_requested", point.photons_requested);
+  put(group, "photons_traced", point.photons);
+  put_fates(group, point);
+  put(group, "absorbed_in_medium", point.absorbed_in_medium);
+  put(group, "absorbed_at_surface", point.absorbed_at_surface);
+  put_sensor_faces(group, point.sensor_faces);
+  put_exit_angles(group, point.exit_angles);
+  put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
+              point.interactions);
+  put_moments(group, "detected_path", "mm", "path length of detected photons", point.detected_path_mm);
+  put_moments(group, "detected_time", "ns", "time of detection since the event", point.detected_time_ns);
+  put_moments(group, "detected_interactions", "1", "boundary interactions of detected photons",
+              point.detected_interactions);
+  put(group, "detected_path_histogram",
+      std::vector<std::uint64_t>(point.detected_path_histogram.begin(), point.detected_path_histogram.end()));
+  put(group, "scatterings", point.scatterings);
+  put(group, "segments", point.segments);
+  put(group, "resolved_misses", point.resolved_misses);
+  put(group, "lost", point.lost);
+  put(group, "wall_seconds", point.wall_seconds);
+}
+
+void ResultsWriter::set_note(const std::string& note) { state_->note = note; }
+
+void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) {
+  if (state_->photon_list) state_->write_waiting();
+  put_text(state_->root, "note", {state_->note});
+  state_->root.set_attribute("", "complete", static_cast<std::int64_t>(complete));
+  state_->root.set_attribute("", "partial_reason", complete ? std::string() : reason_if_partial);
+  state_->file.commit();
+}
+
+}  // namespace scintray

@@ -1,0 +1,183 @@
+#include "scintray/io/simulate.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "scintray/core/version.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/trace/run.hpp"
+
+namespace scintray {
+
+namespace {
+
+/// Names of a kind over all points of a sweep: points may differ in their media and surfaces, results
+/// have one list.
+class NameList {
+ public:
+  std::uint32_t index(const std::string& name) {
+    const auto [known, is_new] = index_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.push_back(name);
+    return known->second;
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::uint32_t> index_;
+};
+
+struct NameLists {
+  NameList media, surfaces, parts, faces;
+
+  void add(const Scene& scene) {
+    for (const SceneMedium& medium : scene.media) media.index(medium.medium().name);
+    for (const Surface& surface : scene.surfaces) surfaces.index(surface.name);
+    for (const PartInfo& part : scene.parts) parts.index(part.name);
+    for (const FaceInfo& face : scene.faces) faces.index(face.name);
+  }
+};
+
+/// Rewrites a point's indices from its scene's lists to the run's.
+class Renumbering {
+ public:
+  Renumbering(const Scene& scene, NameLists& lists) : lists_(lists) {
+    for (const SceneMedium& medium : scene.media) media_.push_back(lists.media.index(medium.medium().name));
+    for (const Surface& surface : scene.surfaces) surfaces_.push_back(lists.surfaces.index(surface.name));
+    for (const PartInfo& part : scene.parts) parts_.push_back(lists.parts.index(part.name));
+    for (const FaceInfo& face : scene.faces) faces_.push_back(lists.faces.index(face.name));
+  }
+
+  void apply(PointResult& result) const {
+    result.absorbed_in_medium = moved(result.absorbed_in_medium, media_, lists_.media.names().size());
+    result.absorbed_at_surface = moved(result.absorbed_at_surface, surfaces_, lists_.surfaces.names().size());
+    for (SensorFaceCount& count : result.sensor_faces) {
+      count.part = parts_[count.part];
+      count.face = faces_[count.face];
+    }
+    for (ExitAngleTally& tally : result.exit_angles) tally.face = faces_[tally.face];
+  }
+
+  std::vector<DetectedPhoton> applied(std::vector<DetectedPhoton> photons) const {
+    for (DetectedPhoton& photon : photons) {
+      photon.part = parts_[photon.part];
+      photon.face = faces_[photon.face];
+    }
+    return photons;
+  }
+
+ private:
+  static std::vector<std::uint64_t> moved(const std::vector<std::uint64_t>& counts,
+                                          const std::vector<std::uint32_t>& to, std::size_t size) {
+    std::vector<std::uint64_t> result(size, 0);
+    for (std::size_t i = 0; i < counts.size(); ++i) result[to[i]] += counts[i];
+    return result;
+  }
+
+  NameLists& lists_;
+  std::vector<std::uint32_t> media_, surfaces_, parts_, faces_;
+};
+
+RunSettings settings_of(const RunSpec& run, std::size_t point) {
+  RunSettings settings;
+  settings.seed = run.seed;
+  settings.point = static_cast<std::uint32_t>(point);
+  settings.max_interactions = run.max_interactions;
+  settings.max_time_ns = run.max_time_ns;
+  settings.threads = run.threads.value_or(0);
+  return settings;
+}
+
+/// Everything known before the first photon.
+struct Survey {
+  NameLists names;
+  std::vector<std::string> notes;
+  std::vector<std::uint64_t> photons;  ///< per point
+};
+
+/// Builds every point once: finds mistakes, names, and surface tables.
+Survey survey_points(const SceneFile& file, const SimulationOptions& options, SceneBuilder& builder) {
+  Survey survey;
+  for (std::size_t point = 0; point < file.points(); ++point) {
+    const SceneSpec spec = with_options(file.spec(point), options);
+    const BuiltScene built = builder.build(spec);
+    const PhotonSource source(spec.source, built.scene);
+    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    survey.names.add(built.scene);
+    survey.photons.push_back(source.photons());
+    for (const std::string& warning : built.warnings)
+      if (std::find(survey.notes.begin(), survey.notes.end(), warning) == survey.notes.end())
+        survey.notes.push_back(warning);
+  }
+  return survey;
+}
+
+RunHeader make_header(const SceneFile& file, const SceneSpec& first, const Survey& survey) {
+  RunHeader header;
+  header.title = first.title;
+  header.version = version();
+  header.scene_file = first.file.string();
+  header.scene_text = file.text();
+  header.seed = first.run.seed;
+  header.sweep_keys = file.sweep_keys();
+  header.media = survey.names.media.names();
+  header.surfaces = survey.names.surfaces.names();
+  header.parts = survey.names.parts.names();
+  header.faces = survey.names.faces.names();
+  for (const std::string& note : survey.notes) header.note += (header.note.empty() ? "" : "\n") + note;
+  return header;
+}
+
+}  // namespace
+
+SceneSpec with_options(SceneSpec spec, const SimulationOptions& options) {
+  if (options.threads) spec.run.threads = options.threads;
+  if (options.seed) spec.run.seed = *options.seed;
+  if (options.photons) spec.source.photons = *options.photons;
+  return spec;
+}
+
+RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
+  SceneBuilder builder(options.surface_hooks);
+  Survey survey = survey_points(file, options, builder);
+  const SceneSpec first = with_options(file.spec(0), options);
+  RunResult result;
+  result.header = make_header(file, first, survey);
+  ResultsWriter writer(options.output, result.header, first.run.photon_list);
+
+  SimulationProgress progress;
+  progress.points = file.points();
+  for (const std::uint64_t photons : survey.photons) progress.photons_total += photons;
+  std::uint64_t done_before = 0;
+  for (std::size_t point = 0; point < file.points() && !(options.stop && options.stop->load()); ++point) {
+    const SceneSpec spec = with_options(file.spec(point), options);
+    const BuiltScene built = builder.build(spec);
+    const PhotonSource source(spec.source, built.scene);
+    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    const Renumbering renumbering(built.scene, survey.names);
+
+    RunHooks hooks;
+    hooks.stop = options.stop;
+    hooks.progress = [&](std::uint64_t photons) {
+      progress.point = point;
+      progress.photons_done = done_before + photons;
+      if (options.progress) options.progress(progress);
+    };
+    if (spec.run.photon_list)
+      hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
+        writer.append_photons(renumbering.applied(photons));
+      };
+    PointResult traced = run_point(built.scene, source, plan, settings_of(spec.run, point), hooks);
+    traced.parameters = file.parameters(point);
+    renumbering.apply(traced);
+    done_before += traced.photons;
+    progress.segments += traced.segments;
+    writer.add_point(traced);
+    result.points.push_back(std::move(traced));
+  }
+  const bool complete = result.points.size() == file.points() && result.complete();
+  writer.commit(complete, complete ? "" : "stopped by the user");
+  return result;
+}
+
+}  // namespace scintray

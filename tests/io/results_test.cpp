@@ -1,0 +1,319 @@
+#include "scintray/io/results.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+#include "support/made_up_result.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<DetectedPhoton> made_up_photons(std::uint64_t count) {
+  std::vector<DetectedPhoton> photons(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    DetectedPhoton& photon = photons[i];
+    const auto x = static_cast<float>(i);
+    photon = {static_cast<std::uint32_t>(i % 15),
+              i << 33,
+              ~i,
+              1,
+              2,
+              {x, -x, 0.1f * x},
+              {0.6f, 0, 0.8f},
+              420.5f,
+              1e-3f * x,
+              3.0f + x,
+              static_cast<std::uint32_t>(i % 97)};
+  }
+  return photons;
+}
+
+/// DetectedPhoton has padding, so compare what counts.
+bool same(const DetectedPhoton& a, const DetectedPhoton& b) {
+  return a.point == b.point && a.event == b.event && a.photon == b.photon && a.part == b.part &&
+         a.face == b.face && a.position_mm == b.position_mm && a.direction == b.direction &&
+         a.wavelength_nm == b.wavelength_nm && a.time_ns == b.time_ns && a.path_mm == b.path_mm &&
+         a.interactions == b.interactions;
+}
+
+void write(const std::filesystem::path& path, const RunResult& run,
+           const std::vector<DetectedPhoton>& photons) {
+  ResultsWriter writer(path, run.header, !photons.empty());
+  if (!photons.empty()) writer.append_photons(photons);
+  for (const PointResult& point : run.points) writer.add_point(point);
+  writer.commit(run.partial_reason.empty(), run.partial_reason);
+}
+
+void check_same(const Moments& a, const Moments& b) {
+  CHECK(a.count == b.count);
+  CHECK(a.sum == b.sum);
+  CHECK(a.sum_of_squares == b.sum_of_squares);
+}
+
+void check_same(const PointResult& a, const PointResult& b) {
+  CHECK(a.parameters == b.parameters);
+  CHECK(a.photons_requested == b.photons_requested);
+  CHECK(a.photons == b.photons);
+  CHECK(a.complete == b.complete);
+  CHECK(a.fates == b.fates);
+  CHECK(a.absorbed_in_medium == b.absorbed_in_medium);
+  CHECK(a.absorbed_at_surface == b.absorbed_at_surface);
+  REQUIRE(a.sensor_faces.size() == b.sensor_faces.size());
+  for (std::size_t i = 0; i < a.sensor_faces.size(); ++i) {
+    CHECK(a.sensor_faces[i].part == b.sensor_faces[i].part);
+    CHECK(a.sensor_faces[i].face == b.sensor_faces[i].face);
+    CHECK(a.sensor_faces[i].detected == b.sensor_faces[i].detected);
+    CHECK(a.sensor_faces[i].unconverted == b.sensor_faces[i].unconverted);
+  }
+  REQUIRE(a.exit_angles.size() == b.exit_angles.size());
+  for (std::size_t i = 0; i < a.exit_angles.size(); ++i) {
+    CHECK(a.exit_angles[i].name == b.exit_angles[i].name);
+    CHECK(a.exit_angles[i].face == b.exit_angles[i].face);
+    CHECK(a.exit_angles[i].detected_only == b.exit_angles[i].detected_only);
+    CHECK(a.exit_angles[i].inside == b.exit_angles[i].inside);
+    CHECK(a.exit_angles[i].outside == b.exit_angles[i].outside);
+  }
+  check_same(a.interactions, b.interactions);
+  check_same(a.detected_path_mm, b.detected_path_mm);
+  check_same(a.detected_time_ns, b.detected_time_ns);
+  check_same(a.detected_interactions, b.detected_interactions);
+  CHECK(a.detected_path_histogram == b.detected_path_histogram);
+  CHECK(a.scatterings == b.scatterings);
+  CHECK(a.segments == b.segments);
+  CHECK(a.resolved_misses == b.resolved_misses);
+  CHECK(a.lost == b.lost);
+  CHECK(a.wall_seconds == b.wall_seconds);
+}
+
+}  // namespace
+
+TEST_CASE("A result comes back from its file bit for bit") {
+  const auto path = test::scratch_folder("results_round_trip") / "run.h5";
+  RunResult run = test::made_up_run();
+  run.points[3].complete = false;
+  run.points[3].lost = 7;
+  const auto photons = made_up_photons(200'000);
+  write(path, run, photons);
+  const RunResult read = read_results(path);
+  CHECK(read.header.title == run.header.title);
+  CHECK(read.header.version == run.header.version);
+  CHECK(read.header.scene_file == run.header.scene_file);
+  CHECK(read.header.scene_text == run.header.scene_text);
+  CHECK(read.header.seed == run.header.seed);
+  CHECK(read.header.sweep_keys == run.header.sweep_keys);
+  CHECK(read.header.media == run.header.media);
+  CHECK(read.header.surfaces == run.header.surfaces);
+  CHECK(read.header.parts == run.header.parts);
+  CHECK(read.header.faces == run.header.faces);
+  CHECK(read.header.note == run.header.note);
+  REQUIRE(read.points.size() == run.points.size());
+  for (std::size_t i = 0; i < run.points.size(); ++i) check_same(read.points[i], run.points[i]);
+  const auto status = read_results_status(path);
+  CHECK(status.complete);
+  CHECK(status.listed_photons == photons.size());
+  const auto listed = read_photons(path, 0, photons.size());
+  REQUIRE(listed.size() == photons.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) different += same(listed[i], photons[i]) ? 0 : 1;
+  CHECK(different == 0);
+  const auto tail = read_photons(path, 199'999, 10);
+  REQUIRE(tail.size() == 1);
+  CHECK(same(tail[0], photons.back()));
+}
+
+TEST_CASE("An interrupted run keeps what was computed and says why it is partial") {
+  const auto path = test::scratch_folder("results_partial") / "run.h5";
+  RunResult run = test::made_up_run();
+  run.points.resize(2);
+  run.partial_reason = "interrupted by Ctrl-C";
+  write(path, run, {});
+  const RunResult read = read_results(path);
+  CHECK_FALSE(read.complete());
+  CHECK(read.partial_reason == "interrupted by Ctrl-C");
+  CHECK(read.points.size() == 2);
+  CHECK_FALSE(read_results_status(path).complete);
+  CHECK(contains(message_of([&] { read_photons(path, 0, 1); }), "no list of detected photons"));
+}
+
+TEST_CASE("A result that is not committed leaves nothing behind") {
+  const auto folder = test::scratch_folder("results_uncommitted");
+  {
+    ResultsWriter writer(folder / "run.h5", test::made_up_run().header, true);
+    writer.append_photons(made_up_photons(100'000));
+  }
+  CHECK(std::filesystem::is_empty(folder));
+}
+
+TEST_CASE("A result replaces a result, and never anything else") {
+  const auto folder = test::scratch_folder("results_overwrite");
+  const RunResult run = test::made_up_run();
+  write(folder / "run.h5", run, {});
+  CHECK(is_results_file(folder / "run.h5"));
+  CHECK_NOTHROW(write(folder / "run.h5", run, {}));
+  std::ofstream(folder / "thesis.tex") << "years of work";
+  {
+    auto other = h5::File::create(folder / "other.h5");
+    other.root().write("x", std::vector<double>{1.0});
+    other.commit();
+  }
+  for (const auto& path : {folder / "thesis.tex", folder / "other.h5", std::filesystem::path("/dev/full")}) {
+    const auto message = message_of([&] { ResultsWriter(path, run.header, false); });
+    CHECK(contains(message, path.string()));
+    CHECK(contains(message, "not written over"));
+    CHECK(contains(message, "hint: "));
+  }
+  CHECK(text_of(folder / "thesis.tex") == "years of work");
+  CHECK(contains(message_of([&] { ResultsWriter(folder / "no" / "run.h5", run.header, false); }),
+                 "there is no folder"));
+}
+
+TEST_CASE("Files that are not results of this version are refused with a reason") {
+  const auto folder = test::scratch_folder("results_refused");
+  const auto path = folder / "newer.h5";
+  {
+    auto file = h5::File::create(path);
+    file.root().set_attribute("", "format", std::string("scintray-results"));
+    file.root().set_attribute("", "version", kResultsVersion + 1);
+    file.root().set_attribute("", "scintray_version", std::string("9.8.7"));
+    file.commit();
+  }
+  const auto newer = message_of([&] { read_results(path); });
+  CHECK(contains(newer, "format version 2 (written by ScintRay 9.8.7)"));
+  CHECK(contains(newer, "reads version 1"));
+  CHECK(contains(newer, "use a newer ScintRay"));
+  {
+    auto file = h5::File::create(folder / "other.h5");
+    file.commit();
+  }
+  CHECK(contains(message_of([&] { read_results(folder / "other.h5"); }), "not a ScintRay result"));
+  CHECK(contains(message_of([&] { read_results(folder / "none.h5"); }), "no such file"));
+  std::ofstream(folder / "text.h5") << "hello";
+  CHECK(contains(message_of([&] { read_results(folder / "text.h5"); }), "not an HDF5 file"));
+  write(folder / "cut.h5", test::made_up_run(), {});
+  const auto size = std::filesystem::file_size(folder / "cut.h5");
+  std::filesystem::resize_file(folder / "cut.h5", size / 2);
+  CHECK(contains(message_of([&] { read_results(folder / "cut.h5"); }), "truncated file"));
+}
+
+TEST_CASE("A result whose parts contradict each other is refused") {
+  const auto folder = test::scratch_folder("results_contradiction");
+  RunResult run = test::made_up_run();
+  run.points[0].absorbed_in_medium.pop_back();
+  write(folder / "media.h5", run, {});
+  CHECK(contains(message_of([&] { read_results(folder / "media.h5"); }),
+                 "absorbed_in_medium does not match media"));
+  run = test::made_up_run();
+  run.points[1].sensor_faces[0].face = 3;
+  write(folder / "face.h5", run, {});
+  const auto message = message_of([&] { read_results(folder / "face.h5"); });
+  CHECK(contains(message, "in point 0001"));
+  CHECK(contains(message, "face that does not exist"));
+}
+
+TEST_CASE("A list of three million photons streams through bounded memory") {
+  const auto path = test::scratch_folder("results_stream") / "run.h5";
+  const auto resident_kb = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const RunResult run = test::made_up_run();
+  const auto block = made_up_photons(10'000);
+  ResultsWriter writer(path, run.header, true);
+  writer.append_photons(made_up_photons(100'000));
+  const long before = resident_kb();
+  for (int i = 0; i < 290; ++i) writer.append_photons(block);
+  writer.commit(true);
+  CHECK(resident_kb() - before < 60'000);
+  CHECK(read_results_status(path).listed_photons == 3'000'000);
+  CHECK(same(read_photons(path, 2'999'999, 1).at(0), block.back()));
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("docs/results.md names every dataset, group and attribute of a file, and each is described") {
+  const auto path = test::scratch_folder("results_documented") / "run.h5";
+  RunResult run = test::made_up_run();
+  run.points.resize(1);
+  write(path, run, made_up_photons(10));
+  const std::string document = text_of(test::source_file("docs/results.md"));
+  const h5::File file = h5::File::open(path);
+  int datasets = 0;
+  const std::function<void(const h5::Group&)> visit = [&](const h5::Group& group) {
+    const auto check_attributes = [&](const std::string& member) {
+      for (const std::string& attribute : group.attributes(member)) {
+        CAPTURE(attribute);
+        CHECK(contains(document, "`" + attribute + "`"));
+      }
+    };
+    check_attributes("");
+    for (const std::string& name : group.members()) {
+      CAPTURE(name);
+      check_attributes(name);
+      if (name != "0001") CHECK(contains(document, name));
+      try {
+        visit(group.open_group(name));
+      } catch (const SystemError&) {  // a dataset
+        ++datasets;
+        CHECK(group.string_attribute(name, "description").size() > 5);
+        CHECK(group.has_attribute(name, "unit"));
+        CHECK(contains(document, "`" + name + "`"));
+      }
+    }
+  };
+  visit(file.root());
+  CHECK(datasets > 60);
+}
+
+TEST_CASE("The Python example of docs/results.md reads a result with h5py") {
+  if (std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") != 0) {
+    MESSAGE("[skipped] no h5py");
+    return;
+  }
+  const auto folder = test::scratch_folder("results_python");
+  RunResult run = test::made_up_run();
+  run.partial_reason = "interrupted";
+  write(folder / "run.h5", run, made_up_photons(5));
+  const std::string document = text_of(test::source_file("docs/results.md"));
+  const auto start = document.find("```python\n") + 10;
+  std::ofstream(folder / "example.py") << document.substr(start, document.find("```", start) - start);
+  const std::string command = "/usr/bin/python3 \"" + (folder / "example.py").string() + "\" \"" +
+                              (folder / "run.h5").string() + "\" > \"" + (folder / "out.txt").string() +
+                              "\" 2>&1";
+  const int status = std::system(command.c_str());
+  const std::string output = text_of(folder / "out.txt");
+  CAPTURE(output);
+  CHECK(status == 0);
+  CHECK(contains(output, run.header.title + " partial: interrupted"));
+  CHECK(contains(output, "0014 ground, UNIFIED 18 mm"));
+  CHECK(contains(output, "  detected             0.45"));
+  CHECK(contains(output, "5 photons, mean time 0.002 ns"));
+}
