@@ -118,8 +118,8 @@ LevelingSpec read_leveling(const TomlTable& table) {
   table.has("degree");
   if (leveling.kind == Leveling::polynomial) {
     leveling.degree = static_cast<int>(table.integer("degree"));
-    table.expect("degree", leveling.degree >= 1 && leveling.degree <= 6,
-                 "the degree of the levelling polynomial lies between 1 and 6");
+    table.expect("degree", leveling.degree >= 1 && leveling.degree <= 8,
+                 "the degree of the levelling polynomial lies between 1 and 8");
   }
   leveling.loess_width_um = read_optional_um(table, "loess_width");
   return leveling;
