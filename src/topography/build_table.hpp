@@ -1,0 +1,46 @@
+#pragma once
+/// From a height field to a surface table, by tracing.
+
+#include <cstdint>
+#include <functional>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
+#include "scintray/surface/height_field.hpp"
+#include "scintray/surface/table.hpp"
+
+namespace scintray {
+
+/// How a table is traced. The defaults are those of E. Roncali and S. R. Cherry 2013, Phys. Med.
+/// Biol. 58, 2185, section 2.1: 2.25 deg of incidence, 9 deg of azimuth, 2000 rays each.
+struct TableSettings {
+  double incidence_step_rad = 2.25 * kDegree;
+  double azimuth_step_rad = 9.0 * kDegree;
+  std::uint64_t rays = 2000;  ///< per incidence angle and azimuth step
+  std::uint64_t seed = 1;
+  bool refine = true;           ///< bisect where the reflectance changes fast, as at a critical angle
+  double refine_change = 0.05;  ///< change of reflectance that asks for another node
+  double refine_down_to_rad = 0.1 * kDegree;  ///< intervals not wider than this are left
+  double grazing_rad = 89.9 * kDegree;        ///< where the node at 90 deg is traced
+};
+
+/// Told the share of the work done so far, between 0 and 1; returns false to stop.
+using TableProgress = std::function<bool(double)>;
+
+/// The building of a table was stopped by its progress callback.
+class TableStopped : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Traces unpolarised light from both sides at every incidence node: positions uniform over the
+/// map (so facets are met as the beam sees them), azimuths of the map stratified over the circle,
+/// rays followed until they leave. Nodes are then bisected where settings.refine says so.
+///
+/// Runs on all threads of the calling task arena; the result is the same for any number of them.
+/// @param provenance map, preparation and tiling as the caller knows them; the rest is filled in.
+/// InputError on settings out of range; TableStopped when `progress` returns false.
+SurfaceTable build_table(const HeightField& field, const IndexPair& index, const TableSettings& settings,
+                         TableProvenance provenance = {}, const TableProgress& progress = {});
+
+}  // namespace scintray

@@ -1,0 +1,119 @@
+/// Gwyddion simple field, http://gwyddion.net/documentation/user-guide-en/gsf.html
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/topography/height_map.hpp"
+#include "scintray/topography/raw_map.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr std::string_view kMagic = "Gwyddion Simple Field 1.0\n";
+static_assert(std::endian::native == std::endian::little, "GSF data are little-endian");
+
+using Fields = std::map<std::string, std::string, std::less<>>;
+
+Fields header_fields(std::string_view header, const std::string& file) {
+  Fields fields;
+  long line = 1;
+  for (header.remove_prefix(kMagic.size()); !header.empty();) {
+    ++line;
+    const std::size_t end = std::min(header.find('\n'), header.size());
+    const std::string_view text = header.substr(0, end);
+    header.remove_prefix(std::min(end + 1, header.size()));
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos)
+      throw InputError({{file, line}, "found \"" + std::string(text) + "\"; expected NAME = VALUE", ""});
+    fields[std::string(trimmed(text.substr(0, equals)))] = std::string(trimmed(text.substr(equals + 1)));
+  }
+  return fields;
+}
+
+std::uint32_t resolution(const Fields& fields, const char* name, const std::string& file) {
+  const auto found = fields.find(name);
+  const auto value = found == fields.end() ? std::nullopt : whole_number(found->second);
+  if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value))
+    throw InputError({{file},
+                      std::string(name) + " is " +
+                          (found == fields.end() ? "missing" : "\"" + found->second + "\"") +
+                          "; expected a number of points",
+                      ""});
+  return static_cast<std::uint32_t>(*value);
+}
+
+/// Lateral size in um, when the file gives both number and unit.
+std::optional<double> extent_um(const Fields& fields, const char* name, const std::string& file) {
+  const auto real = fields.find(name), unit = fields.find("XYUnits");
+  if (real == fields.end() || unit == fields.end()) return std::nullopt;
+  const auto value = whole_number(real->second);
+  if (!value || !(*value > 0.0) || !std::isfinite(*value))
+    throw InputError(
+        {{file}, std::string(name) + " is \"" + real->second + "\"; expected a positive size", ""});
+  const auto factor = length_unit_um(unit->second);
+  return factor ? std::optional(*value * *factor) : std::nullopt;
+}
+
+}  // namespace
+
+bool is_gsf(std::string_view content) { return content.starts_with(kMagic); }
+
+RawMap parse_gsf(std::string_view content, const std::string& file) {
+  const std::size_t header_end = content.find('\0');
+  if (header_end == std::string_view::npos)
+    throw InputError({{file}, "header of a Gwyddion simple field without its end", "the file is truncated"});
+  const Fields fields = header_fields(content.substr(0, header_end), file);
+  RawMap map;
+  map.format = "Gwyddion simple field";
+  map.columns = resolution(fields, "XRes", file);
+  map.rows = resolution(fields, "YRes", file);
+  // One to four zero bytes bring the header to a multiple of four.
+  const std::size_t data_start = (header_end / 4 + 1) * 4;
+  const std::size_t points = std::size_t{map.columns} * map.rows;
+  const std::size_t expected = data_start + points * sizeof(float);
+  if (content.size() != expected)
+    throw InputError(
+        {{file},
+         std::to_string(content.size()) + " bytes; expected " + std::to_string(expected) + " for " +
+             std::to_string(map.columns) + " x " + std::to_string(map.rows) + " points",
+         content.size() < expected ? "the file is truncated" : "the header does not fit the data"});
+  map.values.reserve(points);
+  for (std::size_t k = 0; k < points; ++k) {
+    float value;
+    std::memcpy(&value, content.data() + data_start + k * sizeof(float), sizeof(float));
+    map.values.push_back(value);
+  }
+  if (const auto width = extent_um(fields, "XReal", file)) map.pitch_x_um = *width / map.columns;
+  if (const auto height = extent_um(fields, "YReal", file)) map.pitch_y_um = *height / map.rows;
+  if (const auto unit = fields.find("ZUnits"); unit != fields.end())
+    map.height_unit_um = length_unit_um(unit->second);
+  if (const auto title = fields.find("Title"); title != fields.end()) map.title = title->second;
+  return map;
+}
+
+void write_gsf(const std::filesystem::path& path, const HeightMap& map) {
+  std::ostringstream header;
+  header.precision(17);
+  header << kMagic << "XRes = " << map.columns << "\nYRes = " << map.rows
+         << "\nXReal = " << map.columns * map.pitch_x_um * 1e-6
+         << "\nYReal = " << map.rows * map.pitch_y_um * 1e-6
+         << "\nXYUnits = m\nZUnits = m\nTitle = " << map.title << "\n";
+  std::string content = header.str();
+  content.append(4 - content.size() % 4, '\0');
+  for (const double height : map.heights_um) {
+    const auto metres = static_cast<float>(height * 1e-6);
+    content.append(reinterpret_cast<const char*>(&metres), sizeof(float));
+  }
+  std::ofstream file(path, std::ios::binary);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  if (!file) throw SystemError("cannot write height map " + path.string());
+}
+
+}  // namespace scintray

@@ -1,0 +1,162 @@
+#include "scintray/topography/prepare.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray {
+
+namespace {
+
+std::string shortest(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+void require(bool good, const std::string& what, const std::string& expected) {
+  if (!good) throw InputError({{}, what + "; expected " + expected, ""});
+}
+
+/// Index on one axis, wrapped around when the map is periodic; nothing beyond an edge.
+std::optional<std::uint32_t> neighbour(std::uint32_t at, long offset, std::uint32_t n, bool periodic) {
+  const long index = static_cast<long>(at) + offset;
+  if (index >= 0 && index < static_cast<long>(n)) return static_cast<std::uint32_t>(index);
+  if (!periodic) return std::nullopt;
+  const long size = static_cast<long>(n);
+  return static_cast<std::uint32_t>(((index % size) + size) % size);
+}
+
+/// Weighted mean of neighbours on one axis, for every pixel.
+void blur_axis(HeightMap& map, bool along_x, double sigma_in_pixels) {
+  const long reach = static_cast<long>(std::ceil(6.0 * sigma_in_pixels));
+  std::vector<double> weights;
+  for (long k = 0; k <= reach; ++k)
+    weights.push_back(std::exp(-0.5 * static_cast<double>(k * k) / (sigma_in_pixels * sigma_in_pixels)));
+  const std::vector<double> before = map.heights_um;
+  for (std::uint32_t j = 0; j < map.rows; ++j)
+    for (std::uint32_t i = 0; i < map.columns; ++i) {
+      double sum = 0.0, total = 0.0;
+      for (long k = -reach; k <= reach; ++k) {
+        const auto other =
+            along_x ? neighbour(i, k, map.columns, map.periodic) : neighbour(j, k, map.rows, map.periodic);
+        if (!other) continue;
+        const double weight = weights[static_cast<std::size_t>(std::abs(k))];
+        sum += weight * (along_x ? before[std::size_t{j} * map.columns + *other]
+                                 : before[std::size_t{*other} * map.columns + i]);
+        total += weight;
+      }
+      map.at(i, j) = sum / total;
+    }
+}
+
+/// Powers x^a y^b with a + b <= degree.
+Eigen::VectorXd monomials(double x, double y, int degree) {
+  Eigen::VectorXd result((degree + 1) * (degree + 2) / 2);
+  Eigen::Index k = 0;
+  for (int order = 0; order <= degree; ++order)
+    for (int b = 0; b <= order; ++b) result[k++] = std::pow(x, order - b) * std::pow(y, b);
+  return result;
+}
+
+/// Local linear regression at one point of a line.
+double loess_at(const double* line, std::uint32_t columns, std::uint32_t at, double half_width) {
+  const long reach = static_cast<long>(std::ceil(half_width)) - 1;
+  double s0 = 0, s1 = 0, s2 = 0, z0 = 0, z1 = 0;
+  for (long k = -reach; k <= reach; ++k) {
+    const auto other = neighbour(at, k, columns, false);
+    if (!other) continue;
+    const double x = static_cast<double>(k), u = std::abs(x) / half_width;
+    const double weight = std::pow(1.0 - u * u * u, 3);
+    s0 += weight;
+    s1 += weight * x;
+    s2 += weight * x * x;
+    z0 += weight * line[*other];
+    z1 += weight * x * line[*other];
+  }
+  return (s2 * z0 - s1 * z1) / (s0 * s2 - s1 * s1);
+}
+
+}  // namespace
+
+void subtract_mean(HeightMap& map) {
+  double mean = 0.0;
+  for (const double h : map.heights_um) mean += h;
+  mean /= static_cast<double>(std::max<std::size_t>(1, map.heights_um.size()));
+  for (double& h : map.heights_um) h -= mean;
+  map.steps.push_back("mean height subtracted");
+}
+
+void level_polynomial(HeightMap& map, int degree) {
+  require(degree >= 0 && degree <= 8, "levelling by degree " + std::to_string(degree), "0 to 8");
+  const Eigen::Index terms = (degree + 1) * (degree + 2) / 2;
+  require(map.heights_um.size() >= static_cast<std::size_t>(terms) &&
+              map.columns > static_cast<std::uint32_t>(degree) &&
+              map.rows > static_cast<std::uint32_t>(degree),
+          "map too small for degree " + std::to_string(degree), "more points than the degree on both axes");
+  // Coordinates in [-1, 1] keep the normal equations well conditioned at these degrees.
+  const auto unit = [](std::uint32_t k, std::uint32_t n) { return n > 1 ? 2.0 * k / (n - 1.0) - 1.0 : 0.0; };
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+  for (std::uint32_t j = 0; j < map.rows; ++j)
+    for (std::uint32_t i = 0; i < map.columns; ++i) {
+      const Eigen::VectorXd m = monomials(unit(i, map.columns), unit(j, map.rows), degree);
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(m);
+      right += map.at(i, j) * m;
+    }
+  const Eigen::VectorXd coefficients = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  for (std::uint32_t j = 0; j < map.rows; ++j)
+    for (std::uint32_t i = 0; i < map.columns; ++i)
+      map.at(i, j) -= coefficients.dot(monomials(unit(i, map.columns), unit(j, map.rows), degree));
+  map.steps.push_back(degree == 1 ? "plane subtracted"
+                                  : "polynomial of degree " + std::to_string(degree) + " subtracted");
+}
+
+void filter_gaussian(HeightMap& map, double sigma_um) {
+  const double narrow = std::min(map.columns * map.pitch_x_um, map.rows * map.pitch_y_um);
+  require(sigma_um > 0.0 && sigma_um <= 0.5 * narrow, "Gaussian filter of " + shortest(sigma_um) + " um",
+          "above 0, up to half the map");
+  blur_axis(map, true, sigma_um / map.pitch_x_um);
+  blur_axis(map, false, sigma_um / map.pitch_y_um);
+  map.steps.push_back("Gaussian filter, standard deviation " + shortest(sigma_um) + " um");
+}
+
+void filter_median(HeightMap& map, int radius) {
+  require(radius >= 1 && radius <= 50, "median filter of radius " + std::to_string(radius), "1 to 50 pixels");
+  const HeightMap before = map;
+  std::vector<double> around;
+  for (std::uint32_t j = 0; j < map.rows; ++j)
+    for (std::uint32_t i = 0; i < map.columns; ++i) {
+      around.clear();
+      for (long b = -radius; b <= radius; ++b)
+        for (long a = -radius; a <= radius; ++a) {
+          const auto x = neighbour(i, a, map.columns, map.periodic),
+                     y = neighbour(j, b, map.rows, map.periodic);
+          if (x && y) around.push_back(before.at(*x, *y));
+        }
+      const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+      std::nth_element(around.begin(), middle, around.end());
+      map.at(i, j) = *middle;
+    }
+  map.steps.push_back("median filter, radius " + std::to_string(radius) + " pixels");
+}
+
+void filter_loess_lines(HeightMap& map, double width_um) {
+  const double half_width = 0.5 * width_um / map.pitch_x_um;
+  require(half_width > 1.0 && 2.0 * half_width <= map.columns, "LOESS width of " + shortest(width_um) + " um",
+          "at least three points and not more than a line");
+  std::vector<double> line(map.columns);
+  for (std::uint32_t j = 0; j < map.rows; ++j) {
+    std::copy_n(&map.at(0, j), map.columns, line.begin());
+    // At an end of the line half the window is missing; a window of two points is the least.
+    for (std::uint32_t i = 0; i < map.columns; ++i)
+      map.at(i, j) = loess_at(line.data(), map.columns, i, half_width);
+  }
+  map.steps.push_back("LOESS along lines, width " + shortest(width_um) + " um");
+}
+
+}  // namespace scintray
