@@ -49,7 +49,8 @@ Library::Library(const std::vector<std::filesystem::path>& folders) : folders_(f
       const std::filesystem::path below = folder / kKinds[kind].folder;
       if (!std::filesystem::is_directory(below, status)) continue;
       for (const auto& entry : std::filesystem::directory_iterator(below))
-        if (entry.path().extension() == ".toml") files_[kind].emplace(entry.path().stem().string(), entry.path());
+        if (entry.path().extension() == ".toml")
+          files_[kind].emplace(entry.path().stem().string(), entry.path());
     }
   }
   problems.throw_if_any();
@@ -68,11 +69,13 @@ std::vector<std::string> Library::names(LibraryKind kind) const {
   return {all.begin(), all.end()};
 }
 
-Library::Definition Library::find(LibraryKind kind, const std::string& name, const FileLocation& where) const {
+Library::Definition Library::find(LibraryKind kind, const std::string& name,
+                                  const FileLocation& where) const {
   const auto& own = own_[index_of(kind)];
   if (const auto found = own.find(name); found != own.end()) return {found->second, false};
   const auto& files = files_[index_of(kind)];
-  if (const auto found = files.find(name); found != files.end()) return {parse_toml_file(found->second), true};
+  if (const auto found = files.find(name); found != files.end())
+    return {parse_toml_file(found->second), true};
 
   const KindWords& words = kKinds[index_of(kind)];
   const std::vector<std::string> known = names(kind);
@@ -125,9 +128,10 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where)
   for (std::string next = name; !next.empty();) {
     const FileLocation asked = levels.empty() ? where : levels.back()->find("base")->where;
     if (std::find(chain.names.begin(), chain.names.end(), next) != chain.names.end())
-      throw InputError({asked, "the surface \"" + next + "\" is based on itself (" + joined(chain.names) + ", " +
-                                   next + ")",
-                        "base it on another surface"});
+      throw InputError(
+          {asked,
+           "the surface \"" + next + "\" is based on itself (" + joined(chain.names) + ", " + next + ")",
+           "base it on another surface"});
     const Definition definition = find(LibraryKind::surface, next, asked);
     chain.names.push_back(next);
     levels.push_back(definition.node);
@@ -146,9 +150,12 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where)
                       levels.size() == 1 ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
                                          : "add these keys beside base = \"" + chain.names[1] + "\""});
 
-  const SurfaceLookup lookup{
-      [this](const std::string& medium_name, const FileLocation& at) { return medium(medium_name, at).index; },
-      [this](const std::string& reflector_name, const FileLocation& at) { return reflector(reflector_name, at); }};
+  const SurfaceLookup lookup{[this](const std::string& medium_name, const FileLocation& at) {
+                               return medium(medium_name, at).index;
+                             },
+                             [this](const std::string& reflector_name, const FileLocation& at) {
+                               return reflector(reflector_name, at);
+                             }};
   const TomlTable table(std::make_shared<const TomlNode>(std::move(chain.merged)), problems);
   SurfaceSpec surface = read_surface(table, name, lookup, problems);
   table.finish();

@@ -33,7 +33,8 @@ Curve tabulate(const TomlTable& formula, const Formula& index_at) {
     x.push_back(wavelength_nm);
     y.push_back(index_at(1e6 / (wavelength_nm * wavelength_nm)));
     if (std::isfinite(y.back())) continue;
-    formula.report("range", "the formula gives no refractive index at " + std::to_string(wavelength_nm) + " nm",
+    formula.report("range",
+                   "the formula gives no refractive index at " + std::to_string(wavelength_nm) + " nm",
                    "check the coefficients, or give the range in which the formula holds");
     return Curve::constant(1.0);
   }
@@ -45,10 +46,10 @@ Curve read_sellmeier(const TomlTable& formula) {
   const std::vector<double> b = formula.numbers("b");
   const std::vector<double> c = formula.numbers("c_um2");
   if (b.size() != c.size() && !b.empty() && !c.empty())
-    formula.report("c_um2",
-                   "\"c_um2\" has " + std::to_string(c.size()) + " numbers, but \"b\" has " +
-                       std::to_string(b.size()),
-                   "give one c_um2 (in um^2) for every b");
+    formula.report(
+        "c_um2",
+        "\"c_um2\" has " + std::to_string(c.size()) + " numbers, but \"b\" has " + std::to_string(b.size()),
+        "give one c_um2 (in um^2) for every b");
   const bool usable = !b.empty() && b.size() == c.size();
   return tabulate(formula, [&](double inverse_square) {
     double n2 = 1.0;
@@ -139,7 +140,8 @@ std::vector<DecayComponent> read_decay(const TomlTable& table, SourceRule rule,
     components.push_back(component);
   }
   if (!components.empty() && std::abs(sum - 1.0) > kFractionTolerance)
-    table.report("decay", "the fractions of the decay components sum to " + std::to_string(sum) + ", not to 1",
+    table.report("decay",
+                 "the fractions of the decay components sum to " + std::to_string(sum) + ", not to 1",
                  "give shares of all the light");
   return components;
 }
@@ -165,7 +167,8 @@ void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium)
 }
 
 /// Reports unless a curve stays within 0 and 1.
-void expect_share(const TomlTable& block, const std::string& key, const Curve& curve, const std::string& what) {
+void expect_share(const TomlTable& block, const std::string& key, const Curve& curve,
+                  const std::string& what) {
   block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
                what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
                    " to " + std::to_string(curve.max_y()),
@@ -240,6 +243,7 @@ Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule r
     efficiency.expect("reference_index",
                       sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
                       "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    if (!efficiency.good("reference_index") || !window.good("index")) return sensor;
     const double r =
         (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
     efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,

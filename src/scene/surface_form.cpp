@@ -85,7 +85,8 @@ std::optional<TableSettings> read_tracing(const TomlTable& surface) {
   }
   settings.incidence_step_rad =
       read_positive(*table, "incidence_step", Dimension::angle, settings.incidence_step_rad);
-  settings.azimuth_step_rad = read_positive(*table, "azimuth_step", Dimension::angle, settings.azimuth_step_rad);
+  settings.azimuth_step_rad =
+      read_positive(*table, "azimuth_step", Dimension::angle, settings.azimuth_step_rad);
   settings.rays = read_count(*table, "rays", settings.rays, 1);
   settings.seed = read_count(*table, "seed", settings.seed, 0);
   settings.refine = table->boolean("refine", settings.refine);
@@ -245,7 +246,8 @@ void read_surface_reflector(const TomlTable& table, const SurfaceLookup& lookup,
     } catch (const InputError& error) {
       problems.add(error);
     }
-    if (table.has("specular_share")) reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+    if (table.has("specular_share"))
+      reflector.specular_share = read_share(table, "specular_share", std::nullopt);
   } else {
     reflector.name = surface.name;
     reflector.reflectance = table.curve("reflectance", Dimension::dimensionless);
@@ -267,12 +269,14 @@ void check_stack(const TomlTable& table, const SurfaceSpec& surface) {
     table.report("gap", "a painted surface has a gap, but paint lies on the face itself",
                  "remove the gap, or use model = \"smooth\" under it");
   if (!painted && reflector && !table.has("gap"))
-    table.report("gap", "a reflector is given without the gap that separates it from the face",
-                 "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
+    table.report(
+        "gap", "a reflector is given without the gap that separates it from the face",
+        "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
   if (!reflector && table.has("gap") && !painted)
-    table.report("gap", "a gap is given without a reflector behind it",
-                 "what lies behind a surface without a reflector is the neighbouring part: remove the gap, or "
-                 "give a reflector");
+    table.report(
+        "gap", "a gap is given without a reflector behind it",
+        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, or "
+        "give a reflector");
 }
 
 }  // namespace

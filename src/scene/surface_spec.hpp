@@ -33,7 +33,7 @@ struct TableFileSpec {
 struct LevelingSpec {
   enum class Kind { none, mean, plane, polynomial };
   Kind kind = Kind::plane;
-  int degree = 1;                       ///< of the polynomial
+  int degree = 1;                        ///< of the polynomial
   std::optional<double> loess_width_um;  ///< width of the weighted local regression along each line
 };
 
