@@ -78,7 +78,7 @@ std::optional<TableSettings> read_tracing(const TomlTable& surface) {
   TableSettings settings;
   const std::optional<TomlTable> table = surface.optional_table("tracing");
   if (!table) return settings;
-  const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}) == "on_the_spot";
+  const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
   if (on_the_spot) {
     for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine"}) table->has(key);
     return std::nullopt;

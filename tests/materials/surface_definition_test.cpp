@@ -1,0 +1,161 @@
+#include "library_helpers.hpp"
+
+using namespace scintray;
+
+namespace {
+
+SurfaceSpec surface_of(const std::string& text) {
+  return library_with(LibraryKind::surface, "mine", text).surface("mine");
+}
+
+std::vector<Problem> surface_problems(const std::string& text) {
+  const Library library = library_with(LibraryKind::surface, "mine", text);
+  return problems_of([&] { library.surface("mine"); });
+}
+
+const std::string kUnified = R"(model = "unified"
+[unified]
+sigma_alpha = "18 deg"
+definition = "polar_angle"
+facets = "projected_area"
+lobe = 0.7
+spike = 0.2
+)";
+
+}  // namespace
+
+TEST_CASE("a UNIFIED surface is read with its unit and its definition") {
+  const SurfaceSpec surface = surface_of(kUnified);
+  const auto& unified = std::get<UnifiedSurface>(surface.microsurface);
+  CHECK(unified.sigma_alpha_rad == doctest::Approx(18.0 * kDegree));
+  CHECK(unified.definition == SigmaAlphaDefinition::polar_angle);
+  CHECK(unified.sampling == FacetSampling::projected_area);
+  CHECK(unified.lobe == 0.7);
+  CHECK(unified.spike == 0.2);
+  CHECK(unified.backscatter == 0.0);
+  CHECK_FALSE(surface.reflector);
+}
+
+TEST_CASE("sigma_alpha needs its unit, its definition, and the way facets are met") {
+  const std::string head = "model = \"unified\"\n[unified]\nlobe = 1\n";
+  CHECK(reports(
+      surface_problems(head + "sigma_alpha = 0.3\ndefinition = \"solid_angle\"\nfacets = \"geant4\"\n"), 4,
+      "with its unit"));
+  CHECK(reports(surface_problems(head + "sigma_alpha = \"18 deg\"\nfacets = \"geant4\"\n"), 0,
+                "\"definition\""));
+  CHECK(reports(surface_problems(head + "sigma_alpha = \"18 deg\"\ndefinition = \"solid_angle\"\n"), 0,
+                "\"facets\""));
+  CHECK(reports(
+      surface_problems(head + "sigma_alpha = \"18 deg\"\ndefinition = \"solid\"\nfacets = \"geant4\"\n"), 5,
+      "solid_angle"));
+  CHECK(reports(surface_problems(
+                    head + "sigma_alpha = \"90 deg\"\ndefinition = \"solid_angle\"\nfacets = \"geant4\"\n"),
+                4, "between 0 and 90 deg"));
+  CHECK(reports(surface_problems(kUnified + "backscatter = 0.2\n"), 0, "above 1"));
+}
+
+TEST_CASE("a stack has a gap and a reflector together, and paint has no gap") {
+  const SurfaceSpec surface =
+      surface_of("model = \"smooth\"\ngap = \"optical_grease\"\nreflector = \"ESR\"\n");
+  CHECK(surface.gap == "optical_grease");
+  CHECK(surface.gap_index(420.0) == 1.465);
+  REQUIRE(surface.reflector);
+  CHECK(surface.reflector->name == "ESR");
+  CHECK(surface.reflector->specular_share == 1.0);
+
+  const SurfaceSpec mixed =
+      surface_of("model = \"smooth\"\ngap = 1.4\nreflectance = 0.95\nspecular_share = \"30 %\"\n");
+  CHECK(mixed.gap_index(420.0) == 1.4);
+  CHECK(mixed.reflector->reflectance(420.0) == 0.95);
+  CHECK(mixed.reflector->specular_share == doctest::Approx(0.3));
+  const SurfaceSpec overridden =
+      surface_of("model = \"smooth\"\ngap = \"air\"\nreflector = \"ESR\"\nspecular_share = 0.9\n");
+  CHECK(overridden.reflector->specular_share == 0.9);
+
+  CHECK(reports(surface_problems("model = \"smooth\"\nreflector = \"ESR\"\n"), 0, "without the gap"));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"air\"\n"), 2, "without a reflector"));
+  CHECK(reports(surface_problems("model = \"painted\"\n"), 0, "no reflector"));
+  CHECK(reports(surface_problems("model = \"painted\"\ngap = \"air\"\nreflector = \"ESR\"\n"), 2,
+                "paint lies on"));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"aire\"\nreflector = \"ERS\"\n"), 2, "\"air\""));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"air\"\nreflector = \"ERS\"\n"), 3, "\"ESR\""));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = 0.9\nreflector = \"ESR\"\n"), 2,
+                "between 1 and 5"));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"air\"\nreflectance = 0.9\n"), 0,
+                "specular_share"));
+  CHECK(reports(surface_problems("model = \"smooth\"\nspecular_share = 0.9\n"), 2, "no meaning"));
+}
+
+TEST_CASE("tables of another model are refused, not ignored") {
+  CHECK(reports(surface_problems("model = \"smooth\"\n[unified]\nlobe = 1\n"), 2, "unified"));
+  CHECK(reports(surface_problems("model = \"smooth\"\n[tracing]\nmode = \"table\"\n"), 2, "tracing"));
+  CHECK(reports(surface_problems("model = \"smoth\"\n"), 1, "smooth"));
+  CHECK(reports(surface_problems("gap = \"air\"\n"), 0, "\"model\""));
+}
+
+TEST_CASE("a base gives what its heir does not say") {
+  const SurfaceSpec surface =
+      surface_of("base = \"roncali2013_unified_rough\"\n[unified]\nsigma_alpha = \"5 deg\"\n");
+  const auto& unified = std::get<UnifiedSurface>(surface.microsurface);
+  CHECK(unified.sigma_alpha_rad == doctest::Approx(5.0 * kDegree));
+  CHECK(unified.lobe == 1.0);
+  CHECK(surface.name == "mine");
+  CHECK(surface.sources.size() == 1);  // the base's
+
+  const SurfaceSpec other = surface_of("base = \"roncali2013_unified_rough\"\nmodel = \"smooth\"\n");
+  CHECK(std::holds_alternative<SmoothSpec>(other.microsurface));
+  const SurfaceSpec repainted =
+      surface_of("base = \"polished_lambertian_097\"\nreflectance = 0.5\nspecular_share = 0\n");
+  CHECK(repainted.reflector->reflectance(420.0) == 0.5);
+}
+
+TEST_CASE("mistakes in a base and in its heir are told apart") {
+  CHECK(reports(surface_problems("base = \"polish\"\n"), 1, "polished"));
+  CHECK(reports(surface_problems("base = \"mine\"\n"), 1, "based on itself"));
+  CHECK(reports(surface_problems("base = \"polished\"\nrough = true\n"), 2, "rough"));
+}
+
+TEST_CASE("height maps and recipes are traced as a table unless told otherwise") {
+  const TemporaryLibrary files("maps");
+  files.write("map.txt", "0 1\n1 0\n");
+  Library library = shipped_library();
+  const auto add = [&](const std::string& text) {
+    library.add(LibraryKind::surface, {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
+  };
+  add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\npitch = \"0.175 um\"\nheight_unit = \"1 "
+      "nm\"\n"
+      "level = \"polynomial\"\ndegree = 2\ntiling = \"mirror\"\n[tracing]\nrays = 100\nincidence_step = \"5 "
+      "deg\"\n");
+  const SurfaceSpec surface = library.surface("mine");
+  const auto& map = std::get<HeightMapSpec>(surface.microsurface);
+  CHECK(map.path.filename() == "map.txt");
+  CHECK(*map.options.pitch_um == doctest::Approx(0.175));
+  CHECK(*map.options.height_unit_um == doctest::Approx(1e-3));
+  CHECK(map.leveling.kind == LevelingSpec::Kind::polynomial);
+  CHECK(map.leveling.degree == 2);
+  CHECK(map.tiling == Tiling::mirror);
+  REQUIRE(map.table);
+  CHECK(map.table->rays == 100);
+  CHECK(map.table->incidence_step_rad == doctest::Approx(5.0 * kDegree));
+
+  add("model = \"height_map\"\n[height_map]\nfile = \"nothing.txt\"\nlevel = \"plane\"\n");
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "does not exist"));
+  add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\n");
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 0, "\"level\""));
+
+  const SurfaceSpec made = surface_of(
+      "model = \"recipe\"\n[recipe]\nkind = \"gaussian\"\nrms_height = \"0.9 um\"\ncorrelation_length = "
+      "\"4.8 um\"\n"
+      "seed = 7\n[tracing]\nmode = \"on_the_spot\"\n");
+  const auto& recipe = std::get<RecipeSpec>(made.microsurface);
+  CHECK(recipe.recipe.gaussian.rms_height_um == doctest::Approx(0.9));
+  CHECK(recipe.recipe.gaussian.correlation_length_um == doctest::Approx(4.8));
+  CHECK(recipe.recipe.seed == 7);
+  CHECK_FALSE(recipe.table);
+  CHECK(reports(
+      surface_problems("model = \"recipe\"\n[recipe]\nkind = \"gaussian\"\nrms_height = \"0.9 um\"\n"), 0,
+      "correlation_length"));
+  CHECK(reports(surface_problems("model = \"recipe\"\n[recipe]\nkind = \"polished\"\n[tracing]\nmode = "
+                                 "\"on_the_spot\"\nrays = 5\n"),
+                6, "no meaning"));
+}
