@@ -1,7 +1,6 @@
 #include "scintray/mesh/assimp_import.hpp"
 
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
@@ -82,16 +81,20 @@ std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& n
   return material.empty() ? object : object + ":" + material;
 }
 
+/// Up to assimp 5.3, the 3MF importer frees the pictures of the archive but leaves them in the scene,
+/// which frees them again (assimp issue 5307). Pictures do not matter here.
+void forget_freed_textures(const Assimp::Importer& importer) {
+  auto* scene = const_cast<aiScene*>(importer.GetScene());
+  scene->mNumTextures = 0;
+  scene->mTextures = nullptr;
+}
+
 class SceneReader {
  public:
   SceneReader(const aiScene& scene, const std::filesystem::path& path) : scene_(scene), path_(path) {}
 
   RawMesh read() {
     visit(*scene_.mRootNode, AssimpMatrix());
-    if (points_and_lines_ > 0) {
-      raw_.notes.push_back(std::to_string(points_and_lines_) +
-                           " points and lines left out: they bound no solid");
-    }
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) {
       if (!used_.contains(m)) {
         raw_.notes.push_back("object \"" + std::string(scene_.mMeshes[m]->mName.C_Str()) +
@@ -126,36 +129,34 @@ class SceneReader {
       mesh.vertices.emplace_back(moved.x, moved.y, moved.z);
     }
     const bool mirrored = transform.Determinant() < 0.0;
-    std::uint32_t group = 0;
-    bool named = false;
+    const bool has_faces = source.mNumFaces > 0 && (source.mPrimitiveTypes & kSurfaces) != 0;
+    const std::uint32_t group = has_faces ? raw_.group_index(group_name(scene_, source, node)) : 0;
+    std::vector<std::uint32_t> corners;
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
       const aiFace& face = source.mFaces[f];
-      if (face.mNumIndices != 3) {
-        ++points_and_lines_;
-        continue;
-      }
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        if (face.mIndices[corner] >= source.mNumVertices) {
-          reject_file(path_, "face " + std::to_string(f + 1) + " refers to a vertex that does not exist",
+      const std::string name = "face " + std::to_string(f + 1);
+      corners.assign(face.mIndices, face.mIndices + face.mNumIndices);
+      for (std::uint32_t& corner : corners) {
+        if (corner >= source.mNumVertices) {
+          reject_file(path_, name + " refers to a vertex that does not exist",
                       "the file is damaged; export it again");
         }
+        corner += offset;
       }
-      if (!named) {
-        group = raw_.group_index(group_name(scene_, source, node));
-        named = true;
+      if (!raw_.add_polygon(corners, group, mirrored)) {
+        reject_file(path_,
+                    name + " has " + std::to_string(corners.size()) + " corners, more than can be read",
+                    "cut polygons in triangles when exporting");
       }
-      const std::uint32_t a = offset + face.mIndices[0], b = offset + face.mIndices[1],
-                          c = offset + face.mIndices[2];
-      mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
-      mesh.group.push_back(group);
     }
   }
+
+  static constexpr unsigned kSurfaces = aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON;
 
   const aiScene& scene_;
   const std::filesystem::path& path_;
   RawMesh raw_;
   std::set<unsigned> used_;
-  std::size_t points_and_lines_ = 0;
 };
 
 }  // namespace
@@ -168,7 +169,7 @@ RawMesh import_through_assimp(const std::filesystem::path& path) {
   const aiScene* scene = nullptr;
   std::string reason;
   try {
-    scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+    scene = importer.ReadFile(path.string(), 0);
     reason = importer.GetErrorString();
   } catch (const std::exception& error) {
     reason = error.what();
@@ -178,6 +179,7 @@ RawMesh import_through_assimp(const std::filesystem::path& path) {
         path, "cannot read the mesh: " + (reason.empty() ? "assimp gives no reason" : reason),
         "check that the content fits the ending " + path.extension().string() + ", and export it again");
   }
+  forget_freed_textures(importer);
   RawMesh raw = SceneReader(*scene, path).read();
   raw.notes.insert(raw.notes.end(), warnings.messages().begin(), warnings.messages().end());
   return raw;

@@ -153,7 +153,7 @@ class ModelReader {
   void append_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode < TINYGLTF_MODE_TRIANGLES || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-      ++points_and_lines_;
+      ++raw_.points_and_lines;
       return;
     }
     if (!primitive.targets.empty()) ++morphs_;
@@ -209,7 +209,6 @@ class ModelReader {
     const auto note = [this](std::size_t count, const std::string& what) {
       if (count > 0) raw_.notes.push_back(std::to_string(count) + " " + what);
     };
-    note(points_and_lines_, "primitives of points or lines left out: they bound no solid");
     note(without_positions_, "primitives without POSITION left out");
     note(leftover_indices_, "indices at the end of primitives left out: they make no whole triangle");
     note(skins_, "skins left out: the mesh is taken unposed");
@@ -223,7 +222,7 @@ class ModelReader {
   std::set<int> visited_, used_meshes_;
   std::uint32_t first_vertex_ = 0, group_ = 0;
   bool mirrored_ = false;
-  std::size_t points_and_lines_ = 0, without_positions_ = 0, leftover_indices_ = 0, skins_ = 0, morphs_ = 0;
+  std::size_t without_positions_ = 0, leftover_indices_ = 0, skins_ = 0, morphs_ = 0;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/gltf_import.hpp"
+#include "scintray/mesh/ply_import.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
@@ -25,6 +26,7 @@ RawMesh read_raw(const std::filesystem::path& path, const std::string& extension
   check_claimed_sizes(path, extension, content);
   if (extension == ".gltf") return import_gltf(path, content, false);
   if (extension == ".glb") return import_gltf(path, content, true);
+  if (extension == ".ply") return import_ply(path, content);
   return import_through_assimp(path);
 }
 
@@ -75,6 +77,14 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
   const double scale = resolve_unit(path, mm_per_unit, raw.unit_from_file);
   MeshImport result{std::move(raw.mesh), raw.unit_from_file, std::move(raw.notes), 0};
   TriMesh& mesh = result.mesh;
+  if (raw.points_and_lines > 0) {
+    result.notes.push_back(std::to_string(raw.points_and_lines) +
+                           " points and lines left out: they bound no solid");
+  }
+  if (raw.crossing_polygons > 0) {
+    result.notes.push_back(std::to_string(raw.crossing_polygons) +
+                           " polygons cross themselves and were cut in triangles as well as may be");
+  }
   if (mesh.triangles.empty()) {
     reject_file(path, "the file holds no triangles",
                 "a part needs a closed surface of triangles or polygons");

@@ -17,6 +17,13 @@ struct RawMesh {
   std::string unit_from_file;
   std::vector<std::string> notes;
 
+  std::size_t points_and_lines = 0;   ///< faces with fewer than three corners, left out
+  std::size_t crossing_polygons = 0;  ///< polygons that cross themselves, cut as well as may be
+
+  /// Adds a polygon over vertices of `mesh`, cut in triangles, with its corners in reverse order when
+  /// `mirrored`. Returns false when it has more than kMostCorners corners.
+  bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group, bool mirrored);
+
   /// Index of the group, added when it is new.
   std::uint32_t group_index(const std::string& name) {
     const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);

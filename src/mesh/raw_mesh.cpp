@@ -1,0 +1,29 @@
+#include "scintray/mesh/raw_mesh.hpp"
+
+#include <array>
+
+#include "scintray/mesh/polygon.hpp"
+
+namespace scintray {
+
+bool RawMesh::add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group_of_polygon,
+                          bool mirrored) {
+  if (corners.size() < 3) {
+    ++points_and_lines;
+    return true;
+  }
+  if (corners.size() > kMostCorners) return false;
+  std::vector<Vec3> points;
+  points.reserve(corners.size());
+  for (const std::uint32_t corner : corners) points.push_back(mesh.vertices[corner]);
+  bool simple = true;
+  for (const auto& [i, j, k] : triangulate_polygon(points, simple)) {
+    const std::uint32_t a = corners[i], b = corners[j], c = corners[k];
+    mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
+    mesh.group.push_back(group_of_polygon);
+  }
+  if (!simple) ++crossing_polygons;
+  return true;
+}
+
+}  // namespace scintray
