@@ -3,8 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "scintray/cli/check_command.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/failures.hpp"
+#include "scintray/cli/replay_command.hpp"
+#include "scintray/cli/report_command.hpp"
+#include "scintray/cli/run_command.hpp"
+#include "scintray/cli/table_command.hpp"
 #include "scintray/core/version.hpp"
 
 namespace {
@@ -23,6 +28,11 @@ int main(int argc, char** argv) {
   CLI::App app("Follows scintillation light through detectors made of triangle meshes.", "scintray");
   app.set_version_flag("--version", "scintray " + scintray::version());
   app.require_subcommand(1);
+  scintray::cli::add_run_command(app);
+  scintray::cli::add_check_command(app);
+  scintray::cli::add_report_command(app);
+  scintray::cli::add_table_command(app);
+  scintray::cli::add_replay_command(app);
   app.failure_message(CLI::FailureMessage::help);
 
   try {

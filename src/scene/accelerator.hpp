@@ -14,7 +14,7 @@ namespace scintray {
 enum class AcceleratorKind {
   automatic,  ///< planes where they apply, else Embree
   embree,     ///< Embree's bounding volume hierarchy, single rays, corrected in double precision
-  planes,     ///< convex regions with few planes: the nearest plane ahead
+  planes,     ///< the nearest plane ahead, for closed regions: all must be convex with few planes
 };
 
 /// A triangle of a region's boundary in the region's own frame; normals point out of the region.

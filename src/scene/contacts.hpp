@@ -24,10 +24,10 @@ inline constexpr std::int32_t kNoFace = -1;
 /// A region is the inside of a part less the parts nested in it, or the ambient medium.
 struct InterfaceTriangle {
   std::array<Vec3, 3> vertex;
-  std::int32_t back = kAmbient;    ///< part index or kAmbient
+  std::int32_t back = kAmbient;  ///< part index or kAmbient
   std::int32_t front = kAmbient;
-  std::int32_t back_face = kNoFace;   ///< face id of the back part here; kNoFace when the surface
-                                      ///< here belongs to the front part alone
+  std::int32_t back_face = kNoFace;  ///< face id of the back part here; kNoFace when the surface
+                                     ///< here belongs to the front part alone
   std::int32_t front_face = kNoFace;
 };
 
@@ -40,7 +40,6 @@ struct InterfaceTriangle {
 ///
 /// @throws InputError naming both parts, the overlap volume and a point inside it, for parts that
 ///         overlap with volume; all such pairs are listed.
-std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts,
-                                                double tolerance_mm);
+std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm);
 
 }  // namespace scintray

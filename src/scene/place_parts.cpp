@@ -12,6 +12,9 @@ namespace scintray {
 
 namespace {
 
+/// The face of all triangles that no rule matches.
+constexpr const char* kOtherFace = "other";
+
 struct LoadedShape {
   TriMesh mesh;
   std::vector<std::string> notes;
@@ -137,7 +140,7 @@ class FaceTagger {
   }
 
   void add_rest() {
-    const bool smooth_by_nature = !part_.sensor.empty();
+    const bool smooth_by_nature = !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
     if (part_.surface.empty() && !smooth_by_nature) {
       const auto first = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin();
       problems_.add(part_.where,
@@ -146,7 +149,7 @@ class FaceTagger {
                         place_of(placed_.mesh, static_cast<std::size_t>(first)),
                     "give the part a surface = \"...\" for all faces that no rule matches");
     }
-    placed_.faces.push_back({part_.faces.empty() ? "all" : "rest", part_.surface, {}});
+    placed_.faces.push_back({kOtherFace, part_.surface, {}});
   }
 
   const PartSpec& part_;
@@ -229,7 +232,7 @@ class PartPlacer {
     fill.medium = touch.fill;
     fill.mesh = make_box(box->min(), box->max());
     move(fill.mesh, part.placement.translate);
-    fill.faces = {{"all", {}, {}}};
+    fill.faces = {{kOtherFace, {}, {}}};
     fill.face_of.assign(fill.mesh.triangles.size(), 0);
     fill.diagnosis = diagnose(fill.mesh);
     return fill;

@@ -32,6 +32,7 @@ SceneMedium::SceneMedium(Medium medium, double low_nm, double high_nm)
 SceneMedium SceneMedium::opaque() {
   SceneMedium medium;
   medium.medium_.name = "opaque";
+  medium.medium_.index = Curve::constant(1.0);
   medium.table_ = {MediumOptics{}};
   medium.opaque_ = true;
   return medium;

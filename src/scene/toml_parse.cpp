@@ -102,6 +102,9 @@ std::string hint_for_syntax(const std::string& message) {
   if (says("valid string")) return "close the string with the quote that opened it";
   if (says("utf8") || says("UTF-8")) return "save the file as UTF-8 text";
   if (says("separator `=`")) return "write key = value";
+  if (says("valid key"))
+    return "a key is of letters, digits, _ and -, or in quotes; an inline table { ... } must stand on one "
+           "line";
   if (says("array separator")) return "separate elements with commas and close the array with ]";
   if (says("missing value") || says("got nothing")) return "write a value after the =";
   return "see https://toml.io for the grammar";
@@ -138,7 +141,8 @@ Problem clean_syntax_error(const TextPlaces& places, const std::string& drawing,
     number = 0;
   }
   if (comment == "here") comment.clear();
-  std::string what = "not valid TOML: " + message + (comment.empty() ? "" : " (" + comment + ")");
+  const std::string detail = message.empty() || comment.empty() ? comment : " (" + comment + ")";
+  const std::string what = "not valid TOML: " + message + detail;
   return {places.at(offset), what, hint_for_syntax(what)};
 }
 
@@ -287,7 +291,7 @@ TomlNodePtr parse_toml(const std::string& text, const std::string& file) {
   } catch (const toml::exception& error) {
     throw InputError(clean_syntax_error(places, error.what(), error.location()));
   } catch (const std::exception& error) {
-    throw InputError({{file, 0, 0},
+    throw InputError({{file, 1, 1},
                       std::string("not valid TOML: ") + error.what(),
                       "see https://toml.io for the grammar"});
   }

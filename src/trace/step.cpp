@@ -99,7 +99,9 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   result.interface = link.interface;
   result.from_back = link.from_back;
   result.cos_before = std::abs(photon.ray.direction.dot(outward));
-  const double here = photon.optics.index, there = next_medium.index(photon.wavelength_nm);
+  const double here = photon.optics.index;
+  // Nothing is reflected where light enters an opaque part: reflection is its surface's business.
+  const double there = next_medium.is_opaque() ? here : next_medium.index(photon.wavelength_nm);
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;

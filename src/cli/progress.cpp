@@ -1,0 +1,57 @@
+#include "scintray/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace scintray::cli {
+
+namespace {
+
+constexpr std::chrono::milliseconds kInterval{100};
+
+/// 1234567 as "1.23 M".
+std::string rate_text(double per_second) {
+  if (per_second >= 1e6) return fmt::format("{:.2f} M", per_second / 1e6);
+  if (per_second >= 1e3) return fmt::format("{:.0f} k", per_second / 1e3);
+  return fmt::format("{:.0f} ", per_second);
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto total = static_cast<long>(std::ceil(std::max(0.0, seconds)));
+  if (total < 60) return fmt::format("{} s", total);
+  if (total < 3600) return fmt::format("{} min {:02} s", total / 60, total % 60);
+  return fmt::format("{} h {:02} min", total / 3600, (total % 3600) / 60);
+}
+
+ProgressLine::ProgressLine(bool wanted)
+    : active_(wanted && isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()), last_() {}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::restart() { start_ = std::chrono::steady_clock::now(); }
+
+void ProgressLine::show(const std::string& what, double done, double total, const std::string& thing) {
+  if (!active_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < kInterval) return;
+  last_ = now;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double rate = elapsed > 0.0 ? done / elapsed : 0.0;
+  std::string line = fmt::format("{}  {:3.0f} %", what, total > 0.0 ? 100.0 * done / total : 0.0);
+  if (!thing.empty() && rate > 0.0) line += fmt::format("  {}{}/s", rate_text(rate), thing);
+  if (rate > 0.0 && done < total) line += "  " + duration_text((total - done) / rate) + " left";
+  std::cerr << "\r\033[K" << line << std::flush;
+  shown_ = true;
+}
+
+void ProgressLine::clear() {
+  if (shown_) std::cerr << "\r\033[K" << std::flush;
+  shown_ = false;
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,35 @@
+#pragma once
+/// Progress on a terminal; nothing in a pipe or a file.
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+namespace scintray::cli {
+
+/// One line on standard error that is written over as work goes on, with rate and time left.
+class ProgressLine {
+ public:
+  /// Silent unless standard error is a terminal and `wanted`.
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Shows `done` of `total` things, at most ten times a second. `what` goes first, as "point 3/15".
+  void show(const std::string& what, double done, double total, const std::string& thing);
+  /// Removes the line.
+  void clear();
+  /// Starts rate and time left anew.
+  void restart();
+
+ private:
+  bool active_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point start_, last_;
+};
+
+/// "42 s", "3 min 10 s", "2 h 05 min".
+std::string duration_text(double seconds);
+
+}  // namespace scintray::cli

@@ -1,0 +1,80 @@
+#include "scintray/cli/replay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "scintray/core/error.hpp"
+#include "scintray/io/simulate.hpp"
+#include "scintray/trace/run.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct ReplayOptions {
+  std::filesystem::path scene;
+  std::uint64_t event = 0, photon = 0, point = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+std::string describe(const Scene& scene, const Step& step) {
+  switch (step.kind) {
+    case StepKind::scattered: return "scattered in the bulk";
+    case StepKind::returned: return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name +
+                                    " | " + scene.regions[scene.interfaces[step.interface].front].name;
+    case StepKind::crossed: {
+      const Interface& i = scene.interfaces[step.interface];
+      return "into " + scene.regions[step.from_back ? i.front : i.back].name;
+    }
+    case StepKind::detected: return "DETECTED by " + scene.parts[step.where].name;
+    case StepKind::unconverted: return "NOT CONVERTED by " + scene.parts[step.where].name;
+    case StepKind::absorbed_in_medium: return "ABSORBED in " + scene.media[step.where].medium().name;
+    case StepKind::absorbed_at_surface: return "ABSORBED at " + scene.surfaces[step.where].name;
+    case StepKind::escaped: return "ESCAPED";
+  }
+  throw InternalError("unknown step");
+}
+
+void replay_photon(const ReplayOptions& options) {
+  const SceneFile file = SceneFile::load(options.scene);
+  if (options.point >= file.points())
+    throw InputError(Problem{{options.scene.string()},
+                             fmt::format("there is no point {}; the scene has {}", options.point, file.points()),
+                             "points count from 0"});
+  const SceneSpec spec = file.spec(options.point);
+  SceneBuilder builder;
+  const BuiltScene built = builder.build(spec);
+  const PhotonSource source(spec.source, built.scene);
+  RunSettings settings;
+  settings.seed = options.seed.value_or(spec.run.seed);
+  settings.point = static_cast<std::uint32_t>(options.point);
+  settings.max_interactions = spec.run.max_interactions;
+  settings.max_time_ns = spec.run.max_time_ns;
+
+  std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step", "x mm", "y mm",
+                           "z mm", "dx", "dy", "dz", "path mm", "time ns");
+  std::uint64_t number = 0;
+  replay(built.scene, source, settings, options.event, options.photon, [&](const Photon& photon, const Step& step) {
+    const Vec3 &p = photon.position, &d = photon.ray.direction;
+    std::cout << fmt::format("{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n",
+                             ++number, p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
+                             describe(built.scene, step));
+  });
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand("replay", "Follow one photon of a run again, step by step");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("--event", options->event, "event number, as in the photon list")->required();
+  command->add_option("--photon", options->photon, "photon number within the event")->required();
+  command->add_option("--point", options->point, "point of the sweep, from 0");
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->callback([options] { replay_photon(*options); });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,100 @@
+#include "scintray/cli/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/progress.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/io/simulate.hpp"
+#include "scintray/report/html_report.hpp"
+#include "scintray/report/text_summary.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::filesystem::path> scenes;
+  std::filesystem::path output;
+  std::optional<int> threads;
+  std::optional<std::uint64_t> seed, photons;
+  bool no_report = false;
+  bool quiet = false;
+};
+
+/// Results go where the command line says, then where the scene says, then beside the working folder
+/// under the scene's name.
+std::filesystem::path output_path(const RunOptions& options, const std::filesystem::path& scene,
+                                  const SceneFile& file) {
+  if (!options.output.empty()) return options.output;
+  if (const auto own = file.spec(0).run.output; !own.empty()) return own;
+  return scene.stem().string() + ".h5";
+}
+
+SimulationOptions simulation_options(const RunOptions& options, ProgressLine& line) {
+  SimulationOptions result;
+  result.threads = options.threads;
+  result.seed = options.seed;
+  result.photons = options.photons;
+  result.stop = &InterruptGuard::requested();
+  result.surface_hooks.stop = [] { return InterruptGuard::requested().load(); };
+  result.surface_hooks.table_progress = [&line](const std::string& surface, double done) {
+    line.show("building the table of " + surface, done, 1.0, "");
+    if (done >= 1.0) line.restart();
+  };
+  result.progress = [&line](const SimulationProgress& p) {
+    line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.photons_done),
+              static_cast<double>(p.photons_total), "photons");
+  };
+  return result;
+}
+
+void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
+  const SceneFile file = SceneFile::load(scene);
+  ProgressLine line(!options.quiet);
+  SimulationOptions simulation = simulation_options(options, line);
+  simulation.output = output_path(options, scene, file);
+  const RunResult result = simulate(file, simulation);
+  line.clear();
+
+  if (!options.quiet) std::cout << text_summary(result);
+  std::cout << "results  " << simulation.output.string() << "\n";
+  if (!options.no_report) {
+    auto page = simulation.output;
+    page.replace_extension(".html");
+    write_report(page, result);
+    std::cout << "report   " << page.string() << "\n";
+  }
+  if (!result.complete()) {
+    std::cerr << "stopped: the results are partial and say so\n";
+    throw CLI::RuntimeError(kInterrupted);
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Trace the photons of scenes; write results and a report");
+  command->add_option("SCENE", options->scenes, "scene files (TOML)")->required();
+  command->add_option("-o,--output", options->output, "results file (default: SCENE's name with .h5, here)");
+  command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--no-report", options->no_report, "do not write the HTML page");
+  command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
+  command->callback([options] {
+    if (options->scenes.size() > 1 && !options->output.empty())
+      throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
+    const InterruptGuard guard;
+    for (const auto& scene : options->scenes) run_scene(*options, scene);
+  });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,130 @@
+#include "scintray/report/html_report.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "scintray/core/error.hpp"
+#include "scintray/report/format.hpp"
+#include "scintray/report/report_tables.hpp"
+#include "scintray/report/svg_plot.hpp"
+
+namespace scintray {
+
+namespace {
+
+using namespace report;
+
+constexpr const char* kStyle = R"css(
+:root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; --panel:#f6f8fa;
+  --alarm:#8a1c00; --alarm-paper:#fdeee9;
+  --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#7a8790; --f5:#b35a8c; }
+@media (prefers-color-scheme: dark) {
+:root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; --panel:#1c2227;
+  --alarm:#ffb4a0; --alarm-paper:#40180d;
+  --f0:#2f8fcc; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#b0648f; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 60rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
+  font: 16px/1.5 system-ui, sans-serif; }
+h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
+h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-bottom: 1px solid var(--rule); }
+h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
+.under { color: var(--soft); margin: 0; }
+.headline { font-size: 1.15rem; margin: 1.5rem 0 0; } .headline b { font-size: 2rem; color: var(--f0); }
+.partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
+  color: var(--alarm); }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; margin: .5rem 0; }
+th, td { padding: .3rem .8rem; text-align: left; border-bottom: 1px solid var(--rule); white-space: nowrap; }
+tbody th { font-weight: 500; } .n { text-align: right; }
+thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; }
+tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
+table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
+figure { margin: 0 0 1rem; break-inside: avoid; } figcaption { color: var(--soft); font-size: .88rem; }
+.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
+.grid svg.plot { font-size: 15px; }
+.bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
+.who { font-size: .88rem; } .bar { display: flex; height: 1.5rem; border-radius: 3px; overflow: hidden; }
+.bar span { color: #fff; font-size: .75rem; line-height: 1.5rem; text-align: center; overflow: hidden;
+  white-space: nowrap; box-shadow: inset -1px 0 0 var(--paper); }
+.bar .f1, .bar .f2 { color: #10161b; }
+.f0 { background: var(--f0); } .f1 { background: var(--f1); } .f2 { background: var(--f2); }
+.f3 { background: var(--f3); } .f4 { background: var(--f4); } .f5 { background: var(--f5); }
+.key { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; font-size: .88rem; margin: 0 0 .6rem; }
+.key i { display: inline-block; width: .85rem; height: .85rem; margin-right: .4rem; border-radius: 2px;
+  vertical-align: -1px; }
+details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
+pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
+  .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  .scroll { overflow: visible; } table { font-size: .72rem; } th, td { padding: .2rem .4rem; } }
+)css";
+
+std::string partial_banner(const RunResult& run) {
+  if (run.complete()) return "";
+  std::uint64_t wanted = 0, traced = 0;
+  for (const PointResult& point : run.points) {
+    wanted += point.photons_requested;
+    traced += point.photons;
+  }
+  return "<p class=\"partial\"><b>Partial result.</b> " +
+         escape_html(run.partial_reason.empty() ? "Not every point was finished" : run.partial_reason) +
+         ". " + grouped(traced) + " of the " + grouped(wanted) +
+         " photons of the points below were traced.</p>\n";
+}
+
+std::string answer(const RunResult& run) {
+  if (run.points.empty()) return "<p>No point was finished.</p>\n";
+  if (run.points.size() == 1) return headline(run.points.front());
+  const auto view = view_sweep(run);
+  return view ? sweep_section(run, *view) : "";
+}
+
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int cause) {
+  throw SystemError(path.string() + ": cannot write the report: " + std::strerror(cause));
+}
+
+}  // namespace
+
+std::string html_report(const RunResult& run) {
+  const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
+  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
+  page += "<title>" + title + "</title>\n<style>" + kStyle + svg_plot_style() + "</style>\n</head>\n<body>\n";
+  page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
+          escape_html(run.header.scene_file) + "</p>\n";
+  page += partial_banner(run) + answer(run);
+  if (!run.points.empty())
+    page += fate_section(run) + sensor_section(run) + angle_section(run) + path_section(run);
+  page += condition_section(run);
+  page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
+  return page + "</body>\n</html>\n";
+}
+
+void write_report(const std::filesystem::path& path, const RunResult& run) {
+  const std::string page = html_report(run);
+  if (std::filesystem::is_directory(path)) cannot_write(path, EISDIR);
+  auto temporary = path;
+  temporary.replace_filename("." + path.filename().string() + "." + std::to_string(::getpid()) +
+                             ".unfinished");
+  std::error_code error;
+  errno = 0;
+  std::ofstream out(temporary, std::ios::binary);
+  out << page;
+  out.close();
+  if (!out) {
+    const int cause = errno == 0 ? EIO : errno;
+    std::filesystem::remove(temporary, error);
+    cannot_write(path, cause);
+  }
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  cannot_write(path, error.value());
+}
+
+}  // namespace scintray

@@ -1,0 +1,36 @@
+#pragma once
+/// Plots as SVG, for a page whose style sheet is `svg_plot_style()`.
+
+#include <string>
+#include <vector>
+
+namespace scintray::report {
+
+struct PlotSeries {
+  std::string label;
+  std::vector<double> x;  ///< points: positions; steps: edges, one more than y
+  std::vector<double> y;
+  std::vector<double> error;  ///< one sigma; empty for none
+  bool steps = false;         ///< a histogram's outline instead of points joined by lines
+};
+
+struct Plot {
+  std::string title;  ///< read by screen readers; not drawn
+  std::string x_label, y_label;
+  std::vector<PlotSeries> series;
+  bool log_y = false;                    ///< values of zero and below are left out
+  bool y_from_zero = true;               ///< linear axis only
+  double width = 860.0, height = 380.0;  ///< user units; the plot scales to the page
+};
+
+/// The plot; text is escaped. Throws std::invalid_argument when the lengths of a series differ or
+/// nothing is finite.
+std::string svg_plot(const Plot& plot);
+
+/// Ticks at multiples of 1, 2 or 5 times a power of ten that cover [low, high], about `count` of them.
+std::vector<double> nice_ticks(double low, double high, int count);
+
+/// CSS of plots: light and dark colours (Okabe and Ito 2008, distinguishable by the colour-blind).
+std::string svg_plot_style();
+
+}  // namespace scintray::report

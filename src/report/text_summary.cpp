@@ -1,0 +1,101 @@
+#include "scintray/report/text_summary.hpp"
+
+#include <algorithm>
+
+#include "scintray/report/format.hpp"
+#include "scintray/report/sweep_view.hpp"
+
+namespace scintray {
+
+namespace {
+
+using namespace report;
+using Table = std::vector<std::vector<std::string>>;
+
+/// Columns padded to their widest cell; the first to the left, the others to the right.
+std::string aligned(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : table) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
+  }
+  std::string text;
+  for (const auto& row : table) {
+    text += "  ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string room(widths[i] - display_width(row[i]), ' ');
+      text += (i == 0 ? row[i] + room : "   " + room + row[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string sweep_table(const RunResult& run, const SweepView& view) {
+  Table table{{view.key}};
+  for (const SweepSeries& series : view.series)
+    table[0].push_back(series.label.empty() ? "detected fraction" : series.label);
+  for (std::size_t r = 0; r < view.rows.size(); ++r) {
+    std::vector<std::string> row{view.rows[r]};
+    for (const SweepSeries& series : view.series) {
+      const auto found = std::find(series.x.begin(), series.x.end(), view.row_values[r]);
+      row.push_back(
+          found == series.x.end()
+              ? "-"
+              : with_error(
+                    run.points[series.points[static_cast<std::size_t>(found - series.x.begin())]].fraction(
+                        Fate::detected)));
+    }
+    table.push_back(std::move(row));
+  }
+  const bool named = view.series.size() > 1 || !view.series.front().label.empty();
+  return (named ? "Detected fraction\n" : "") + aligned(table);
+}
+
+std::string point_table(const RunResult& run) {
+  Table table{{"point", "detected fraction"}};
+  for (const PointResult& point : run.points)
+    table.push_back({point_label(point), with_error(point.fraction(Fate::detected))});
+  return aligned(table);
+}
+
+std::string fate_table(const PointResult& point) {
+  Table table{{"fate", "photons", "fraction"}};
+  for (int i = 0; i < kFateCount; ++i) {
+    const Fate fate = static_cast<Fate>(i);
+    std::string name = fate_name(fate);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.push_back({name, std::to_string(point.count(fate)), with_error(point.fraction(fate))});
+  }
+  table.push_back({"all", std::to_string(point.photons), ""});
+  return aligned(table);
+}
+
+std::string warnings(const RunResult& run) {
+  std::uint64_t lost = 0;
+  double bias = 0.0;
+  for (const PointResult& point : run.points) {
+    lost += point.lost;
+    bias = std::max(bias, point.cut_bias_bound());
+  }
+  std::string text;
+  if (bias > 0.0) text += "Cut photons may bias a fraction by at most " + compact(bias, 2) + ".\n";
+  text +=
+      lost == 0 ? "Lost photons: 0.\n" : "LOST PHOTONS: " + std::to_string(lost) + ". This is a defect.\n";
+  if (!run.complete())
+    text += "PARTIAL RESULT: " +
+            (run.partial_reason.empty() ? "not every point is finished" : run.partial_reason) + ".\n";
+  return text;
+}
+
+}  // namespace
+
+std::string text_summary(const RunResult& run) {
+  if (run.points.empty()) return "No point was finished.\n" + warnings(run);
+  if (run.points.size() == 1) return fate_table(run.points.front()) + warnings(run);
+  const auto view = view_sweep(run);
+  return (view ? sweep_table(run, *view) : point_table(run)) + warnings(run);
+}
+
+}  // namespace scintray

@@ -1,0 +1,294 @@
+#include "scintray/scene/build_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/scene/assemble.hpp"
+#include "scintray/scene/library.hpp"
+#include "scintray/scene/place_parts.hpp"
+
+namespace scintray {
+
+namespace {
+
+/// Wavelengths that photons of a scene can have, and the one tables are made for.
+struct WavelengthRange {
+  double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
+};
+
+Library library_for(const SceneSpec& spec) {
+  Library library = Library::shipped();
+  library.add(LibraryKind::medium, spec.media);
+  library.add(LibraryKind::surface, spec.surfaces);
+  library.add(LibraryKind::sensor, spec.sensors);
+  library.add(LibraryKind::reflector, spec.reflectors);
+  return library;
+}
+
+/// The part of an emission spectrum that is not zero.
+WavelengthRange range_of(const Curve& emission) {
+  WavelengthRange range;
+  const auto &x = emission.x(), &y = emission.y();
+  std::size_t first = 0, last = x.size() - 1;
+  while (first + 1 < x.size() && y[first + 1] == 0.0) ++first;
+  while (last > 0 && y[last - 1] == 0.0) --last;
+  range.low_nm = x[std::min(first, last)];
+  range.high_nm = x[last];
+  range.reference_nm = CurveSampler(emission).mean();
+  return range;
+}
+
+/// Looks up every name of a scene and fills an Assembly.
+class AssemblyMaker {
+ public:
+  AssemblyMaker(const SceneSpec& spec, const Library& library, SurfaceMaker& surfaces, Problems& problems)
+      : spec_(spec), library_(library), surface_maker_(surfaces), problems_(problems) {}
+
+  Assembly make(const std::vector<PlacedMesh>& placed, std::vector<std::string>& warnings) {
+    wavelengths_ = find_wavelengths(placed);
+    assembly_.low_nm = wavelengths_.low_nm;
+    assembly_.high_nm = wavelengths_.high_nm;
+    assembly_.ambient = medium_index(spec_.ambient);
+    for (const PlacedMesh& part : placed) add_part(part);
+    assembly_.contacts_default = spec_.contacts_default;
+    assembly_.contacts = spec_.contacts;
+    assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
+    assembly_.accelerator = spec_.run.accelerator;
+    check_contact_names();
+    assembly_.make_surface = [this, &warnings](const std::string& name, std::uint32_t inside, std::uint32_t outside) {
+      return make_surface(name, inside, outside, warnings);
+    };
+    return assembly_;
+  }
+
+ private:
+  WavelengthRange find_wavelengths(const std::vector<PlacedMesh>& placed) {
+    if (spec_.source.wavelength_nm) {
+      const double nm = *spec_.source.wavelength_nm;
+      return {nm, nm, nm};
+    }
+    const auto* region = std::get_if<RegionSpec>(&spec_.source.origin);
+    if (!region) {
+      problems_.add(spec_.source.wavelength_where,
+                    "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
+                    "give a wavelength, as wavelength = \"420 nm\"");
+      return {400.0, 400.0, 400.0};
+    }
+    for (const PlacedMesh& part : placed) {
+      if (part.name != region->part.name || part.medium.empty() || part.medium.name == kOpaqueMedium) continue;
+      try {
+        const Medium medium = library_.medium(part.medium.name, part.medium.where);
+        if (medium.emission.max_y() > 0.0 && !medium.emission.is_constant()) return range_of(medium.emission);
+        problems_.add(spec_.source.wavelength_where,
+                      "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
+                      "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+      } catch (const InputError&) {
+        // reported where the part is added
+      }
+    }
+    return {400.0, 400.0, 400.0};
+  }
+
+  std::uint32_t add_medium(Medium medium, const FileLocation& where) {
+    if (!medium.index.covers(wavelengths_.low_nm, wavelengths_.high_nm))
+      problems_.add(where,
+                    fmt::format("medium \"{}\" has refractive indices from {:g} to {:g} nm, but light of {:g} to {:g} nm "
+                                "is in use",
+                                medium.name, medium.index.x().front(), medium.index.x().back(), wavelengths_.low_nm,
+                                wavelengths_.high_nm),
+                    "extend its index table, or choose other wavelengths");
+    assembly_.media.emplace_back(std::move(medium), wavelengths_.low_nm, wavelengths_.high_nm);
+    return static_cast<std::uint32_t>(assembly_.media.size() - 1);
+  }
+
+  std::uint32_t medium_index(const NameRef& ref) {
+    const auto [known, is_new] = media_.try_emplace(ref.name, 0u);
+    if (!is_new) return known->second;
+    if (ref.name == kOpaqueMedium) {
+      assembly_.media.push_back(SceneMedium::opaque());
+      return known->second = static_cast<std::uint32_t>(assembly_.media.size() - 1);
+    }
+    Medium medium;
+    medium.name = ref.name;
+    medium.index = Curve::constant(1.0);
+    try {
+      medium = library_.medium(ref.name, ref.where);
+    } catch (const InputError& error) {
+      problems_.add(error);
+    }
+    return known->second = add_medium(std::move(medium), ref.where);
+  }
+
+  std::int32_t sensor_index(const NameRef& ref) {
+    if (ref.empty()) return kNone;
+    const auto [known, is_new] = sensors_.try_emplace(ref.name, kNone);
+    if (!is_new) return known->second;
+    Sensor sensor;
+    try {
+      sensor = library_.sensor(ref.name, ref.where);
+      if (!sensor.efficiency.covers(wavelengths_.low_nm, wavelengths_.high_nm))
+        problems_.add(ref.where,
+                      fmt::format("sensor \"{}\" has an efficiency from {:g} to {:g} nm, but light of {:g} to {:g} nm is "
+                                  "in use",
+                                  sensor.name, sensor.efficiency.x().front(), sensor.efficiency.x().back(),
+                                  wavelengths_.low_nm, wavelengths_.high_nm),
+                      "extend its efficiency table, with zeros where it does not respond");
+    } catch (const InputError& error) {
+      problems_.add(error);
+    }
+    assembly_.sensors.push_back(std::move(sensor));
+    return known->second = static_cast<std::int32_t>(assembly_.sensors.size() - 1);
+  }
+
+  /// The medium of a sensor that names none: its window, which only its index describes.
+  std::uint32_t window_medium(const Sensor& sensor) {
+    const std::string name = "window of " + sensor.name;
+    const auto [known, is_new] = media_.try_emplace(name, 0u);
+    if (!is_new) return known->second;
+    Medium window;
+    window.name = name;
+    window.index = Curve::constant(sensor.window_index);
+    return known->second = add_medium(std::move(window), {});
+  }
+
+  void add_part(const PlacedMesh& placed) {
+    AssemblyPart part;
+    part.sensor = sensor_index(placed.sensor);
+    part.medium = placed.medium.empty() && part.sensor != kNone
+                      ? window_medium(assembly_.sensors[static_cast<std::size_t>(part.sensor)])
+                      : medium_index(placed.medium);
+    part.rotation = placed.rotation;
+    part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}};
+    const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
+    for (const PlacedFace& face : placed.faces) {
+      if (!face.surface.empty()) find_surface(face.surface);
+      assembly_.faces.push_back({placed.name + ":" + face.name, static_cast<std::uint32_t>(assembly_.parts.size()),
+                                 face.surface.name, sensor_index(face.sensor)});
+    }
+    for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(first_face + face);
+    assembly_.parts.push_back(std::move(part));
+  }
+
+  /// Looks a surface up once; problems are reported where it was first named.
+  void find_surface(const NameRef& ref) {
+    if (surfaces_.contains(ref.name)) return;
+    SurfaceSpec& spec = surfaces_[ref.name];
+    spec.microsurface = SmoothSpec{};
+    try {
+      spec = library_.surface(ref.name, ref.where);
+    } catch (const InputError& error) {
+      problems_.add(error);
+    }
+  }
+
+  void check_contact_names() {
+    std::vector<std::string> names;
+    for (const AssemblyPart& part : assembly_.parts) names.push_back(part.geometry.name);
+    for (const ContactSpec& contact : spec_.contacts) {
+      if (!contact.surface.empty()) find_surface(contact.surface);
+      for (const NameRef& part : contact.between) {
+        if (std::find(names.begin(), names.end(), part.name) != names.end()) continue;
+        const std::string near = nearest_word(part.name, names);
+        problems_.add(part.where, "no part is called \"" + part.name + "\"",
+                      near.empty() ? "name two [[part]]s of this scene" : "did you mean \"" + near + "\"?");
+      }
+    }
+  }
+
+  Surface make_surface(const std::string& name, std::uint32_t inside, std::uint32_t outside,
+                       std::vector<std::string>& warnings) {
+    SurfaceSpec smooth;
+    smooth.microsurface = SmoothSpec{};
+    const SurfaceSpec& spec = name.empty() ? smooth : surfaces_.at(name);
+    // An opaque part has no index: where light enters it the indices match.
+    const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
+    const std::uint32_t seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
+    const MadeSurface made =
+        surface_maker_.make(spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
+                            wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
+    warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
+    return made.surface;
+  }
+
+  const SceneSpec& spec_;
+  const Library& library_;
+  SurfaceMaker& surface_maker_;
+  Problems& problems_;
+  WavelengthRange wavelengths_;
+  Assembly assembly_;
+  std::map<std::string, std::uint32_t> media_;
+  std::map<std::string, std::int32_t> sensors_;
+  std::map<std::string, SurfaceSpec> surfaces_;
+};
+
+/// Regions that light from `start` can reach through interfaces that are not opaque both ways.
+std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
+  const auto passes = [&](const Interface& i, bool from_back) {
+    const auto opaque = [&](std::int32_t id) {
+      return id != kNone && scene.surfaces[static_cast<std::size_t>(id)].opaque();
+    };
+    const std::uint32_t next = from_back ? i.front : i.back;
+    return !opaque(i.back_surface) && !opaque(i.front_surface) &&
+           !scene.media[scene.regions[next].medium].is_opaque();
+  };
+  std::vector<bool> lit(scene.regions.size(), false);
+  lit[start] = true;
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const Interface& i : scene.interfaces) {
+      if (lit[i.back] && !lit[i.front] && passes(i, true)) lit[i.front] = grew = true;
+      if (lit[i.front] && !lit[i.back] && passes(i, false)) lit[i.back] = grew = true;
+    }
+  }
+  return lit;
+}
+
+/// A sensor that cannot be reached is a mistake; a scene without any is a warning.
+void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed, const Scene& scene,
+                   Problems& problems, std::vector<std::string>& warnings) {
+  std::uint32_t start = kAmbientRegion;
+  if (const auto* region = std::get_if<RegionSpec>(&spec.source.origin)) {
+    const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
+                                   [&](const PartInfo& p) { return p.name == region->part.name; });
+    if (part == scene.parts.end()) return;  // the source reports it
+    start = part->region;
+  } else {
+    start = scene.locate(std::get<Vec3>(spec.source.origin));
+  }
+  const std::vector<bool> lit = lit_regions(scene, start);
+  bool any_sensor = false;
+  for (const PlacedMesh& part : placed)
+    any_sensor |= !part.sensor.empty() || std::any_of(part.faces.begin(), part.faces.end(),
+                                                      [](const PlacedFace& f) { return !f.sensor.empty(); });
+  if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    if (!placed[i].sensor.empty() && !lit[i + 1])
+      problems.add(placed[i].where,
+                   "no light from the source can reach sensor \"" + placed[i].name + "\"",
+                   "something opaque lies between: check the surfaces of the faces on the way, and that the parts "
+                   "touch (scintray check lists every interface)");
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
+
+BuiltScene SceneBuilder::build(const SceneSpec& spec) {
+  Problems problems;
+  const std::vector<PlacedMesh> placed = place_parts(spec, problems);
+  const Library library = library_for(spec);
+  BuiltScene built;
+  AssemblyMaker maker(spec, library, surface_maker_, problems);
+  const Assembly assembly = maker.make(placed, built.warnings);
+  problems.throw_if_any();
+  built.scene = assemble(assembly);
+  check_sensors(spec, placed, built.scene, problems, built.warnings);
+  problems.throw_if_any();
+  for (const PlacedMesh& part : placed) built.parts.push_back({part.name, part.diagnosis, part.notes});
+  return built;
+}
+
+}  // namespace scintray

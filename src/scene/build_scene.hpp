@@ -1,0 +1,42 @@
+#pragma once
+/// From what a scene file says to the scene that photons see.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/scene/scene.hpp"
+#include "scintray/scene/spec.hpp"
+#include "scintray/scene/surface_maker.hpp"
+
+namespace scintray {
+
+/// What `scintray check` says of one part beyond the scene itself.
+struct PartReport {
+  std::string name;
+  MeshDiagnosis diagnosis;
+  std::vector<std::string> notes;
+};
+
+struct BuiltScene {
+  Scene scene;
+  std::vector<PartReport> parts;
+  std::vector<std::string> warnings;  ///< things a user should know, none of which stops a run
+};
+
+/// Builds scenes; surfaces made for one are kept for the next, so a sweep traces each table once.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(SurfaceMaker::Hooks hooks = {});
+
+  /// Throws InputError with every problem: unsound meshes, faces without or with two surfaces,
+  /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
+  /// can reach.
+  BuiltScene build(const SceneSpec& spec);
+
+ private:
+  SurfaceMaker surface_maker_;
+};
+
+}  // namespace scintray

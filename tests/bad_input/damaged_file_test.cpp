@@ -1,0 +1,77 @@
+// Files cut short or damaged anywhere end in success or an InputError, never otherwise.
+#include <sstream>
+
+#include "bad_input/good_scene.hpp"
+#include "bad_input/marked_text.hpp"
+#include "scintray/core/philox.hpp"
+#include "scintray/scene/read_scene.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+/// True when the text is refused. Every problem must say where and what.
+bool refused(const std::string& text) {
+  const std::vector<Problem> found = problems_of([&] { SceneFile::from_text(text, "scene.toml"); });
+  for (const Problem& problem : found) {
+    INFO(problem.text());
+    CHECK(problem.where.line >= 1);
+    CHECK(problem.where.column >= 1);
+    CHECK_FALSE(problem.what.empty());
+    CHECK_FALSE(problem.hint.empty());
+  }
+  return !found.empty();
+}
+
+}  // namespace
+
+TEST_CASE("a scene cut short after any byte never crashes") {
+  const std::string good = kGoodScene;
+  std::size_t refusals = 0;
+  for (std::size_t size = 0; size < good.size(); ++size) refusals += refused(good.substr(0, size)) ? 1 : 0;
+  // Until the last required table, [source], is complete, every cut must be refused.
+  CHECK(refusals >= good.find("photons = 1000"));
+}
+
+TEST_CASE("a scene with any bytes changed never crashes") {
+  const std::string good = kGoodScene;
+  Rng rng(20260101, StreamKind::other, 1);
+  const std::string alphabet = "[]{}\"'=.,#\n\\ 019-+eEnaxµ\t\x01\xff";
+  std::size_t refusals = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = good;
+    const int changes = 1 + static_cast<int>(4 * rng.uniform());
+    for (int i = 0; i < changes; ++i)
+      text[static_cast<std::size_t>(rng.uniform() * static_cast<double>(text.size()))] =
+          alphabet[static_cast<std::size_t>(rng.uniform() * static_cast<double>(alphabet.size()))];
+    refusals += refused(text) ? 1 : 0;
+  }
+  CHECK(refusals > 1000);
+}
+
+TEST_CASE("a scene with any line left out, doubled or moved never crashes") {
+  std::vector<std::string> lines;
+  std::istringstream stream(kGoodScene);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  const auto text_of = [](const std::vector<std::string>& some) {
+    std::string text;
+    for (const std::string& line : some) text += line + "\n";
+    return text;
+  };
+  std::size_t refusals = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<std::string> without = lines;
+    without.erase(without.begin() + static_cast<long>(i));
+    refusals += refused(text_of(without)) ? 1 : 0;
+    std::vector<std::string> doubled = lines;
+    doubled.insert(doubled.begin() + static_cast<long>(i), lines[i]);
+    refusals += refused(text_of(doubled)) ? 1 : 0;
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      std::vector<std::string> moved = without;
+      moved.insert(moved.begin() + static_cast<long>(std::min(j, without.size())), lines[i]);
+      refusals += refused(text_of(moved)) ? 1 : 0;
+    }
+  }
+  CHECK(refusals > lines.size());
+}

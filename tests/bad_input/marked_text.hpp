@@ -1,0 +1,72 @@
+#pragma once
+/// Bad inputs in which the place of the expected problem is marked.
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray::test {
+
+/// A text without its mark "@@", and where the mark stood (columns count characters).
+struct MarkedText {
+  std::string text;
+  long line = 0;
+  long column = 0;
+
+  explicit MarkedText(const std::string& marked) {
+    const auto at = marked.find("@@");
+    text = at == std::string::npos ? marked : marked.substr(0, at) + marked.substr(at + 2);
+    if (at == std::string::npos) return;
+    line = column = 1;
+    for (const char c : marked.substr(0, at)) {
+      if (c == '\n') {
+        ++line;
+        column = 1;
+      } else if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U) {
+        ++column;
+      }
+    }
+  }
+};
+
+/// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.
+inline std::vector<Problem> problems_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Checks that exactly one problem was found, with these words in its message and hint, at the mark.
+inline void check_one_problem(const MarkedText& input, const std::vector<Problem>& found,
+                              const std::string& what, const std::string& hint) {
+  INFO("input:\n" << input.text);
+  std::string all;
+  for (const Problem& problem : found) all += problem.text() + "\n";
+  INFO("problems:\n" << all);
+  REQUIRE(found.size() == 1);
+  CHECK(contains(found[0].what, what));
+  CHECK(contains(found[0].hint, hint));
+  CHECK(found[0].where.line == input.line);
+  CHECK(found[0].where.column == input.column);
+}
+
+/// `text` with the one occurrence of `old` replaced.
+inline std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  const auto at = text.find(old);
+  REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
+  REQUIRE_MESSAGE(text.find(old, at + 1) == std::string::npos, "twice in the text: " << old);
+  return text.replace(at, old.size(), by);
+}
+
+}  // namespace scintray::test

@@ -1,0 +1,115 @@
+#include "scintray/mesh/face_selection.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/primitives.hpp"
+
+using namespace scintray;
+
+namespace {
+
+std::set<std::string> groups_where(const TriMesh& mesh, const FaceSelector& selector) {
+  std::set<std::string> groups;
+  const auto mask = select_triangles(mesh, selector);
+  for (std::size_t t = 0; t < mask.size(); ++t) {
+    if (mask[t]) groups.insert(mesh.groups[mesh.group[t]]);
+  }
+  return groups;
+}
+
+std::ptrdiff_t count(const TriMesh& mesh, const FaceSelector& selector) {
+  const auto mask = select_triangles(mesh, selector);
+  return std::count(mask.begin(), mask.end(), 1);
+}
+
+const TriMesh kBox = make_box({0, 0, 0}, {1, 2, 3});
+
+}  // namespace
+
+TEST_CASE("No condition selects every triangle, of an empty mesh none") {
+  CHECK(count(kBox, {}) == 12);
+  FaceSelector nearest;
+  nearest.nearest = Vec3(0, 0, 0);
+  CHECK(select_triangles({}, nearest).empty());
+}
+
+TEST_CASE("A normal selects faces within its tolerance") {
+  FaceSelector selector;
+  selector.normal = Vec3(0, 0, -2);
+  CHECK(groups_where(kBox, selector) == std::set<std::string>{"-z"});
+  // 36 segments: facet normals every 10 degrees, at 5, 15, ... degrees.
+  const TriMesh cylinder = make_cylinder(1.0, 1.0, 36);
+  selector.normal = Vec3(std::cos(5 * kDegree), std::sin(5 * kDegree), 0.0);
+  CHECK(count(cylinder, selector) == 2);
+  selector.normal_tolerance_rad = 10.1 * kDegree;
+  CHECK(count(cylinder, selector) == 6);
+  selector.normal = Vec3(0, 0, 0);
+  CHECK_THROWS_AS(select_triangles(kBox, selector), InputError);
+}
+
+TEST_CASE("A box selects triangles wholly inside, its border included") {
+  FaceSelector selector;
+  selector.box = Eigen::AlignedBox3d(Vec3(0, 0, 3), Vec3(1, 2, 3));
+  CHECK(groups_where(kBox, selector) == std::set<std::string>{"+z"});
+  selector.box = Eigen::AlignedBox3d(Vec3(-1, -1, 3.001), Vec3(9, 9, 9));
+  CHECK(count(kBox, selector) == 0);
+  selector.box = Eigen::AlignedBox3d(Vec3(-9, -9, -9), Vec3(9, 9, 2.9));
+  CHECK(groups_where(kBox, selector) == std::set<std::string>{"-z"});
+}
+
+TEST_CASE("A flat region stops at edges, and does not creep round a fine cylinder") {
+  const TriMesh fine = subdivide_faces(kBox, 4);
+  FaceSelector selector;
+  selector.flat_region = Vec3(0.4, 0.7, 5.0);
+  CHECK(groups_where(fine, selector) == std::set<std::string>{"+z"});
+  CHECK(count(fine, selector) == 32);
+  const TriMesh cylinder = make_cylinder(1.0, 1.0, 720);  // facets 0.5 degrees apart
+  selector.flat_region = Vec3(2, 0.01, 0.5);
+  CHECK(count(cylinder, selector) == 2);
+  selector.flat_tolerance_rad = 1.1 * kDegree;  // the facet and two on either side, two triangles each
+  CHECK(count(cylinder, selector) == 10);
+}
+
+TEST_CASE("A flat region does not jump to a coplanar face that is not connected") {
+  const TriMesh two = joined(make_box({0, 0, 0}, {1, 1, 1}), make_box({2, 0, 0}, {3, 1, 1}));
+  FaceSelector selector;
+  selector.flat_region = Vec3(0.5, 0.5, 1.0);
+  CHECK(count(two, selector) == 2);
+}
+
+TEST_CASE("Flat regions label the sides of a body") {
+  const auto labels = flat_regions(subdivide_faces(kBox, 3), 0.1 * kDegree);
+  CHECK(*std::max_element(labels.begin(), labels.end()) == 5);
+  for (std::size_t t = 0; t < labels.size(); ++t) CHECK(labels[t] == t / 18);
+  const auto round = flat_regions(make_cylinder(1.0, 1.0, 24), 0.1 * kDegree);
+  CHECK(*std::max_element(round.begin(), round.end()) + 1 == 26);
+  CHECK_THROWS_AS(flat_regions(kBox, -1.0), InputError);
+}
+
+TEST_CASE("Conditions combine, and nearest is one triangle") {
+  FaceSelector selector;
+  selector.normal = Vec3(1, 0, 0);
+  selector.group = "+x";
+  CHECK(count(kBox, selector) == 2);
+  selector.group = "-x";
+  CHECK(count(kBox, selector) == 0);
+  FaceSelector nearest;
+  nearest.nearest = Vec3(0.9, 1.9, -4.0);
+  CHECK(count(kBox, nearest) == 1);
+  CHECK(groups_where(kBox, nearest) == std::set<std::string>{"-z"});
+}
+
+TEST_CASE("Distance to a triangle in each of its Voronoi regions") {
+  TriMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const std::pair<Vec3, double> cases[] = {{{1, 1, 2}, 2.0},  {{-3, -4, 0}, 5.0}, {{7, -4, 0}, 5.0},
+                                           {{-4, 7, 0}, 5.0}, {{2, -1, 0}, 1.0},  {{4, 4, 0}, std::sqrt(8.0)},
+                                           {{-2, 1, 0}, 2.0}};
+  for (const auto& [point, distance] : cases)
+    CHECK(distance_to_triangle(mesh, 0, point) == doctest::Approx(distance));
+}

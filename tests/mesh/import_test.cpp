@@ -1,0 +1,275 @@
+#include "scintray/mesh/import.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/face_selection.hpp"
+#include "scintray/mesh/polygon.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+std::filesystem::path write(const std::string& name, const std::string& text) {
+  static const auto folder = test::scratch_folder("mesh_import");
+  const auto path = folder / name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+/// Corners of the box 0..1 x 0..2 x 0..3, one a line.
+std::string corner_lines(const std::string& before) {
+  std::string text;
+  for (int corner = 0; corner < 8; ++corner) {
+    text += before + std::to_string(corner & 1) + " " + std::to_string((corner >> 1 & 1) * 2) + " " +
+            std::to_string((corner >> 2 & 1) * 3) + "\n";
+  }
+  return text;
+}
+
+/// Its sides as quadrilaterals, outwards.
+constexpr int kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                              {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+
+std::string quad_lines(const std::string& before, int first_index) {
+  std::string text;
+  for (const auto& quad : kQuads) {
+    text += before;
+    for (const int corner : quad) text += std::to_string(corner + first_index) + " ";
+    text += "\n";
+  }
+  return text;
+}
+
+void check_box(const MeshImport& read, double mm_per_unit) {
+  CHECK(read.mesh.vertices.size() == 8);
+  CHECK(read.mesh.triangles.size() == 12);
+  CHECK(read.mesh.volume() == doctest::Approx(6.0 * std::pow(mm_per_unit, 3)).epsilon(1e-6));
+  CHECK(read.mesh.group.size() == 12);
+  CHECK(diagnose(read.mesh).sound());
+}
+
+std::string base64(const std::string& bytes) {
+  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t block = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      block = block << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text.push_back(i + k > bytes.size() ? '=' : digits[block >> (18 - 6 * k) & 63U]);
+    }
+  }
+  return text;
+}
+
+/// 8 corners as floats, then the sides' triangles as 16-bit indices: 96 + 72 bytes.
+std::string gltf_buffer() {
+  std::string bytes;
+  for (int corner = 0; corner < 8; ++corner) {
+    const float xyz[3] = {static_cast<float>(corner & 1), static_cast<float>((corner >> 1 & 1) * 2),
+                          static_cast<float>((corner >> 2 & 1) * 3)};
+    bytes.append(reinterpret_cast<const char*>(xyz), sizeof xyz);
+  }
+  for (const auto& quad : kQuads) {
+    for (const int k : {0, 1, 2, 0, 2, 3}) {
+      bytes.push_back(static_cast<char>(quad[k]));
+      bytes.push_back('\0');
+    }
+  }
+  return bytes;
+}
+
+/// The box with its last side in the material "polished", the others in "ground".
+std::string gltf_text(const std::string& buffer, const std::string& node) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + node + R"(],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0},
+                             {"attributes":{"POSITION":0},"indices":2,"material":1}]}],
+    "materials":[{"name":"ground"},{"name":"polished"}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],"max":[1,2,3]},
+                 {"bufferView":1,"componentType":5123,"count":30,"type":"SCALAR"},
+                 {"bufferView":1,"byteOffset":60,"componentType":5123,"count":6,"type":"SCALAR"}],
+    "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":72}],
+    "buffers":[{"byteLength":168)" +
+         buffer + "}]}";
+}
+
+std::string embedded() {
+  return R"(,"uri":"data:application/octet-stream;base64,)" + base64(gltf_buffer()) + "\"";
+}
+
+std::string little_endian(std::uint32_t value) {
+  std::string bytes(4, '\0');
+  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<char>(value >> (8 * i) & 0xFFU);
+  return bytes;
+}
+
+std::string glb(std::string json, const std::string& binary) {
+  while (json.size() % 4 != 0) json.push_back(' ');
+  return "glTF" + little_endian(2) +
+         little_endian(static_cast<std::uint32_t>(28 + json.size() + binary.size())) +
+         little_endian(static_cast<std::uint32_t>(json.size())) + "JSON" + json +
+         little_endian(static_cast<std::uint32_t>(binary.size())) + std::string("BIN\0", 4) + binary;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
+  check_box(import_mesh(write("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0), 1.0);
+  check_box(import_mesh(write("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
+            10.0);
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
+  check_box(import_mesh(write("BOX.PLY", header + corner_lines("") + quad_lines("4 ", 0)), 0.001), 0.001);
+
+  std::string stl = "solid crystal\n";
+  for (const auto& quad : kQuads) {
+    for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+      stl += "facet normal 0 0 0\nouter loop\n";
+      for (const int k : corners) {
+        const int v = quad[k];
+        stl += "vertex " + std::to_string(v & 1) + " " + std::to_string((v >> 1 & 1) * 2) + " " +
+               std::to_string((v >> 2 & 1) * 3) + "\n";
+      }
+      stl += "endloop\nendfacet\n";
+    }
+  }
+  check_box(import_mesh(write("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
+}
+
+TEST_CASE("COLLADA keeps its axes and applies node transforms") {
+  std::string floats, faces;
+  for (int c = 0; c < 8; ++c) {
+    floats += std::to_string(c & 1) + " " + std::to_string((c >> 1 & 1) * 2) + " " +
+              std::to_string((c >> 2 & 1) * 3) + " ";
+  }
+  for (const auto& q : kQuads) {
+    for (const int k : {0, 1, 2, 0, 2, 3}) faces += std::to_string(q[k]) + " ";
+  }
+  const std::string text =
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g" name="crystal"><mesh>
+<source id="p"><float_array id="a" count="24">)" +
+      floats + R"(</float_array><technique_common>
+<accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+      faces + R"(</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">
+<translate>10 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+  const MeshImport read = import_mesh(write("box.dae", text), 1.0);
+  check_box(read, 1.0);
+  const auto bounds = diagnose(read.mesh).bounds;
+  CHECK((bounds.min() - Vec3(10, 0, 0)).norm() < 1e-5);
+  CHECK((bounds.max() - Vec3(11, 2, 3)).norm() < 1e-5);
+}
+
+TEST_CASE("OBJ groups are object and material, and either half selects") {
+  std::string text = corner_lines("v ") + "o crystal\nusemtl ground\n";
+  const std::string faces = quad_lines("f ", 1);
+  const std::size_t last = faces.rfind("f ");
+  text += faces.substr(0, last) + "usemtl polished\n" + faces.substr(last);
+  const MeshImport read = import_mesh(write("groups.obj", text), 1.0);
+  CHECK(read.mesh.groups == std::vector<std::string>{"crystal:ground", "crystal:polished"});
+  const auto count = [&read](const std::string& group) {
+    FaceSelector selector;
+    selector.group = group;
+    const auto mask = select_triangles(read.mesh, selector);
+    return std::count(mask.begin(), mask.end(), 1);
+  };
+  CHECK(count("crystal") == 12);
+  CHECK(count("polished") == 2);
+  CHECK(count("crystal:ground") == 10);
+  CHECK(count("polish") == 0);
+}
+
+TEST_CASE("glTF is in metres, moves with its nodes, and its materials are groups") {
+  // Turned by 90 degrees about z: (x, y, z) -> (-y, x, z); then scaled before, moved after.
+  const std::string node =
+      R"({"mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678],"scale":[2,1,1]})";
+  const MeshImport read = import_mesh(write("box.gltf", gltf_text(embedded(), node)), 0.0);
+  CHECK(read.unit_from_file == "m");
+  CHECK(read.mesh.volume() == doctest::Approx(12e9).epsilon(1e-6));
+  CHECK(diagnose(read.mesh).sound());
+  const auto bounds = diagnose(read.mesh).bounds;
+  CHECK((bounds.min() - Vec3(8000, 0, 0)).norm() < 0.01);
+  CHECK((bounds.max() - Vec3(10000, 2000, 3000)).norm() < 0.01);
+  CHECK(read.mesh.groups == std::vector<std::string>{"ground", "polished"});
+  FaceSelector selector;
+  selector.group = "polished";
+  const auto mask = select_triangles(read.mesh, selector);
+  CHECK(std::count(mask.begin(), mask.end(), 1) == 2);
+  for (std::size_t t = 0; t < mask.size(); ++t) {
+    if (mask[t]) CHECK(read.mesh.area_vector(t).normalized().z() == doctest::Approx(1.0));
+  }
+}
+
+TEST_CASE("glTF buffers may lie beside the file, or in a glb; a given unit replaces the metre") {
+  write("box.bin", gltf_buffer());
+  check_box(import_mesh(write("external.gltf", gltf_text(R"(,"uri":"box.bin")", R"({"mesh":0})")), 1.0), 1.0);
+  check_box(import_mesh(write("box.glb", glb(gltf_text("", R"({"mesh":0})"), gltf_buffer())), 1.0), 1.0);
+}
+
+TEST_CASE("A mirroring glTF node keeps the box outward") {
+  const std::string node = R"({"mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})";
+  check_box(import_mesh(write("mirror.gltf", gltf_text(embedded(), node)), 1.0), 1.0);
+}
+
+TEST_CASE("A triangle without area is kept out and its neighbour cut, so that the box stays closed") {
+  // The edge 0-1 has the extra vertex 8 in its middle: one side uses it, the other has a sliver 0 8 1.
+  const std::string text = corner_lines("v ") + "v 0.5 0 0\n" +
+                           "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 5 6 8 7\n"
+                           "f 1 3 4 2 9\nf 1 9 2\n";
+  const MeshImport read = import_mesh(write("sliver.obj", text), 1.0);
+  CHECK(read.degenerate_triangles >= 1);
+  CHECK(read.mesh.volume() == doctest::Approx(6.0).epsilon(1e-6));
+  CHECK(diagnose(read.mesh).sound());
+  REQUIRE(read.notes.size() == 1);
+  CHECK(read.notes[0].find("without area kept out") != std::string::npos);
+}
+
+TEST_CASE("Vertices two single-precision steps apart are one, four steps apart are two") {
+  const auto mesh_with_gap = [](double gap) {
+    std::ostringstream text;
+    text.precision(17);
+    text << corner_lines("v ") << "v " << 1.0 << " " << 2.0 << " " << 3.0 - gap << "\n";
+    text << "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 9 7\n";
+    return text.str();
+  };
+  const double step = std::ldexp(1.0, -22);  // spacing of single precision between 2 and 4
+  CHECK(diagnose(import_mesh(write("near.obj", mesh_with_gap(2 * step)), 1.0).mesh).closed());
+  CHECK_FALSE(diagnose(import_mesh(write("far.obj", mesh_with_gap(4 * step)), 1.0).mesh).closed());
+}
+
+TEST_CASE("Polygons that are not convex are cut inside themselves") {
+  // An L of area 3 in a tilted plane.
+  const Frame frame = Frame::about(Vec3(1, 2, 3).normalized());
+  std::vector<Vec3> corners;
+  for (const auto& [x, y] :
+       std::vector<std::pair<double, double>>{{1, 1}, {1, 2}, {0, 2}, {0, 0}, {2, 0}, {2, 1}}) {
+    corners.push_back(x * frame.x + y * frame.y);
+  }
+  bool simple = true;
+  Vec3 total = Vec3::Zero();
+  double area = 0.0;
+  for (const auto& [a, b, c] : triangulate_polygon(corners, simple)) {
+    const Vec3 vector = 0.5 * (corners[b] - corners[a]).cross(corners[c] - corners[a]);
+    total += vector;
+    area += vector.norm();
+  }
+  CHECK(simple);
+  CHECK(area == doctest::Approx(3.0));
+  CHECK(total.dot(frame.z) == doctest::Approx(3.0));
+  std::swap(corners[1], corners[4]);
+  triangulate_polygon(corners, simple);
+  CHECK_FALSE(simple);
+}

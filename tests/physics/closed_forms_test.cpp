@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/traced.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/surface/fresnel.hpp"
+#include "scintray/trace/step.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+constexpr double kCrystal = 1.82;
+
+double critical_angle(double n1, double n2) { return std::asin(n2 / n1); }
+
+/// Integral of f over [a, b] by Simpson's rule.
+template <typename F>
+double integrate(F f, double a, double b, int panels = 2000) {
+  const double h = (b - a) / (2 * panels);
+  double sum = f(a) + f(b);
+  for (int i = 1; i < 2 * panels; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(a + i * h);
+  return sum * h / 3.0;
+}
+
+double unpolarised(double angle, double n1, double n2) { return fresnel(std::cos(angle), n1, n2).unpolarised(); }
+
+/// Lambertian-weighted mean of the reflectance.
+double diffuse_reflectance(double n1, double n2) {
+  const double limit = n1 > n2 ? critical_angle(n1, n2) : 0.5 * kPi;
+  const double below = integrate([&](double t) { return unpolarised(t, n1, n2) * std::sin(2.0 * t); }, 0.0, limit);
+  return below + std::pow(std::cos(limit), 2);
+}
+
+const std::string kCube = R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = ["4 mm", "4 mm", "4 mm"]
+medium = "lso_clear"
+surface = "flat"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 200_000
+[run]
+max_interactions = 400
+)";
+
+}  // namespace
+
+TEST_CASE("Law: Fresnel reflectance at normal incidence") {
+  CHECK(unpolarised(0.0, kCrystal, 1.0) == doctest::Approx(0.08455).epsilon(1e-4));
+  CHECK(unpolarised(0.0, kCrystal, 1.5) == doctest::Approx(0.00929).epsilon(1e-3));
+}
+
+TEST_CASE("Law: no p-polarised light is reflected at Brewster's angle") {
+  const double brewster = std::atan(1.0 / kCrystal);
+  CHECK(brewster / kDegree == doctest::Approx(28.7866).epsilon(1e-5));
+  CHECK(fresnel(std::cos(brewster), kCrystal, 1.0).reflectance_p < 1e-28);
+}
+
+TEST_CASE("Law: diffuse reflectance of a smooth interface, both ways, and its n squared relation") {
+  const double inside = diffuse_reflectance(kCrystal, 1.0), outside = diffuse_reflectance(1.0, kCrystal);
+  CHECK(inside == doctest::Approx(0.739392).epsilon(1e-5));
+  CHECK(outside == doctest::Approx(0.136763).epsilon(1e-4));
+  CHECK(kCrystal * kCrystal * (1.0 - inside) == doctest::Approx(1.0 - outside).epsilon(1e-5));
+
+  // And as the tracer samples it, polarised photon by photon.
+  for (const auto& [n1, n2, expected] :
+       {std::tuple{kCrystal, 1.0, 0.739392}, std::tuple{1.0, kCrystal, 0.136763}}) {
+    std::uint64_t reflected = 0;
+    constexpr std::uint64_t kRays = 400'000;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+      Rng rng(3, StreamKind::other, i);
+      Ray ray;
+      ray.direction = sample_lambertian(-Vec3::UnitZ(), rng);
+      ray.polarisation = sample_polarisation(ray.direction, rng);
+      reflected += !meet_facet(ray, Vec3::UnitZ(), n1, n2, rng);
+      REQUIRE(std::abs(ray.direction.norm() - 1.0) < 1e-12);
+      REQUIRE(std::abs(ray.polarisation.dot(ray.direction)) < 1e-9);
+    }
+    CHECK(sigmas(binomial_estimate(reflected, kRays), {expected, 1e-6}) < kSigmas);
+  }
+}
+
+TEST_CASE("Law: light trapped for ever in a lossless polished box, 3 cos(tc) - 2") {
+  const Traced traced = trace(kCube);
+  const double expected = 3.0 * std::cos(critical_angle(kCrystal, 1.0)) - 2.0;
+  CHECK(expected == doctest::Approx(0.5066).epsilon(1e-4));
+  check_fraction(traced.result, Fate::cut_interactions, expected);
+  check_fraction(traced.result, Fate::escaped, 1.0 - expected);
+}
+
+TEST_CASE("Law: share of light that leaves a lossless polished box through one face, (1 - cos(tc)) / 2") {
+  std::string scene = kCube;
+  scene.insert(scene.find("[source]"), R"(
+[[part]]
+name = "sensor"
+box = ["4 mm", "4 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "perfect_n1"
+)");
+  check_fraction(trace(scene).result, Fate::detected, 0.5 * (1.0 - std::cos(critical_angle(kCrystal, 1.0))));
+}
+
+TEST_CASE("Law: share detected by a sensor of index 1.5 on a lossless polished box") {
+  // Closed forms integrated over direction, with the polarisation either forgotten at each surface or
+  // kept; independent numbers.
+  const std::string sensor = R"(
+[[part]]
+name = "sensor"
+box = ["4 mm", "4 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "perfect"
+)";
+  for (const auto& [polarisation, expected] : {std::pair{"unpolarised", 0.362172}, std::pair{"random", 0.362205}}) {
+    std::string scene = kCube;
+    scene.insert(scene.find("[source]"), sensor);
+    scene.insert(scene.find("photons ="), std::string("polarisation = \"") + polarisation + "\"\n");
+    check_fraction(trace(scene).result, Fate::detected, expected);
+  }
+}
+
+TEST_CASE("Law: polished bar, sides in total reflection, absorption, sensor at one end") {
+  // Directions within 50 deg of the axis meet the sides beyond the critical angle. With a = 1/(la cos t),
+  // P = T [exp(-a z) + Rf exp(-a (2L - z))] / (2 (1 - Rd Rf exp(-2 a L))).
+  constexpr double kLength = 20.0, kAbsorption = 30.0, kDepth = 8.0, kHalfAngle = 50.0 * kDegree;
+  const auto detected_at = [&](double theta) {
+    const double a = 1.0 / (kAbsorption * std::cos(theta));
+    const double r_near = unpolarised(theta, kCrystal, 1.5), r_far = unpolarised(theta, kCrystal, 1.0);
+    const double there_and_back = 1.0 - r_near * r_far * std::exp(-2.0 * a * kLength);
+    return (1.0 - r_near) *
+           (std::exp(-a * kDepth) + r_far * std::exp(-a * (2.0 * kLength - kDepth))) / (2.0 * there_and_back);
+  };
+  const double critical = critical_angle(kCrystal, 1.0);
+  const auto weighted = [&](double t) { return detected_at(t) * std::sin(t); };
+  const double expected =
+      (integrate(weighted, 0.0, critical) + integrate(weighted, critical, kHalfAngle)) / (1.0 - std::cos(kHalfAngle));
+
+  std::uint64_t detected = 0, photons = 0;
+  for (const std::string axis : {"-1", "1"}) {
+    const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "bar"
+box = ["2 mm", "2 mm", "20 mm"]
+medium = "lso_absorbing"
+surface = "flat"
+[[part]]
+name = "sensor"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "bar", side = "-z" }
+sensor = "perfect"
+[source]
+type = "photons"
+position = ["0.1 mm", "-0.3 mm", "8 mm"]
+direction = { cone = [0, 0, )" + axis + R"(], half_angle = "50 deg" }
+wavelength = "420 nm"
+polarisation = "unpolarised"
+photons = 200_000
+)");
+    detected += traced.result.count(Fate::detected);
+    photons += traced.result.photons;
+  }
+  const Estimate measured = binomial_estimate(detected, photons);
+  CAPTURE(measured.value);
+  CAPTURE(expected);
+  CHECK(sigmas(measured, {expected, 0.0}) < kSigmas);
+}
+
+TEST_CASE("Law: integrating sphere with a port, f / (1 - rho (1 - f))") {
+  // A hollow of 20 x 24^2 triangles painted white, with one cap open. Lambertian walls of a sphere light
+  // the whole sphere evenly, so every meeting is with the port with probability f, its share of the
+  // tessellation's own area.
+  const auto mesh = scratch_folder("integrating_sphere") / "sphere.stl";
+  write_stl(mesh, make_sphere(10.0, 24));
+  const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "sphere"
+mesh = ")" + mesh.string() + R"("
+unit = "mm"
+medium = "vacuum_n1"
+surface = "wall"
+[[part.face]]
+name = "port"
+select = { box = { low = ["-6 mm", "-6 mm", "8.5 mm"], high = ["6 mm", "6 mm", "11 mm"] } }
+surface = "flat"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "0 mm"]
+wavelength = "420 nm"
+photons = 200_000
+[surfaces.wall]
+model = "painted"
+reflectance = { value = 0.95 }
+specular_share = 0.0
+)");
+  const auto& faces = traced.built.scene.faces;
+  double port = 0.0, total = 0.0;
+  for (const FaceInfo& face : faces) {
+    total += face.area_mm2;
+    if (face.name == "sphere:port") port += face.area_mm2;
+  }
+  const double f = port / total;
+  CHECK(f > 0.05);
+  check_fraction(traced.result, Fate::escaped, f / (1.0 - 0.95 * (1.0 - f)));
+}
+
+TEST_CASE("Law: mean chord 4V/S in isotropic light, unchanged by scattering") {
+  // White walls keep uniform isotropic light uniform and isotropic, so the mean path from wall to wall
+  // is the mean chord.
+  for (const std::string medium : {"vacuum_n1", "cloudy_n1"}) {
+    for (const auto& [size, expected] : {std::pair{"2", 1.905}, std::pair{"5", 4.444}}) {
+      const SceneSpec spec = scene_spec(std::string(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "box"
+box = [")") + size + R"( mm", ")" + size + R"( mm", "20 mm"]
+medium = ")" + medium + R"("
+surface = "white"
+[source]
+type = "photons"
+region = { part = "box" }
+wavelength = "420 nm"
+photons = 1
+)");
+      SceneBuilder builder;
+      const BuiltScene built = builder.build(spec);
+      const PhotonSource source(spec.source, built.scene);
+      Moments chord;  // per photon, over 20 chords: photons are independent
+      for (std::uint64_t i = 0; i < 20'000; ++i) {
+        Rng rng(11, StreamKind::photon, i);
+        Photon photon = source.emit(built.scene, rng);
+        while (photon.interactions < 1) step(built.scene, photon, rng);
+        const double start = photon.path_mm;
+        while (photon.interactions < 21) step(built.scene, photon, rng);
+        chord.add((photon.path_mm - start) / 20.0);
+      }
+      CAPTURE(medium);
+      CAPTURE(size);
+      const double side = std::stod(size);
+      const double law = 4.0 * side * side * 20.0 / (2.0 * side * side + 80.0 * side);
+      CHECK(law == doctest::Approx(expected).epsilon(3e-4));
+      CHECK(sigmas(chord.mean(), {law, 0.0}) < kSigmas);
+    }
+  }
+}
+
+TEST_CASE("Law: Lambert's p(theta) = sin 2 theta, mean cosine 2/3") {
+  Moments cosine;
+  std::vector<std::uint64_t> histogram(30, 0);
+  constexpr std::uint64_t kRays = 300'000;
+  for (std::uint64_t i = 0; i < kRays; ++i) {
+    Rng rng(5, StreamKind::other, i);
+    const double c = sample_lambertian(Vec3(0.6, 0.0, 0.8), rng).dot(Vec3(0.6, 0.0, 0.8));
+    cosine.add(c);
+    ++histogram[std::min<std::size_t>(29, static_cast<std::size_t>(std::acos(c) / (0.5 * kPi) * 30.0))];
+  }
+  CHECK(sigmas(cosine.mean(), {2.0 / 3.0, 0.0}) < kSigmas);
+  std::vector<double> expected;
+  for (int i = 0; i < 30; ++i) {
+    const double low = 0.5 * kPi * i / 30.0, high = 0.5 * kPi * (i + 1) / 30.0;
+    expected.push_back(kRays * (std::pow(std::sin(high), 2) - std::pow(std::sin(low), 2)));
+  }
+  CHECK(chi_square_test(histogram, expected).p_value > 1e-4);
+}
+
+TEST_CASE("Law: the first of N photons with decay time tau comes after tau / N on average") {
+  const SceneSpec spec = scene_spec(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "20 mm"]
+medium = "scintillator"
+surface = "flat"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+time = "decay"
+photons = 1
+[media.scintillator]
+index = { n = 1.82 }
+absorption = { none = true }
+scattering = { none = true }
+yield = { value = "25 1/keV" }
+emission = { spectrum = { wavelength = [400, 440], wavelength_unit = "nm", value = [1, 1] } }
+[[media.scintillator.decay]]
+time = "40 ns"
+rise = "0 ns"
+fraction = 1.0
+)");
+  SceneBuilder builder;
+  const BuiltScene built = builder.build(spec);
+  const PhotonSource source(spec.source, built.scene);
+  constexpr std::uint64_t kPhotons = 50;
+  Moments first;
+  for (std::uint64_t event = 0; event < 20'000; ++event) {
+    double earliest = HUGE_VAL;
+    for (std::uint64_t i = 0; i < kPhotons; ++i) {
+      Rng rng(7, StreamKind::photon, event, i);
+      earliest = std::min(earliest, source.emit(built.scene, rng).time_ns);
+    }
+    first.add(earliest);
+  }
+  CHECK(sigmas(first.mean(), {40.0 / kPhotons, 0.0}) < kSigmas);
+}

@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "physics/traced.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+using nlohmann::json;
+
+namespace {
+
+/// Crystal, grease, detector and source of a reference run; the README beside the runs describes them.
+std::string crystal_scene(const json& config, const std::string& surface) {
+  const bool volume = config["source"] == "volume" || config["z0_mm"].is_null();
+  const double z0 = config["z0_mm"].get<double>(), dz = config["dz_mm"].get<double>();
+  const std::string slab =
+      volume ? "" : fmt::format(", slab_z = [\"{} mm\", \"{} mm\"]", z0 - dz, z0 + dz);
+  return fmt::format(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = ["{0} mm", "{0} mm", "20 mm"]
+medium = "lso"
+surface = "{1}"
+[[part.face]]
+name = "exit"
+select = {{ normal = [0, 0, -1] }}
+surface = "flat"
+[[part]]
+name = "detector"
+box = ["{0} mm", "{0} mm", "1 mm"]
+place = {{ touch = "crystal", side = "-z", gap = "0.1 mm", fill = "n15" }}
+medium = "n15"
+sensor = "perfect"
+[source]
+type = "photons"
+region = {{ part = "crystal"{2} }}
+wavelength = "420 nm"
+photons = 200_000
+[run]
+seed = 20
+[[tally]]
+type = "exit_angle"
+name = "crystal"
+face = "crystal:exit"
+detected_only = true
+)",
+                     config["width_mm"].get<double>(), surface, slab);
+}
+
+/// Walls 0.1 mm away that reflect Lambertian with 0.97, open at the exit end.
+const std::string kTape = R"(
+[[part]]
+name = "wall_left"
+box = { low = ["-1.6 mm", "-1.6 mm", "0 mm"], high = ["-1.1 mm", "1.6 mm", "20.1 mm"] }
+medium = "opaque"
+surface = "tape"
+[[part]]
+name = "wall_right"
+box = { low = ["1.1 mm", "-1.6 mm", "0 mm"], high = ["1.6 mm", "1.6 mm", "20.1 mm"] }
+medium = "opaque"
+surface = "tape"
+[[part]]
+name = "wall_front"
+box = { low = ["-1.1 mm", "-1.6 mm", "0 mm"], high = ["1.1 mm", "-1.1 mm", "20.1 mm"] }
+medium = "opaque"
+surface = "tape"
+[[part]]
+name = "wall_back"
+box = { low = ["-1.1 mm", "1.1 mm", "0 mm"], high = ["1.1 mm", "1.6 mm", "20.1 mm"] }
+medium = "opaque"
+surface = "tape"
+[[part]]
+name = "wall_top"
+box = { low = ["-1.6 mm", "-1.6 mm", "20.1 mm"], high = ["1.6 mm", "1.6 mm", "20.6 mm"] }
+medium = "opaque"
+surface = "tape"
+[surfaces.tape]
+model = "painted"
+reflectance = { value = 0.97 }
+specular_share = 0.0
+)";
+
+const std::string kUnified = R"(
+[surfaces.ground]
+model = "unified"
+[surfaces.ground.unified]
+sigma_alpha = "0.314 rad"
+definition = "solid_angle"
+facets = "geant4"
+lobe = 1.0
+)";
+
+const std::string kBackPainted = R"(
+[surfaces.backpainted]
+model = "smooth"
+gap = 1.0
+reflectance = { value = 0.97 }
+specular_share = 0.0
+)";
+
+std::string scene_for(const json& config) {
+  const std::string finish = config["finish"];
+  if (finish == "ground") return crystal_scene(config, "ground") + kUnified;
+  if (finish == "polishedbackpainted") return crystal_scene(config, "backpainted") + kBackPainted;
+  if (finish == "tape") return crystal_scene(config, "flat") + kTape;
+  return crystal_scene(config, "flat");
+}
+
+/// Compares one number, and prints it for docs/validation.md.
+void compare(const std::string& what, const Estimate& ours, const Estimate& theirs) {
+  const double distance = sigmas(ours, theirs);
+  std::cout << fmt::format("  {:<22} {:>12.6g} +- {:<10.2g} Geant4 {:>12.6g} +- {:<10.2g} {:>5.2f} sigma\n", what,
+                           ours.value, ours.error, theirs.value, theirs.error, distance);
+  CAPTURE(what);
+  CHECK(distance < kSigmas);
+}
+
+void compare_histogram(const std::string& what, const std::vector<std::uint64_t>& ours, const json& theirs) {
+  const auto reference = theirs.get<std::vector<std::uint64_t>>();
+  const ChiSquare test = chi_square_two_samples(ours, reference);
+  std::cout << fmt::format("  {:<22} chi2 {:.1f} for {} bins, p {:.4f}\n", what, test.chi2, test.degrees + 1,
+                           test.p_value);
+  CAPTURE(what);
+  CHECK(test.p_value > 6.3e-5);  // the two-sided probability of 4 sigma
+}
+
+Estimate mean_of(const json& run, const std::string& key) {
+  return {run[key].get<double>(), run[key + "_err"].get<double>()};
+}
+
+void compare_run(const json& run, const std::string& scene) {
+  const PointResult result = trace(scene).result;
+  for (const auto& [name, fate] :
+       {std::pair{"detected", Fate::detected}, std::pair{"escaped", Fate::escaped},
+        std::pair{"bulk_absorbed", Fate::absorbed_in_medium}, std::pair{"surface_absorbed", Fate::absorbed_at_surface}})
+    compare(name, result.fraction(fate), binomial_estimate(run[std::string(name) + "_count"], run["photons"]));
+  compare("interactions", result.interactions.mean(), mean_of(run, "boundary_interactions_mean"));
+  compare("detected path, mm", result.detected_path_mm.mean(), mean_of(run, "detected_path_mm_mean"));
+  compare("detected time, ns", result.detected_time_ns.mean(), mean_of(run, "detected_time_ns_mean"));
+  compare_histogram("angle in crystal", result.exit_angles[0].inside, run["theta_crystal_hist"]);
+  compare_histogram("angle in grease", result.exit_angles[0].outside, run["theta_grease_hist"]);
+}
+
+void compare_finish(const std::string& prefix) {
+  for (const std::string place : {"vol", "z02", "z06", "z10", "z14", "z18"}) {
+    const auto file = shared_file("reference/geant4/phys_" + prefix + "_w2_" + place + ".json");
+    if (!file) return;
+    std::ifstream stream(*file);
+    const json run = json::parse(stream);
+    std::cout << prefix << " " << place << "\n";
+    json config = run["config"];
+    if (place == "vol") config["source"] = "volume";
+    compare_run(run, scene_for(config));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Geant4: polished crystal in air") { compare_finish("polished"); }
+TEST_CASE("Geant4: UNIFIED ground crystal, sigma_alpha 0.314 rad") { compare_finish("ground_sa0.314"); }
+TEST_CASE("Geant4: polished crystal, back-painted") { compare_finish("polishedbackpainted"); }
+TEST_CASE("Geant4: polished crystal in a box of Lambertian tape") { compare_finish("tape"); }
+
+TEST_CASE("Geant4: arrays of polished crystals with air gaps share light alike") {
+  for (const std::string name : {"array3x3_polished_w2_z02", "array3x3_polished_w2_z10", "array5x5_polished_w2_z10"}) {
+    const auto file = shared_file("reference/geant4/" + name + ".json");
+    if (!file) return;
+    std::ifstream stream(*file);
+    const json run = json::parse(stream);
+    const int n = run["config"]["array"];
+    const double pitch = run["config"]["width_mm"].get<double>() + run["config"]["air_gap_mm"].get<double>();
+    // The crystal of the source, at the centre, then its neighbours, each with its grease and detector.
+    std::string scene = crystal_scene(run["config"], "flat");
+    const std::size_t end_of_parts = scene.find("[source]");
+    std::string neighbours;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        if (i == n / 2 && j == n / 2) continue;
+        const double x = (i - n / 2) * pitch, y = (j - n / 2) * pitch;
+        neighbours += fmt::format(R"(
+[[part]]
+name = "crystal_{0}_{1}"
+box = ["2 mm", "2 mm", "20 mm"]
+translate = ["{2} mm", "{3} mm", "0 mm"]
+medium = "lso"
+surface = "flat"
+[[part]]
+name = "detector_{0}_{1}"
+box = ["2 mm", "2 mm", "1 mm"]
+place = {{ touch = "crystal_{0}_{1}", side = "-z", gap = "0.1 mm", fill = "n15" }}
+medium = "n15"
+sensor = "perfect"
+)",
+                                  i, j, x, y);
+      }
+    scene.insert(end_of_parts, neighbours);
+    std::cout << name << "\n";
+    const Traced traced = trace(scene);
+    const PointResult& result = traced.result;
+    CHECK(traced.built.scene.accelerators <= 5);  // ambient, crystal, grease, detector
+    for (const auto& [key, fate] :
+         {std::pair{"detected", Fate::detected}, std::pair{"escaped", Fate::escaped},
+          std::pair{"bulk_absorbed", Fate::absorbed_in_medium}})
+      compare(key, result.fraction(fate), binomial_estimate(run[std::string(key) + "_count"], run["photons"]));
+    compare("interactions", result.interactions.mean(), mean_of(run, "boundary_interactions_mean"));
+    std::uint64_t own = 0, neighbours_detected = 0;
+    for (const SensorFaceCount& count : result.sensor_faces)
+      (traced.built.scene.parts[count.part].name == "detector" ? own : neighbours_detected) += count.detected;
+    const std::uint64_t reference_own = run["detected_count_per_crystal"][static_cast<std::size_t>(n / 2)]
+                                           [static_cast<std::size_t>(n / 2)];
+    const std::uint64_t reference_all = run["detected_count"];
+    compare("own detector", binomial_estimate(own, result.photons), binomial_estimate(reference_own, run["photons"]));
+    compare("other detectors", binomial_estimate(neighbours_detected, result.photons),
+            binomial_estimate(reference_all - reference_own, run["photons"]));
+  }
+}

@@ -1,0 +1,101 @@
+#pragma once
+/// Running small scenes written inside a test.
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene/read_scene.hpp"
+#include "scintray/trace/run.hpp"
+
+namespace scintray::test {
+
+/// Limit of agreement in combined standard errors. Two-sided, a true law fails it once in 15,800
+/// comparisons; the seeds are fixed, so a test either always passes or always fails.
+inline constexpr double kSigmas = 4.0;
+
+/// Media, surfaces and sensors that the scenes of the tests share: indices without dispersion.
+inline const std::string kLibrary = R"(
+[media.vacuum_n1]
+index = { n = 1.0 }
+absorption = { none = true }
+scattering = { none = true }
+[media.lso]
+index = { n = 1.82 }
+absorption = { length = "300 mm" }
+scattering = { length = "256 mm", kind = "rayleigh" }
+[media.lso_isotropic]
+index = { n = 1.82 }
+absorption = { length = "300 mm" }
+scattering = { length = "256 mm", kind = "isotropic" }
+[media.lso_absorbing]
+index = { n = 1.82 }
+absorption = { length = "30 mm" }
+scattering = { none = true }
+[media.lso_clear]
+index = { n = 1.82 }
+absorption = { none = true }
+scattering = { none = true }
+[media.n15]
+index = { n = 1.5 }
+absorption = { none = true }
+scattering = { none = true }
+[media.cloudy_n1]
+index = { n = 1.0 }
+absorption = { none = true }
+scattering = { length = "3 mm", kind = "isotropic" }
+[sensors.perfect]
+efficiency = { definition = "internal", value = 1.0 }
+window = { index = 1.5 }
+[sensors.perfect_n1]
+efficiency = { definition = "internal", value = 1.0 }
+window = { index = 1.0 }
+[surfaces.flat]
+model = "smooth"
+[surfaces.white]
+model = "painted"
+reflectance = { value = 1.0 }
+specular_share = 0.0
+)";
+
+struct Traced {
+  BuiltScene built;
+  PointResult result;
+};
+
+/// Scene text plus the library above, with `photons` from `[source]`.
+inline SceneSpec scene_spec(const std::string& text) {
+  return SceneFile::from_text(text + kLibrary, (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string())
+      .spec(0);
+}
+
+inline Traced trace(const std::string& text, int threads = 0) {
+  const SceneSpec spec = scene_spec(text);
+  SurfaceMaker::Hooks hooks;
+  hooks.cache.clear();
+  SceneBuilder builder(hooks);
+  Traced traced{builder.build(spec), {}};
+  const PhotonSource source(spec.source, traced.built.scene);
+  const TallyPlan plan(traced.built.scene, spec.exit_angles, false);
+  RunSettings settings;
+  settings.seed = spec.run.seed;
+  settings.max_interactions = spec.run.max_interactions;
+  settings.threads = threads;
+  traced.result = run_point(traced.built.scene, source, plan, settings);
+  CHECK(traced.result.lost == 0);
+  CHECK(traced.result.complete);
+  return traced;
+}
+
+/// Checks a fraction against an exact value.
+inline void check_fraction(const PointResult& result, Fate fate, double expected) {
+  const Estimate measured = result.fraction(fate);
+  CAPTURE(fate_name(fate));
+  CAPTURE(measured.value);
+  CAPTURE(measured.error);
+  CAPTURE(expected);
+  CHECK(sigmas(measured, {expected, 0.0}) < kSigmas);
+}
+
+}  // namespace scintray::test

@@ -1,0 +1,187 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/report/format.hpp"
+#include "scintray/report/html_report.hpp"
+#include "scintray/report/svg_plot.hpp"
+#include "scintray/report/sweep_view.hpp"
+#include "scintray/report/text_summary.hpp"
+#include "support/made_up_result.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// "" when every tag of the page closes in order and every & starts an entity; else what is wrong.
+std::string markup_fault(const std::string& page) {
+  std::vector<std::string> open;
+  const std::set<std::string> entities{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+  for (std::size_t i = 0; i < page.size(); ++i) {
+    if (page[i] == '&') {
+      const std::string entity = page.substr(i, page.find(';', i) - i + 1);
+      if (entities.count(entity) == 0) return "bare &: " + page.substr(i, 20);
+    }
+    if (page[i] == '>') return "bare >: " + page.substr(i, 20);
+    if (page[i] != '<') continue;
+    const std::size_t end = page.find('>', i);
+    if (end == std::string::npos) return "tag without end";
+    const std::string tag = page.substr(i + 1, end - i - 1);
+    if (contains(tag, "<")) return "< inside a tag: " + tag;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "odd quotes: " + tag;
+    i = end;
+    if (tag[0] == '!' || tag.back() == '/') continue;
+    const std::string name =
+        tag.substr(tag[0] == '/' ? 1 : 0, tag.find_first_of(" ") - (tag[0] == '/' ? 1 : 0));
+    if (tag[0] != '/') {
+      open.push_back(name);
+      if (name == "style") i = page.find("</style>", i) - 1;
+    } else if (open.empty() || open.back() != name) {
+      return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? "" : "left open: " + open.back();
+}
+
+}  // namespace
+
+TEST_CASE("The page is well formed and loads nothing") {
+  RunResult run = test::made_up_run();
+  CHECK(markup_fault("<p>a</b>") != "");  // the check itself can fail
+  CHECK(markup_fault("<p>a & b</p>") != "");
+  for (const int points : {15, 1, 0}) {
+    CAPTURE(points);
+    run.points.resize(static_cast<std::size_t>(points));
+    const std::string page = html_report(run);
+    CHECK(markup_fault(page) == "");
+    for (const char* outside :
+         {"<script", "http:", "https:", "src=", "url(", "@import", "<link", "nan", "inf\""})
+      CHECK_FALSE(contains(page, outside));
+  }
+}
+
+TEST_CASE("Text from scenes is escaped everywhere") {
+  RunResult run = test::made_up_run();
+  const std::string evil = "<b>&\"'";
+  run.header.title = run.header.scene_file = run.header.note = run.header.scene_text = evil;
+  run.header.version = run.partial_reason = evil;
+  for (auto* names : {&run.header.media, &run.header.surfaces, &run.header.parts, &run.header.faces})
+    for (std::string& name : *names) name = evil;
+  run.header.sweep_keys[0] = run.header.sweep_keys[1] = evil;
+  for (PointResult& point : run.points) {
+    point.parameters[0] += evil;
+    for (ExitAngleTally& tally : point.exit_angles) tally.name = evil;
+  }
+  const std::string page = html_report(run);
+  CHECK_FALSE(contains(page, "<b>&\""));
+  CHECK(contains(page, "&lt;b&gt;&amp;&quot;&#39;"));
+  CHECK(markup_fault(page) == "");
+}
+
+TEST_CASE("The page holds the numbers of the run") {
+  const RunResult run = test::made_up_run();
+  const std::string page = html_report(run);
+  CHECK(contains(page, report::with_error(run.points[7].fraction(Fate::detected))));
+  CHECK(contains(page, "18364758544493064720"));  // the seed
+  CHECK(contains(page, "absorbed in LSO"));
+  CHECK(contains(page, "pmt:window"));
+  CHECK(contains(page, "second warning"));
+  CHECK_FALSE(contains(page, "Partial result"));
+}
+
+TEST_CASE("A partial run says so, on the page and in the terminal") {
+  RunResult run = test::made_up_run();
+  run.partial_reason = "interrupted by Ctrl-C";
+  CHECK(contains(html_report(run), "<b>Partial result.</b> interrupted by Ctrl-C."));
+  CHECK(contains(text_summary(run), "PARTIAL RESULT: interrupted by Ctrl-C."));
+}
+
+TEST_CASE("Numbers are written to the place their error gives") {
+  CHECK(report::with_error({0.33731, 0.00112}) == "0.3373 ± 0.0011");
+  CHECK(report::with_error({1234.6, 53.2}) == "1235 ± 53");
+  CHECK(report::with_error({12.5, 1.26}) == "12.5 ± 1.3");
+  CHECK(report::percent_with_error({0.5, 0.001}) == "50.00 ± 0.10 %");
+  CHECK(report::grouped(999) == "999");
+  CHECK(report::display_width("0.1 ± 0.2") == 9);
+}
+
+TEST_CASE("Ticks are multiples of 1, 2 or 5 and cover the data") {
+  const std::vector<std::pair<double, double>> ranges{{0.0, 0.43}, {2.0, 18.0}, {-7e-9, 3e-9}, {1e6, 1.3e6}};
+  for (const auto& [low, high] : ranges) {
+    const auto ticks = report::nice_ticks(low, high, 5);
+    CHECK(ticks.size() >= 4);
+    CHECK(ticks.size() <= 8);
+    CHECK(ticks.front() <= low + 1e-9 * (high - low));
+    CHECK(ticks.back() >= high - 1e-9 * (high - low));
+    const double step = ticks[1] - ticks[0];
+    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step * 1.000001)));
+    CHECK((std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6));
+  }
+}
+
+TEST_CASE("A plot draws zeros on a logarithmic axis as gaps and refuses ragged series") {
+  report::Plot plot;
+  plot.log_y = true;
+  plot.series = {{"a", {0, 1, 2}, {10, 0, 1000}, {}, false}};
+  const std::string svg = report::svg_plot(plot);
+  CHECK(markup_fault(svg) == "");
+  CHECK_FALSE(contains(svg, "inf"));
+  CHECK_FALSE(contains(svg, "nan"));
+  plot.series[0].x.pop_back();
+  CHECK_THROWS_AS(report::svg_plot(plot), std::invalid_argument);
+}
+
+TEST_CASE("A sweep becomes one curve for each setting of the other keys") {
+  RunResult run = test::made_up_run();
+  const auto view = report::view_sweep(run);
+  REQUIRE(view);
+  CHECK(view->key == "source.region.slab_z.center");
+  CHECK(view->unit == "mm");
+  CHECK(view->rows == std::vector<std::string>{"2 mm", "6 mm", "10 mm", "14 mm", "18 mm"});
+  REQUIRE(view->series.size() == 3);
+  CHECK(view->series[1].label == "ground, table");
+  CHECK(view->series[1].points == std::vector<std::size_t>{5, 6, 7, 8, 9});
+  run.points[2].parameters[1] = "1 cm";  // another unit: not one axis
+  CHECK_FALSE(report::view_sweep(run));
+}
+
+TEST_CASE("The terminal summary is an aligned table") {
+  RunResult run = test::made_up_run();
+  const std::string sweep = text_summary(run);
+  CHECK(
+      contains(sweep, "source.region.slab_z.center          polished     ground, table   ground, UNIFIED\n"));
+  CHECK(contains(sweep, report::with_error(run.points[0].fraction(Fate::detected))));
+  CHECK(contains(sweep, "Lost photons: 0."));
+  run.points.resize(1);
+  CHECK(contains(text_summary(run), "absorbed at surface"));
+  run.points[0].lost = 2;
+  CHECK(contains(text_summary(run), "LOST PHOTONS: 2"));
+}
+
+TEST_CASE("A report that cannot be written leaves nothing and says why") {
+  const auto folder = test::scratch_folder("report_write");
+  const RunResult run = test::made_up_run();
+  write_report(folder / "run.html", run);
+  std::ifstream in(folder / "run.html");
+  std::ostringstream text;
+  text << in.rdbuf();
+  CHECK(text.str() == html_report(run));
+  try {
+    write_report(folder / "no" / "run.html", run);
+    FAIL("written into a folder that does not exist");
+  } catch (const SystemError& error) {
+    CHECK(contains(error.what(), "run.html: cannot write the report: No such file or directory"));
+  }
+}

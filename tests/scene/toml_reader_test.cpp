@@ -1,0 +1,168 @@
+#include "scintray/scene/toml_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "bad_input/marked_text.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+struct Reading {
+  Problems problems;
+  TomlTable table;
+  explicit Reading(const std::string& text, const std::string& file = "file.toml")
+      : table(parse_toml(text, file), problems) {}
+};
+
+/// Expects one problem, at the mark, in what `read` does with the marked text.
+template <typename Read>
+void check_reading(const std::string& marked, Read read, const std::string& what, const std::string& hint) {
+  const MarkedText input(marked);
+  Reading reading(input.text);
+  read(reading.table);
+  check_one_problem(input, reading.problems.list(), what, hint);
+}
+
+}  // namespace
+
+TEST_CASE("every dimension is read in its internal unit") {
+  Reading reading(R"(
+length = "2 cm"
+inverse = "0.5 1/cm"
+wavelength = "2.0 eV"
+time = "3 us"
+angle = "180 deg"
+energy = "0.511 MeV"
+density = "7.4 g/cm3"
+yield = "25000 photons/MeV"
+share = "97 %"
+plain = 0.97
+)");
+  const TomlTable& table = reading.table;
+  CHECK(table.quantity("length", Dimension::length) == doctest::Approx(20.0));
+  CHECK(table.quantity("inverse", Dimension::inverse_length) == doctest::Approx(0.05));
+  CHECK(table.quantity("wavelength", Dimension::wavelength) == doctest::Approx(kHc_eV_nm / 2.0));
+  CHECK(table.quantity("time", Dimension::time) == doctest::Approx(3000.0));
+  CHECK(table.quantity("angle", Dimension::angle) == doctest::Approx(kPi));
+  CHECK(table.quantity("energy", Dimension::energy) == doctest::Approx(511.0));
+  CHECK(table.quantity("density", Dimension::density) == doctest::Approx(7.4));
+  CHECK(table.quantity("yield", Dimension::photons_per_energy) == doctest::Approx(25.0));
+  CHECK(table.quantity("share", Dimension::dimensionless) == doctest::Approx(0.97));
+  CHECK(table.quantity("plain", Dimension::dimensionless) == doctest::Approx(0.97));
+  table.finish();
+  CHECK(reading.problems.empty());
+}
+
+TEST_CASE("a bare number is refused in every dimension that has a unit") {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::inverse_length, Dimension::wavelength, Dimension::time,
+        Dimension::angle, Dimension::energy, Dimension::density, Dimension::photons_per_energy}) {
+    check_reading(
+        "x = @@5", [&](const TomlTable& table) { CHECK(table.quantity("x", dimension) == 0.0); }, "but a",
+        "write it as a string with its unit, as \"5 ");
+  }
+}
+
+TEST_CASE("a table that is missing is reported once, not once for each key in it") {
+  check_reading(
+      "@@x = 1",
+      [](const TomlTable& table) {
+        table.integer("x");
+        table.table("source").quantity("gap", Dimension::length);
+        table.finish();
+      },
+      "has no \"source\"", "add source");
+}
+
+TEST_CASE("a wrong value is not also reported as out of range") {
+  check_reading(
+      "x = @@\"5 kg\"",
+      [](const TomlTable& table) {
+        const double x = table.quantity("x", Dimension::length);
+        table.expect("x", x > 0.0, "not positive");
+      },
+      "not a unit of length", "mm");
+}
+
+TEST_CASE("curves in each form are the same") {
+  const std::filesystem::path folder = scratch_folder("toml_reader_curves");
+  std::ofstream(folder / "n.csv") << "# measured\nn, lambda\n1.82, 400\n1.80, 500\n";
+  Reading reading(R"(
+a = { wavelength = ["400 nm", "0.5 um"], value = [1.82, 1.80] }
+b = { wavelength = [400, 500], wavelength_unit = "nm", value = ["182 %", "180 %"] }
+c = { file = "n.csv", wavelength_unit = "nm", wavelength_column = "lambda", value_column = "n" }
+d = { wavelength = ["500 nm", "400 nm"], value = [180, 182], value_unit = "%" }
+)",
+                  (folder / "file.toml").string());
+  for (const char* key : {"a", "b", "c", "d"}) {
+    INFO(key);
+    const Curve curve = reading.table.curve(key, Dimension::dimensionless);
+    REQUIRE(curve.x().size() == 2);
+    CHECK(curve.x()[0] == doctest::Approx(400.0));
+    CHECK(curve(450.0) == doctest::Approx(1.81));
+  }
+  reading.table.finish();
+  for (const Problem& problem : reading.problems.list()) INFO(problem.text());
+  CHECK(reading.problems.empty());
+}
+
+TEST_CASE("photon energies, which rise while wavelengths fall, make a curve") {
+  Reading reading("a = { wavelength = [2.0, 3.0], wavelength_unit = \"eV\", value = [\"1 m\", \"2 m\"] }");
+  const Curve curve = reading.table.curve("a", Dimension::length);
+  REQUIRE(curve.x().size() == 2);
+  CHECK(curve.x()[0] == doctest::Approx(kHc_eV_nm / 3.0));
+  CHECK(curve.y()[0] == doctest::Approx(2000.0));
+  CHECK(curve.y()[1] == doctest::Approx(1000.0));
+}
+
+TEST_CASE("wrong curves") {
+  const auto read = [](const TomlTable& table) { table.curve("a", Dimension::dimensionless); };
+  check_reading("a = @@{ wavelength = [\"400 nm\", \"500 nm\"], value = [1.8] }", read,
+                "2 values of wavelength, but 1", "one value for every");
+  check_reading("a = { wavelength = [\"400 nm\", \"500 nm\", @@\"450 nm\"], value = [1, 2, 3] }", read,
+                "not in order", "sort");
+  check_reading("a = { wavelength = [\"400 nm\", @@\"400 nm\"], value = [1, 2] }", read, "not in order",
+                "each once");
+  check_reading("a = { wavelength = [\"400 nm\", @@\"5 ns\"], value = [1, 2] }", read,
+                "not a unit of wavelength", "nm");
+  check_reading("a = { wavelength = [400], wavelength_unit = @@\"mm\", value = [1] }", read, "not a unit",
+                "nm");
+  check_reading("a = @@[1, 2]", read, "an array, but one value or a table", "value = [...]");
+  check_reading("a = @@{ value = [1, 2] }\n", read, "none of \"wavelength\", \"file\"", "add one");
+  check_reading("a = { file = @@\"no.csv\", wavelength_unit = \"nm\" }", read, "\"no.csv\" does not exist",
+                "relative");
+}
+
+TEST_CASE("every bad row of a CSV table is reported at its line and column") {
+  const std::filesystem::path folder = scratch_folder("toml_reader_csv");
+  std::ofstream(folder / "n.csv") << "lambda,n\n400,1.8\n450, x\n500\n550,1.7\n";
+  Reading reading("a = { file = \"n.csv\", wavelength_unit = \"nm\" }", (folder / "file.toml").string());
+  reading.table.curve("a", Dimension::dimensionless);
+  const std::vector<Problem>& found = reading.problems.list();
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].where.text() == (folder / "n.csv").string() + ":3:6");
+  CHECK(contains(found[0].what, "\"x\" is not a finite number"));
+  CHECK(found[1].where.text() == (folder / "n.csv").string() + ":4:1");
+  CHECK(contains(found[1].what, "has 1 values, but 2 are expected"));
+}
+
+TEST_CASE("places of keys and values, however they are written") {
+  const TomlNodePtr root = parse_toml("[a.b]\nc.d = 'x'\n\"e f\" = [\n  2, 3]\n[[g]]\nh = {i = 1}\n", "f");
+  const TomlNode* b = root->find("a")->find("b");
+  CHECK(b->where.text() == "f:1:1");
+  const TomlNode* d = b->find("c")->find("d");
+  CHECK(d->key_where.text() == "f:2:3");
+  CHECK(d->where.text() == "f:2:7");
+  const TomlNode* ef = b->find("e f");
+  CHECK(ef->key_where.text() == "f:3:1");
+  CHECK(ef->items[1].where.text() == "f:4:6");
+  const TomlNode& g = root->find("g")->items[0];
+  CHECK(g.where.text() == "f:5:1");
+  CHECK(g.find("h")->find("i")->key_where.text() == "f:6:6");
+}

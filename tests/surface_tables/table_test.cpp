@@ -1,0 +1,156 @@
+#include "scintray/surface/table.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/core/statistics.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+/// Lambertian in both ways, whatever the incidence.
+DirectionQuantiles lambertian_quantiles() {
+  std::vector<ExitAngles> sample;
+  constexpr int kSize = 80000;
+  // Golden-ratio steps of azimuth fill the circle evenly within any range of polar angles.
+  for (int k = 0; k < kSize; ++k)
+    sample.push_back({static_cast<float>(std::asin(std::sqrt((k + 0.5) / kSize))),
+                      static_cast<float>(kPi * std::fmod(k * 0.6180339887498949, 1.0))});
+  return quantiles_of(sample);
+}
+
+TableNode node(double degrees, double reflectance) {
+  TableNode result;
+  result.incidence_rad = result.traced_incidence_rad = degrees * kDegree;
+  result.reflectance = reflectance;
+  result.reflectance_error = 0.01;
+  result.mean_slope_rad = 0.1;
+  result.rays = 80000;
+  result.reflected = result.transmitted = lambertian_quantiles();
+  return result;
+}
+
+SurfaceTable sample_table() {
+  TableProvenance provenance;
+  provenance.map = "made up";
+  provenance.preparation = "none";
+  provenance.tiling = "periodic";
+  provenance.seed = 0xFFFFFFFFFFFFFFFFULL;
+  provenance.version = "test";
+  return SurfaceTable({1.8, 1.0}, {node(0, 0.1), node(30, 0.4), node(33, 0.9), node(90, 1.0)},
+                      {node(0, 0.2), node(90, 0.6)}, provenance);
+}
+
+}  // namespace
+
+TEST_CASE("reflectance is linear between nodes and exact at them") {
+  const SurfaceTable table = sample_table();
+  CHECK(table.reflectance(Side::inside, 0.0) == doctest::Approx(0.1));
+  CHECK(table.reflectance(Side::inside, 15 * kDegree) == doctest::Approx(0.25));
+  CHECK(table.reflectance(Side::inside, 30 * kDegree) == doctest::Approx(0.4));
+  CHECK(table.reflectance(Side::inside, 31.5 * kDegree) == doctest::Approx(0.65));
+  CHECK(table.reflectance(Side::inside, 90 * kDegree) == doctest::Approx(1.0));
+  CHECK(table.reflectance(Side::outside, 45 * kDegree) == doctest::Approx(0.4));
+}
+
+TEST_CASE("quantiles of the cosine law give the cosine law back, in both media") {
+  const SurfaceTable table = sample_table();
+  const Vec3 normal = Vec3(0.3, -0.5, 0.7).normalized();
+  const Frame frame = Frame::about(normal);
+  constexpr int kPolar = 20, kAzimuth = 8;
+  std::vector<std::uint64_t> counts(2 * kPolar * kAzimuth, 0);
+  constexpr std::uint64_t kRays = 100000;
+  const double incidence = 15 * kDegree;
+  for (std::uint64_t k = 0; k < kRays; ++k) {
+    Rng rng(21, StreamKind::other, 0, k);
+    Ray ray{std::sin(incidence) * frame.x + std::cos(incidence) * normal, Vec3::Zero()};
+    const Side after = table.scatter(ray, Side::inside, normal, {1.8, 1.0}, rng);
+    const Vec3 local = frame.to_local(ray.direction);
+    REQUIRE((local.z() > 0.0) == (after == Side::outside));
+    const int polar = std::min(kPolar - 1, static_cast<int>(kPolar * (1.0 - local.z() * local.z())));
+    const int azimuth = std::min(
+        kAzimuth - 1, static_cast<int>(kAzimuth * (std::atan2(local.y(), local.x()) / kTwoPi + 0.5)));
+    ++counts[(static_cast<int>(after) * kPolar + polar) * kAzimuth + azimuth];
+    CHECK(std::abs(ray.direction.norm() - 1.0) < 1e-12);
+  }
+  std::vector<double> expected;
+  for (const double share : {0.25, 0.75})
+    for (int k = 0; k < kPolar * kAzimuth; ++k) expected.push_back(share * kRays / (kPolar * kAzimuth));
+  CHECK(chi_square_test(counts, expected).p_value > 1e-4);  // one false alarm in 10,000 seeds
+}
+
+TEST_CASE("unpolarised light stays unpolarised; polarised light stays across its direction") {
+  const SurfaceTable table = sample_table();
+  Rng rng(22, StreamKind::other, 0);
+  Ray ray{{0.6, 0.0, 0.8}, Vec3::Zero()};
+  table.scatter(ray, Side::inside, Vec3::UnitZ(), {1.8, 1.0}, rng);
+  CHECK(ray.polarisation.isZero(0.0));
+  Ray polarised{{0.6, 0.0, 0.8}, {0.0, 1.0, 0.0}};
+  table.scatter(polarised, Side::inside, Vec3::UnitZ(), {1.8, 1.0}, rng);
+  CHECK(std::abs(polarised.polarisation.dot(polarised.direction)) < 1e-12);
+  CHECK(polarised.polarisation.norm() == doctest::Approx(1.0));
+}
+
+TEST_CASE("tables that cannot be are refused, with every fault named") {
+  CHECK_THROWS_AS(SurfaceTable({1.8, 1.0}, {node(0, 0.1)}, {node(0, 0.1), node(90, 1)}, {}), InputError);
+  CHECK_THROWS_AS(SurfaceTable({1.8, 1.0}, {node(0, 0.1), node(80, 1)}, {node(0, 0.1), node(90, 1)}, {}),
+                  InputError);
+  TableNode unsorted = node(0, 0.1);
+  std::swap(unsorted.reflected.polar[3], unsorted.reflected.polar[9]);
+  TableNode loud = node(90, 1.5);
+  try {
+    SurfaceTable({1.8, 1.0}, {unsorted, node(90, 1)}, {node(0, 0.1), loud}, {});
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(error.problems().size() == 2);
+  }
+  TableNode mute = node(0, 0.1);
+  mute.transmitted = {};
+  CHECK_THROWS_AS(SurfaceTable({1.8, 1.0}, {mute, node(90, 1)}, {node(0, 0.1), node(90, 1)}, {}), InputError);
+}
+
+TEST_CASE("a table file gives the same table back") {
+  const auto path = test::scratch_folder("table_round_trip") / "table.h5";
+  const SurfaceTable table = sample_table();
+  write_table(path, table);
+  const SurfaceTable read = read_table(path);
+  CHECK(read.index_pair().inside == 1.8);
+  CHECK(read.provenance().seed == table.provenance().seed);
+  CHECK(read.provenance().map == "made up");
+  for (const Side side : {Side::inside, Side::outside}) {
+    REQUIRE(read.nodes(side).size() == table.nodes(side).size());
+    for (std::size_t k = 0; k < read.nodes(side).size(); ++k) {
+      const TableNode &a = read.nodes(side)[k], &b = table.nodes(side)[k];
+      CHECK(a.incidence_rad == b.incidence_rad);
+      CHECK(a.reflectance == b.reflectance);
+      CHECK(a.rays == b.rays);
+      CHECK(a.reflected.polar == b.reflected.polar);
+      CHECK(a.transmitted.azimuth == b.transmitted.azimuth);
+      CHECK(a.transmitted.rays == b.transmitted.rays);
+    }
+  }
+}
+
+TEST_CASE("a table file of another version is refused by a message that names both and says rebuild") {
+  const auto path = test::scratch_folder("table_version") / "table.h5";
+  h5::File file = h5::File::create(path);
+  h5::Group root = file.root();
+  root.set_attribute("", "format", std::string("ScintRay surface table"));
+  root.set_attribute("", "format_version", std::int64_t{kTableFileVersion + 41});
+  file.commit();
+  try {
+    read_table(path);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    const std::string text = error.problems().front().text();
+    CHECK(text.find(std::to_string(kTableFileVersion + 41)) != std::string::npos);
+    CHECK(text.find("version " + std::to_string(kTableFileVersion)) != std::string::npos);
+    CHECK(text.find("rebuild") != std::string::npos);
+  }
+}

@@ -1,0 +1,206 @@
+#include "scintray/topography/height_map.hpp"
+
+#include <doctest/doctest.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/topography/map_statistics.hpp"
+#include "scintray/topography/prepare.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+std::filesystem::path written(const std::string& name, const std::string& content) {
+  static const auto folder = test::scratch_folder("height_maps");
+  std::ofstream(folder / name, std::ios::binary) << content;
+  return folder / name;
+}
+
+/// The text of the first problem that reading meets.
+std::string complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
+  try {
+    read_height_map(path, options);
+  } catch (const InputError& error) {
+    return error.problems().front().text();
+  }
+  return "no complaint";
+}
+
+bool says(const std::string& text, const std::string& part) {
+  CAPTURE(text);
+  return text.find(part) != std::string::npos;
+}
+
+HeightMap ramp() {
+  HeightMap map;
+  map.columns = 5;
+  map.rows = 3;
+  map.pitch_x_um = 0.5;
+  map.pitch_y_um = 0.25;
+  map.title = "ramp";
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 5; ++i) map.heights_um.push_back(1.0 + 2.0 * i - 3.0 * j);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("a simple field is read as it was written") {
+  const auto path = written("ramp.gsf", "");
+  write_gsf(path, ramp());
+  const HeightMap map = read_height_map(path);
+  CHECK(map.columns == 5);
+  CHECK(map.rows == 3);
+  CHECK(map.title == "ramp");
+  CHECK(map.pitch_x_um == doctest::Approx(0.5));
+  CHECK(map.pitch_y_um == doctest::Approx(0.25));
+  for (std::size_t k = 0; k < 15; ++k)
+    CHECK(map.heights_um[k] == doctest::Approx(ramp().heights_um[k]).epsilon(1e-6));
+}
+
+TEST_CASE("simple fields that lie about their size, or lack a pixel, are refused") {
+  const auto path = written("cut.gsf", "");
+  write_gsf(path, ramp());
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 4);
+  CHECK(says(complaint(path), "truncated"));
+  CHECK(
+      says(complaint(written(
+               "huge.gsf", std::string("Gwyddion Simple Field 1.0\nXRes = 999999\nYRes = 999999\n\0\0", 56))),
+           "expected"));
+  CHECK(says(complaint(written("none.gsf", std::string("Gwyddion Simple Field 1.0\nYRes = 2\n\0", 36))),
+             "XRes is missing"));
+  HeightMap holed = ramp();
+  holed.at(3, 1) = std::nan("");
+  const auto missing = written("nan.gsf", "");
+  write_gsf(missing, holed);
+  CHECK(says(complaint(missing), "column 4, row 2"));
+}
+
+TEST_CASE("Gwyddion's text export is read with its units, in English, German and Latin-1") {
+  const std::string numbers = "# Value units: nm\n1\t2\t3\n4\t5\t6.5e0\n";
+  for (const std::string head : {"# Channel: a\n# Width: 30 \xC2\xB5m\n# Height: 4000 nm\n",
+                                 "# Kanal: a\n# Breite: 30 \xCE\xBCm\n# H\xC3\xB6he: 4000 nm\n",
+                                 "# Kanal: a\n# Breite: 30 \xB5m\n# H\xF6he: 0.004 mm\r\n"}) {
+    const HeightMap map = read_height_map(written("export.txt", head + numbers));
+    CHECK(map.columns == 3);
+    CHECK(map.rows == 2);
+    CHECK(map.title == "a");
+    CHECK(map.pitch_x_um == doctest::Approx(10.0));
+    CHECK(map.pitch_y_um == doctest::Approx(2.0));
+    CHECK(map.at(2, 1) == doctest::Approx(6.5e-3));
+  }
+}
+
+TEST_CASE("a profiler's matrix is read with its conversion factor, also compressed") {
+  const std::string text =
+      "h=2 w=3\npixel size=3.5e-007 m\ndata unit=rad\nheight conversion factor (-> m)=6e-008\n1 2 3\n4 5 "
+      "-6\n";
+  const auto path = written("profiler.txt.gz", "");
+  gzFile file = gzopen(path.c_str(), "wb");
+  gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(file);
+  for (const auto& from : {written("profiler.txt", text), path}) {
+    const HeightMap map = read_height_map(from);
+    CHECK(map.pitch_x_um == doctest::Approx(0.35));
+    CHECK(map.at(2, 1) == doctest::Approx(-0.36));
+  }
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 9);
+  CHECK(says(complaint(path), "gzip"));
+  CHECK(says(complaint(written("short.txt", text.substr(0, text.size() - 7))), "the header says"));
+}
+
+TEST_CASE("units are asked for, never guessed") {
+  const auto path = written("bare.txt", "1 2\n3 4\n");
+  try {
+    read_height_map(path);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    REQUIRE(error.problems().size() == 2);
+    CHECK(says(error.problems()[0].text(), "--pitch"));
+    CHECK(says(error.problems()[1].text(), "--unit"));
+  }
+  ReadOptions options;
+  options.width_um = 4.0;
+  options.height_unit_um = 1e-3;
+  const HeightMap map = read_height_map(path, options);
+  CHECK(map.pitch_x_um == 2.0);
+  CHECK(map.at(1, 1) == doctest::Approx(4e-3));
+  options.pitch_um = 1.0;
+  CHECK(says(complaint(path, options), "both pitch and width"));
+}
+
+TEST_CASE("text that is no height map is refused with its place") {
+  CHECK(says(complaint(written("word.txt", "1 2\n3 x\n")), "word.txt:2:3"));
+  CHECK(says(complaint(written("comma.txt", "1,5 2\n")), "decimal point"));
+  CHECK(says(complaint(written("ragged.txt", "1 2\n3 4 5\n")), "ragged.txt:2"));
+  CHECK(says(complaint(written("empty.txt", "")), "empty"));
+  CHECK(says(complaint(written("binary.gwy", std::string("GWYP\0\0\0", 7))), ".gsf"));
+  CHECK(says(complaint(written("nan.txt", "1 nan\n3 4\n"), {1.0, {}, 1.0, false}), "column 2, row 1"));
+  CHECK(says(complaint("no/such/file.gsf"), "no such file"));
+}
+
+TEST_CASE("levelling takes off exactly the surface that was put on") {
+  HeightMap map = ramp();
+  map.columns = map.rows = 12;
+  map.heights_um.clear();
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i < 12; ++i)
+      map.heights_um.push_back(3.0 + 0.2 * i - 0.1 * j + 0.01 * i * j - 0.03 * j * j);
+  HeightMap curved = map;
+  level_polynomial(map, 2);
+  for (const double h : map.heights_um) CHECK(std::abs(h) < 1e-10);
+  level_plane(curved);
+  CHECK(map_statistics(curved).sq_um > 0.05);
+  CHECK(curved.steps.back() == "plane subtracted");
+  CHECK_THROWS_AS(level_polynomial(map, 12), InputError);
+}
+
+TEST_CASE("filters keep what they must: a constant, a line under LOESS, the median of an outlier") {
+  HeightMap map = ramp();
+  HeightMap line = map;
+  filter_loess_lines(line, 1.6);
+  for (std::size_t k = 0; k < 15; ++k) CHECK(line.heights_um[k] == doctest::Approx(map.heights_um[k]));
+  std::fill(map.heights_um.begin(), map.heights_um.end(), 2.0);
+  map.at(2, 1) = 50.0;
+  HeightMap median = map;
+  filter_median(median, 1);
+  CHECK(median.at(2, 1) == 2.0);
+  map.at(2, 1) = 2.0;
+  filter_gaussian(map, 0.3);
+  for (const double h : map.heights_um) CHECK(h == doctest::Approx(2.0));
+}
+
+TEST_CASE("mirror tiling doubles the period less the edges and keeps the extremes") {
+  const HeightField field = make_height_field(ramp(), Tiling::automatic);
+  CHECK(field.columns() == 8);
+  CHECK(field.rows() == 4);
+  CHECK(field.high_um() == 9.0);
+  CHECK(field.low_um() == -5.0);
+  HeightMap periodic = ramp();
+  periodic.periodic = true;
+  CHECK(make_height_field(periodic).columns() == 5);
+  CHECK(tiling_name(periodic, Tiling::automatic) == "periodic");
+}
+
+TEST_CASE("published maps have their known heights after levelling") {
+  const auto matrix = test::shared_file("data/topography/matrix-2.txt.gz");
+  const auto chip = test::shared_file("data/topography/chip.gsf");
+  if (!matrix || !chip) return;
+  HeightMap map = read_height_map(*matrix);
+  CHECK(map.columns == 650);
+  CHECK(map.pitch_x_um == doctest::Approx(0.369862));
+  level_plane(map);
+  CHECK(map_statistics(map).sq_um == doctest::Approx(0.276).epsilon(0.005));
+  CHECK(map_statistics(map).sz_um == doctest::Approx(3.36).epsilon(0.005));
+  map = read_height_map(*chip);
+  CHECK(map.pitch_x_um == doctest::Approx(80.0 / 300));
+  const MapStatistics raw = map_statistics(map);
+  CHECK(raw.sq_um == doctest::Approx(1.274).epsilon(0.005));
+  CHECK(raw.sz_um == doctest::Approx(4.50).epsilon(0.005));
+}

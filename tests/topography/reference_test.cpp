@@ -1,0 +1,103 @@
+/// Against an independent program's tracing of two height maps, and published maps traced.
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "scintray/core/statistics.hpp"
+#include "scintray/topography/height_map.hpp"
+#include "scintray/topography/map_statistics.hpp"
+#include "scintray/topography/prepare.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+
+namespace {
+
+constexpr IndexPair kCrystalInAir{1.82, 1.0};
+
+Estimate reflectance(const HeightField& field, Side side, double incidence, std::uint64_t rays) {
+  std::uint64_t reflected = 0;
+  for (std::uint64_t k = 0; k < rays; ++k) {
+    Rng rng(31, StreamKind::other, static_cast<std::uint64_t>(incidence * 1e6), k);
+    Ray ray{{std::sin(incidence), 0.0, (side == Side::inside ? 1.0 : -1.0) * std::cos(incidence)},
+            Vec3::Zero()};
+    reflected += field.scatter(ray, side, Vec3::UnitZ(), kCrystalInAir, rng) == side ? 1 : 0;
+  }
+  return binomial_estimate(reflected, rays);
+}
+
+struct Reference {
+  const char* file;
+  std::array<double, 11> reflectance;
+  std::vector<std::pair<double, double>> slopes;  // incidence, mean slope met, deg
+};
+
+}  // namespace
+
+TEST_CASE("reflectance and slopes met agree with an independent tracing of two Gaussian maps") {
+  constexpr std::array<double, 11> kIncidence{0, 10, 20, 30, 34.5, 39, 45.75, 50.25, 57, 61.5, 70.5};
+  const std::array<Reference, 2> references{
+      {{"reference/microsurface/gaussian_rough.gsf",
+        {0.149, 0.192, 0.327, 0.519, 0.608, 0.698, 0.828, 0.898, 0.970, 0.991, 0.999},
+        {{0, 18.2}, {57, 18.2}, {75, 19.3}, {81.75, 20.8}, {88.5, 22.2}}},
+       {"reference/microsurface/gaussian_polished.gsf",
+        {0.082, 0.086, 0.090, 0.185, 0.928, 1, 1, 1, 1, 1, 1},
+        {{0, 1.34}, {57, 1.34}}}}};
+  constexpr std::uint64_t kRays = 40000, kReferenceRays = 60000;
+  for (const Reference& reference : references) {
+    const auto path = test::shared_file(reference.file);
+    if (!path) return;
+    ReadOptions options;
+    options.periodic = true;
+    const HeightField field = make_height_field(read_height_map(*path, options));
+    for (std::size_t k = 0; k < kIncidence.size(); ++k) {
+      const Estimate ours = reflectance(field, Side::inside, kIncidence[k] * kDegree, kRays);
+      const double theirs = reference.reflectance[k];
+      const double error = std::hypot(ours.error, std::sqrt(theirs * (1.0 - theirs) / kReferenceRays));
+      CAPTURE(reference.file);
+      CAPTURE(kIncidence[k]);
+      // Four combined standard errors, and 0.3 % for the rays that the other program misclassified.
+      CHECK(std::abs(ours.value - theirs) <= 4.0 * error + 0.003);
+    }
+    for (const auto& [incidence, slope] : reference.slopes) {
+      const Estimate ours = mean_slope_met(field, Side::inside, incidence * kDegree, kRays);
+      CAPTURE(incidence);
+      CHECK(std::abs(ours.value / kDegree - slope) <=
+            4.0 * std::sqrt(2.0) * ours.error / kDegree + 0.05 + 0.003 * slope);
+    }
+  }
+}
+
+TEST_CASE("no ray on a published map is unclassified: side and direction agree up to 89.9 deg") {
+  for (const char* file : {"data/topography/chip.gsf", "data/topography/matrix-2.txt.gz"}) {
+    const auto path = test::shared_file(file);
+    if (!path) return;
+    HeightMap map = read_height_map(*path);
+    level_plane(map);
+    const HeightField field = make_height_field(map);
+    std::uint64_t disagree = 0, cut = 0, facets = 0;
+    constexpr std::uint64_t kRays = 3000;
+    for (const Side side : {Side::inside, Side::outside})
+      for (const double degrees : {0.0, 30.0, 60.0, 80.0, 87.0, 89.9})
+        for (std::uint64_t k = 0; k < kRays; ++k) {
+          Rng rng(32, StreamKind::other, static_cast<std::uint64_t>(degrees * 10), k);
+          const double up = side == Side::inside ? 1.0 : -1.0;
+          const double azimuth = kTwoPi * rng.uniform();
+          const double sine = std::sin(degrees * kDegree);
+          Ray ray{{sine * std::cos(azimuth), sine * std::sin(azimuth), up * std::cos(degrees * kDegree)},
+                  Vec3::Zero()};
+          const double x = field.period_x_um() * rng.uniform(), y = field.period_y_um() * rng.uniform();
+          const HeightFieldExit exit = field.follow(ray, side, x, y, kCrystalInAir, rng);
+          disagree += (ray.direction.z() > 0.0) != (exit.side == Side::outside) ? 1 : 0;
+          cut += exit.cut ? 1 : 0;
+          facets += exit.facets_met > 0 ? 1 : 0;
+        }
+    CAPTURE(file);
+    CHECK(disagree == 0);
+    CHECK(cut == 0);
+    CHECK(facets == 2 * 6 * kRays);
+  }
+}

@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/mesh/primitives.hpp"
+#include "scintray/scene/accelerator.hpp"
+
+using namespace scintray;
+
+namespace {
+
+std::vector<BoundaryTriangle> triangles_of(const TriMesh& mesh, bool inward = false) {
+  std::vector<BoundaryTriangle> triangles;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    if (inward) std::swap(triangles.back()[1], triangles.back()[2]);
+  }
+  return triangles;
+}
+
+std::vector<std::uint32_t> numbered(std::size_t n) {
+  std::vector<std::uint32_t> labels(n);
+  for (std::uint32_t i = 0; i < n; ++i) labels[i] = i;
+  return labels;
+}
+
+/// Distance to the wall of a box from inside, in closed form.
+double box_exit(const Vec3& p, const Vec3& d, const Vec3& low, const Vec3& high) {
+  double nearest = HUGE_VAL;
+  for (int axis = 0; axis < 3; ++axis)
+    if (d[axis] != 0.0) nearest = std::min(nearest, ((d[axis] > 0.0 ? high : low)[axis] - p[axis]) / d[axis]);
+  return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("Planes and Embree give the closed-form exit of a box, also from its own walls and edges") {
+  const Vec3 low(-1, -1, -10), high(1, 1, 10);
+  const TriMesh box = make_box(low, high);
+  const auto triangles = triangles_of(box);
+  const auto labels = numbered(triangles.size());
+  const Accelerator planes(triangles, labels, true, AcceleratorKind::planes);
+  const Accelerator embree(triangles, labels, true, AcceleratorKind::embree);
+  CHECK(planes.uses_planes());
+  CHECK(planes.plane_count() == 6);
+  CHECK_FALSE(embree.uses_planes());
+  Vec3 p = Vec3::Zero();
+  for (std::uint64_t i = 0; i < 200'000; ++i) {
+    Rng rng(1, StreamKind::other, i);
+    Vec3 d = sample_isotropic(rng);
+    if (i % 3 == 0) {  // from an edge, or from a corner
+      p = Vec3(1, i % 2 ? 1.0 : rng.uniform(), i % 6 ? 10.0 * rng.uniform() : 10.0);
+      d = Vec3(-std::abs(d.x()), -std::abs(d.y()), -std::abs(d.z()));
+    }
+    if (i % 1000 == 1) d = Vec3(d.x(), d.y(), 1e-9).normalized();  // almost along a wall
+    const double expected = std::max(0.0, box_exit(p, d, low, high));
+    const Exit a = planes.find_exit(p, d), b = embree.find_exit(p, d);
+    REQUIRE(a.triangle != kNoTriangle);
+    REQUIRE(b.triangle != kNoTriangle);
+    REQUIRE(std::abs(a.distance_mm - expected) < 1e-9);
+    REQUIRE(std::abs(b.distance_mm - expected) < 2e-4 * (1.0 + expected));  // an edge may go to either wall
+    p += a.distance_mm * d;
+  }
+}
+
+TEST_CASE("No ray leaves a closed body unseen, however fine or slender its triangles") {
+  // Photons bounce diffusely inside; each position must stay within rounding of the body.
+  struct Body {
+    const char* name;
+    TriMesh mesh;
+  };
+  const std::vector<Body> bodies{{"fine box", subdivide_faces(make_box({-1, -1, -10}, {1, 1, 10}), 16)},
+                                 {"sphere", make_sphere(5.0, 12)},
+                                 {"cylinder of slivers", make_cylinder(2.0, 40.0, 200)},
+                                 {"thin plate", make_box({-50, -50, 0}, {50, 50, 1e-3})}};
+  for (const Body& body : bodies) {
+    CAPTURE(body.name);
+    const auto triangles = triangles_of(body.mesh);
+    const Accelerator accelerator(triangles, numbered(triangles.size()), true, AcceleratorKind::embree);
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& v : body.mesh.vertices) bounds.extend(v);
+    const double tolerance = 1e-4 * bounds.diagonal().norm();
+    Vec3 p = bounds.center(), d = Vec3(0.3, 0.4, 0.5).normalized();
+    std::uint64_t resolved = 0;
+    constexpr std::uint64_t kSteps = 300'000;
+    Rng rng(2, StreamKind::other, 0);
+    for (std::uint64_t i = 0; i < kSteps; ++i) {
+      const Exit exit = accelerator.find_exit(p, d);
+      REQUIRE(exit.triangle != kNoTriangle);
+      resolved += exit.resolved;
+      p += exit.distance_mm * d;
+      REQUIRE(bounds.exteriorDistance(p) < tolerance);
+      d = sample_lambertian(-accelerator.normal(exit.triangle), rng);
+    }
+    MESSAGE(body.name << ": " << resolved << " of " << kSteps << " queries settled by the exact search");
+    CHECK(resolved < kSteps / 20);
+  }
+}
+
+TEST_CASE("From the ambient region rays meet the outside of a body or go to infinity") {
+  const auto triangles = triangles_of(make_box({-1, -1, -1}, {1, 1, 1}), true);
+  const Accelerator ambient(triangles, numbered(triangles.size()), false, AcceleratorKind::automatic);
+  CHECK_FALSE(ambient.uses_planes());
+  CHECK(ambient.find_exit({0, 0, 5}, {0, 0, 1}).triangle == kNoTriangle);
+  const Exit hit = ambient.find_exit({0.2, 0.3, 5}, {0, 0, -1});
+  REQUIRE(hit.triangle != kNoTriangle);
+  CHECK(hit.distance_mm == doctest::Approx(4.0).epsilon(1e-12));
+  CHECK(ambient.normal(hit.triangle).z() == doctest::Approx(-1.0));
+  // From its surface outwards: not met again.
+  CHECK(ambient.find_exit({0.2, 0.3, 1}, Vec3(0.6, 0, 0.8)).triangle == kNoTriangle);
+}
+
+TEST_CASE("Planes are refused where the region is not convex, with a hint") {
+  TriMesh two = joined(make_box({0, 0, 0}, {1, 1, 1}), make_box({3, 0, 0}, {4, 1, 1}));
+  const auto triangles = triangles_of(two);
+  const auto labels = numbered(triangles.size());
+  CHECK_FALSE(Accelerator(triangles, labels, true, AcceleratorKind::automatic).uses_planes());
+  CHECK_THROWS_WITH_AS(Accelerator(triangles, labels, true, AcceleratorKind::planes),
+                       doctest::Contains("use accelerator = \"auto\""), InputError);
+}
+
+TEST_CASE("A point is inside a body or not, by planes and by rays alike") {
+  const auto triangles = triangles_of(make_cylinder(2.0, 5.0, 24));
+  const auto labels = numbered(triangles.size());
+  const Accelerator planes(triangles, labels, true, AcceleratorKind::automatic);
+  const Accelerator embree(triangles, labels, true, AcceleratorKind::embree);
+  REQUIRE(planes.uses_planes());
+  std::uint64_t inside = 0;
+  for (std::uint64_t i = 0; i < 5'000; ++i) {
+    Rng rng(4, StreamKind::other, i);
+    const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+    const Vec3 p(6.0 * x - 3.0, 6.0 * y - 3.0, 8.0 * z - 1.0);
+    CHECK(planes.contains(p) == embree.contains(p));
+    inside += planes.contains(p);
+  }
+  CHECK(inside > 500);
+}
