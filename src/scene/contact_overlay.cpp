@@ -105,7 +105,7 @@ class Sweep {
   /// From `face` out over its side k: the neighbour is to the left of from -> to.
   void cross(Triangulation::Face_handle face, int k, Windings& windings) {
     const auto from = face->vertex(Triangulation::cw(k)), to = face->vertex(Triangulation::ccw(k));
-    for (const auto& context : triangulation_.contexts(from, to)) {
+    for (auto context : triangulation_.contexts(from, to)) {  // id() is not const
       const int sign = *context.current() == from ? 1 : -1;
       for (const auto& [label, winding] : edges_[edge_of_.at(context.id().vl_ptr())].winding)
         add(windings, label, sign * winding);

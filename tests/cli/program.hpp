@@ -1,0 +1,82 @@
+#pragma once
+/// Running the program as a user does.
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace scintray::test {
+
+struct Ended {
+  int exit_code = -1;     ///< -1 when a signal ended it
+  std::string output;     ///< standard output and standard error
+  long peak_kib = 0;      ///< peak resident memory
+};
+
+/// A running `scintray ARGUMENTS` in a folder of its own.
+class Program {
+ public:
+  /// `file_limit_bytes` above 0 makes every file that grows past it fail as on a full disk.
+  Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder, rlim_t file_limit_bytes = 0)
+      : log_(folder / "output.txt") {
+    child_ = fork();
+    REQUIRE(child_ >= 0);
+    if (child_ == 0) start(arguments, folder, file_limit_bytes);
+  }
+
+  void signal(int number) const { kill(child_, number); }
+
+  Ended wait() const {
+    Ended ended;
+    int status = 0;
+    rusage usage{};
+    wait4(child_, &status, 0, &usage);
+    if (WIFEXITED(status)) ended.exit_code = WEXITSTATUS(status);
+    ended.peak_kib = usage.ru_maxrss;
+    std::ifstream stream(log_);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    ended.output = text.str();
+    return ended;
+  }
+
+ private:
+  [[noreturn]] void start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                          rlim_t file_limit_bytes) const {
+    const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    if (chdir(folder.c_str()) != 0) _exit(120);
+    if (file_limit_bytes > 0) {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{file_limit_bytes, file_limit_bytes};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> words{const_cast<char*>(SCINTRAY_PROGRAM)};
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    execv(SCINTRAY_PROGRAM, words.data());
+    _exit(121);
+  }
+
+  std::filesystem::path log_;
+  pid_t child_ = -1;
+};
+
+inline Ended run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                         rlim_t file_limit_bytes = 0) {
+  return Program(arguments, folder, file_limit_bytes).wait();
+}
+
+}  // namespace scintray::test

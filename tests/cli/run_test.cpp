@@ -1,0 +1,146 @@
+#include "cli/program.hpp"
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/io/results.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+/// A crystal on a sensor; all light is detected, so a list of photons has one row each.
+std::string scene(std::uint64_t photons, bool list) {
+  return R"(
+title = "A crystal on a sensor"
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "2 mm"]
+medium = "glass"
+surface = "white"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "sensor"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+medium = "glass"
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = )" + std::to_string(photons) + R"(
+[run]
+photon_list = )" + (list ? "true" : "false") + R"(
+[surfaces.white]
+model = "painted"
+reflectance = { value = 1.0 }
+specular_share = 0.0
+)";
+}
+
+std::filesystem::path folder_with(const std::string& name, const std::string& text) {
+  const auto folder = scratch_folder("run_" + name);
+  std::ofstream(folder / "scene.toml") << text;
+  return folder;
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("run writes results and a report, prints where they are, and is quiet about progress in a pipe") {
+  const auto folder = folder_with("whole", scene(20'000, true));
+  const Ended ended = run_program({"run", "scene.toml"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kSuccess);
+  CHECK(contains(ended.output, "scene.h5"));
+  CHECK(contains(ended.output, "scene.html"));
+  CHECK_FALSE(contains(ended.output, "\r"));
+  CHECK_FALSE(contains(ended.output, "\033"));
+  const RunResult result = read_results(folder / "scene.h5");
+  CHECK(result.complete());
+  CHECK(result.points.at(0).photons == 20'000);
+  CHECK(result.points.at(0).lost == 0);
+  const auto listed = read_photons(folder / "scene.h5", 0, 100'000);
+  CHECK(listed.size() == result.points.at(0).count(Fate::detected));
+}
+
+TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") {
+  const auto folder = folder_with("interrupted", scene(2'000'000'000, false));
+  const Program program({"run", "scene.toml"}, folder);
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kInterrupted);
+  CHECK(contains(ended.output, "partial"));
+  const RunResult result = read_results(folder / "scene.h5");
+  CHECK_FALSE(result.complete());
+  CHECK(result.points.at(0).photons > 0);
+  CHECK(result.points.at(0).photons < 2'000'000'000);
+  CHECK(read_results_status(folder / "scene.h5").reason == "stopped by the user");
+}
+
+TEST_CASE("A full disk ends the run with a message and leaves no file that looks whole") {
+  const auto folder = folder_with("full", scene(400'000, true));
+  const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder, 2'000'000);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kSystemFailure);
+  CHECK(contains(ended.output, "scene.h5"));
+  CHECK_FALSE(std::filesystem::exists(folder / "scene.h5"));
+}
+
+TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams to disk") {
+  // A photon of the list takes 60 bytes and more in memory: three million would be 180 MB by themselves.
+  for (const bool list : {false, true}) {
+    const auto folder = folder_with(list ? "memory_list" : "memory", scene(3'000'000, list));
+    const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kSuccess);
+    MESSAGE("peak memory " << ended.peak_kib / 1024 << " MiB, list " << list);
+    CHECK(ended.peak_kib < 200'000'000 / 1024);
+  }
+}
+
+TEST_CASE("check says what a scene is, and lists every mistake with its place") {
+  const auto folder = folder_with("check", scene(1'000, false));
+  const Ended good = run_program({"check", "scene.toml"}, folder);
+  CAPTURE(good.output);
+  CHECK(good.exit_code == cli::kSuccess);
+  for (const std::string part : {"crystal:exit", "volume", "interfaces", "accelerators", "no errors"})
+    CHECK(contains(good.output, part));
+
+  std::string text = scene(1'000, false);
+  text.replace(text.find("medium = \"glass\""), 16, "medium = \"glas\" ");
+  text.replace(text.find("\"420 nm\""), 8, "420     ");
+  std::ofstream(folder / "scene.toml") << text;
+  const Ended bad = run_program({"check", "scene.toml"}, folder);
+  CAPTURE(bad.output);
+  CHECK(bad.exit_code == cli::kBadInput);
+  CHECK(contains(bad.output, "scene.toml:"));
+}
+
+TEST_CASE("Parts that overlap are refused with both names") {
+  std::string text = scene(1'000, false);
+  text.insert(text.find("[source]"),
+              "[[part]]\nname = \"intruder\"\nbox = [\"1 mm\", \"1 mm\", \"5 mm\"]\nmedium = \"glass\"\nsurface = "
+              "\"polished\"\ntranslate = [\"0 mm\", \"0 mm\", \"1 mm\"]\n");
+  const auto folder = folder_with("overlap", text);
+  const Ended ended = run_program({"check", "scene.toml"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kBadInput);
+  CHECK(contains(ended.output, "intruder"));
+  CHECK(contains(ended.output, "crystal"));
+}
+
+TEST_CASE("replay follows a photon to its end") {
+  const auto folder = folder_with("replay", scene(1'000, false));
+  const Ended ended = run_program({"replay", "scene.toml", "--event", "0", "--photon", "3"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kSuccess);
+  CHECK(contains(ended.output, "DETECTED"));
+}

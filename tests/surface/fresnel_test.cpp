@@ -1,0 +1,80 @@
+#include <doctest/doctest.h>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/core/statistics.hpp"
+#include "scintray/surface/fresnel.hpp"
+
+using namespace scintray;
+
+namespace {
+
+constexpr double kSigmas = 4.0;
+const Vec3 kNormal = Vec3(0.36, -0.48, 0.8);  // skew on purpose
+
+Ray incident(double angle, double polarisation_angle) {
+  const Frame frame = Frame::about(kNormal);
+  Ray ray;
+  ray.direction = -std::cos(angle) * kNormal + std::sin(angle) * frame.x;
+  const Vec3 s = ray.direction.cross(kNormal).normalized(), p = s.cross(ray.direction);
+  ray.polarisation = std::cos(polarisation_angle) * s + std::sin(polarisation_angle) * p;
+  return ray;
+}
+
+}  // namespace
+
+TEST_CASE("Snell's law and the plane of incidence, both ways through a skew facet") {
+  for (const auto& [n1, n2] : {std::pair{1.82, 1.0}, std::pair{1.0, 1.82}, std::pair{1.82, 1.5}}) {
+    for (const double degrees : {0.0, 5.0, 20.0, 30.0}) {
+      bool transmitted = false;
+      for (std::uint64_t i = 0; i < 50 && !transmitted; ++i) {
+        Rng rng(1, StreamKind::other, i);
+        Ray ray = incident(degrees * kDegree, 0.3);
+        const Vec3 before = ray.direction;
+        transmitted = meet_facet(ray, kNormal, n1, n2, rng);
+        if (!transmitted) continue;
+        const double sine = ray.direction.cross(kNormal).norm();
+        CHECK(n2 * sine == doctest::Approx(n1 * std::sin(degrees * kDegree)).epsilon(1e-12));
+        CHECK(std::abs(ray.direction.dot(before.cross(kNormal))) < 1e-12);
+        CHECK(ray.direction.dot(kNormal) < 0.0);
+        CHECK(std::abs(ray.polarisation.dot(ray.direction)) < 1e-12);
+        CHECK(ray.polarisation.norm() == doctest::Approx(1.0).epsilon(1e-12));
+      }
+      CHECK(transmitted);
+    }
+  }
+}
+
+TEST_CASE("Reflectance of s, p, mixed and unpolarised light is Fresnel's") {
+  constexpr std::uint64_t kRays = 200'000;
+  for (const double degrees : {0.0, 15.0, 28.7866, 33.0}) {
+    const FresnelCoefficients expected = fresnel(std::cos(degrees * kDegree), 1.82, 1.0);
+    for (const double polarisation : {0.0, 0.5 * kPi, 0.7, -1.0}) {  // -1: unpolarised
+      double law = expected.unpolarised();
+      if (polarisation >= 0.0)
+        law = expected.reflectance_s * std::pow(std::cos(polarisation), 2) +
+              expected.reflectance_p * std::pow(std::sin(polarisation), 2);
+      std::uint64_t reflected = 0;
+      for (std::uint64_t i = 0; i < kRays; ++i) {
+        Rng rng(2, StreamKind::other, i);
+        Ray ray = incident(degrees * kDegree, polarisation);
+        if (polarisation < 0.0) ray.polarisation = Vec3::Zero();
+        reflected += !meet_facet(ray, kNormal, 1.82, 1.0, rng);
+      }
+      CAPTURE(degrees);
+      CAPTURE(polarisation);
+      const double error = std::sqrt(std::max(law * (1.0 - law), 1.0 / kRays) / kRays);
+      CHECK(std::abs(static_cast<double>(reflected) / kRays - law) < kSigmas * error);
+    }
+  }
+}
+
+TEST_CASE("Beyond the critical angle everything is reflected as by a mirror") {
+  for (const double degrees : {33.34, 45.0, 80.0, 89.999}) {
+    Rng rng(3, StreamKind::other, 0);
+    Ray ray = incident(degrees * kDegree, 0.9);
+    const Vec3 expected = mirror(ray.direction, kNormal);
+    CHECK_FALSE(meet_facet(ray, kNormal, 1.82, 1.0, rng));
+    CHECK((ray.direction - expected).norm() < 1e-14);
+    CHECK(std::abs(ray.polarisation.dot(ray.direction)) < 1e-12);
+  }
+}
