@@ -27,7 +27,7 @@ constexpr const char* kStyle = R"css(
   --alarm:#ffb4a0; --alarm-paper:#40180d;
   --f0:#2f8fcc; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#b0648f; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 60rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
+body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
   font: 16px/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
 h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-bottom: 1px solid var(--rule); }
@@ -37,15 +37,15 @@ h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
 .partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
   color: var(--alarm); }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .9rem; margin: .5rem 0; }
-th, td { padding: .3rem .8rem; text-align: left; border-bottom: 1px solid var(--rule); white-space: nowrap; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; margin: .5rem 0; }
+th, td { padding: .3rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); white-space: nowrap; }
 tbody th { font-weight: 500; } .n { text-align: right; }
-thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; }
+thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; }
 tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
 table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; break-inside: avoid; } figcaption { color: var(--soft); font-size: .88rem; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
-.grid svg.plot { font-size: 15px; }
+.grid svg.plot { font-size: 16px; }
 .bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
 .who { font-size: .88rem; } .bar { display: flex; height: 1.5rem; border-radius: 3px; overflow: hidden; }
 .bar span { color: #fff; font-size: .75rem; line-height: 1.5rem; text-align: center; overflow: hidden;

@@ -45,7 +45,7 @@ std::vector<LedgerEntry> ledger(const RunResult& run) {
   };
   const auto fate = [](Fate f) { return [f](const PointResult& point) { return point.count(f); }; };
   add("detected", "f0", fate(Fate::detected));
-  add("unconverted at a sensor", "f1", fate(Fate::unconverted));
+  add("unconverted", "f1", fate(Fate::unconverted));
   for (std::size_t m = 0; m < run.header.media.size(); ++m)
     add("absorbed in " + run.header.media[m], "f2", [m](const PointResult& point) {
       return m < point.absorbed_in_medium.size() ? point.absorbed_in_medium[m] : 0;
@@ -112,16 +112,18 @@ using LedgerTable = std::vector<std::vector<std::string>>;
 LedgerTable ledger_table(const RunResult& run, const std::vector<LedgerEntry>& entries) {
   LedgerTable cells{{"point"}};
   for (const LedgerEntry& entry : entries) cells[0].push_back(entry.name);
-  cells[0].insert(cells[0].end(), {"sum", "lost"});
+  cells[0].insert(cells[0].end(), {"sum", "lost photons"});
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const PointResult& point = run.points[i];
     std::vector<std::string> row{point_label(point)};
-    for (const LedgerEntry& entry : entries)
-      row.push_back(percent_with_error(binomial_estimate(entry.counts[i], point.photons)));
+    for (const LedgerEntry& entry : entries) {
+      const Estimate share = binomial_estimate(entry.counts[i], point.photons);
+      row.push_back(with_error({100.0 * share.value, 100.0 * share.error}));
+    }
     const auto sum =
         static_cast<double>(std::accumulate(point.fates.begin(), point.fates.end(), std::uint64_t{0}));
     row.push_back(point.photons == 0 ? "no photons"
-                                     : compact(100.0 * sum / static_cast<double>(point.photons), 6) + " %");
+                                     : compact(100.0 * sum / static_cast<double>(point.photons), 6));
     row.push_back(grouped(point.lost));
     cells.push_back(std::move(row));
   }
@@ -230,9 +232,10 @@ std::string fate_section(const RunResult& run) {
   const LedgerTable cells = ledger_table(run, entries);
   // A sweep grows downwards, a few points are read side by side.
   const std::string numbers = run.points.size() > kFewPoints ? table_of(cells) : table_of(transposed(cells));
-  return section(
-      "Where every photon ended",
-      bars(run, entries) + "<details open=\"open\"><summary>Numbers</summary>\n" + numbers + "</details>\n");
+  return section("Where every photon ended",
+                 bars(run, entries) +
+                     "<details open=\"open\"><summary>In per cent of the photons</summary>\n" + numbers +
+                     "</details>\n");
 }
 
 std::string sensor_section(const RunResult& run) {

@@ -14,11 +14,14 @@ namespace scintray::report {
 namespace {
 
 constexpr double kTextHeight = 14.0;
-constexpr double kLetterWidth = 7.3;  ///< of the sans-serif fonts of browsers at 14 units, on average
+/// Of the widest sans-serif fonts of browsers (DejaVu) at 14 units, on average; names are bold.
+constexpr double kLetterWidth = 8.4, kBoldLetterWidth = 9.6;
 constexpr int kColours = 7;
 constexpr double kMarker = 4.5;
 
-double text_width(const std::string& text) { return kLetterWidth * static_cast<double>(display_width(text)); }
+double text_width(const std::string& words, double letter) {
+  return letter * static_cast<double>(display_width(words));
+}
 
 std::string number(double value) {
   std::array<char, 64> text{};
@@ -146,9 +149,10 @@ class Drawing {
     }
     y_ = plot_.log_y ? log_axis(y) : linear_axis(y, 5, false);
     double widest = 0.0, longest = 0.0;
-    for (const double tick : y_.ticks) widest = std::max(widest, text_width(compact(tick)));
+    for (const double tick : y_.ticks) widest = std::max(widest, text_width(compact(tick), kLetterWidth));
     if (direct_labels_)
-      for (const PlotSeries& series : plot_.series) longest = std::max(longest, text_width(series.label));
+      for (const PlotSeries& series : plot_.series)
+        longest = std::max(longest, text_width(series.label, kBoldLetterWidth));
     left_ = widest + 46.0;
     right_ = plot_.width - std::max(16.0, longest + 22.0);
     top_ = direct_labels_ || plot_.series.size() < 2 ? 14.0 : 40.0;
@@ -267,7 +271,7 @@ class Drawing {
       out += "<g class=\"series c" + std::to_string(i % kColours) + "\">" +
              line(x, 18.0, x + 22.0, 18.0, "curve") + "</g>\n";
       out += text(x + 28.0, 23.0, "name c" + std::to_string(i % kColours), plot_.series[i].label);
-      x += 28.0 + text_width(plot_.series[i].label) + 24.0;
+      x += 28.0 + text_width(plot_.series[i].label, kBoldLetterWidth) + 24.0;
     }
     return out;
   }

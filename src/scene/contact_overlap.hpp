@@ -11,11 +11,10 @@ struct OverlapVolume {
   double volume_mm3 = 0.0;
   Vec3 inside = Vec3::Zero();  ///< a point inside both, mm; where the grid finds none, the middle of the
                                ///< common part of their boxes
-  bool exact = true;           ///< false: estimated on a grid of points
 };
 
-/// The volume common to two bodies: by exact boolean intersection of the meshes, or, for meshes that
-/// this cannot take (not closed, or crossing themselves), from a regular grid of points.
+/// The volume common to two bodies, counted on a regular grid of 32^3 points over the common part of
+/// their boxes (docs/decisions.md says why not by an exact boolean).
 OverlapVolume overlap_volume(const PlacedPart& a, const PlacedPart& b);
 
 }  // namespace scintray::contact

@@ -65,11 +65,9 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
   for (const OverlappingPair& pair : pairs) {
     const OverlapVolume common = overlap_volume(parts[pair.a], parts[pair.b]);
     problems.add({},
-                 fmt::format("parts '{}' and '{}' overlap by {}{:.6g} mm3{}, for example at ({:.6g}, {:.6g}, "
+                 fmt::format("parts '{}' and '{}' overlap by {:.4g} mm3 (counted on a grid of 32768 points), for example at ({:.6g}, {:.6g}, "
                              "{:.6g}) mm; parts may touch or lie one wholly inside the other",
-                             parts[pair.a].name, parts[pair.b].name, common.exact ? "" : "about ",
-                             common.volume_mm3, common.exact ? "" : " (estimated on a grid of 32768 points)",
-                             common.inside.x(), common.inside.y(), common.inside.z()),
+                             parts[pair.a].name, parts[pair.b].name, common.volume_mm3, common.inside.x(), common.inside.y(), common.inside.z()),
                  fmt::format("move one of them or cut one out of the other; faces meant to touch may miss each "
                              "other by the contact tolerance, {:.3g} mm",
                              tolerance_mm));
