@@ -37,7 +37,7 @@ photons = )" + std::to_string(photons) + R"(
 photon_list = )" + (list ? "true" : "false") + R"(
 [surfaces.white]
 model = "painted"
-reflectance = { value = 1.0 }
+reflectance = 1.0
 specular_share = 0.0
 )";
 }

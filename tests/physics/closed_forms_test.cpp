@@ -199,7 +199,7 @@ wavelength = "420 nm"
 photons = 200_000
 [surfaces.wall]
 model = "painted"
-reflectance = { value = 0.95 }
+reflectance = 0.95
 specular_share = 0.0
 )");
   const auto& faces = traced.built.scene.faces;

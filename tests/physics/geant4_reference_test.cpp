@@ -81,7 +81,7 @@ medium = "opaque"
 surface = "tape"
 [surfaces.tape]
 model = "painted"
-reflectance = { value = 0.97 }
+reflectance = 0.97
 specular_share = 0.0
 )";
 
@@ -99,7 +99,7 @@ const std::string kBackPainted = R"(
 [surfaces.backpainted]
 model = "smooth"
 gap = 1.0
-reflectance = { value = 0.97 }
+reflectance = 0.97
 specular_share = 0.0
 )";
 

@@ -55,7 +55,7 @@ window = { index = 1.0 }
 model = "smooth"
 [surfaces.white]
 model = "painted"
-reflectance = { value = 1.0 }
+reflectance = 1.0
 specular_share = 0.0
 )";
 

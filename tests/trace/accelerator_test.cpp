@@ -123,7 +123,7 @@ TEST_CASE("Planes are refused where the region is not convex, with a hint") {
 
 TEST_CASE("A point is inside a body or not, by planes and by rays alike") {
   const auto triangles = triangles_of(make_cylinder(2.0, 5.0, 24));
-  const auto labels = numbered(triangles.size());
+  const std::vector<std::uint32_t> labels(triangles.size(), 0);
   const Accelerator planes(triangles, labels, true, AcceleratorKind::automatic);
   const Accelerator embree(triangles, labels, true, AcceleratorKind::embree);
   REQUIRE(planes.uses_planes());
