@@ -20,14 +20,15 @@ std::string yes_no(bool value) { return value ? "yes" : "NO"; }
 void print_parts(const BuiltScene& built) {
   const Scene& scene = built.scene;
   std::cout << "\nparts\n";
-  std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}\n", "name", "medium", "volume mm3",
-                           "area mm2", "triangles", "closed", "outwards", "degenerate");
+  std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}\n", "name", "medium",
+                           "volume mm3", "area mm2", "triangles", "closed", "outwards", "degenerate");
   for (std::size_t i = 0; i < built.parts.size(); ++i) {
     const MeshDiagnosis& d = built.parts[i].diagnosis;
     const Region& region = scene.regions[scene.parts[i].region];
-    std::cout << fmt::format("  {:<20} {:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}\n", built.parts[i].name,
-                             scene.media[region.medium].medium().name, d.volume_mm3, d.area_mm2, d.triangles,
-                             yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count);
+    std::cout << fmt::format("  {:<20} {:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}\n",
+                             built.parts[i].name, scene.media[region.medium].medium().name, d.volume_mm3,
+                             d.area_mm2, d.triangles, yes_no(d.closed()), yes_no(d.outward()),
+                             d.degenerate_triangles.count);
     for (const std::string& note : built.parts[i].notes) std::cout << "    note: " << note << "\n";
   }
 }
@@ -37,12 +38,13 @@ void print_faces(const Scene& scene) {
   std::cout << fmt::format("  {:<28} {:<28} {:>11} {:>14} {:>9}\n", "part:face", "surface", "area mm2",
                            "in contact mm2", "triangles");
   for (const FaceInfo& face : scene.faces)
-    std::cout << fmt::format("  {:<28} {:<28} {:>11.6g} {:>14.6g} {:>9}\n", face.name, face.surface, face.area_mm2,
-                             face.contact_area_mm2, face.triangles);
+    std::cout << fmt::format("  {:<28} {:<28} {:>11.6g} {:>14.6g} {:>9}\n", face.name, face.surface,
+                             face.area_mm2, face.contact_area_mm2, face.triangles);
 }
 
 void print_regions(const Scene& scene) {
-  std::cout << fmt::format("\nregions ({}, sharing {} accelerators)\n", scene.regions.size(), scene.accelerators);
+  std::cout << fmt::format("\nregions ({}, sharing {} accelerators)\n", scene.regions.size(),
+                           scene.accelerators);
   std::cout << fmt::format("  {:<20} {:<22} {:>9} {:>10} {}\n", "name", "medium", "triangles", "index",
                            "ray queries by");
   for (const Region& region : scene.regions) {
@@ -63,7 +65,8 @@ std::string interface_optics(const Scene& scene, const Interface& interface) {
   std::string text;
   if (interface.back_surface != kNone) text = name(interface.back_surface);
   if (interface.gap_medium != kNone)
-    text += " | dry gap of " + scene.media[static_cast<std::size_t>(interface.gap_medium)].medium().name + " | ";
+    text +=
+        " | dry gap of " + scene.media[static_cast<std::size_t>(interface.gap_medium)].medium().name + " | ";
   if (interface.front_surface != kNone) text += name(interface.front_surface);
   const auto sensor = [&](std::int32_t id) {
     if (id != kNone) text += ", detected by " + scene.sensors[static_cast<std::size_t>(id)].name;
@@ -105,19 +108,21 @@ void check_scene(const std::filesystem::path& path, bool every_point) {
         std::cout << "  " << file.sweep_keys()[k] << " = " << file.parameters(point)[k];
       std::cout << "\n";
     }
-    std::cout << fmt::format("wavelengths in use: {:g} to {:g} nm; ambient medium: {}; contacts are {} by default{}\n",
-                             built.scene.low_nm, built.scene.high_nm, spec.ambient.name,
-                             spec.contacts_default == ContactKind::bonded ? "bonded" : "dry",
-                             spec.contacts_default_given ? "" : " (not stated in the scene)");
+    std::cout << fmt::format(
+        "wavelengths in use: {:g} to {:g} nm; ambient medium: {}; contacts are {} by default{}\n",
+        built.scene.low_nm, built.scene.high_nm, spec.ambient.name,
+        spec.contacts_default == ContactKind::bonded ? "bonded" : "dry",
+        spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_parts(built);
     print_faces(built.scene);
     print_regions(built.scene);
     print_interfaces(built.scene);
-    std::cout << "\nsource: " << source.photons() << " photons from \"" << built.scene.regions[source.region()].name
-              << "\"\n";
+    std::cout << "\nsource: " << source.photons() << " photons from \""
+              << built.scene.regions[source.region()].name << "\"\n";
     for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
   }
-  std::cout << "\n" << path.string() << ": no errors in " << file.points() << " point"
+  std::cout << "\n"
+            << path.string() << ": no errors in " << file.points() << " point"
             << (file.points() == 1 ? "" : "s") << "\n";
 }
 
@@ -131,7 +136,8 @@ void add_check_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Say what a scene is, or everything that is wrong with it");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
-  command->add_flag("--every-point", options->every_point, "print every point of a sweep, not only the first");
+  command->add_flag("--every-point", options->every_point,
+                    "print every point of a sweep, not only the first");
   command->callback([options] {
     const InterruptGuard guard;
     check_scene(options->scene, options->every_point);

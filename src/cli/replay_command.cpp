@@ -21,18 +21,25 @@ struct ReplayOptions {
 
 std::string describe(const Scene& scene, const Step& step) {
   switch (step.kind) {
-    case StepKind::scattered: return "scattered in the bulk";
-    case StepKind::returned: return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name +
-                                    " | " + scene.regions[scene.interfaces[step.interface].front].name;
+    case StepKind::scattered:
+      return "scattered in the bulk";
+    case StepKind::returned:
+      return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name + " | " +
+             scene.regions[scene.interfaces[step.interface].front].name;
     case StepKind::crossed: {
       const Interface& i = scene.interfaces[step.interface];
       return "into " + scene.regions[step.from_back ? i.front : i.back].name;
     }
-    case StepKind::detected: return "DETECTED by " + scene.parts[step.where].name;
-    case StepKind::unconverted: return "NOT CONVERTED by " + scene.parts[step.where].name;
-    case StepKind::absorbed_in_medium: return "ABSORBED in " + scene.media[step.where].medium().name;
-    case StepKind::absorbed_at_surface: return "ABSORBED at " + scene.surfaces[step.where].name;
-    case StepKind::escaped: return "ESCAPED";
+    case StepKind::detected:
+      return "DETECTED by " + scene.parts[step.where].name;
+    case StepKind::unconverted:
+      return "NOT CONVERTED by " + scene.parts[step.where].name;
+    case StepKind::absorbed_in_medium:
+      return "ABSORBED in " + scene.media[step.where].medium().name;
+    case StepKind::absorbed_at_surface:
+      return "ABSORBED at " + scene.surfaces[step.where].name;
+    case StepKind::escaped:
+      return "ESCAPED";
   }
   throw InternalError("unknown step");
 }
@@ -40,9 +47,10 @@ std::string describe(const Scene& scene, const Step& step) {
 void replay_photon(const ReplayOptions& options) {
   const SceneFile file = SceneFile::load(options.scene);
   if (options.point >= file.points())
-    throw InputError(Problem{{options.scene.string()},
-                             fmt::format("there is no point {}; the scene has {}", options.point, file.points()),
-                             "points count from 0"});
+    throw InputError(
+        Problem{{options.scene.string()},
+                fmt::format("there is no point {}; the scene has {}", options.point, file.points()),
+                "points count from 0"});
   const SceneSpec spec = file.spec(options.point);
   SceneBuilder builder;
   const BuiltScene built = builder.build(spec);
@@ -53,15 +61,17 @@ void replay_photon(const ReplayOptions& options) {
   settings.max_interactions = spec.run.max_interactions;
   settings.max_time_ns = spec.run.max_time_ns;
 
-  std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step", "x mm", "y mm",
-                           "z mm", "dx", "dy", "dz", "path mm", "time ns");
+  std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",
+                           "x mm", "y mm", "z mm", "dx", "dy", "dz", "path mm", "time ns");
   std::uint64_t number = 0;
-  replay(built.scene, source, settings, options.event, options.photon, [&](const Photon& photon, const Step& step) {
-    const Vec3 &p = photon.position, &d = photon.ray.direction;
-    std::cout << fmt::format("{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n",
-                             ++number, p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
-                             describe(built.scene, step));
-  });
+  replay(built.scene, source, settings, options.event, options.photon,
+         [&](const Photon& photon, const Step& step) {
+           const Vec3 &p = photon.position, &d = photon.ray.direction;
+           std::cout << fmt::format(
+               "{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n",
+               ++number, p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
+               describe(built.scene, step));
+         });
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ class AssemblyMaker {
     assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
     assembly_.accelerator = spec_.run.accelerator;
     check_contact_names();
-    assembly_.make_surface = [this, &warnings](const std::string& name, std::uint32_t inside, std::uint32_t outside) {
+    assembly_.make_surface = [this, &warnings](const std::string& name, std::uint32_t inside,
+                                               std::uint32_t outside) {
       return make_surface(name, inside, outside, warnings);
     };
     return assembly_;
@@ -72,13 +73,15 @@ class AssemblyMaker {
     }
     const auto* region = std::get_if<RegionSpec>(&spec_.source.origin);
     if (!region) {
-      problems_.add(spec_.source.wavelength_where,
-                    "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
-                    "give a wavelength, as wavelength = \"420 nm\"");
+      problems_.add(
+          spec_.source.wavelength_where,
+          "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
+          "give a wavelength, as wavelength = \"420 nm\"");
       return {400.0, 400.0, 400.0};
     }
     for (const PlacedMesh& part : placed) {
-      if (part.name != region->part.name || part.medium.empty() || part.medium.name == kOpaqueMedium) continue;
+      if (part.name != region->part.name || part.medium.empty() || part.medium.name == kOpaqueMedium)
+        continue;
       try {
         const Medium medium = library_.medium(part.medium.name, part.medium.where);
         if (medium.emission.max_y() > 0.0 && !medium.emission.is_constant()) return range_of(medium.emission);
@@ -94,12 +97,14 @@ class AssemblyMaker {
 
   std::uint32_t add_medium(Medium medium, const FileLocation& where) {
     if (!medium.index.covers(wavelengths_.low_nm, wavelengths_.high_nm))
-      problems_.add(where,
-                    fmt::format("medium \"{}\" has refractive indices from {:g} to {:g} nm, but light of {:g} to {:g} nm "
-                                "is in use",
-                                medium.name, medium.index.x().front(), medium.index.x().back(), wavelengths_.low_nm,
-                                wavelengths_.high_nm),
-                    "extend its index table, or choose other wavelengths");
+      problems_.add(
+          where,
+          fmt::format(
+              "medium \"{}\" has refractive indices from {:g} to {:g} nm, but light of {:g} to {:g} nm "
+              "is in use",
+              medium.name, medium.index.x().front(), medium.index.x().back(), wavelengths_.low_nm,
+              wavelengths_.high_nm),
+          "extend its index table, or choose other wavelengths");
     assembly_.media.emplace_back(std::move(medium), wavelengths_.low_nm, wavelengths_.high_nm);
     return static_cast<std::uint32_t>(assembly_.media.size() - 1);
   }
@@ -130,12 +135,14 @@ class AssemblyMaker {
     try {
       sensor = library_.sensor(ref.name, ref.where);
       if (!sensor.efficiency.covers(wavelengths_.low_nm, wavelengths_.high_nm))
-        problems_.add(ref.where,
-                      fmt::format("sensor \"{}\" has an efficiency from {:g} to {:g} nm, but light of {:g} to {:g} nm is "
-                                  "in use",
-                                  sensor.name, sensor.efficiency.x().front(), sensor.efficiency.x().back(),
-                                  wavelengths_.low_nm, wavelengths_.high_nm),
-                      "extend its efficiency table, with zeros where it does not respond");
+        problems_.add(
+            ref.where,
+            fmt::format(
+                "sensor \"{}\" has an efficiency from {:g} to {:g} nm, but light of {:g} to {:g} nm is "
+                "in use",
+                sensor.name, sensor.efficiency.x().front(), sensor.efficiency.x().back(), wavelengths_.low_nm,
+                wavelengths_.high_nm),
+            "extend its efficiency table, with zeros where it does not respond");
     } catch (const InputError& error) {
       problems_.add(error);
     }
@@ -165,8 +172,9 @@ class AssemblyMaker {
     const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
     for (const PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);
-      assembly_.faces.push_back({placed.name + ":" + face.name, static_cast<std::uint32_t>(assembly_.parts.size()),
-                                 face.surface.name, sensor_index(face.sensor)});
+      assembly_.faces.push_back({placed.name + ":" + face.name,
+                                 static_cast<std::uint32_t>(assembly_.parts.size()), face.surface.name,
+                                 sensor_index(face.sensor)});
     }
     for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(first_face + face);
     assembly_.parts.push_back(std::move(part));
@@ -206,9 +214,9 @@ class AssemblyMaker {
     // An opaque part has no index: where light enters it the indices match.
     const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
     const std::uint32_t seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
-    const MadeSurface made =
-        surface_maker_.make(spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
-                            wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
+    const MadeSurface made = surface_maker_.make(
+        spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
+        wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
     return made.surface;
   }
@@ -266,10 +274,10 @@ void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed,
   if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
   for (std::size_t i = 0; i < placed.size(); ++i)
     if (!placed[i].sensor.empty() && !lit[i + 1])
-      problems.add(placed[i].where,
-                   "no light from the source can reach sensor \"" + placed[i].name + "\"",
-                   "something opaque lies between: check the surfaces of the faces on the way, and that the parts "
-                   "touch (scintray check lists every interface)");
+      problems.add(
+          placed[i].where, "no light from the source can reach sensor \"" + placed[i].name + "\"",
+          "something opaque lies between: check the surfaces of the faces on the way, and that the parts "
+          "touch (scintray check lists every interface)");
 }
 
 }  // namespace

@@ -201,9 +201,10 @@ Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<std::s
   for (const auto& [a, b] : touching) {
     const std::uint32_t body_a = result.patches[a].body, body_b = result.patches[b].body;
     if (result.cluster_of[a] == result.cluster_of[b] || !told.insert({body_a, body_b}).second) continue;
-    problems.add({}, "faces of parts '" + names[body_a] + "' and '" + names[body_b] +
-                         "' touch within the contact tolerance, but other faces that touch them stray from "
-                         "their plane by more than twice the tolerance",
+    problems.add({},
+                 "faces of parts '" + names[body_a] + "' and '" + names[body_b] +
+                     "' touch within the contact tolerance, but other faces that touch them stray from "
+                     "their plane by more than twice the tolerance",
                  "lower the contact tolerance, or place the parts so that their faces share a plane");
   }
   problems.throw_if_any();

@@ -19,7 +19,7 @@ struct TriangleOf {
 /// Two bodies whose boxes come close, body a before body b.
 struct BodyPair {
   std::uint32_t a, b;
-  bool surfaces_near = false;  ///< some triangles' boxes meet
+  bool surfaces_near = false;                                     ///< some triangles' boxes meet
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parallel;  ///< near triangles, almost parallel
 };
 
@@ -42,15 +42,15 @@ struct Patch {
 
 /// Flat faces of different bodies on one plane, connected by contacts.
 struct Cluster {
-  Plane plane;                        ///< of its largest patch
+  Plane plane;  ///< of its largest patch
   std::vector<std::uint32_t> patches;
 };
 
 struct Clusters {
   std::vector<Patch> patches;
   std::vector<Cluster> clusters;
-  std::vector<std::vector<std::uint32_t>> patch_of;      ///< by body and triangle
-  std::vector<std::int32_t> cluster_of;                  ///< by patch; -1 when it touches nothing
+  std::vector<std::vector<std::uint32_t>> patch_of;  ///< by body and triangle
+  std::vector<std::int32_t> cluster_of;              ///< by patch; -1 when it touches nothing
   std::int32_t cluster(const TriangleOf& t) const { return cluster_of[patch_of[t.body][t.triangle]]; }
 };
 

@@ -30,7 +30,8 @@ struct Hit {
 };
 
 /// Where the line meets the plane of the triangle (Möller and Trumbore 1997); none when parallel.
-std::optional<Hit> meet(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+std::optional<Hit> meet(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b,
+                        const Vec3& c) {
   const Vec3 e1 = b - a, e2 = c - a;
   const Vec3 p = direction.cross(e2);
   const double determinant = e1.dot(p);
@@ -58,10 +59,9 @@ void BoxTree::build(std::uint32_t begin, std::uint32_t end) {
   (box.high - box.low).maxCoeff(&axis);
   const auto center = [&](std::uint32_t i) { return boxes_[i].low[axis] + boxes_[i].high[axis]; };
   const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return std::pair(center(a), a) < std::pair(center(b), b);
-                   });
+  std::nth_element(
+      order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+      [&](std::uint32_t a, std::uint32_t b) { return std::pair(center(a), a) < std::pair(center(b), b); });
   build(begin, middle);
   nodes_[at].right = static_cast<std::uint32_t>(nodes_.size());
   build(middle, end);
@@ -204,10 +204,9 @@ Vec3 Body::interior_point() const {
   const std::size_t starts = std::min(kStarts, order.size());
   std::vector<double> size(order.size());
   for (std::uint32_t t = 0; t < size.size(); ++t) size[t] = area_vector(t).norm();
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
-                    [&](std::uint32_t a, std::uint32_t b) {
-                      return std::pair(-size[a], a) < std::pair(-size[b], b);
-                    });
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return std::pair(-size[a], a) < std::pair(-size[b], b); });
   double longest = 0.0;
   Vec3 best = vertices[0];
   for (std::size_t i = 0; i < starts; ++i) {

@@ -124,12 +124,12 @@ class Body {
   /// the largest triangles.
   Vec3 interior_point() const;
 
-  std::vector<Vec3> vertices;         ///< equal positions are one vertex
+  std::vector<Vec3> vertices;  ///< equal positions are one vertex
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> face;
-  std::vector<Vec3> normal;           ///< unit; zero for a triangle without area
-  double area = 0.0;                  ///< mm2
-  double volume = 0.0;                ///< mm3
+  std::vector<Vec3> normal;  ///< unit; zero for a triangle without area
+  double area = 0.0;         ///< mm2
+  double volume = 0.0;       ///< mm3
   Box box;
   BoxTree tree;                       ///< of the triangles
   std::vector<std::uint32_t> shells;  ///< a vertex of each connected piece of the surface

@@ -123,16 +123,24 @@ class Relations {
 
 }  // namespace
 
-Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs, double tolerance_mm) {
+Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
+                     double tolerance_mm) {
   Nesting nesting;
   nesting.around.resize(bodies.size());
   Relations relations(bodies, tolerance_mm);
   for (const BodyPair& pair : pairs) {
     switch (relations.of(pair)) {
-      case Relation::apart: break;
-      case Relation::a_in_b: nesting.around[pair.a].push_back(pair.b); break;
-      case Relation::b_in_a: nesting.around[pair.b].push_back(pair.a); break;
-      case Relation::overlap: nesting.overlaps.push_back({pair.a, pair.b}); break;
+      case Relation::apart:
+        break;
+      case Relation::a_in_b:
+        nesting.around[pair.a].push_back(pair.b);
+        break;
+      case Relation::b_in_a:
+        nesting.around[pair.b].push_back(pair.a);
+        break;
+      case Relation::overlap:
+        nesting.overlaps.push_back({pair.a, pair.b});
+        break;
     }
   }
   // Of bodies around one body, the inner one is inside the outer one, hence deeper.

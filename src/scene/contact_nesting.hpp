@@ -27,6 +27,7 @@ struct Nesting {
 
 /// Decides for every near pair whether the bodies are apart (touching or not), nested or overlapping.
 /// What reaches less than `tolerance_mm` into the other body counts as touching it.
-Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs, double tolerance_mm);
+Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
+                     double tolerance_mm);
 
 }  // namespace scintray::contact

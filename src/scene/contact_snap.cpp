@@ -180,8 +180,8 @@ class Snapper {
   double tolerance_, rounding_;
   std::vector<VertexOf> vertices_;
   std::map<VertexOf, Index> index_;
-  std::vector<std::vector<Plane>> planes_;   ///< by group
-  std::vector<Index> group_;                 ///< by vertex: the first vertex at the same place
+  std::vector<std::vector<Plane>> planes_;  ///< by group
+  std::vector<Index> group_;                ///< by vertex: the first vertex at the same place
   std::vector<std::vector<Index>> in_cluster_;
   std::vector<Vec3> start_, at_;
 };

@@ -34,10 +34,11 @@ void check_tolerance(double tolerance_mm, double rounding_mm) {
     problems.add({}, fmt::format("the contact tolerance is {} mm; it has to be positive", tolerance_mm),
                  "1e-4 mm suits parts of millimetres to metres");
   } else if (tolerance_mm < 10.0 * rounding_mm) {
-    problems.add({},
-                 fmt::format("the contact tolerance of {} mm is below the precision of the coordinates, {:.2g} mm",
-                             tolerance_mm, 10.0 * rounding_mm),
-                 "raise the contact tolerance, or place the parts nearer to the origin");
+    problems.add(
+        {},
+        fmt::format("the contact tolerance of {} mm is below the precision of the coordinates, {:.2g} mm",
+                    tolerance_mm, 10.0 * rounding_mm),
+        "raise the contact tolerance, or place the parts nearer to the origin");
   }
   problems.throw_if_any();
 }
@@ -49,11 +50,12 @@ void check_parts(const std::vector<PlacedPart>& parts, const std::vector<Body>& 
       problems.add({}, fmt::format("part '{}' has a volume of {:.6g} mm3", parts[i].name, bodies[i].volume),
                    "the mesh has to be closed, with its triangles counter-clockwise seen from outside");
     } else if (bodies[i].volume <= tolerance_mm * bodies[i].area) {
-      problems.add({},
-                   fmt::format("part '{}' is about {:.3g} mm thick (twice its volume by its area), no more than "
-                               "twice the contact tolerance of {:.3g} mm, so both its sides would touch",
-                               parts[i].name, 2.0 * bodies[i].volume / bodies[i].area, tolerance_mm),
-                   "lower the contact tolerance, or check the unit of the mesh");
+      problems.add(
+          {},
+          fmt::format("part '{}' is about {:.3g} mm thick (twice its volume by its area), no more than "
+                      "twice the contact tolerance of {:.3g} mm, so both its sides would touch",
+                      parts[i].name, 2.0 * bodies[i].volume / bodies[i].area, tolerance_mm),
+          "lower the contact tolerance, or check the unit of the mesh");
     }
   }
   problems.throw_if_any();
@@ -64,13 +66,17 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
   Problems problems;
   for (const OverlappingPair& pair : pairs) {
     const OverlapVolume common = overlap_volume(parts[pair.a], parts[pair.b]);
-    problems.add({},
-                 fmt::format("parts '{}' and '{}' overlap by {:.4g} mm3 (counted on a grid of 32768 points), for example at ({:.6g}, {:.6g}, "
-                             "{:.6g}) mm; parts may touch or lie one wholly inside the other",
-                             parts[pair.a].name, parts[pair.b].name, common.volume_mm3, common.inside.x(), common.inside.y(), common.inside.z()),
-                 fmt::format("move one of them or cut one out of the other; faces meant to touch may miss each "
-                             "other by the contact tolerance, {:.3g} mm",
-                             tolerance_mm));
+    const std::string how =
+        common.exact ? "" : fmt::format(" (counted on a grid of {} points)", kOverlapGridPoints);
+    problems.add(
+        {},
+        fmt::format("parts '{}' and '{}' overlap by {}{:.6g} mm3{}, for example at ({:.6g}, {:.6g}, "
+                    "{:.6g}) mm; parts may touch or lie one wholly inside the other",
+                    parts[pair.a].name, parts[pair.b].name, common.exact ? "" : "about ", common.volume_mm3,
+                    how, common.inside.x(), common.inside.y(), common.inside.z()),
+        fmt::format("move one of them or cut one out of the other; faces meant to touch may miss each "
+                    "other by the contact tolerance, {:.3g} mm",
+                    tolerance_mm));
   }
   problems.throw_if_any();
 }
@@ -102,7 +108,8 @@ class Resolver {
         const std::int32_t cluster = clusters_.cluster(a);
         if (cluster < 0 || cluster != clusters_.cluster(b)) continue;
         const Plane& plane = clusters_.clusters[static_cast<std::size_t>(cluster)].plane;
-        if (overlap(bodies_[a.body], ta, bodies_[b.body], tb, plane).width() > rounding_) links.push_back({a, b});
+        if (overlap(bodies_[a.body], ta, bodies_[b.body], tb, plane).width() > rounding_)
+          links.push_back({a, b});
       }
     std::vector<TriangleOf> members;
     for (const auto& [a, b] : links)
@@ -151,7 +158,8 @@ class Resolver {
     /// Registers all corners at once, so that the order of merging is that of their coordinates.
     void set(std::vector<Vec3> corners) {
       std::vector<Vec2> flat;
-      for (const Vec3& p : corners) flat.emplace_back((p - origin_).dot(frame_.x), (p - origin_).dot(frame_.y));
+      for (const Vec3& p : corners)
+        flat.emplace_back((p - origin_).dot(frame_.x), (p - origin_).dot(frame_.y));
       std::vector<std::size_t> order(flat.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       std::stable_sort(order.begin(), order.end(),
@@ -272,9 +280,11 @@ class Resolver {
     const Label* best = nullptr;
     for (const int id : covering) {
       const Label& l = labels[static_cast<std::size_t>(id)];
-      if (l.up != above && (best == nullptr || nesting_.depth(l.body) > nesting_.depth(best->body))) best = &l;
+      if (l.up != above && (best == nullptr || nesting_.depth(l.body) > nesting_.depth(best->body)))
+        best = &l;
     }
-    if (best != nullptr) return {static_cast<std::int32_t>(best->body), static_cast<std::int32_t>(best->face)};
+    if (best != nullptr)
+      return {static_cast<std::int32_t>(best->body), static_cast<std::int32_t>(best->face)};
     Place place;
     for (const int id : covering)
       for (const std::uint32_t outer : nesting_.around[labels[static_cast<std::size_t>(id)].body]) {

@@ -101,7 +101,7 @@ struct FaceInfo {
   std::string name;  ///< "part:face"
   std::uint32_t part = 0;
   std::string surface;
-  double area_mm2 = 0.0;         ///< as drawn
+  double area_mm2 = 0.0;          ///< as drawn
   double contact_area_mm2 = 0.0;  ///< of it, in contact with another part
   std::size_t triangles = 0;
 };

@@ -32,25 +32,34 @@ std::string content_of(const std::filesystem::path& path) {
 }
 
 std::string describe(const SynthesisRecipe& r) {
-  return fmt::format("recipe {}: Sq {} um, correlation length {} um, spacing {} um, rise {} um, exponent {}, "
-                     "depth spread {} um, size spread {}, {} x {} points of {} um, seed {}",
-                     r.name, r.gaussian.rms_height_um, r.gaussian.correlation_length_um, r.fracture.spacing_um,
-                     r.fracture.rise_um, r.fracture.exponent, r.fracture.depth_spread_um, r.fracture.size_spread,
-                     r.columns, r.rows, r.pitch_um, r.seed);
+  return fmt::format(
+      "recipe {}: Sq {} um, correlation length {} um, spacing {} um, rise {} um, exponent {}, "
+      "depth spread {} um, size spread {}, {} x {} points of {} um, seed {}",
+      r.name, r.gaussian.rms_height_um, r.gaussian.correlation_length_um, r.fracture.spacing_um,
+      r.fracture.rise_um, r.fracture.exponent, r.fracture.depth_spread_um, r.fracture.size_spread, r.columns,
+      r.rows, r.pitch_um, r.seed);
 }
 
 std::string describe(const TableSettings& s) {
-  return fmt::format("incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad",
-                     s.incidence_step_rad, s.azimuth_step_rad, s.rays, s.seed, s.refine, s.refine_change,
-                     s.refine_down_to_rad, s.grazing_rad);
+  return fmt::format(
+      "incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad",
+      s.incidence_step_rad, s.azimuth_step_rad, s.rays, s.seed, s.refine, s.refine_change,
+      s.refine_down_to_rad, s.grazing_rad);
 }
 
 void prepare(HeightMap& map, const LevelingSpec& leveling) {
   switch (leveling.kind) {
-    case LevelingSpec::Kind::none: break;
-    case LevelingSpec::Kind::mean: subtract_mean(map); break;
-    case LevelingSpec::Kind::plane: level_plane(map); break;
-    case LevelingSpec::Kind::polynomial: level_polynomial(map, leveling.degree); break;
+    case LevelingSpec::Kind::none:
+      break;
+    case LevelingSpec::Kind::mean:
+      subtract_mean(map);
+      break;
+    case LevelingSpec::Kind::plane:
+      level_plane(map);
+      break;
+    case LevelingSpec::Kind::polynomial:
+      level_polynomial(map, leveling.degree);
+      break;
   }
   if (leveling.loess_width_um) filter_loess_lines(map, *leveling.loess_width_um);
 }
@@ -114,8 +123,9 @@ SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
   result.provenance.map = spec.path.filename().string();
   result.provenance.preparation = map.history();
   result.provenance.tiling = tiling_name(map, spec.tiling);
-  result.key = fmt::format("map {:016x}; {}; {}; pitch {} {}", fnv1a(content_of(spec.path)),
-                           result.provenance.preparation, result.provenance.tiling, map.pitch_x_um, map.pitch_y_um);
+  result.key =
+      fmt::format("map {:016x}; {}; {}; pitch {} {}", fnv1a(content_of(spec.path)),
+                  result.provenance.preparation, result.provenance.tiling, map.pitch_x_um, map.pitch_y_um);
   auto& field = fields_[result.key];
   if (!field) field = std::make_shared<HeightField>(make_height_field(map, spec.tiling));
   result.field = field;
@@ -123,9 +133,11 @@ SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
 }
 
 std::shared_ptr<const SurfaceTable> SurfaceMaker::table(const std::string& surface, const Relief& relief,
-                                                        const TableSettings& settings, const IndexPair& index) {
-  const std::string key = fmt::format("{}; {}; indices {} {}; layout {}; ScintRay {}", relief.key, describe(settings),
-                                      index.inside, index.outside, kTableFileVersion, version());
+                                                        const TableSettings& settings,
+                                                        const IndexPair& index) {
+  const std::string key =
+      fmt::format("{}; {}; indices {} {}; layout {}; ScintRay {}", relief.key, describe(settings),
+                  index.inside, index.outside, kTableFileVersion, version());
   auto& known = tables_[key];
   if (known) return known;
   const auto file = hooks_.cache.empty() ? std::filesystem::path()
@@ -158,12 +170,14 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
     for (const double nm : {low_nm, reference_nm, high_nm})
       worst = std::max(worst, std::abs(ratio(indices_at(nm)) / ratio(tabulated) - 1.0));
     if (worst > kIndexTolerance)
-      made.warnings.push_back(fmt::format(
-          "surface \"{}\" ({} to {}): its table is for one index ratio, {:.4f}; over the wavelengths in use the "
-          "ratio differs by up to {:.1f} %",
-          spec.name, inside.name, outside.name, ratio(tabulated), 100.0 * worst));
+      made.warnings.push_back(
+          fmt::format("surface \"{}\" ({} to {}): its table is for one index ratio, {:.4f}; over the "
+                      "wavelengths in use the "
+                      "ratio differs by up to {:.1f} %",
+                      spec.name, inside.name, outside.name, ratio(tabulated), 100.0 * worst));
   };
-  const auto tabulated = [&](const Relief& map, const std::optional<TableSettings>& settings) -> Microsurface {
+  const auto tabulated = [&](const Relief& map,
+                             const std::optional<TableSettings>& settings) -> Microsurface {
     if (!settings) return map.field;
     auto built = table(spec.name, map, *settings, index);
     check_dispersion(built->index_pair());
@@ -179,21 +193,25 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
     Microsurface operator()(const PaintedSpec&) const { return PaintedSurface{}; }
     Microsurface operator()(const UnifiedSurface& unified) const { return unified; }
     Microsurface operator()(const HeightMapSpec& map) const { return tabulate(maker.relief(map), map.table); }
-    Microsurface operator()(const RecipeSpec& recipe) const { return tabulate(maker.relief(recipe), recipe.table); }
+    Microsurface operator()(const RecipeSpec& recipe) const {
+      return tabulate(maker.relief(recipe), recipe.table);
+    }
     Microsurface operator()(const TableFileSpec& file) const {
       auto table = std::make_shared<const SurfaceTable>(read_table(file.path));
       const IndexPair& own = table->index_pair();
       if (std::abs(ratio(own) / ratio(index) - 1.0) > kIndexTolerance)
-        throw InputError({file.where,
-                          fmt::format("the table of surface \"{}\" is for indices {:.4f} to {:.4f}, but here light "
-                                      "goes from {:.4f} to {:.4f}",
-                                      spec.name, own.inside, own.outside, index.inside, index.outside),
-                          "build a table for these media with `scintray table build`, or name the height map itself"});
+        throw InputError(
+            {file.where,
+             fmt::format("the table of surface \"{}\" is for indices {:.4f} to {:.4f}, but here light "
+                         "goes from {:.4f} to {:.4f}",
+                         spec.name, own.inside, own.outside, index.inside, index.outside),
+             "build a table for these media with `scintray table build`, or name the height map itself"});
       check(own);
       return table;
     }
   };
-  surface.microsurface = std::visit(Visitor{*this, tabulated, check_dispersion, spec, index}, spec.microsurface);
+  surface.microsurface =
+      std::visit(Visitor{*this, tabulated, check_dispersion, spec, index}, spec.microsurface);
   return made;
 }
 

@@ -19,16 +19,17 @@
 namespace scintray::test {
 
 struct Ended {
-  int exit_code = -1;     ///< -1 when a signal ended it
-  std::string output;     ///< standard output and standard error
-  long peak_kib = 0;      ///< peak resident memory
+  int exit_code = -1;  ///< -1 when a signal ended it
+  std::string output;  ///< standard output and standard error
+  long peak_kib = 0;   ///< peak resident memory
 };
 
 /// A running `scintray ARGUMENTS` in a folder of its own.
 class Program {
  public:
   /// `file_limit_bytes` above 0 makes every file that grows past it fail as on a full disk.
-  Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder, rlim_t file_limit_bytes = 0)
+  Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+          rlim_t file_limit_bytes = 0)
       : log_(folder / "output.txt") {
     child_ = fork();
     REQUIRE(child_ >= 0);

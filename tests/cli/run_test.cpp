@@ -32,9 +32,11 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal" }
 wavelength = "420 nm"
-photons = )" + std::to_string(photons) + R"(
+photons = )" +
+         std::to_string(photons) + R"(
 [run]
-photon_list = )" + (list ? "true" : "false") + R"(
+photon_list = )" +
+         (list ? "true" : "false") + R"(
 [surfaces.white]
 model = "painted"
 reflectance = 1.0
@@ -48,7 +50,9 @@ std::filesystem::path folder_with(const std::string& name, const std::string& te
   return folder;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -126,9 +130,10 @@ TEST_CASE("check says what a scene is, and lists every mistake with its place") 
 
 TEST_CASE("Parts that overlap are refused with both names") {
   std::string text = scene(1'000, false);
-  text.insert(text.find("[source]"),
-              "[[part]]\nname = \"intruder\"\nbox = [\"1 mm\", \"1 mm\", \"5 mm\"]\nmedium = \"glass\"\nsurface = "
-              "\"polished\"\ntranslate = [\"0 mm\", \"0 mm\", \"1 mm\"]\n");
+  text.insert(
+      text.find("[source]"),
+      "[[part]]\nname = \"intruder\"\nbox = [\"1 mm\", \"1 mm\", \"5 mm\"]\nmedium = \"glass\"\nsurface = "
+      "\"polished\"\ntranslate = [\"0 mm\", \"0 mm\", \"1 mm\"]\n");
   const auto folder = folder_with("overlap", text);
   const Ended ended = run_program({"check", "scene.toml"}, folder);
   CAPTURE(ended.output);

@@ -17,8 +17,7 @@ namespace {
 std::string crystal_scene(const json& config, const std::string& surface) {
   const bool volume = config["source"] == "volume" || config["z0_mm"].is_null();
   const double z0 = config["z0_mm"].get<double>(), dz = config["dz_mm"].get<double>();
-  const std::string slab =
-      volume ? "" : fmt::format(", slab_z = [\"{} mm\", \"{} mm\"]", z0 - dz, z0 + dz);
+  const std::string slab = volume ? "" : fmt::format(", slab_z = [\"{} mm\", \"{} mm\"]", z0 - dz, z0 + dz);
   return fmt::format(R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -114,8 +113,8 @@ std::string scene_for(const json& config) {
 /// Compares one number, and prints it for docs/validation.md.
 void compare(const std::string& what, const Estimate& ours, const Estimate& theirs) {
   const double distance = sigmas(ours, theirs);
-  std::cout << fmt::format("  {:<22} {:>12.6g} +- {:<10.2g} Geant4 {:>12.6g} +- {:<10.2g} {:>5.2f} sigma\n", what,
-                           ours.value, ours.error, theirs.value, theirs.error, distance);
+  std::cout << fmt::format("  {:<22} {:>12.6g} +- {:<10.2g} Geant4 {:>12.6g} +- {:<10.2g} {:>5.2f} sigma\n",
+                           what, ours.value, ours.error, theirs.value, theirs.error, distance);
   CAPTURE(what);
   CHECK(distance < kSigmas);
 }
@@ -135,10 +134,11 @@ Estimate mean_of(const json& run, const std::string& key) {
 
 void compare_run(const json& run, const std::string& scene) {
   const PointResult result = trace(scene).result;
-  for (const auto& [name, fate] :
-       {std::pair{"detected", Fate::detected}, std::pair{"escaped", Fate::escaped},
-        std::pair{"bulk_absorbed", Fate::absorbed_in_medium}, std::pair{"surface_absorbed", Fate::absorbed_at_surface}})
-    compare(name, result.fraction(fate), binomial_estimate(run[std::string(name) + "_count"], run["photons"]));
+  for (const auto& [name, fate] : {std::pair{"detected", Fate::detected}, std::pair{"escaped", Fate::escaped},
+                                   std::pair{"bulk_absorbed", Fate::absorbed_in_medium},
+                                   std::pair{"surface_absorbed", Fate::absorbed_at_surface}})
+    compare(name, result.fraction(fate),
+            binomial_estimate(run[std::string(name) + "_count"], run["photons"]));
   compare("interactions", result.interactions.mean(), mean_of(run, "boundary_interactions_mean"));
   compare("detected path, mm", result.detected_path_mm.mean(), mean_of(run, "detected_path_mm_mean"));
   compare("detected time, ns", result.detected_time_ns.mean(), mean_of(run, "detected_time_ns_mean"));
@@ -167,7 +167,8 @@ TEST_CASE("Geant4: polished crystal, back-painted") { compare_finish("polishedba
 TEST_CASE("Geant4: polished crystal in a box of Lambertian tape") { compare_finish("tape"); }
 
 TEST_CASE("Geant4: arrays of polished crystals with air gaps share light alike") {
-  for (const std::string name : {"array3x3_polished_w2_z02", "array3x3_polished_w2_z10", "array5x5_polished_w2_z10"}) {
+  for (const std::string name :
+       {"array3x3_polished_w2_z02", "array3x3_polished_w2_z10", "array5x5_polished_w2_z10"}) {
     const auto file = shared_file("reference/geant4/" + name + ".json");
     if (!file) return;
     std::ifstream stream(*file);
@@ -206,15 +207,17 @@ sensor = "perfect"
     for (const auto& [key, fate] :
          {std::pair{"detected", Fate::detected}, std::pair{"escaped", Fate::escaped},
           std::pair{"bulk_absorbed", Fate::absorbed_in_medium}})
-      compare(key, result.fraction(fate), binomial_estimate(run[std::string(key) + "_count"], run["photons"]));
+      compare(key, result.fraction(fate),
+              binomial_estimate(run[std::string(key) + "_count"], run["photons"]));
     compare("interactions", result.interactions.mean(), mean_of(run, "boundary_interactions_mean"));
     std::uint64_t own = 0, neighbours_detected = 0;
     for (const SensorFaceCount& count : result.sensor_faces)
       (traced.built.scene.parts[count.part].name == "detector" ? own : neighbours_detected) += count.detected;
-    const std::uint64_t reference_own = run["detected_count_per_crystal"][static_cast<std::size_t>(n / 2)]
-                                           [static_cast<std::size_t>(n / 2)];
+    const std::uint64_t reference_own =
+        run["detected_count_per_crystal"][static_cast<std::size_t>(n / 2)][static_cast<std::size_t>(n / 2)];
     const std::uint64_t reference_all = run["detected_count"];
-    compare("own detector", binomial_estimate(own, result.photons), binomial_estimate(reference_own, run["photons"]));
+    compare("own detector", binomial_estimate(own, result.photons),
+            binomial_estimate(reference_own, run["photons"]));
     compare("other detectors", binomial_estimate(neighbours_detected, result.photons),
             binomial_estimate(reference_all - reference_own, run["photons"]));
   }

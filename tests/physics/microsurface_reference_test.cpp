@@ -64,14 +64,15 @@ void compare_with_reference(const std::string& mode) {
   for (const Depth& depth : kRough) {
     const PointResult result = trace(scene(depth.z_mm, map->string(), mode, 200'000)).result;
     const Estimate detected = result.fraction(Fate::detected);
-    const Estimate reference =
-        binomial_estimate(static_cast<std::uint64_t>(depth.detected * kReferencePhotons + 0.5), kReferencePhotons);
+    const Estimate reference = binomial_estimate(
+        static_cast<std::uint64_t>(depth.detected * kReferencePhotons + 0.5), kReferencePhotons);
     const double combined = std::hypot(detected.error, reference.error);
     const double allowed = kSigmas * combined + kReferenceSystematic * reference.value;
-    std::cout << fmt::format("  {:<12} z {:>4} mm: detected {:.4f} +- {:.4f}, reference {:.4f}; interactions {:.3f}, "
-                             "reference {:.2f}\n",
-                             mode, depth.z_mm, detected.value, detected.error, reference.value,
-                             result.interactions.mean().value, depth.interactions);
+    std::cout << fmt::format(
+        "  {:<12} z {:>4} mm: detected {:.4f} +- {:.4f}, reference {:.4f}; interactions {:.3f}, "
+        "reference {:.2f}\n",
+        mode, depth.z_mm, detected.value, detected.error, reference.value, result.interactions.mean().value,
+        depth.interactions);
     CAPTURE(depth.z_mm);
     CHECK(std::abs(detected.value - reference.value) < allowed);
     // The reference's interactions are given to two decimals; its standard error is about 0.012.

@@ -52,9 +52,7 @@ struct Counts {
 
 constexpr int kBins = 20;
 
-int bin_of(double cosine) {
-  return std::min(kBins - 1, static_cast<int>((1.0 - cosine * cosine) * kBins));
-}
+int bin_of(double cosine) { return std::min(kBins - 1, static_cast<int>((1.0 - cosine * cosine) * kBins)); }
 
 /// Lambertian light on a surface from one side.
 Counts illuminate(const Surface& surface, Side side, std::uint64_t rays, std::uint64_t seed) {
@@ -77,7 +75,8 @@ Counts illuminate(const Surface& surface, Side side, std::uint64_t rays, std::ui
     REQUIRE((outcome == SurfaceOutcome::inside ? along < 0.0 : along > 0.0));
     const bool back = (outcome == SurfaceOutcome::inside) == (side == Side::inside);
     ++(back ? counts.reflected : counts.transmitted);
-    ++(back ? counts.reflected_bins : counts.transmitted_bins)[static_cast<std::size_t>(bin_of(std::abs(along)))];
+    ++(back ? counts.reflected_bins
+            : counts.transmitted_bins)[static_cast<std::size_t>(bin_of(std::abs(along)))];
   }
   return counts;
 }
@@ -104,7 +103,8 @@ std::vector<Named> facet_models() {
 /// inside plus what enters is Lambertian and as much as came.
 ChiSquare equilibrium(const Surface& surface, std::uint64_t inside_rays) {
   const double ratio = std::pow(kIndex.outside / kIndex.inside, 2);
-  const auto outside_rays = static_cast<std::uint64_t>(std::llround(static_cast<double>(inside_rays) * ratio));
+  const auto outside_rays =
+      static_cast<std::uint64_t>(std::llround(static_cast<double>(inside_rays) * ratio));
   const Counts from_inside = illuminate(surface, Side::inside, inside_rays, 21);
   const Counts from_outside = illuminate(surface, Side::outside, outside_rays, 22);
   std::vector<std::uint64_t> leaving(kBins);
@@ -144,13 +144,15 @@ TEST_CASE("Law of every surface: energy, reflected + transmitted + absorbed = ar
   }
 }
 
-TEST_CASE("Law of every lossless surface: reciprocity of the diffuse means, n1^2 (1 - R12) = n2^2 (1 - R21)") {
+TEST_CASE(
+    "Law of every lossless surface: reciprocity of the diffuse means, n1^2 (1 - R12) = n2^2 (1 - R21)") {
   constexpr std::uint64_t kRays = 400'000;
   std::vector<Named> surfaces = lossless_surfaces();
   for (const Named& named : surfaces) {
     const Counts in = illuminate(named.surface, Side::inside, kRays, 41);
     const Counts out = illuminate(named.surface, Side::outside, kRays, 42);
-    const Estimate t12 = binomial_estimate(in.transmitted, kRays), t21 = binomial_estimate(out.transmitted, kRays);
+    const Estimate t12 = binomial_estimate(in.transmitted, kRays),
+                   t21 = binomial_estimate(out.transmitted, kRays);
     const double n1 = kIndex.inside * kIndex.inside, n2 = kIndex.outside * kIndex.outside;
     const Estimate left{n1 * t12.value, n1 * t12.error}, right{n2 * t21.value, n2 * t21.error};
     std::cout << named.name << ": n1^2 (1 - R12) = " << left.value << " +- " << left.error
@@ -163,8 +165,8 @@ TEST_CASE("Law of every lossless surface: reciprocity of the diffuse means, n1^2
 TEST_CASE("Law of every lossless surface: isotropic light stays isotropic") {
   for (const Named& named : lossless_surfaces()) {
     const ChiSquare test = equilibrium(named.surface, 400'000);
-    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p " << test.p_value
-              << "\n";
+    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p "
+              << test.p_value << "\n";
     CAPTURE(named.name);
     CHECK(test.p_value > 6.3e-5);
   }
@@ -175,8 +177,8 @@ TEST_CASE("UNIFIED does not keep isotropic light isotropic, and docs/surfaces.md
   // model has changed and the page must too.
   for (const Named& named : facet_models()) {
     const ChiSquare test = equilibrium(named.surface, 400'000);
-    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p " << test.p_value
-              << "\n";
+    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p "
+              << test.p_value << "\n";
     CAPTURE(named.name);
     if (named.name.starts_with("UNIFIED 18")) CHECK(test.p_value < 1e-6);
   }

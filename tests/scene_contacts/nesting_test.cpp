@@ -25,7 +25,8 @@ bool has(const std::string& text, const std::string& piece) { return text.find(p
 }  // namespace
 
 TEST_CASE("A part within a part borders it, to any depth and in any order") {
-  const auto outer = box("outer", {0, 0, 0}, {10, 10, 10}, 0), middle = box("middle", {2, 2, 2}, {8, 8, 8}, 6, 2),
+  const auto outer = box("outer", {0, 0, 0}, {10, 10, 10}, 0),
+             middle = box("middle", {2, 2, 2}, {8, 8, 8}, 6, 2),
              inner = box("inner", {3, 3, 3}, {5, 5, 5}, 12);
   for (const bool reversed : {false, true}) {
     const std::vector<PlacedPart> parts =
@@ -37,15 +38,15 @@ TEST_CASE("A part within a part borders it, to any depth and in any order") {
     CHECK(area_between(interfaces, 1, i) == doctest::Approx(24.0).epsilon(1e-14));
     CHECK(area_between(interfaces, i, kAmbient) == 0.0);
     for (const InterfaceTriangle& t : interfaces) CHECK(t.front_face == kNoFace);
-    check_laws(parts, interfaces,
-               reversed ? std::vector{8.0, 208.0, 784.0} : std::vector{784.0, 208.0, 8.0});
+    check_laws(parts, interfaces, reversed ? std::vector{8.0, 208.0, 784.0} : std::vector{784.0, 208.0, 8.0});
   }
 }
 
 TEST_CASE("A nested part flush with a face of its container reaches the outside there") {
   for (const bool turned : {false, true}) {
-    std::vector<PlacedPart> parts{box("block", {0, 0, 0}, {10, 10, 10}, 0, 3), box("plug", {2, 3, 6}, {5, 7, 10}, 6, 2),
-                                  box("core", {3, 4, 8}, {4, 5, 10}, 12), box("pad", {2.5, 3.5, 10}, {8, 8, 11}, 18)};
+    std::vector<PlacedPart> parts{
+        box("block", {0, 0, 0}, {10, 10, 10}, 0, 3), box("plug", {2, 3, 6}, {5, 7, 10}, 6, 2),
+        box("core", {3, 4, 8}, {4, 5, 10}, 12), box("pad", {2.5, 3.5, 10}, {8, 8, 11}, 18)};
     if (turned) move(parts, skew_rotation(), Vec3(-3, 2, 1));
     const auto interfaces = resolve_contacts(parts, kTolerance);
     CHECK(area_between(interfaces, 0, 1) == doctest::Approx(12.0 + 2 * 4 * 7).epsilon(1e-12));
@@ -59,16 +60,19 @@ TEST_CASE("A nested part flush with a face of its container reaches the outside 
 }
 
 TEST_CASE("A flush plug gives the face under it to the plug alone") {
-  const std::vector<PlacedPart> parts{box("block", {0, 0, 0}, {10, 10, 10}, 0), box("plug", {2, 3, 6}, {5, 7, 10}, 6)};
+  const std::vector<PlacedPart> parts{box("block", {0, 0, 0}, {10, 10, 10}, 0),
+                                      box("plug", {2, 3, 6}, {5, 7, 10}, 6)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
   double plug_top = 0.0;
   for (const InterfaceTriangle& t : interfaces)
-    if (t.back == 1 && t.front == kAmbient && t.back_face == 11 && t.front_face == kNoFace) plug_top += area(t);
+    if (t.back == 1 && t.front == kAmbient && t.back_face == 11 && t.front_face == kNoFace)
+      plug_top += area(t);
   CHECK(plug_top == doctest::Approx(12.0).epsilon(1e-13));
 }
 
 TEST_CASE("Neighbours inside one container touch each other and it") {
-  const std::vector<PlacedPart> parts{box("resin", {-1, -1, -1}, {5, 3, 3}, 0), box("a", {0, 0, 0}, {2, 2, 2}, 6),
+  const std::vector<PlacedPart> parts{box("resin", {-1, -1, -1}, {5, 3, 3}, 0),
+                                      box("a", {0, 0, 0}, {2, 2, 2}, 6),
                                       box("b", {2, 0, 0}, {4, 2, 2}, 12, 3)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
   CHECK(area_between(interfaces, 1, 2) == doctest::Approx(4.0).epsilon(1e-13));
@@ -78,7 +82,8 @@ TEST_CASE("Neighbours inside one container touch each other and it") {
 }
 
 TEST_CASE("An overlap names both parts, the exact volume and a point inside") {
-  const auto list = complaints({box("crystal", {0, 0, 0}, {2, 2, 2}), box("guide", {1, 1, 1.5}, {4, 4, 4}, 6)});
+  const auto list =
+      complaints({box("crystal", {0, 0, 0}, {2, 2, 2}), box("guide", {1, 1, 1.5}, {4, 4, 4}, 6)});
   REQUIRE(list.size() == 1);
   CHECK(has(list[0], "parts 'crystal' and 'guide' overlap by 0.5 mm3"));
   CHECK(has(list[0], "for example at (1."));
@@ -86,8 +91,9 @@ TEST_CASE("An overlap names both parts, the exact volume and a point inside") {
 }
 
 TEST_CASE("All overlapping pairs of three parts are listed") {
-  const auto list = complaints({box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1}, {3, 3, 3}, 6),
-                                box("c", {1.5, 0.5, 1.5}, {4, 4, 4}, 12), box("apart", {9, 9, 9}, {10, 10, 10}, 18)});
+  const auto list =
+      complaints({box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1}, {3, 3, 3}, 6),
+                  box("c", {1.5, 0.5, 1.5}, {4, 4, 4}, 12), box("apart", {9, 9, 9}, {10, 10, 10}, 18)});
   REQUIRE(list.size() == 3);
   CHECK(has(list[0], "'a' and 'b' overlap by 1 mm3"));
   CHECK(has(list[1], "'a' and 'c' overlap by 0.375 mm3"));
@@ -112,7 +118,8 @@ TEST_CASE("Overlaps without any transversal crossing of surfaces are found") {
     CHECK(has(list[0], "overlap by 1 mm3"));
   }
   SUBCASE("a face through two edges of a box") {
-    const auto list = complaints({box("a", {0, 0, 0}, {1, 1, 1}), prism("b", {{-9, -9}, {9, 9}, {-9, 27}}, -4, 6, 6)});
+    const auto list =
+        complaints({box("a", {0, 0, 0}, {1, 1, 1}), prism("b", {{-9, -9}, {9, 9}, {-9, 27}}, -4, 6, 6)});
     REQUIRE(list.size() == 1);
     CHECK(has(list[0], "overlap by 0.5 mm3"));
   }
@@ -138,7 +145,8 @@ TEST_CASE("Reaching in by less than the tolerance is touching, by more is an ove
     CHECK(with_depth(0.5 * kTolerance) == 0);
     CHECK(with_depth(2.0 * kTolerance) == 1);
     const auto face_to_face = [&](double depth) {
-      std::vector<PlacedPart> parts{box("base", {-2, -2, -2}, {2, 2, 0}, 0), box("top", {-1, -1, -depth}, {1, 1, 1}, 6)};
+      std::vector<PlacedPart> parts{box("base", {-2, -2, -2}, {2, 2, 0}, 0),
+                                    box("top", {-1, -1, -depth}, {1, 1, 1}, 6)};
       if (turned) move(parts, skew_rotation(), Vec3(1, 2, 3));
       return complaints(parts).size();
     };

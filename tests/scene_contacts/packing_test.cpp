@@ -19,8 +19,8 @@ std::vector<Cuboid> cut(const Cuboid& whole, int count, Rng& rng) {
     const auto which = static_cast<std::size_t>(rng.uniform() * static_cast<double>(pieces.size()));
     int axis = 0;
     (pieces[which].high - pieces[which].low).maxCoeff(&axis);
-    const double at = pieces[which].low[axis] + (pieces[which].high[axis] - pieces[which].low[axis]) *
-                                                    (0.3 + 0.4 * rng.uniform());
+    const double at = pieces[which].low[axis] +
+                      (pieces[which].high[axis] - pieces[which].low[axis]) * (0.3 + 0.4 * rng.uniform());
     Cuboid upper = pieces[which];
     upper.low[axis] = at;
     pieces[which].high[axis] = at;

@@ -126,7 +126,8 @@ void check_laws(const std::vector<PlacedPart>& parts, const std::vector<Interfac
     has_face = has_face && t.back_face != kNoFace;
     for (const auto& [region, face] : {std::pair(t.back, t.back_face), std::pair(t.front, t.front_face)})
       if (face != kNoFace)
-        faces_belong = faces_belong && region != kAmbient && faces[static_cast<std::size_t>(region)].contains(face);
+        faces_belong =
+            faces_belong && region != kAmbient && faces[static_cast<std::size_t>(region)].contains(face);
   }
   CHECK(sides_differ);
   CHECK(has_face);
@@ -141,7 +142,8 @@ void check_laws(const std::vector<PlacedPart>& parts, const std::vector<Interfac
     CHECK(std::abs(boundary.volume - volumes[static_cast<std::size_t>(region)]) <=
           boundary.area * (slack_mm + rounding) + rounding * extent * std::sqrt(boundary.area));
   }
-  for (std::size_t i = 0; i < volumes.size(); ++i) CHECK(all.contains(static_cast<std::int32_t>(i)) == (volumes[i] > 0.0));
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    CHECK(all.contains(static_cast<std::int32_t>(i)) == (volumes[i] > 0.0));
 }
 
 }  // namespace scintray::test

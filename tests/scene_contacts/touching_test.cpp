@@ -32,7 +32,8 @@ TEST_CASE("A lone box borders the ambient medium with its own triangles") {
     CHECK(interfaces[i].front == kAmbient);
     CHECK(interfaces[i].back_face == static_cast<std::int32_t>(parts[0].face[i]));
     CHECK(interfaces[i].front_face == kNoFace);
-    for (std::size_t k = 0; k < 3; ++k) CHECK(interfaces[i].vertex[k] == parts[0].vertices[parts[0].triangles[i][k]]);
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(interfaces[i].vertex[k] == parts[0].vertices[parts[0].triangles[i][k]]);
   }
   check_laws(parts, interfaces, {30.0});
 }
@@ -76,7 +77,8 @@ TEST_CASE("64 crystals under one light guide each border it with their whole fac
       }
     if (turned) move(parts, skew_rotation(), Vec3(3, 4, 5));
     const auto interfaces = resolve_contacts(parts, kTolerance);
-    for (std::int32_t c = 1; c <= 64; ++c) CHECK(area_between(interfaces, 0, c) == doctest::Approx(4.0).epsilon(1e-12));
+    for (std::int32_t c = 1; c <= 64; ++c)
+      CHECK(area_between(interfaces, 0, c) == doctest::Approx(4.0).epsilon(1e-12));
     check_laws(parts, interfaces, volumes);
   }
 }
@@ -93,7 +95,8 @@ TEST_CASE("Crystal, grease and detector of one cross-section form a chain") {
 }
 
 TEST_CASE("Two parts on one face that also meet each other") {
-  const std::vector<PlacedPart> parts{box("guide", {0, 0, 0}, {4, 4, 1}, 0, 3), box("left", {0, 0, -3}, {2.2, 4, 0}, 6),
+  const std::vector<PlacedPart> parts{box("guide", {0, 0, 0}, {4, 4, 1}, 0, 3),
+                                      box("left", {0, 0, -3}, {2.2, 4, 0}, 6),
                                       box("right", {2.2, 0, -2}, {4, 4, 0}, 12, 2)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
   CHECK(area_between(interfaces, 0, 1) == doctest::Approx(8.8).epsilon(1e-13));
@@ -104,7 +107,8 @@ TEST_CASE("Two parts on one face that also meet each other") {
 
 TEST_CASE("Parts that touch along an edge or at a corner share nothing") {
   for (const bool turned : {false, true}) {
-    std::vector<PlacedPart> parts{box("a", {0, 0, 0}, {1, 1, 1}, 0), box("along an edge", {1, 1, 0}, {2, 2, 1}, 6, 2),
+    std::vector<PlacedPart> parts{box("a", {0, 0, 0}, {1, 1, 1}, 0),
+                                  box("along an edge", {1, 1, 0}, {2, 2, 1}, 6, 2),
                                   box("at a corner", {-1, -1, -1}, {0, 0, 0}, 12),
                                   prism("on a corner", {{1, 0.5}, {2, 0}, {2, 0.9}}, 0, 1, 18)};
     if (turned) move(parts, skew_rotation(), Vec3::Zero());
@@ -131,8 +135,9 @@ TEST_CASE("A gap of half the tolerance closes, one of ten tolerances stays open"
 }
 
 TEST_CASE("A turned assembly ten metres from the origin closes as well") {
-  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 3), box("a", {0, 0, 0}, {5, 10, 10}, 6, 2),
-                                box("b", {5, 0, 0}, {10, 4, 10}, 12), box("c", {6, 5, 3}, {9, 8, 10}, 18)};
+  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 3),
+                                box("a", {0, 0, 0}, {5, 10, 10}, 6, 2), box("b", {5, 0, 0}, {10, 4, 10}, 12),
+                                box("c", {6, 5, 3}, {9, 8, 10}, 18)};
   move(parts, skew_rotation(), Vec3(6000, -7000, 4000));
   const auto interfaces = resolve_contacts(parts, kTolerance);
   CHECK(area_between(interfaces, 0, 1) == doctest::Approx(50.0).epsilon(1e-9));
@@ -143,8 +148,9 @@ TEST_CASE("A turned assembly ten metres from the origin closes as well") {
 }
 
 TEST_CASE("Parts in single precision close, with no slivers along common edges") {
-  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 4), box("a", {0, 0, 0}, {5, 10, 10}, 6, 3),
-                                box("b", {5, 0, 0}, {10, 4, 10}, 12), box("c", {6, 5, 3}, {9, 8, 10}, 18)};
+  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 4),
+                                box("a", {0, 0, 0}, {5, 10, 10}, 6, 3), box("b", {5, 0, 0}, {10, 4, 10}, 12),
+                                box("c", {6, 5, 3}, {9, 8, 10}, 18)};
   move(parts, skew_rotation(), Vec3(11, -7, 9));
   round_to_float(parts);
   const auto interfaces = resolve_contacts(parts, kTolerance);
@@ -160,8 +166,8 @@ TEST_CASE("Parts in single precision close, with no slivers along common edges")
 }
 
 TEST_CASE("The same parts give the same triangles in the same order") {
-  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 4), box("a", {0, 0, 0}, {5, 10, 10}, 6, 3),
-                                box("b", {5, 0, 0}, {10, 4, 10}, 12)};
+  std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 4),
+                                box("a", {0, 0, 0}, {5, 10, 10}, 6, 3), box("b", {5, 0, 0}, {10, 4, 10}, 12)};
   move(parts, skew_rotation(), Vec3(11, -7, 9));
   const auto first = resolve_contacts(parts, kTolerance), second = resolve_contacts(parts, kTolerance);
   REQUIRE(first.size() == second.size());

@@ -29,7 +29,8 @@ TEST_CASE("A mirror behind a gap: the geometric series of passes through the fac
   stack.reflector = Reflector{"mirror", Curve::constant(0.8), 1.0};
   const double angle = 20.0 * kDegree;
   const double r = fresnel(std::cos(angle), 1.82, 1.0).unpolarised();
-  CHECK(sigmas(absorbed_share(stack, angle, Side::inside), {(1.0 - r) * 0.2 / (1.0 - 0.8 * r), 0.0}) < kSigmas);
+  CHECK(sigmas(absorbed_share(stack, angle, Side::inside), {(1.0 - r) * 0.2 / (1.0 - 0.8 * r), 0.0}) <
+        kSigmas);
 }
 
 TEST_CASE("A Lambertian reflector behind a gap: the series with the diffuse reflectance from outside") {
@@ -37,7 +38,8 @@ TEST_CASE("A Lambertian reflector behind a gap: the series with the diffuse refl
   Surface stack;
   stack.reflector = Reflector{"paper", Curve::constant(0.9), 0.0};
   const double r = fresnel(1.0, 1.82, 1.0).unpolarised(), r21 = 0.136763;
-  CHECK(sigmas(absorbed_share(stack, 0.0, Side::inside), {(1.0 - r) * 0.1 / (1.0 - 0.9 * r21), 0.0}) < kSigmas);
+  CHECK(sigmas(absorbed_share(stack, 0.0, Side::inside), {(1.0 - r) * 0.1 / (1.0 - 0.9 * r21), 0.0}) <
+        kSigmas);
 }
 
 TEST_CASE("Paint on the face absorbs its share at once, from either side") {

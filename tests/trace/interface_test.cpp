@@ -27,7 +27,8 @@ medium = "lso_clear"
 sensor = "perfect"
 [[contact]]
 between = ["first", "second"]
-kind = ")" + contact + R"("
+kind = ")" +
+         contact + R"("
 [source]
 type = "photons"
 position = ["0 mm", "0 mm", "0.5 mm"]
@@ -57,8 +58,11 @@ TEST_CASE("Identical parts share an accelerator, wherever and however turned the
   for (int i = 0; i < 9; ++i)
     scene += "[[part]]\nname = \"c" + std::to_string(i) +
              "\"\nbox = [\"2 mm\", \"3 mm\", \"5 mm\"]\nmedium = \"lso\"\nsurface = \"flat\"\n"
-             "rotate = { axis = [1, 2, 3], angle = \"" + std::to_string(40 * i) + " deg\" }\n"
-             "translate = [\"" + std::to_string(10 * i) + ".3 mm\", \"10 m\", \"0.1 mm\"]\n";
+             "rotate = { axis = [1, 2, 3], angle = \"" +
+             std::to_string(40 * i) +
+             " deg\" }\n"
+             "translate = [\"" +
+             std::to_string(10 * i) + ".3 mm\", \"10 m\", \"0.1 mm\"]\n";
   scene += R"(
 [source]
 type = "photons"

@@ -121,7 +121,8 @@ std::vector<BoundaryTriangle> crystal_triangles() {
 }
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -145,11 +146,13 @@ int main() {
     }
   }
 
-  std::cout << fmt::format("2 x 2 x 20 mm3 LSO, bare, depth 10 mm; medians of {} rounds (checksum {:.6g})\n\n", kRounds,
-                           raw.checksum());
-  std::cout << fmt::format("{:<26} {:>14}\n", "Embree alone, 1 thread", fmt::format("{:.2f} Mrays/s", median(raw_speed) / 1e6));
-  std::cout << fmt::format("\n{:<26} {:>12} {:>12} {:>12} {:>12} {:>12} {:>10}\n", "case", "Mseg/s, 1 t", "Mphot/s, 1 t",
-                           "Mseg/s, 2 t", "Mphot/s, 2 t", "seg/raw ray", "2 t / 1 t");
+  std::cout << fmt::format(
+      "2 x 2 x 20 mm3 LSO, bare, depth 10 mm; medians of {} rounds (checksum {:.6g})\n\n", kRounds,
+      raw.checksum());
+  std::cout << fmt::format("{:<26} {:>14}\n", "Embree alone, 1 thread",
+                           fmt::format("{:.2f} Mrays/s", median(raw_speed) / 1e6));
+  std::cout << fmt::format("\n{:<26} {:>12} {:>12} {:>12} {:>12} {:>12} {:>10}\n", "case", "Mseg/s, 1 t",
+                           "Mphot/s, 1 t", "Mseg/s, 2 t", "Mphot/s, 2 t", "seg/raw ray", "2 t / 1 t");
   const auto column = [&](const std::vector<Speed>& speeds, double Speed::*what) {
     std::vector<double> values;
     for (const Speed& s : speeds) values.push_back(s.*what);
@@ -162,13 +165,14 @@ int main() {
       per_raw.push_back(one[i][r].segments / raw_speed[r]);
       scaling.push_back(two[i][r].segments / one[i][r].segments);
     }
-    std::cout << fmt::format("{:<26} {:>12.2f} {:>12.3f} {:>12.2f} {:>12.3f} {:>12.2f} {:>10.2f}\n", kCases[i].name,
-                             column(one[i], &Speed::segments), column(one[i], &Speed::photons),
-                             column(two[i], &Speed::segments), column(two[i], &Speed::photons), median(per_raw),
-                             median(scaling));
+    std::cout << fmt::format("{:<26} {:>12.2f} {:>12.3f} {:>12.2f} {:>12.3f} {:>12.2f} {:>10.2f}\n",
+                             kCases[i].name, column(one[i], &Speed::segments),
+                             column(one[i], &Speed::photons), column(two[i], &Speed::segments),
+                             column(two[i], &Speed::photons), median(per_raw), median(scaling));
   }
   std::vector<double> table_to_unified;
-  for (std::size_t r = 0; r < kRounds; ++r) table_to_unified.push_back(one[3][r].segments / one[2][r].segments);
+  for (std::size_t r = 0; r < kRounds; ++r)
+    table_to_unified.push_back(one[3][r].segments / one[2][r].segments);
   std::cout << fmt::format("\ntable to UNIFIED, segments/s: {:.2f}\n", median(table_to_unified));
   return EXIT_SUCCESS;
 }
