@@ -9,12 +9,6 @@ namespace scintray::report {
 
 namespace {
 
-std::string fixed(double value, int decimals) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
-
 /// Decimals that show two significant digits of `error`.
 int decimals_of(double error) {
   if (!(error > 0.0) || !std::isfinite(error)) return 4;
@@ -48,6 +42,12 @@ std::string escape_html(const std::string& text) {
     }
   }
   return safe;
+}
+
+std::string fixed(double value, int decimals) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
 }
 
 std::string with_error(const Estimate& estimate) {

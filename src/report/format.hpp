@@ -16,6 +16,8 @@ std::string with_error(const Estimate& estimate);
 std::string percent_with_error(const Estimate& estimate);
 /// "187 500": digits in groups of three.
 std::string grouped(std::uint64_t count);
+/// A number with so many decimals.
+std::string fixed(double value, int decimals);
 /// At most `digits` significant digits, without needless zeros.
 std::string compact(double value, int digits = 4);
 /// Columns a terminal needs for UTF-8 text (code points; ScintRay writes no wide ones).

@@ -45,12 +45,13 @@ tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
 table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; break-inside: avoid; } figcaption { color: var(--soft); font-size: .88rem; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
-.grid svg.plot { font-size: 16px; }
+.grid figure { max-width: 36rem; }
 .bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
 .who { font-size: .88rem; } .bar { display: flex; height: 1.5rem; border-radius: 3px; overflow: hidden; }
 .bar span { color: #fff; font-size: .75rem; line-height: 1.5rem; text-align: center; overflow: hidden;
   white-space: nowrap; box-shadow: inset -1px 0 0 var(--paper); }
 .bar .f1, .bar .f2 { color: #10161b; }
+@media (prefers-color-scheme: dark) { .bar .f1 { color: #fff; } }
 .f0 { background: var(--f0); } .f1 { background: var(--f1); } .f2 { background: var(--f2); }
 .f3 { background: var(--f3); } .f4 { background: var(--f4); } .f5 { background: var(--f5); }
 .key { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; font-size: .88rem; margin: 0 0 .6rem; }

@@ -19,14 +19,20 @@ std::string cell(const std::string& text, const char* tag = "td", const char* ki
 
 std::string number_cell(const std::string& text) { return cell(text, "td", "n"); }
 
-std::string table(const std::vector<std::string>& head, const std::string& rows) {
+/// Columns from `first_number` on are set flush right, as numbers are.
+std::string table(const std::vector<std::string>& head, const std::string& rows,
+                  std::size_t first_number = 1) {
   std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (std::size_t i = 0; i < head.size(); ++i) out += cell(head[i], "th", i == 0 ? "" : "n");
+  for (std::size_t i = 0; i < head.size(); ++i) out += cell(head[i], "th", i < first_number ? "" : "n");
   return out + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string section(const std::string& title, const std::string& body) {
   return "<section>\n<h2>" + escape_html(title) + "</h2>\n" + body + "</section>\n";
+}
+
+std::uint64_t total(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 /// One way for a photon to end, as the ledger lists them: media and surfaces by name.
@@ -57,6 +63,9 @@ std::vector<LedgerEntry> ledger(const RunResult& run) {
   add("escaped", "f4", fate(Fate::escaped));
   add("cut: interactions", "f5", fate(Fate::cut_interactions));
   add("cut: time", "f5", fate(Fate::cut_time));
+  // What no photon met says nothing; that none was cut does.
+  std::erase_if(entries,
+                [](const LedgerEntry& entry) { return entry.colour != "f5" && total(entry.counts) == 0; });
   return entries;
 }
 
@@ -69,7 +78,7 @@ std::string bar(const std::vector<LedgerEntry>& entries, const PointResult& poin
     out += "<span class=\"" + entry.colour + "\" style=\"width:" + compact(share, 6) + "%\" title=\"" +
            escape_html(entry.name + ": " +
                        percent_with_error(binomial_estimate(entry.counts[index], point.photons))) +
-           "\">" + (share > 7.0 ? compact(share, 3) + " %" : "") + "</span>";
+           "\">" + (share > 7.0 ? fixed(share, 1) + " %" : "") + "</span>";
   }
   return out + "</div>";
 }
@@ -87,9 +96,10 @@ std::string bars(const RunResult& run, const std::vector<LedgerEntry>& entries) 
   return out + "</div>\n";
 }
 
-std::string plain_number(double photons_per_second) {
-  if (photons_per_second >= 1e6) return compact(photons_per_second / 1e6, 3) + " million";
-  return compact(photons_per_second, 3);
+std::string rate(double per_second) {
+  if (per_second >= 1e6) return compact(per_second / 1e6, 3) + " million";
+  if (per_second >= 1e3) return compact(per_second / 1e3, 3) + " thousand";
+  return compact(per_second, 3);
 }
 
 std::vector<double> even_edges(std::size_t bins, double width) {
@@ -100,10 +110,6 @@ std::vector<double> even_edges(std::size_t bins, double width) {
 
 std::vector<double> as_doubles(const std::vector<std::uint64_t>& counts) {
   return {counts.begin(), counts.end()};
-}
-
-std::uint64_t total(const std::vector<std::uint64_t>& counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 /// Cells with their head row and head column.
@@ -247,11 +253,12 @@ std::string sensor_section(const RunResult& run) {
               number_cell(percent_with_error(binomial_estimate(count.detected, point.photons))) +
               number_cell(grouped(count.unconverted)) + "</tr>\n";
   if (rows.empty()) return "";
-  return section("Sensors, face by face",
-                 "<details" + std::string(run.points.size() <= kFewPoints ? " open=\"open\"" : "") +
-                     "><summary>Counts</summary>\n" +
-                     table({"point", "sensor", "face", "detected", "of all photons", "not converted"}, rows) +
-                     "</details>\n");
+  return section(
+      "Sensors, face by face",
+      "<details" + std::string(run.points.size() <= kFewPoints ? " open=\"open\"" : "") +
+          "><summary>Counts</summary>\n" +
+          table({"point", "sensor", "face", "detected", "of all photons", "not converted"}, rows, 3) +
+          "</details>\n");
 }
 
 std::string angle_section(const RunResult& run) {
@@ -340,8 +347,8 @@ std::string condition_section(const RunResult& run) {
   row("straight flights", grouped(segments) + ", " + grouped(misses) + " settled by the exact search");
   row("time", compact(seconds, 3) + " s");
   if (seconds > 0.0)
-    row("speed", plain_number(static_cast<double>(segments) / seconds) + " flights/s, " +
-                     plain_number(static_cast<double>(photons) / seconds) + " photons/s");
+    row("speed", rate(static_cast<double>(segments) / seconds) + " flights/s, " +
+                     rate(static_cast<double>(photons) / seconds) + " photons/s");
   std::string notes;
   if (!run.header.note.empty()) {
     notes = "<h3>Warnings</h3>\n<ul>\n";

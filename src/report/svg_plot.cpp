@@ -17,6 +17,7 @@ constexpr double kTextHeight = 14.0;
 /// Of the widest sans-serif fonts of browsers (DejaVu) at 14 units, on average; names are bold.
 constexpr double kLetterWidth = 8.4, kBoldLetterWidth = 9.6;
 constexpr int kColours = 7;
+constexpr double kLegendRow = 22.0;
 constexpr double kMarker = 4.5;
 
 double text_width(const std::string& words, double letter) {
@@ -38,6 +39,9 @@ std::string text(double x, double y, const std::string& kind, const std::string&
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" class=\"" + kind + "\">" +
          escape_html(words) + "</text>\n";
 }
+
+/// Ticks are exact multiples, so six digits show them all; what rounding leaves of zero is zero.
+std::string tick_text(double tick) { return compact(std::abs(tick) < 1e-14 ? 0.0 : tick, 6); }
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -149,13 +153,13 @@ class Drawing {
     }
     y_ = plot_.log_y ? log_axis(y) : linear_axis(y, 5, false);
     double widest = 0.0, longest = 0.0;
-    for (const double tick : y_.ticks) widest = std::max(widest, text_width(compact(tick), kLetterWidth));
+    for (const double tick : y_.ticks) widest = std::max(widest, text_width(tick_text(tick), kLetterWidth));
     if (direct_labels_)
       for (const PlotSeries& series : plot_.series)
         longest = std::max(longest, text_width(series.label, kBoldLetterWidth));
     left_ = widest + 46.0;
     right_ = plot_.width - std::max(16.0, longest + 22.0);
-    top_ = direct_labels_ || plot_.series.size() < 2 ? 14.0 : 40.0;
+    top_ = direct_labels_ || plot_.series.size() < 2 ? 14.0 : legend_places().back().y + 22.0;
     bottom_ = plot_.height - 54.0;
     x_.start = left_;
     x_.end = right_;
@@ -167,11 +171,11 @@ class Drawing {
     std::string out;
     for (const double tick : y_.ticks) {
       out += line(left_, y_.at(tick), right_, y_.at(tick), "grid");
-      out += text(left_ - 8.0, y_.at(tick) + 5.0, "tick end", compact(std::abs(tick) < 1e-14 ? 0.0 : tick));
+      out += text(left_ - 8.0, y_.at(tick) + 5.0, "tick end", tick_text(tick));
     }
     for (const double tick : x_.ticks) {
       out += line(x_.at(tick), bottom_, x_.at(tick), bottom_ + 5.0, "axis");
-      out += text(x_.at(tick), bottom_ + 21.0, "tick middle", compact(std::abs(tick) < 1e-14 ? 0.0 : tick));
+      out += text(x_.at(tick), bottom_ + 21.0, "tick middle", tick_text(tick));
     }
     out += line(left_, bottom_, right_, bottom_, "axis");
     out += text(0.5 * (left_ + right_), plot_.height - 10.0, "label middle", plot_.x_label);
@@ -263,15 +267,32 @@ class Drawing {
     return out;
   }
 
+  struct LegendPlace {
+    double x, y;
+  };
+
+  /// Names in a row above the plot, in as many rows as they need.
+  std::vector<LegendPlace> legend_places() const {
+    std::vector<LegendPlace> places;
+    LegendPlace next{left_, 18.0};
+    for (const PlotSeries& series : plot_.series) {
+      const double width = 28.0 + text_width(series.label, kBoldLetterWidth);
+      if (next.x > left_ && next.x + width > plot_.width) next = {left_, next.y + kLegendRow};
+      places.push_back(next);
+      next.x += width + 24.0;
+    }
+    return places;
+  }
+
   std::string legend() const {
     if (plot_.series.size() < 2) return "";
     std::string out;
-    double x = left_;
-    for (std::size_t i = 0; i < plot_.series.size(); ++i) {
-      out += "<g class=\"series c" + std::to_string(i % kColours) + "\">" +
-             line(x, 18.0, x + 22.0, 18.0, "curve") + "</g>\n";
-      out += text(x + 28.0, 23.0, "name c" + std::to_string(i % kColours), plot_.series[i].label);
-      x += 28.0 + text_width(plot_.series[i].label, kBoldLetterWidth) + 24.0;
+    const auto places = legend_places();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto [x, y] = places[i];
+      const std::string colour = "c" + std::to_string(i % kColours);
+      out += "<g class=\"series " + colour + "\">" + line(x, y, x + 22.0, y, "curve") + "</g>\n";
+      out += text(x + 28.0, y + 5.0, "name " + colour, plot_.series[i].label);
     }
     return out;
   }

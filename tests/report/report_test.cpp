@@ -143,6 +143,18 @@ TEST_CASE("A plot draws zeros on a logarithmic axis as gaps and refuses ragged s
   CHECK_THROWS_AS(report::svg_plot(plot), std::invalid_argument);
 }
 
+TEST_CASE("A legend too long for one row takes two, and the plot makes room") {
+  report::Plot plot;
+  plot.width = 480.0;
+  for (const char* name : {"ground, UNIFIED, 2 mm", "ground, UNIFIED, 18 mm"})
+    plot.series.push_back({name, {0, 1, 2}, {3, 4}, {}, true});
+  const std::string two_rows = report::svg_plot(plot);
+  CHECK(contains(two_rows, "y=\"23.00\" class=\"name c0\""));
+  CHECK(contains(two_rows, "y=\"45.00\" class=\"name c1\""));
+  plot.width = 860.0;
+  CHECK(contains(report::svg_plot(plot), "y=\"23.00\" class=\"name c1\""));
+}
+
 TEST_CASE("A sweep becomes one curve for each setting of the other keys") {
   RunResult run = test::made_up_run();
   const auto view = report::view_sweep(run);
