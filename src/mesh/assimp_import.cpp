@@ -123,9 +123,12 @@ class SceneReader {
       reject_file(path_, "the mesh has more than 2^31 vertices or triangles", "split it in several files");
     }
     const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    const bool identity = transform == AssimpMatrix();
     for (unsigned v = 0; v < source.mNumVertices; ++v) {
       const aiVector3D& p = source.mVertices[v];
-      const aiVector3t<double> moved = transform * aiVector3t<double>(p.x, p.y, p.z);
+      const aiVector3t<double> given(p.x, p.y, p.z);
+      // A transform would spread one coordinate that is not finite over all three.
+      const aiVector3t<double> moved = identity ? given : transform * given;
       mesh.vertices.emplace_back(moved.x, moved.y, moved.z);
     }
     const bool mirrored = transform.Determinant() < 0.0;

@@ -70,29 +70,6 @@ void check_stl(const std::filesystem::path& path, const std::string& content) {
   }
 }
 
-void check_ply(const std::filesystem::path& path, const std::string& content) {
-  const std::size_t header_end = content.find("end_header");
-  if (!content.starts_with("ply") || header_end == std::string::npos) {
-    reject_file(path, "not a PLY file: it has no header from \"ply\" to \"end_header\"",
-                "export the mesh again as PLY");
-  }
-  const std::string_view header(content.data(), header_end);
-  constexpr std::string_view kWord = "element ";
-  for (std::size_t at = header.find(kWord); at != std::string_view::npos; at = header.find(kWord, at + 1)) {
-    std::string_view rest = header.substr(at + kWord.size());
-    rest = rest.substr(0, rest.find_first_of("\r\n"));
-    const std::size_t space = rest.find(' ');
-    std::uint64_t count = 0;
-    if (space == std::string_view::npos || !read_count(rest.substr(space), count)) {
-      reject_file(path,
-                  "the PLY header has \"element " + std::string(rest.substr(0, 60)) + "\" without a count",
-                  "expected for example \"element vertex 8\"");
-    }
-    check_count(path, "elements \"" + std::string(rest.substr(0, std::min<std::size_t>(space, 40))) + "\"",
-                count, 1, content);
-  }
-}
-
 void check_off(const std::filesystem::path& path, const std::string& content) {
   // The counts follow the keyword (OFF, COFF, ...), perhaps without a space; '#' begins a comment.
   const std::size_t keyword = content.find("OFF");
@@ -210,7 +187,6 @@ std::string read_mesh_file(const std::filesystem::path& path) {
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
                          const std::string& content) {
   if (extension == ".stl") check_stl(path, content);
-  if (extension == ".ply") check_ply(path, content);
   if (extension == ".off") check_off(path, content);
   if (extension == ".dae") check_collada(path, content);
   if (extension == ".3mf") check_zip(path, content);

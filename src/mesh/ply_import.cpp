@@ -1,60 +1,194 @@
 #include "scintray/mesh/ply_import.hpp"
 
-#include <CGAL/IO/PLY.h>
-#include <CGAL/Simple_cartesian.h>
-
-#include <sstream>
+#include <bit>
+#include <charconv>
+#include <cmath>
 #include <string_view>
 
 #include "scintray/mesh/file_checks.hpp"
+#include "scintray/mesh/ply_header.hpp"
 
 namespace scintray {
 namespace {
 
-/// CGAL allocates a face's list by its count before it reads it; a count of one byte bounds that.
-void check_list_counts(const std::filesystem::path& path, std::string_view header) {
-  constexpr std::string_view kWord = "property list ";
-  for (std::size_t at = header.find(kWord); at != std::string_view::npos; at = header.find(kWord, at + 1)) {
-    std::string_view type = header.substr(at + kWord.size());
-    type = type.substr(0, type.find(' '));
-    if (type != "uchar" && type != "uint8" && type != "char" && type != "int8") {
-      reject_file(path,
-                  "the PLY header counts list entries in \"" + std::string(type.substr(0, 40)) +
-                      "\"; expected \"uchar\"",
-                  "export with \"property list uchar int vertex_indices\", or as OBJ or STL");
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+/// Takes one number after the other from the data part.
+class NumberReader {
+ public:
+  NumberReader(const std::string& content, std::size_t start, PlyFormat format)
+      : content_(content), at_(start), format_(format) {}
+
+  /// False when the data end or hold no number here.
+  bool next(const PlyType& type, double& value) {
+    return format_ == PlyFormat::ascii ? next_text(value) : next_binary(type, value);
+  }
+
+ private:
+  bool next_text(double& value) {
+    while (at_ < content_.size() && is_space(content_[at_])) ++at_;
+    if (at_ < content_.size() && content_[at_] == '+') ++at_;
+    const char* last = content_.data() + content_.size();
+    const auto [end, error] = std::from_chars(content_.data() + at_, last, value);
+    if (error != std::errc() || (end != last && !is_space(*end))) return false;
+    at_ = static_cast<std::size_t>(end - content_.data());
+    return true;
+  }
+
+  bool next_binary(const PlyType& type, double& value) {
+    if (content_.size() - at_ < type.bytes) return false;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < type.bytes; ++i) {
+      const std::size_t place = format_ == PlyFormat::little_endian ? i : type.bytes - 1 - i;
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(content_[at_ + i])) << (8 * place);
+    }
+    at_ += type.bytes;
+    value = decode(type, bits);
+    return true;
+  }
+
+  static double decode(const PlyType& type, std::uint64_t bits) {
+    if (type.kind == PlyType::Kind::floating) {
+      return type.bytes == 8 ? std::bit_cast<double>(bits)
+                             : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    }
+    const double range = std::ldexp(1.0, static_cast<int>(8 * type.bytes));
+    const double value = static_cast<double>(bits);
+    return type.kind == PlyType::Kind::signed_integer && value >= 0.5 * range ? value - range : value;
+  }
+
+  const std::string& content_;
+  std::size_t at_;
+  PlyFormat format_;
+};
+
+class PlyReader {
+ public:
+  PlyReader(const std::filesystem::path& path, const std::string& content)
+      : path_(path),
+        header_(read_ply_header(path, content)),
+        numbers_(content, header_.data_start, header_.format) {}
+
+  RawMesh read() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else {
+        skip(element);
+      }
+    }
+    add_faces();
+    return std::move(raw_);
+  }
+
+ private:
+  [[noreturn]] void reject_member(const PlyElement& element, std::uint64_t member,
+                                  const std::string& what) const {
+    reject_file(path_,
+                "element \"" + element.name + "\" number " + std::to_string(member + 1) + " of " +
+                    std::to_string(element.count) + " " + what,
+                "the file is cut short or damaged; export it again");
+  }
+
+  double number(const PlyElement& element, std::uint64_t member, const PlyType& type) {
+    double value = 0.0;
+    if (!numbers_.next(type, value)) reject_member(element, member, "is missing or not a number");
+    return value;
+  }
+
+  /// Reads one property of a member and calls use(value) for each number in it.
+  template <typename Use>
+  void read_property(const PlyElement& element, std::uint64_t member, const PlyProperty& property, Use use) {
+    double count = 1.0;
+    if (property.is_list) count = number(element, member, property.count_type);
+    if (!(count >= 0.0) || count != std::floor(count))
+      reject_member(element, member, "has a list of impossible length");
+    for (double i = 0.0; i < count; ++i) use(number(element, member, property.type));
+  }
+
+  void skip(const PlyElement& element) {
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      for (const PlyProperty& property : element.properties) {
+        read_property(element, member, property, [](double) {});
+      }
+    }
+    raw_.notes.push_back(std::to_string(element.count) + " elements \"" + element.name + "\" left out");
+  }
+
+  void read_vertices(const PlyElement& element) {
+    constexpr int kNoAxis = 3;
+    std::vector<int> axis_of(element.properties.size(), kNoAxis);
+    int found = 0;
+    for (std::size_t p = 0; p < axis_of.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      const auto axis = std::string_view("xyz").find(property.name);
+      if (property.is_list || property.name.size() != 1 || axis == std::string_view::npos) continue;
+      axis_of[p] = static_cast<int>(axis);
+      found |= 1 << axis;
+    }
+    if (found != 7)
+      reject_file(path_, "the PLY element \"vertex\" lacks a property x, y or z", "export it again");
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      Vec3 vertex = Vec3::Zero();
+      for (std::size_t p = 0; p < axis_of.size(); ++p) {
+        read_property(element, member, element.properties[p], [&](double value) {
+          if (axis_of[p] != kNoAxis) vertex[axis_of[p]] = value;
+        });
+      }
+      raw_.mesh.vertices.push_back(vertex);
     }
   }
-}
+
+  void read_faces(const PlyElement& element) {
+    faces_ = &element;
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      for (const PlyProperty& property : element.properties) {
+        const bool corners =
+            property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+        read_property(element, member, property, [&](double value) {
+          if (corners) corners_.push_back(value);
+        });
+      }
+      corners_end_.push_back(corners_.size());
+    }
+  }
+
+  /// Only now, because faces may stand before the vertices they refer to.
+  void add_faces() {
+    std::size_t start = 0;
+    std::vector<std::uint32_t> polygon;
+    const auto vertices = static_cast<double>(raw_.mesh.vertices.size());
+    for (std::size_t f = 0; f < corners_end_.size(); ++f) {
+      polygon.clear();
+      for (std::size_t c = start; c < corners_end_[f]; ++c) {
+        const double corner = corners_[c];
+        if (!(corner >= 0.0 && corner < vertices) || corner != std::floor(corner)) {
+          reject_member(*faces_, f, "refers to a vertex that does not exist");
+        }
+        polygon.push_back(static_cast<std::uint32_t>(corner));
+      }
+      start = corners_end_[f];
+      if (!raw_.add_polygon(polygon, raw_.group_index("default"), false)) {
+        reject_member(*faces_, f, "has more corners than can be read");
+      }
+    }
+  }
+
+  const std::filesystem::path& path_;
+  PlyHeader header_;
+  NumberReader numbers_;
+  RawMesh raw_;
+  const PlyElement* faces_ = nullptr;
+  std::vector<double> corners_;
+  std::vector<std::size_t> corners_end_;  ///< per face, end of its part of corners_
+};
 
 }  // namespace
 
 RawMesh import_ply(const std::filesystem::path& path, const std::string& content) {
-  check_list_counts(path, std::string_view(content).substr(0, content.find("end_header")));
-  std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-  std::istringstream stream(content, std::ios::binary);
-  if (!CGAL::IO::read_PLY(stream, points, polygons)) {
-    reject_file(path, "cannot read the PLY file: its content does not fit its header",
-                "the file is cut short or damaged; export it again");
-  }
-  RawMesh raw;
-  for (const auto& p : points) raw.mesh.vertices.emplace_back(p.x(), p.y(), p.z());
-  std::vector<std::uint32_t> corners;
-  for (std::size_t f = 0; f < polygons.size(); ++f) {
-    corners.clear();
-    for (const std::size_t v : polygons[f]) {
-      if (v >= points.size()) {
-        reject_file(path,
-                    "face " + std::to_string(f + 1) + " refers to vertex " +
-                        std::to_string(static_cast<std::ptrdiff_t>(v)) + " of " +
-                        std::to_string(points.size()),
-                    "the file is damaged; export it again");
-      }
-      corners.push_back(static_cast<std::uint32_t>(v));
-    }
-    raw.add_polygon(corners, raw.group_index("default"), false);
-  }
-  return raw;
+  return PlyReader(path, content).read();
 }
 
 }  // namespace scintray

@@ -1,6 +1,6 @@
 #pragma once
-/// PLY through CGAL: assimp up to 5.3 skips data bytes of binary files that look like white space
-/// after the header, and aborts or reads wrong coordinates.
+/// PLY, read here: assimp up to 5.3 skips data bytes of binary files that look like white space after
+/// the header, and CGAL 5.5 crashes on headers whose lines stand in an unexpected order.
 
 #include <filesystem>
 #include <string>
@@ -9,8 +9,10 @@
 
 namespace scintray {
 
-/// Reads PLY content, ASCII or binary of either byte order, whose claimed sizes were checked.
-/// Coordinates keep double precision. One group, "default". Throws InputError when malformed.
+/// Reads PLY content (G. Turk 1994, "The PLY Polygon File Format", version 1.0), ASCII or binary of
+/// either byte order. Coordinates keep double precision. One group, "default". Elements other than
+/// "vertex" and "face" are left out with a note. Throws InputError when malformed; time and memory are
+/// bounded by the length of the content.
 RawMesh import_ply(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace scintray

@@ -135,7 +135,7 @@ OverlapVolume grid_overlap(const Body& a, const Body& b) {
 }  // namespace
 
 OverlapVolume overlap_volume(const PlacedPart& a, const PlacedPart& b) {
-  constexpr std::size_t kMostPairs = 1'000'000;
+  constexpr std::size_t kMostPairs = 200'000;
   const Body body_a(a, Eigen::Matrix3d::Identity()), body_b(b, Eigen::Matrix3d::Identity());
   const bool small = body_a.triangles.size() * body_b.triangles.size() <= kMostPairs;
   return small ? exact_overlap(body_a, body_b) : grid_overlap(body_a, body_b);

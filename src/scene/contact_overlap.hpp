@@ -16,7 +16,7 @@ struct OverlapVolume {
 inline constexpr int kOverlapGridPoints = 32 * 32 * 32;
 
 /// The volume common to two bodies. Exact to rounding while the product of their numbers of triangles
-/// is at most 10^6 (about a second); beyond, counted on a regular grid over the common part of their boxes.
+/// is at most 200,000; beyond, counted on a regular grid over the common part of their boxes.
 OverlapVolume overlap_volume(const PlacedPart& a, const PlacedPart& b);
 
 }  // namespace scintray::contact

@@ -61,10 +61,15 @@ TEST_CASE("Counts that cannot be true are refused before anything is allocated")
                            "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
                            "end_header\n")),
              "announces 4000000000 elements \"vertex\"");
-  check_says(message(write("list.ply",
-                           "ply\nformat ascii 1.0\nelement vertex 0\nelement face 1\n"
-                           "property list uint int vertex_indices\nend_header\n4000000000\n")),
-             "counts list entries in \"uint\"");
+  const std::string list_header =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uint int vertex_indices\nend_header\n";
+  check_says(message(write("list.ply", list_header + "4000000000 0 0 0\n")),
+             "element \"face\" number 1 of 1 is missing or not a number");
+  check_says(message(write("corner.ply", list_header + "3 0 1 2\n")),
+             "refers to a vertex that does not exist");
+  check_says(message(write("order.ply", "ply\nproperty float x\nend_header\n")),
+             "order.ply:2: error: a property");
   check_says(message(write("count.dae", "<COLLADA><float_array count=\"4000000000\"/></COLLADA>")),
              "announces 4000000000 values");
   check_says(message(write("junk.3mf", "PK but not a zip")), "zip directory is missing or damaged");

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <fstream>
+#include <sstream>
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
@@ -142,6 +145,38 @@ TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
     }
   }
   check_box(import_mesh(write("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
+}
+
+TEST_CASE("Binary PLY of either byte order, data that look like white space included") {
+  for (const bool little : {true, false}) {
+    const auto put = [little](std::string& bytes, std::uint64_t value, std::size_t size) {
+      for (std::size_t i = 0; i < size; ++i) {
+        bytes.push_back(static_cast<char>(value >> (8 * (little ? i : size - 1 - i)) & 0xFFU));
+      }
+    };
+    std::string text =
+        std::string("ply\r\nformat ") + (little ? "binary_little_endian" : "binary_big_endian") +
+        " 1.0\r\ncomment of no matter\r\nelement face 6\r\nproperty uchar red\r\n"
+        "property list uint short vertex_index\r\nelement vertex 8\r\nproperty double x\r\n"
+        "property float y\r\nproperty int z\r\nelement edge 1\r\nproperty char a\r\nend_header\r\n";
+    for (const auto& quad : kQuads) {
+      put(text, 0x0A, 1);
+      put(text, 4, 4);
+      for (const int corner : quad) put(text, static_cast<std::uint64_t>(corner), 2);
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+      put(text, std::bit_cast<std::uint64_t>(0.1 + (corner & 1)), 8);
+      put(text, std::bit_cast<std::uint32_t>((corner >> 1 & 1) * 2.0F), 4);
+      put(text, static_cast<std::uint32_t>((corner >> 2 & 1) * 3 - 3), 4);  // -3 and 0
+    }
+    put(text, 0x20, 1);
+    const MeshImport read = import_mesh(write("binary.ply", text), 1.0);
+    check_box(read, 1.0);
+    const auto bounds = diagnose(read.mesh).bounds;
+    CHECK(bounds.min() == Vec3(0.1, 0.0, -3.0));  // exactly: double precision is kept
+    CHECK(bounds.max() == Vec3(1.1, 2.0, 0.0));
+    CHECK(read.notes == std::vector<std::string>{"1 elements \"edge\" left out"});
+  }
 }
 
 TEST_CASE("COLLADA keeps its axes and applies node transforms") {

@@ -15,7 +15,9 @@ Ray incident(double angle, double polarisation_angle) {
   const Frame frame = Frame::about(kNormal);
   Ray ray;
   ray.direction = -std::cos(angle) * kNormal + std::sin(angle) * frame.x;
-  const Vec3 s = ray.direction.cross(kNormal).normalized(), p = s.cross(ray.direction);
+  // At normal incidence any direction across is as good as another.
+  const Vec3 s = angle > 0.0 ? Vec3(ray.direction.cross(kNormal).normalized()) : frame.y;
+  const Vec3 p = s.cross(ray.direction);
   ray.polarisation = std::cos(polarisation_angle) * s + std::sin(polarisation_angle) * p;
   return ray;
 }
