@@ -20,7 +20,8 @@ namespace {
 /// than this per stored byte is damaged.
 constexpr std::uint64_t kLargestDeflateRatio = 1032;
 
-/// The deepest entry of HDF5's error stack: where the trouble began.
+}  // namespace
+
 std::string hdf5_reason() {
   std::string deepest;
   const auto visit = [](unsigned depth, const H5E_error2_t* entry, void* data) -> herr_t {
@@ -36,8 +37,6 @@ std::string hdf5_reason() {
   const auto end = deepest.find('\'', start + mark.size());
   return deepest.substr(start + mark.size(), end - start - mark.size());
 }
-
-}  // namespace
 
 std::string failure_text(const std::string& file, const std::string& object, const std::string& action) {
   return file + ": cannot " + action + (object.empty() ? "" : " " + object) + ": " + hdf5_reason();

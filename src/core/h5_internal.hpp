@@ -28,6 +28,8 @@ class Quiet {
   void* data_ = nullptr;
 };
 
+/// Where HDF5's latest failure began: the deepest entry of its error stack.
+std::string hdf5_reason();
 /// "FILE: cannot ACTION OBJECT: why", with the reason of HDF5's latest failure.
 std::string failure_text(const std::string& file, const std::string& object, const std::string& action);
 
