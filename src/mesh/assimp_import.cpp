@@ -6,6 +6,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 
+#include <cstring>
 #include <mutex>
 #include <set>
 #include <string_view>
@@ -65,19 +66,21 @@ AssimpMatrix to_double(const aiMatrix4x4& m) {
   return {m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4};
 }
 
+std::string material_name(const aiScene& scene, const aiMesh& mesh) {
+  aiString name;
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return {};
+  if (scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) != AI_SUCCESS) return {};
+  return std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0 ? std::string() : name.C_Str();
+}
+
 std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
+  const std::string material = material_name(scene, mesh);
   std::string object = mesh.mName.C_Str();
-  if (object.empty()) object = node.mName.C_Str();
-  if (object.starts_with("<")) object.clear();  // assimp's own names for unnamed roots
-  std::string material;
-  if (mesh.mMaterialIndex < scene.mNumMaterials) {
-    aiString name;
-    if (scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_NAME, name) == AI_SUCCESS)
-      material = name.C_Str();
-    if (material == AI_DEFAULT_MATERIAL_NAME) material.clear();
-  }
-  if (object.empty() && material.empty()) return "default";
-  if (object.empty()) return material;
+  // For the second and later materials of an OBJ object, assimp names the mesh after the material.
+  if (object.empty() || object == material) object = node.mName.C_Str();
+  // Assimp's own names for what the file leaves unnamed.
+  if (object.starts_with("<") || object == "defaultobject") object.clear();
+  if (object.empty()) return material.empty() ? "default" : material;
   return material.empty() ? object : object + ":" + material;
 }
 
@@ -85,6 +88,7 @@ std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& n
 /// which frees them again (assimp issue 5307). Pictures do not matter here.
 void forget_freed_textures(const Assimp::Importer& importer) {
   auto* scene = const_cast<aiScene*>(importer.GetScene());
+  delete[] scene->mTextures;
   scene->mNumTextures = 0;
   scene->mTextures = nullptr;
 }
@@ -182,7 +186,7 @@ RawMesh import_through_assimp(const std::filesystem::path& path) {
         path, "cannot read the mesh: " + (reason.empty() ? "assimp gives no reason" : reason),
         "check that the content fits the ending " + path.extension().string() + ", and export it again");
   }
-  forget_freed_textures(importer);
+  if (lower_extension(path) == ".3mf") forget_freed_textures(importer);
   RawMesh raw = SceneReader(*scene, path).read();
   raw.notes.insert(raw.notes.end(), warnings.messages().begin(), warnings.messages().end());
   return raw;

@@ -124,7 +124,9 @@ std::string glb(std::string json, const std::string& binary) {
 }  // namespace
 
 TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
-  check_box(import_mesh(write("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0), 1.0);
+  const MeshImport obj = import_mesh(write("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
+  check_box(obj, 1.0);
+  CHECK(obj.mesh.groups == std::vector<std::string>{"default"});
   check_box(import_mesh(write("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
             10.0);
   const std::string header =
