@@ -124,7 +124,7 @@ LedgerTable ledger_table(const RunResult& run, const std::vector<LedgerEntry>& e
     std::vector<std::string> row{point_label(point)};
     for (const LedgerEntry& entry : entries) {
       const Estimate share = binomial_estimate(entry.counts[i], point.photons);
-      row.push_back(with_error({100.0 * share.value, 100.0 * share.error}));
+      row.push_back(entry.counts[i] == 0 ? "0" : with_error({100.0 * share.value, 100.0 * share.error}));
     }
     const auto sum =
         static_cast<double>(std::accumulate(point.fates.begin(), point.fates.end(), std::uint64_t{0}));
