@@ -116,6 +116,24 @@ class Snapper {
     Index a, b;
   };
 
+  /// The edges of outlines that start or end at a vertex.
+  using EdgesAt = std::multimap<Index, Edge>;
+
+  /// Does `edge` draw the vertex i to it? Along a common line the longer edge stays and the vertices of
+  /// the shorter move; if both moved, each would go where the other was.
+  bool draws(const Edge& edge, Index i, const EdgesAt& edges_at) const {
+    constexpr double kSameLine = 0.99;
+    const Vec3 along = at_[edge.b] - at_[edge.a];
+    const auto [begin, end] = edges_at.equal_range(i);
+    return std::none_of(begin, end, [&](const auto& entry) {
+      const Edge& own = entry.second;
+      const Vec3 own_along = at_[own.b] - at_[own.a];
+      const double longer = own_along.norm() - along.norm();
+      const bool stays = longer > tolerance_ || (longer >= -tolerance_ && own.body < edge.body);
+      return stays && std::abs(own_along.dot(along)) > kSameLine * own_along.norm() * along.norm();
+    });
+  }
+
   std::vector<Edge> outline(const Cluster& cluster) const {
     std::vector<Edge> edges;
     for (const std::uint32_t p : cluster.patches) {
@@ -133,14 +151,20 @@ class Snapper {
     return edges;
   }
 
-  /// A corner within the tolerance of another body's outline is to lie on it.
+  /// A corner within the tolerance of another body's outline is to lie on it, if the outline draws it.
   void join_edges() {
     for (std::uint32_t c = 0; c < clusters_.clusters.size(); ++c) {
       const Cluster& cluster = clusters_.clusters[c];
       std::vector<Box> boxes;
       for (const Index i : in_cluster_[c]) boxes.push_back(Box{at_[i], at_[i]});
       const BoxTree tree(boxes);
-      for (const Edge& edge : outline(cluster)) {
+      const std::vector<Edge> edges = outline(cluster);
+      EdgesAt edges_at;
+      for (const Edge& edge : edges) {
+        edges_at.emplace(edge.a, edge);
+        edges_at.emplace(edge.b, edge);
+      }
+      for (const Edge& edge : edges) {
         const Vec3 a = at_[edge.a], b = at_[edge.b];
         const double length = (b - a).norm();
         if (length <= tolerance_) continue;
@@ -155,7 +179,7 @@ class Snapper {
           const double t = along.dot(at_[i] - a);
           const double off = std::abs(side.height(at_[i]));
           if (vertices_[i].body != edge.body && t > tolerance_ && t < length - tolerance_ &&
-              off <= tolerance_ && off > rounding_)
+              off <= tolerance_ && off > rounding_ && draws(edge, i, edges_at))
             found.push_back(i);
         });
         std::sort(found.begin(), found.end());

@@ -90,6 +90,42 @@ TEST_CASE("An overlap names both parts, the exact volume and a point inside") {
   CHECK(has(list[0], "hint: move one of them"));
 }
 
+TEST_CASE("A cavity in a part belongs to what fills it, else to the ambient medium") {
+  PlacedPart hollow = box("hollow", {0, 0, 0}, {4, 4, 4}, 0);
+  PlacedPart cavity = box("", {1, 1, 1}, {3, 3, 3}, 6);
+  for (auto& t : cavity.triangles) {
+    for (auto& v : t) v += static_cast<std::uint32_t>(hollow.vertices.size());
+    std::swap(t[1], t[2]);
+  }
+  hollow.vertices.insert(hollow.vertices.end(), cavity.vertices.begin(), cavity.vertices.end());
+  hollow.triangles.insert(hollow.triangles.end(), cavity.triangles.begin(), cavity.triangles.end());
+  hollow.face.insert(hollow.face.end(), cavity.face.begin(), cavity.face.end());
+
+  const std::vector<PlacedPart> parts{hollow, box("half filling", {1, 1, 1}, {3, 3, 2}, 12, 3)};
+  const auto interfaces = resolve_contacts(parts, kTolerance);
+  CHECK(area_between(interfaces, 0, 1) == doctest::Approx(4.0 + 8.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, 1, kAmbient) == doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, 0, kAmbient) == doctest::Approx(96.0 + 12.0).epsilon(1e-13));
+  check_laws(parts, interfaces, {56.0, 4.0});
+
+  // What reaches through the wall overlaps with the wall alone.
+  const auto list = complaints({hollow, box("rod", {1.5, 1.5, 2.5}, {2.5, 2.5, 9}, 12)});
+  REQUIRE(list.size() == 1);
+  CHECK(has(list[0], "parts 'hollow' and 'rod' overlap by 1 mm3,"));
+}
+
+TEST_CASE("The overlap of a turned pair is exact, that of fine meshes is counted and says so") {
+  std::vector<PlacedPart> turned{box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1.5}, {4, 4, 4}, 6)};
+  move(turned, skew_rotation(), Vec3(1, 2, 3));
+  const auto exact = complaints(turned);
+  REQUIRE(exact.size() == 1);
+  CHECK(has(exact[0], "overlap by 0.5 mm3,"));
+  const auto counted =
+      complaints({box("a", {0, 0, 0}, {2, 2, 2}, 0, 7), box("b", {1, 1, 1.5}, {4, 4, 4}, 6, 7)});
+  REQUIRE(counted.size() == 1);
+  CHECK(has(counted[0], "overlap by about 0.5 mm3 (counted on a grid of 32768 points)"));
+}
+
 TEST_CASE("All overlapping pairs of three parts are listed") {
   const auto list =
       complaints({box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1}, {3, 3, 3}, 6),
