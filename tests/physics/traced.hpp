@@ -66,7 +66,8 @@ struct Traced {
 
 /// Scene text plus the library above, with `photons` from `[source]`.
 inline SceneSpec scene_spec(const std::string& text) {
-  return SceneFile::from_text(text + kLibrary, (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string())
+  return SceneFile::from_text(text + kLibrary,
+                              (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string())
       .spec(0);
 }
 
