@@ -16,6 +16,7 @@ constexpr std::uint32_t kLookupSteps = 2048;
 
 /// A measure of the incidence angle between 0 and 1, increasing with it, that needs no arc function.
 double slant(double sine, double cosine) { return sine / (sine + cosine); }
+double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
 /// Sine of incidence below which the plane of incidence is drawn at random.
 constexpr double kNoPlane = 1e-9;
@@ -135,27 +136,39 @@ SurfaceTable::SurfaceTable(IndexPair index, std::vector<TableNode> from_inside,
   check.throw_if_any();
   for (int side = 0; side < 2; ++side) {
     for (const TableNode& node : nodes_[side])
-      slants_[side].push_back(slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)));
+      slants_[side].push_back({slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)), 0.0});
+    for (std::size_t k = 0; k + 1 < nodes_[side].size(); ++k) {
+      const double low = nodes_[side][k].incidence_rad, high = nodes_[side][k + 1].incidence_rad;
+      const double middle = 0.5 * (slants_[side][k].value + slants_[side][k + 1].value);
+      slants_[side][k].bend = 4.0 * ((angle_of_slant(middle) - low) / (high - low) - 0.5);
+    }
     std::uint32_t node = 0;
     for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
-      while (node + 2 < nodes_[side].size() && slants_[side][node + 1] * kLookupSteps <= step) ++node;
+      while (node + 2 < nodes_[side].size() && slants_[side][node + 1].value * kLookupSteps <= step) ++node;
       lookup_[side].push_back(node);
     }
   }
 }
 
 SurfaceTable::Place SurfaceTable::place(int side, double sine, double cosine) const {
-  const std::vector<double>& slants = slants_[side];
-  const double at = slant(sine, cosine);
-  std::uint32_t node = lookup_[side][std::min(static_cast<std::uint32_t>(at * kLookupSteps), kLookupSteps)];
-  while (node + 2 < slants.size() && at >= slants[node + 1]) ++node;
-  const double low = slants[node], high = slants[node + 1];
-  return {node, std::clamp((at - low) / (high - low), 0.0, 1.0)};
+  const std::vector<Slant>& slants = slants_[side];
+  const double value = slant(sine, cosine);
+  std::uint32_t node =
+      lookup_[side][std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
+  while (node + 2 < slants.size() && value >= slants[node + 1].value) ++node;
+  const double low = slants[node].value, high = slants[node + 1].value;
+  const double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return {node, x + slants[node].bend * x * (1.0 - x)};
 }
 
 double SurfaceTable::reflectance(Side side, double incidence_rad) const {
-  return reflectance(static_cast<int>(side),
-                     place(static_cast<int>(side), std::sin(incidence_rad), std::cos(incidence_rad)));
+  const auto& nodes = this->nodes(side);
+  const auto above =
+      std::lower_bound(nodes.begin() + 1, nodes.end() - 1, incidence_rad,
+                       [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
+  const TableNode &low = *(above - 1), &high = *above;
+  const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
+  return low.reflectance + std::clamp(share, 0.0, 1.0) * (high.reflectance - low.reflectance);
 }
 
 double SurfaceTable::reflectance(int side, const Place& at) const {

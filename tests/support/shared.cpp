@@ -13,6 +13,7 @@ namespace {
 class ScratchFolders {
  public:
   ~ScratchFolders() {
+    if (getpid() != owner_) return;  // a fork of the test program
     std::error_code ignored;
     std::filesystem::remove_all(root_, ignored);
   }
@@ -24,8 +25,9 @@ class ScratchFolders {
   }
 
  private:
+  pid_t owner_ = getpid();
   std::filesystem::path root_ =
-      std::filesystem::path(SCINTRAY_BINARY_DIR) / "test-scratch" / std::to_string(getpid());
+      std::filesystem::path(SCINTRAY_BINARY_DIR) / "test-scratch" / std::to_string(owner_);
 };
 
 }  // namespace
