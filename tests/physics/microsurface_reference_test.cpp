@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <iostream>
 
+#include "physics/rough_crystal.hpp"
 #include "physics/traced.hpp"
+#include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -23,39 +24,7 @@ constexpr double kReferencePhotons = 100'000;
 constexpr double kReferenceSystematic = 0.003;
 
 std::string scene(double z_mm, const std::string& map, const std::string& mode, std::uint64_t photons) {
-  return fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "20 mm"]
-medium = "lso_isotropic"
-surface = "rough"
-[[part.face]]
-name = "exit"
-select = {{ normal = [0, 0, -1] }}
-surface = "flat"
-[[part]]
-name = "detector"
-box = ["2 mm", "2 mm", "1 mm"]
-place = {{ touch = "crystal", side = "-z" }}
-medium = "n15"
-sensor = "perfect"
-[source]
-type = "photons"
-region = {{ part = "crystal", slab_z = ["{} mm", "{} mm"] }}
-wavelength = "420 nm"
-polarisation = "unpolarised"
-photons = {}
-[surfaces.rough]
-model = "height_map"
-[surfaces.rough.height_map]
-file = "{}"
-level = "none"
-periodic = true
-[surfaces.rough.tracing]
-mode = "{}"
-)",
-                     z_mm - 0.75, z_mm + 0.75, photons, map, mode);
+  return rough_crystal(z_mm, {map, "none", true, mode}, photons);
 }
 
 void compare_with_reference(const std::string& mode) {
@@ -68,11 +37,13 @@ void compare_with_reference(const std::string& mode) {
         static_cast<std::uint64_t>(depth.detected * kReferencePhotons + 0.5), kReferencePhotons);
     const double combined = std::hypot(detected.error, reference.error);
     const double allowed = kSigmas * combined + kReferenceSystematic * reference.value;
-    std::cout << fmt::format(
-        "  {:<12} z {:>4} mm: detected {:.4f} +- {:.4f}, reference {:.4f}; interactions {:.3f}, "
-        "reference {:.2f}\n",
-        mode, depth.z_mm, detected.value, detected.error, reference.value, result.interactions.mean().value,
-        depth.interactions);
+    evidence(
+        "microsurface_crystal",
+        {mode == "table" ? "table" : "traced on the spot", fmt::format("{:g} mm", depth.z_mm),
+         fmt::format("{:.4f} ± {:.4f}", detected.value, detected.error),
+         fmt::format("{:.4f} ± {:.4f}", reference.value, reference.error),
+         fmt::format("{:+.2f}", (detected.value - reference.value) / combined),
+         fmt::format("{:.3f}", result.interactions.mean().value), fmt::format("{:.2f}", depth.interactions)});
     CAPTURE(depth.z_mm);
     CHECK(std::abs(detected.value - reference.value) < allowed);
     // The reference's interactions are given to two decimals; its standard error is about 0.012.
@@ -100,6 +71,11 @@ TEST_CASE("Microsurface: light output with the table equals that with the map tr
     for (const Fate fate : {Fate::detected, Fate::escaped, Fate::absorbed_in_medium}) {
       CAPTURE(z);
       CAPTURE(fate_name(fate));
+      evidence("table_against_map",
+               {"Gaussian, Sq 0.9 um", fmt::format("{:g} mm", z), std::string(fate_name(fate)),
+                fmt::format("{:.5f} ± {:.5f}", table.fraction(fate).value, table.fraction(fate).error),
+                fmt::format("{:.5f} ± {:.5f}", spot.fraction(fate).value, spot.fraction(fate).error),
+                fmt::format("{:.2f}", sigmas(spot.fraction(fate), table.fraction(fate)))});
       CAPTURE(spot.fraction(fate).value);
       CAPTURE(table.fraction(fate).value);
       CHECK(sigmas(spot.fraction(fate), table.fraction(fate)) < kSigmas);

@@ -1,11 +1,13 @@
+#include <fmt/format.h>
+
 #include <cmath>
-#include <iostream>
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/surface/surface.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
+#include "support/evidence.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -114,6 +116,11 @@ ChiSquare equilibrium(const Surface& surface, std::uint64_t inside_rays) {
   return chi_square_test(leaving, expected);
 }
 
+void report_equilibrium(const std::string& surface, const ChiSquare& test) {
+  evidence("equilibrium", {surface, fmt::format("{:.1f}", test.chi2), std::to_string(test.degrees + 1),
+                           fmt::format("{:.3g}", test.p_value)});
+}
+
 }  // namespace
 
 TEST_CASE("Law of every surface: energy, reflected + transmitted + absorbed = arrived") {
@@ -155,8 +162,9 @@ TEST_CASE(
                    t21 = binomial_estimate(out.transmitted, kRays);
     const double n1 = kIndex.inside * kIndex.inside, n2 = kIndex.outside * kIndex.outside;
     const Estimate left{n1 * t12.value, n1 * t12.error}, right{n2 * t21.value, n2 * t21.error};
-    std::cout << named.name << ": n1^2 (1 - R12) = " << left.value << " +- " << left.error
-              << ", n2^2 (1 - R21) = " << right.value << " +- " << right.error << "\n";
+    evidence("reciprocity", {named.name, fmt::format("{:.5f} ± {:.5f}", left.value, left.error),
+                             fmt::format("{:.5f} ± {:.5f}", right.value, right.error),
+                             fmt::format("{:.2f}", sigmas(left, right))});
     CAPTURE(named.name);
     CHECK(sigmas(left, right) < kSigmas);
   }
@@ -165,8 +173,7 @@ TEST_CASE(
 TEST_CASE("Law of every lossless surface: isotropic light stays isotropic") {
   for (const Named& named : lossless_surfaces()) {
     const ChiSquare test = equilibrium(named.surface, 400'000);
-    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p "
-              << test.p_value << "\n";
+    report_equilibrium(named.name, test);
     CAPTURE(named.name);
     CHECK(test.p_value > 6.3e-5);
   }
@@ -177,8 +184,7 @@ TEST_CASE("UNIFIED does not keep isotropic light isotropic, and docs/surfaces.md
   // model has changed and the page must too.
   for (const Named& named : facet_models()) {
     const ChiSquare test = equilibrium(named.surface, 400'000);
-    std::cout << named.name << ": chi2 " << test.chi2 << " for " << test.degrees + 1 << " bins, p "
-              << test.p_value << "\n";
+    report_equilibrium(named.name, test);
     CAPTURE(named.name);
     if (named.name.starts_with("UNIFIED 18")) CHECK(test.p_value < 1e-6);
   }

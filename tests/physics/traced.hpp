@@ -2,12 +2,14 @@
 /// Running small scenes written inside a test.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <string>
 
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
 #include "scintray/trace/run.hpp"
+#include "support/evidence.hpp"
 
 namespace scintray::test {
 
@@ -89,14 +91,22 @@ inline Traced trace(const std::string& text, int threads = 0) {
   return traced;
 }
 
-/// Checks a fraction against an exact value.
-inline void check_fraction(const PointResult& result, Fate fate, double expected) {
-  const Estimate measured = result.fraction(fate);
-  CAPTURE(fate_name(fate));
+/// Checks a measured number against the law in the test's name.
+inline void check_law(const std::string& what, const Estimate& measured, const Estimate& law) {
+  const double distance = sigmas(measured, law);
+  evidence("laws", {doctest::getContextOptions()->currentTest->m_name, what,
+                    fmt::format("{:.6g} ± {:.2g}", measured.value, measured.error),
+                    fmt::format("{:.6g}", law.value), fmt::format("{:.2f}", distance)});
+  CAPTURE(what);
   CAPTURE(measured.value);
   CAPTURE(measured.error);
-  CAPTURE(expected);
-  CHECK(sigmas(measured, {expected, 0.0}) < kSigmas);
+  CAPTURE(law.value);
+  CHECK(distance < kSigmas);
+}
+
+/// Checks a fraction against an exact value.
+inline void check_fraction(const PointResult& result, Fate fate, double expected) {
+  check_law(std::string(fate_name(fate)), result.fraction(fate), {expected, 0.0});
 }
 
 }  // namespace scintray::test

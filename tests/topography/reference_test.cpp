@@ -1,6 +1,7 @@
 /// Against an independent program's tracing of two height maps, and published maps traced.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/map_statistics.hpp"
 #include "scintray/topography/prepare.hpp"
+#include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -59,11 +61,19 @@ TEST_CASE("reflectance and slopes met agree with an independent tracing of two G
       const double error = std::hypot(ours.error, std::sqrt(theirs * (1.0 - theirs) / kReferenceRays));
       CAPTURE(reference.file);
       CAPTURE(kIncidence[k]);
+      test::evidence(
+          "microsurface_reflectance",
+          {std::filesystem::path(reference.file).stem().string(), fmt::format("{:g}", kIncidence[k]),
+           fmt::format("{:.4f} ± {:.4f}", ours.value, ours.error), fmt::format("{:.3f}", theirs)});
       // Four combined standard errors, and 0.3 % for the rays that the other program misclassified.
       CHECK(std::abs(ours.value - theirs) <= 4.0 * error + 0.003);
     }
     for (const auto& [incidence, slope] : reference.slopes) {
       const Estimate ours = mean_slope_met(field, Side::inside, incidence * kDegree, kRays);
+      test::evidence("microsurface_slope",
+                     {std::filesystem::path(reference.file).stem().string(), fmt::format("{:g}", incidence),
+                      fmt::format("{:.3f} ± {:.3f}", ours.value / kDegree, ours.error / kDegree),
+                      fmt::format("{:g}", slope)});
       CAPTURE(incidence);
       CHECK(std::abs(ours.value / kDegree - slope) <=
             4.0 * std::sqrt(2.0) * ours.error / kDegree + 0.05 + 0.003 * slope);
