@@ -174,12 +174,16 @@ RawMap parse_profiler_matrix(std::string_view content, const ReadRequest& reques
 }
 
 bool is_number_text(std::string_view content) {
-  content = content.substr(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  constexpr std::size_t kProbe = 4096;
+  if (content.substr(0, kProbe).find('\0') != std::string_view::npos) return false;
+  content.remove_prefix(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
   Lines lines(content);
   while (const auto line = lines.next()) {
-    const std::string_view text = trimmed(*line);
+    std::string_view text = trimmed(*line);
     if (text.empty() || text.starts_with('#')) continue;
-    return text.find_first_of("0123456789") <= 2 || lower_case(text.substr(0, 3)) == "nan";
+    if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+    if (text.starts_with('.')) text.remove_prefix(1);
+    return (!text.empty() && text[0] >= '0' && text[0] <= '9') || lower_case(text.substr(0, 3)) == "nan";
   }
   return false;
 }
