@@ -102,7 +102,6 @@ void build(BuildArguments arguments) {
   arguments.settings.refine = !arguments.no_refine;
 
   HeightMap map = read_height_map(arguments.map, read_options(arguments));
-  require_all_points(map);
   if (!arguments.loess.empty()) filter_loess_lines(map, length_um(arguments.loess));
   level(map, arguments.level);
   print_statistics(map);

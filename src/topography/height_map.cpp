@@ -16,10 +16,6 @@ bool mirrored(const HeightMap& map, Tiling tiling) {
 /// Index of a mirrored sequence 0 1 ... n-1 n-2 ... 1.
 std::uint32_t fold(std::uint32_t k, std::uint32_t n) { return k < n ? k : 2 * (n - 1) - k; }
 
-std::string place_of(const HeightMap& map, std::size_t k) {
-  return "column " + std::to_string(k % map.columns + 1) + ", row " + std::to_string(k / map.columns + 1);
-}
-
 }  // namespace
 
 std::string HeightMap::history() const {
@@ -32,31 +28,19 @@ std::string tiling_name(const HeightMap& map, Tiling tiling) {
   return mirrored(map, tiling) ? "mirror" : "periodic";
 }
 
-std::size_t missing_points(const HeightMap& map) {
-  return static_cast<std::size_t>(
-      std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); }));
-}
-
-void require_all_points(const HeightMap& map) {
-  const std::size_t missing = missing_points(map);
-  if (missing == 0) return;
-  const auto first =
-      std::find_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
-  throw InputError({{},
-                    std::to_string(missing) + " of " + std::to_string(map.heights_um.size()) +
-                        " points of the height map have no height, the first at " +
-                        place_of(map, static_cast<std::size_t>(first - map.heights_um.begin())) +
-                        "; expected all",
-                    "fill them (--fill), or crop the map to where it is whole"});
-}
-
 HeightField make_height_field(const HeightMap& map, Tiling tiling) {
   if (map.columns < 2 || map.rows < 2)
     throw InputError({{},
                       "height map of " + std::to_string(map.columns) + " x " + std::to_string(map.rows) +
                           " points; expected at least 2 x 2",
                       ""});
-  require_all_points(map);
+  const auto missing =
+      std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
+  if (missing > 0)
+    throw InputError({{},
+                      std::to_string(missing) + " of " + std::to_string(map.heights_um.size()) +
+                          " points of the height map have no height; a surface needs all of them",
+                      "fill them (`--fill`, or fill_missing = true in a scene) or crop the map"});
   const bool mirror = mirrored(map, tiling);
   const std::uint32_t columns = mirror ? 2 * (map.columns - 1) : map.columns;
   const std::uint32_t rows = mirror ? 2 * (map.rows - 1) : map.rows;

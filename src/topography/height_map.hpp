@@ -59,12 +59,6 @@ struct ReadOptions {
 /// infinite heights.
 HeightMap read_height_map(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Number of points without a height.
-std::size_t missing_points(const HeightMap& map);
-
-/// InputError, which says how many points are missing and where the first is, unless none is.
-void require_all_points(const HeightMap& map);
-
 /// Writes a Gwyddion simple field, metres in single precision. SystemError when it cannot.
 void write_gsf(const std::filesystem::path& path, const HeightMap& map);
 
@@ -78,8 +72,8 @@ enum class Tiling {
 /// "mirror" or "periodic": what `tiling` comes to for this map.
 std::string tiling_name(const HeightMap& map, Tiling tiling);
 
-/// The map as a surface without edges. InputError when the map is smaller than 2 x 2 or has missing
-/// points.
+/// The map as a surface without edges. InputError when the map is smaller than 2 x 2 or points of it
+/// are missing.
 HeightField make_height_field(const HeightMap& map, Tiling tiling = Tiling::automatic);
 
 }  // namespace scintray

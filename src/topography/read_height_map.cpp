@@ -94,6 +94,12 @@ std::string place_of(std::size_t k, std::uint32_t columns) {
   return "column " + std::to_string(k % columns + 1) + ", row " + std::to_string(k / columns + 1);
 }
 
+/// How many points have no height.
+std::size_t missing_points(const HeightMap& map) {
+  return static_cast<std::size_t>(
+      std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); }));
+}
+
 /// um for all heights; what is infinite is an error, what is missing stays NaN.
 void scale_heights(HeightMap& map, double unit_um, const std::string& file) {
   for (std::size_t k = 0; k < map.heights_um.size(); ++k) {

@@ -32,7 +32,7 @@ bool expect_map_or_input_error(std::size_t most, Read read) {
     require(map.values.size() <= most, "more points than the file can hold");
     require(!map.pitch_x_um || *map.pitch_x_um > 0.0, "a pitch that is not positive");
     require(!map.height_unit_um || *map.height_unit_um > 0.0, "a height unit that is not positive");
-    require(map.pitch_ratio > 0.0, "a ratio of pitches that is not positive");
+    require(map.pitch_ratio >= 0.0, "a ratio of pitches that is negative or no number");
     return true;
   } catch (const InputError& error) {
     require(!error.problems().empty(), "an error without problems");

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scintray/core/error.hpp"
@@ -27,6 +28,10 @@ std::optional<HeightMap> load(const std::string& name, const ReadOptions& option
   const auto path = test::shared_file("data/topography/" + name);
   if (!path) return std::nullopt;
   return read_height_map(*path, options);
+}
+
+long missing_points(const HeightMap& map) {
+  return std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
 }
 
 /// All that is wrong, in one text.

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -31,6 +32,10 @@ ReadOptions channel(const std::optional<std::string>& name = {}) {
 
 HeightMap read(const std::string& content, const ReadOptions& options = channel()) {
   return read_height_map(written("map", content), options);
+}
+
+long missing_points(const HeightMap& map) {
+  return std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
 }
 
 /// All that is wrong, and its hints.
@@ -210,6 +215,7 @@ TEST_CASE("Nanoscope headers that lack something or contradict themselves are re
   CHECK(says(complaint(good.substr(0, good.size() - 31)), "truncated"));
   CHECK(says(complaint(replaced(good, "Samps/line: 5", "Samps/line: x")), "map:"));
   CHECK(says(complaint(replaced(good, "Samps/line: 5", "Samps/line: 9")), "expected 54 bytes"));
+  CHECK(says(complaint(replaced(good, "Samps/line: 5", "Samps/line: 1e300")), "expected a number from 0"));
   CHECK(says(complaint(replaced(good, "Data offset: 4096", "Data offset: 99999999")), "0 bytes of heights"));
   CHECK(says(complaint(replaced(good, "Bytes/pixel: 2", "Bytes/pixel: 3")), "expected 2 or 4"));
   CHECK(says(complaint(replaced(good, "(0.0001", "(0.0002")), "full scale of 2^16"));

@@ -24,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kTimeLimit{60};
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 31;
 
 /// A folder that is gone when this goes out of scope.
@@ -83,8 +82,8 @@ std::optional<pid_t> start(std::vector<std::string> words) {
 }
 
 /// The exit status once the program ends; nothing when it had to be ended.
-std::optional<int> wait_for(pid_t child) {
-  const auto deadline = std::chrono::steady_clock::now() + kTimeLimit;
+std::optional<int> wait_for(pid_t child, std::chrono::milliseconds time_limit) {
+  const auto deadline = std::chrono::steady_clock::now() + time_limit;
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > deadline) {
@@ -99,13 +98,14 @@ std::optional<int> wait_for(pid_t child) {
 
 }  // namespace
 
-GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request) {
+GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
+                            std::chrono::milliseconds time_limit) {
   const TemporaryFolder folder;
   const fs::path converted = folder.path() / "converted.gwy";
   const auto child =
       start({"gwyddion", "--convert-to-gwy=" + converted.string(), fs::absolute(path).string()});
   if (!child) return {GwyddionAnswer::not_installed, {}};
-  const auto status = wait_for(*child);
+  const auto status = wait_for(*child, time_limit);
   if (!status) return {GwyddionAnswer::timed_out, {}};
   std::error_code missing;
   const auto size = fs::file_size(converted, missing);

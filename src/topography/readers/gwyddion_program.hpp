@@ -1,6 +1,7 @@
 #pragma once
 /// Other formats, through the program gwyddion where it is installed. Internal to the readers.
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -22,8 +23,9 @@ struct GwyddionResult {
 };
 
 /// Lets `gwyddion --convert-to-gwy` convert the file into a folder of its own and reads what came
-/// out. The program is started without a shell, a display or input, and is ended after a minute.
+/// out. The program is started without a shell, a display or input, and is ended when the time is over.
 /// InputError from reading what it wrote (a channel that is not there, for one).
-GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request);
+GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
+                            std::chrono::milliseconds time_limit = std::chrono::minutes(1));
 
 }  // namespace scintray

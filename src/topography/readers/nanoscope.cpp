@@ -20,6 +20,8 @@ namespace {
 constexpr std::string_view kMagic = "\\*File list", kEnd = "\\*File list end";
 /// From this version on, files exist that say 2 bytes a pixel and hold 4.
 constexpr double kWideSince = 0x09200000;
+/// No offset, length or number of points lies above the size of the largest file.
+constexpr double kMostNumber = 1 << 30;
 
 struct Entry {
   std::string value;
@@ -68,7 +70,7 @@ class Header {
   double number(const Section& section, const std::string& key) const {
     const Entry& entry = need(section, key);
     const auto value = whole_number(entry.value);
-    if (!value || !(*value >= 0.0 && *value <= 1e12)) fail(entry, "a number");
+    if (!value || !(*value >= 0.0 && *value <= kMostNumber)) fail(entry, "a number from 0 to 2^30");
     return *value;
   }
 

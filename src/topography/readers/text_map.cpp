@@ -1,6 +1,7 @@
 /// Height maps as text: Gwyddion's export, optical profilers' matrix, and bare numbers.
 
 #include <cmath>
+#include <sstream>
 
 #include "scintray/core/error.hpp"
 #include "scintray/topography/readers/channels.hpp"
@@ -153,12 +154,14 @@ RawMap parse_profiler(std::string_view content, const std::string& file) {
   const std::string_view factor = header();
   map.height_unit_um = keyed_number(factor, "height conversion factor (-> m)=", {file, lines.number()}) * 1e6;
   read_matrix(lines, lines.next(), file, Comma::refused, map);
-  if (map.rows != rows || map.columns != columns)
+  if (map.rows != rows || map.columns != columns) {
+    std::ostringstream said;
+    said << columns << " x " << rows;
     throw InputError({{file},
                       std::to_string(map.columns) + " x " + std::to_string(map.rows) +
-                          " points; the header says " + std::to_string(static_cast<long>(columns)) + " x " +
-                          std::to_string(static_cast<long>(rows)),
+                          " points; the header says " + said.str(),
                       "the file is truncated"});
+  }
   return map;
 }
 
