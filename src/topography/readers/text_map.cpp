@@ -13,7 +13,7 @@ namespace scintray {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f", kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBlanks = " \t\v\f;", kByteOrderMark = "\xEF\xBB\xBF";
 
 /// What a locale's decimal comma stands for.
 enum class Comma { refused, decimal };
