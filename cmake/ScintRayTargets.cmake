@@ -11,6 +11,8 @@ target_compile_options(scintray_options INTERFACE
   # GCC 12 takes temporaries of a throw expression for uninitialised, and "literal" + std::string for
   # overlapping memory (its bugs 105562 and 105651).
   $<BUILD_INTERFACE:-Wno-maybe-uninitialized -Wno-restrict>
+  # Nothing here asks errno about a square root.
+  $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
 if(SCINTRAY_SANITIZE)
   target_compile_options(scintray_options INTERFACE

@@ -25,6 +25,8 @@ constexpr double kStartAhead = 1e-6;
 constexpr double kBehind = 1e-5;
 /// Vertices this close to a plane, relative to the region's size, lie on it.
 constexpr double kCoplanar = 1e-10;
+/// Barycentric distance from a triangle's edges at which single precision is beyond doubt.
+constexpr float kClearOfEdge = 1e-4f;
 constexpr std::size_t kMostPlanes = 32;
 constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
 /// Meetings with the plane the ray starts on and leaves inwards that are stepped over before the exact
@@ -117,8 +119,8 @@ Accelerator::Accelerator(std::vector<BoundaryTriangle> triangles, const std::vec
     : triangles_(std::move(triangles)), closed_(closed) {
   Eigen::AlignedBox3d bounds;
   for (const BoundaryTriangle& t : triangles_) {
-    normals_.push_back((t[1] - t[0]).cross(t[2] - t[0]).normalized());
-    offsets_.push_back(normals_.back().dot(t[0]));
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+    triangle_planes_.push_back({normal, normal.dot(t[0])});
     for (const Vec3& vertex : t) bounds.extend(vertex);
   }
   size_mm_ = triangles_.empty() ? 0.0 : bounds.diagonal().norm();
@@ -139,7 +141,7 @@ bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
   std::vector<Plane> planes;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
     const auto on_plane = [&](const Plane& plane) {
-      return plane.normal.dot(normals_[i]) > 0.0 &&
+      return plane.normal.dot(normal(i)) > 0.0 &&
              std::all_of(triangles_[i].begin(), triangles_[i].end(), [&](const Vec3& v) {
                return std::abs(plane.normal.dot(v) - plane.offset) <= tolerance;
              });
@@ -147,7 +149,7 @@ bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
     auto plane = std::find_if(planes.begin(), planes.end(), on_plane);
     if (plane == planes.end()) {
       if (planes.size() == kMostPlanes) return false;
-      planes.push_back({normals_[i], offsets_[i], i, {}});
+      planes.push_back({normal(i), triangle_planes_[i].offset, i, {}});
       plane = planes.end() - 1;
     }
     plane->triangles.push_back(i);
@@ -191,7 +193,7 @@ Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) cons
     const Vec3 point = origin + nearest * direction;
     double least_outside = kInfinity;
     for (const std::uint32_t candidate : exit->triangles) {
-      const double outside = distance_outside(triangles_[candidate], normals_[candidate], point);
+      const double outside = distance_outside(triangles_[candidate], normal(candidate), point);
       if (outside >= least_outside) continue;
       least_outside = outside;
       triangle = candidate;
@@ -199,11 +201,6 @@ Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) cons
     }
   }
   return {nearest, triangle, false};
-}
-
-double Accelerator::distance_to_plane(std::uint32_t triangle, const Vec3& origin,
-                                      const Vec3& direction) const {
-  return (offsets_[triangle] - normals_[triangle].dot(origin)) / normals_[triangle].dot(direction);
 }
 
 Exit Accelerator::exit_by_embree(const Vec3& origin, const Vec3& direction) const {
@@ -216,9 +213,10 @@ Exit Accelerator::exit_by_embree(const Vec3& origin, const Vec3& direction) cons
       break;
     }
     const std::uint32_t triangle = hit.hit.primID;
-    if (normals_[triangle].dot(direction) > 0.0)
+    if (normal(triangle).dot(direction) > 0.0)
       return {std::max(0.0, distance_to_plane(triangle, origin, direction)), triangle, false};
-    if (std::abs(offsets_[triangle] - normals_[triangle].dot(origin)) > kStartAhead * size_mm_) break;
+    if (std::abs(triangle_planes_[triangle].offset - normal(triangle).dot(origin)) > kStartAhead * size_mm_)
+      break;
     start = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) + kStartAhead * size_mm_;
   }
   return exit_by_search(origin, direction);
@@ -228,20 +226,20 @@ Exit Accelerator::exit_by_search(const Vec3& origin, const Vec3& direction) cons
   const double behind = kBehind * size_mm_;
   double entered = kInfinity;  // where the ray would come in again from outside
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    if (normals_[i].dot(direction) >= 0.0) continue;
+    if (normal(i).dot(direction) >= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (distance > behind && distance < entered &&
-        distance_outside(triangles_[i], normals_[i], origin + distance * direction) == 0.0)
+        distance_outside(triangles_[i], normal(i), origin + distance * direction) == 0.0)
       entered = distance;
   }
   // The nearest triangle really met, or failing that the one that was missed by least.
   Exit exit{0.0, kNoTriangle, true};
   double least_miss = kInfinity;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    if (normals_[i].dot(direction) <= 0.0) continue;
+    if (normal(i).dot(direction) <= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (!(distance >= -behind && distance <= entered + behind)) continue;
-    const double outside = distance_outside(triangles_[i], normals_[i], origin + distance * direction);
+    const double outside = distance_outside(triangles_[i], normal(i), origin + distance * direction);
     const double miss = outside + (distance < -kCoplanar * size_mm_ ? -distance : 0.0);
     if (miss < least_miss || (miss == least_miss && distance < exit.distance_mm)) {
       least_miss = miss;
@@ -259,17 +257,36 @@ bool Accelerator::contains(const Vec3& point) const {
   if (!planes_.empty())
     return std::all_of(planes_.begin(), planes_.end(),
                        [&](const Plane& plane) { return plane.normal.dot(point) <= plane.offset; });
-  // Inside when the nearest triangle along a ray is met from inside; a fixed skew direction keeps
-  // clear of the edges that axis-aligned meshes have.
-  static const Vec3 direction = Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
+  if (!embree_) return false;
+  // A skew direction keeps clear of the edges that axis-aligned meshes have.
+  static const Vec3 kSkew = Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
+  const auto ahead = inside_by_embree(point, kSkew);
+  if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
+  const auto behind = inside_by_embree(point, -kSkew);
+  if (behind == Inside::yes || behind == Inside::no) return behind == Inside::yes;
+  if (ahead == Inside::nothing_met && behind == Inside::nothing_met) return false;
+  return inside_by_search(point, kSkew);
+}
+
+Accelerator::Inside Accelerator::inside_by_embree(const Vec3& point, const Vec3& direction) const {
+  RTCRayHit hit = make_ray(point, direction, 0.0);
+  intersect(embree_->scene, hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::nothing_met;
+  // Near the start or near an edge single precision cannot say which side is met.
+  const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
+  if (hit.ray.tfar < kBehind * size_mm_ || edge < kClearOfEdge) return Inside::unclear;
+  return normal(hit.hit.primID).dot(direction) > 0.0 ? Inside::yes : Inside::no;
+}
+
+bool Accelerator::inside_by_search(const Vec3& point, const Vec3& direction) const {
   double nearest = kInfinity;
   bool inside = false;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const double along = normals_[i].dot(direction);
+    const double along = normal(i).dot(direction);
     if (along == 0.0) continue;
     const double distance = distance_to_plane(i, point, direction);
     if (distance < 0.0 || distance >= nearest) continue;
-    if (distance_outside(triangles_[i], normals_[i], point + distance * direction) > 0.0) continue;
+    if (distance_outside(triangles_[i], normal(i), point + distance * direction) > 0.0) continue;
     nearest = distance;
     inside = along > 0.0;
   }

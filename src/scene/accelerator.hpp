@@ -56,13 +56,17 @@ class Accelerator {
   bool contains(const Vec3& point) const;
 
   /// Unit normal of a triangle, out of the region.
-  const Vec3& normal(std::uint32_t triangle) const { return normals_[triangle]; }
+  const Vec3& normal(std::uint32_t triangle) const { return triangle_planes_[triangle].normal; }
   std::size_t size() const { return triangles_.size(); }
   bool uses_planes() const { return !planes_.empty(); }
   /// Triangles whose planes bound the region, when it is convex: the number of distinct planes.
   std::size_t plane_count() const { return planes_.size(); }
 
  private:
+  struct TrianglePlane {
+    Vec3 normal;
+    double offset;  ///< normal . x on the plane
+  };
   struct Plane {
     Vec3 normal;
     double offset;                         ///< normal . x on the plane
@@ -71,15 +75,23 @@ class Accelerator {
   };
   struct EmbreeScene;
 
+  /// What one ray says of a point.
+  enum class Inside { yes, no, nothing_met, unclear };
+
   bool make_planes(const std::vector<std::uint32_t>& labels);
   Exit exit_by_planes(const Vec3& origin, const Vec3& direction) const;
   Exit exit_by_embree(const Vec3& origin, const Vec3& direction) const;
   Exit exit_by_search(const Vec3& origin, const Vec3& direction) const;
-  double distance_to_plane(std::uint32_t triangle, const Vec3& origin, const Vec3& direction) const;
+  Inside inside_by_embree(const Vec3& point, const Vec3& direction) const;
+  bool inside_by_search(const Vec3& point, const Vec3& direction) const;
+  /// Along the ray to the triangle's plane.
+  double distance_to_plane(std::uint32_t triangle, const Vec3& origin, const Vec3& direction) const {
+    const TrianglePlane& plane = triangle_planes_[triangle];
+    return (plane.offset - plane.normal.dot(origin)) / plane.normal.dot(direction);
+  }
 
   std::vector<BoundaryTriangle> triangles_;
-  std::vector<Vec3> normals_;
-  std::vector<double> offsets_;
+  std::vector<TrianglePlane> triangle_planes_;
   std::vector<Plane> planes_;
   std::unique_ptr<EmbreeScene> embree_;
   double size_mm_ = 0.0;  ///< diagonal of the bounding box

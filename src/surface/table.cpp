@@ -13,10 +13,15 @@ namespace {
 
 /// Steps of the incidence lookup: finer than the nodes, so that at most a step or two remain.
 constexpr std::uint32_t kLookupSteps = 2048;
-constexpr double kLookupScale = kLookupSteps / (0.5 * kPi);
+
+/// A measure of the incidence angle between 0 and 1, increasing with it, that needs no arc function.
+double slant(double sine, double cosine) { return sine / (sine + cosine); }
+double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
 /// Sine of incidence below which the plane of incidence is drawn at random.
 constexpr double kNoPlane = 1e-9;
+
+constexpr double kLeastCosine = 1e-7;
 
 /// Rounding of angles stored in single precision.
 constexpr double kAngleRounding = 1e-6;
@@ -130,29 +135,45 @@ SurfaceTable::SurfaceTable(IndexPair index, std::vector<TableNode> from_inside,
   check.nodes(nodes_[1], "outside");
   check.throw_if_any();
   for (int side = 0; side < 2; ++side) {
+    for (const TableNode& node : nodes_[side])
+      slants_[side].push_back({slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)), 0.0});
+    for (std::size_t k = 0; k + 1 < nodes_[side].size(); ++k) {
+      const double low = nodes_[side][k].incidence_rad, high = nodes_[side][k + 1].incidence_rad;
+      const double middle = 0.5 * (slants_[side][k].value + slants_[side][k + 1].value);
+      slants_[side][k].bend = 4.0 * ((angle_of_slant(middle) - low) / (high - low) - 0.5);
+    }
     std::uint32_t node = 0;
     for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
-      while (node + 2 < nodes_[side].size() && nodes_[side][node + 1].incidence_rad * kLookupScale <= step)
-        ++node;
+      while (node + 2 < nodes_[side].size() && slants_[side][node + 1].value * kLookupSteps <= step) ++node;
       lookup_[side].push_back(node);
     }
   }
 }
 
-SurfaceTable::Place SurfaceTable::place(int side, double incidence_rad) const {
-  const std::vector<TableNode>& nodes = nodes_[side];
-  const auto step = static_cast<std::uint32_t>(incidence_rad * kLookupScale);
-  std::uint32_t node = lookup_[side][std::min(step, kLookupSteps)];
-  while (node + 2 < nodes.size() && incidence_rad >= nodes[node + 1].incidence_rad) ++node;
-  const double low = nodes[node].incidence_rad, high = nodes[node + 1].incidence_rad;
-  return {node, std::clamp((incidence_rad - low) / (high - low), 0.0, 1.0)};
+SurfaceTable::Place SurfaceTable::place(int side, double sine, double cosine) const {
+  const std::vector<Slant>& slants = slants_[side];
+  const double value = slant(sine, cosine);
+  std::uint32_t node =
+      lookup_[side][std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
+  while (node + 2 < slants.size() && value >= slants[node + 1].value) ++node;
+  const double low = slants[node].value, high = slants[node + 1].value;
+  const double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return {node, x + slants[node].bend * x * (1.0 - x)};
 }
 
 double SurfaceTable::reflectance(Side side, double incidence_rad) const {
-  const Place at = place(static_cast<int>(side), incidence_rad);
-  const auto& nodes = nodes_[static_cast<int>(side)];
-  const double low = nodes[at.node].reflectance;
-  return low + at.share * (nodes[at.node + 1].reflectance - low);
+  const auto& nodes = this->nodes(side);
+  const auto above =
+      std::lower_bound(nodes.begin() + 1, nodes.end() - 1, incidence_rad,
+                       [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
+  const TableNode &low = *(above - 1), &high = *above;
+  const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
+  return low.reflectance + std::clamp(share, 0.0, 1.0) * (high.reflectance - low.reflectance);
+}
+
+double SurfaceTable::reflectance(int side, const Place& at) const {
+  const double low = nodes_[side][at.node].reflectance;
+  return low + at.share * (nodes_[side][at.node + 1].reflectance - low);
 }
 
 ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rng& rng) const {
@@ -167,7 +188,8 @@ ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rn
 
   const double u = rng.uniform();
   const double s = u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
-  const double t = 1.0 - std::sqrt(1.0 - rng.uniform());
+  const std::uint64_t bits = rng.bits();
+  const double t = 1.0 - std::sqrt(1.0 - static_cast<double>(bits >> 11) * 0x1.0p-53);
   const int polar_bin = std::min(static_cast<int>(s * kPolarBins), kPolarBins - 1);
   const int azimuth_bin = std::min(static_cast<int>(t * kAzimuthBins), kAzimuthBins - 1);
   const auto polar_part = static_cast<float>(s * kPolarBins - polar_bin);
@@ -181,7 +203,9 @@ ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rn
             azimuth[0] + azimuth_part * (azimuth[1] - azimuth[0])};
   };
   const ExitAngles a = angles(*low), b = angles(*high);
-  return {a.polar + share * (b.polar - a.polar), a.azimuth + share * (b.azimuth - a.azimuth)};
+  const float azimuth = a.azimuth + share * (b.azimuth - a.azimuth);
+  // A bit that t does not use: either side of the plane of incidence.
+  return {a.polar + share * (b.polar - a.polar), (bits & 1) != 0 ? azimuth : -azimuth};
 }
 
 Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair&, Rng& rng) const {
@@ -189,24 +213,21 @@ Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexP
   const double along = ray.direction.dot(normal);
   const Vec3 lateral = ray.direction - along * normal;
   const double sine = lateral.norm();
-  const Place at = place(from, std::atan2(sine, std::abs(along)));
-
-  const double low = nodes_[from][at.node].reflectance;
-  const double reflectance = low + at.share * (nodes_[from][at.node + 1].reflectance - low);
-  const bool reflected = rng.uniform() < reflectance;
+  const Place at = place(from, sine, std::abs(along));
+  const bool reflected = rng.uniform() < reflectance(from, at);
   const ExitAngles exit = sample(from, at, reflected, rng);
 
   const Vec3 forward = sine > kNoPlane ? Vec3(lateral / sine) : sample_polarisation(normal, rng);
   const Vec3 across = normal.cross(forward);
-  // One more random bit: either side of the plane of incidence.
-  const double azimuth = (rng.bits() >> 63) != 0 ? exit.azimuth : -exit.azimuth;
   const Side after = reflected ? side : other(side);
   const double out = after == Side::outside ? 1.0 : -1.0;
-  // A direction exactly in the surface would be on neither side.
-  const double polar = std::min<double>(exit.polar, 0.5 * kPi - 1e-7);
-  const double sin_polar = std::sin(polar);
-  ray.direction = sin_polar * std::cos(azimuth) * forward + sin_polar * std::sin(azimuth) * across +
-                  out * std::cos(polar) * normal;
+  // Cosines in single precision, as the table holds the angles, and sines that go with them exactly. A
+  // direction exactly in the surface would be on neither side.
+  const double cos_polar = std::max<double>(std::cos(exit.polar), kLeastCosine);
+  const double sin_polar = std::sqrt(1.0 - cos_polar * cos_polar);
+  const double cos_azimuth = std::cos(exit.azimuth);
+  const double sin_azimuth = std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth);
+  ray.direction = sin_polar * (cos_azimuth * forward + sin_azimuth * across) + out * cos_polar * normal;
   if (!ray.polarisation.isZero(0.0)) ray.polarisation = sample_polarisation(ray.direction, rng);
   return after;
 }

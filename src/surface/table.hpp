@@ -103,12 +103,21 @@ class SurfaceTable {
     std::uint32_t node = 0;  ///< the lower one
     double share = 0.0;      ///< of the way to the next, in [0, 1]
   };
-  Place place(int side, double incidence_rad) const;
+  /// A node's incidence as sin / (sin + cos), which needs no arc function, and how the share of the way
+  /// to the next node in angle departs from that in this measure: by bend x (1 - x). Nodes 2.25 deg
+  /// apart: right to 5e-5 of the way.
+  struct Slant {
+    double value = 0.0, bend = 0.0;
+  };
+  Place place(int side, double sine, double cosine) const;
+  double reflectance(int side, const Place& at) const;
+  /// Polar angle and azimuth from the plane of incidence, either side of it.
   ExitAngles sample(int side, const Place& place, bool reflected, Rng& rng) const;
 
   IndexPair index_;
   std::vector<TableNode> nodes_[2];
-  std::vector<std::uint32_t> lookup_[2];  ///< first candidate node for equal steps of incidence
+  std::vector<Slant> slants_[2];
+  std::vector<std::uint32_t> lookup_[2];  ///< first candidate node for equal steps of the slant
   TableProvenance provenance_;
 };
 

@@ -14,7 +14,7 @@ namespace scintray {
 namespace {
 
 /// Photons traced as one piece of work; part of what makes results reproducible.
-constexpr std::uint64_t kBlockPhotons = 4096;
+constexpr std::uint64_t kBlockPhotons = 1024;
 /// Blocks in flight for each thread.
 constexpr std::size_t kBlocksPerThread = 4;
 

@@ -11,7 +11,7 @@ namespace {
 void advance(Photon& photon, double distance_mm) {
   photon.position += distance_mm * photon.ray.direction;
   photon.path_mm += distance_mm;
-  photon.time_ns += distance_mm * photon.optics.group_index / kSpeedOfLight_mm_per_ns;
+  photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns);
 }
 
 /// Turns the photon with the dipole pattern about its polarisation; for unpolarised light with

@@ -1,8 +1,36 @@
 #include "support/shared.hpp"
 
+#include <unistd.h>
+
 #include <iostream>
 
 namespace scintray::test {
+
+namespace {
+
+/// The scratch folders of this process: tests run side by side, each in a process of its own, and none
+/// may empty another's folder.
+class ScratchFolders {
+ public:
+  ~ScratchFolders() {
+    if (getpid() != owner_) return;  // a fork of the test program
+    std::error_code ignored;
+    std::filesystem::remove_all(root_, ignored);
+  }
+  std::filesystem::path make(const std::string& name) const {
+    const auto path = root_ / name;
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+    return path;
+  }
+
+ private:
+  pid_t owner_ = getpid();
+  std::filesystem::path root_ =
+      std::filesystem::path(SCINTRAY_BINARY_DIR) / "test-scratch" / std::to_string(owner_);
+};
+
+}  // namespace
 
 std::optional<std::filesystem::path> shared_file(const std::string& relative) {
   const auto path = std::filesystem::path(SCINTRAY_SOURCE_DIR).parent_path() / "shared" / relative;
@@ -16,10 +44,8 @@ std::filesystem::path source_file(const std::string& relative) {
 }
 
 std::filesystem::path scratch_folder(const std::string& name) {
-  const auto path = std::filesystem::path(SCINTRAY_BINARY_DIR) / "test-scratch" / name;
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directories(path);
-  return path;
+  static const ScratchFolders folders;
+  return folders.make(name);
 }
 
 }  // namespace scintray::test

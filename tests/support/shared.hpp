@@ -14,7 +14,7 @@ std::optional<std::filesystem::path> shared_file(const std::string& relative);
 /// A file of this repository.
 std::filesystem::path source_file(const std::string& relative);
 
-/// An empty folder for one test's files, below the build folder.
+/// An empty folder for one test's files, below the build folder; gone when the test program ends.
 std::filesystem::path scratch_folder(const std::string& name);
 
 }  // namespace scintray::test
