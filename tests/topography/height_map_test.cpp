@@ -163,6 +163,10 @@ TEST_CASE("units are asked for, never guessed") {
 TEST_CASE("text that is no height map is refused with its place") {
   CHECK(says(complaint(written("word.txt", "1 2\n3 x\n")), "word.txt:2:3"));
   CHECK(says(complaint(written("comma.txt", "1,5 2\n")), "decimal point"));
+  CHECK(says(complaint(written("bytes.txt", "1 2\n3 \x01\xB5\n")), "found \"??\""));
+  ReadOptions um;
+  um.pitch_um = um.height_unit_um = 1.0;
+  CHECK(read_height_map(written("semicolon.csv", "1.5;2\n3; 4\n"), um).at(1, 1) == 4.0);
   CHECK(says(complaint(written("ragged.txt", "1 2\n3 4 5\n")), "ragged.txt:2"));
   CHECK(says(complaint(written("empty.txt", "")), "empty"));
   CHECK(says(complaint(written("binary.gwy", std::string("GWYP\0\0\0", 7))), "truncated"));

@@ -15,9 +15,8 @@ namespace scintray {
 namespace {
 
 constexpr std::size_t kDimensions = 4, kFileHeader = 64, kWaveHeader = 320, kLabelSize = 32;
-constexpr std::int16_t kVersion = 5;
 
-/// A version number between 1 and 7 in one of its two bytes; the other is zero.
+/// The version's other byte is zero.
 std::endian byte_order(std::string_view content) {
   return content[0] == 0 ? std::endian::big : std::endian::little;
 }
@@ -113,11 +112,7 @@ Wave parse_wave(std::string_view content, const std::string& file) {
   Wave wave;
   wave.order = byte_order(content);
   Bytes bytes(content, file, 0, wave.order);
-  const auto version = bytes.take<std::int16_t>();
-  if (version != kVersion)
-    throw InputError({{file},
-                      "Igor wave of version " + std::to_string(version) + "; expected version 5",
-                      "save the wave in Igor Pro 6 or newer, or export it from Gwyddion as .gsf"});
+  bytes.skip(2);  // version, which is_ibw has seen
   bytes.skip(2);  // checksum
   const std::size_t wave_size = take_size(bytes);
   Tail tail;
@@ -175,8 +170,12 @@ std::string channel_unit(const std::string& label, const Wave& wave) {
 
 bool is_ibw(std::string_view content) {
   if (content.size() < kFileHeader + kWaveHeader) return false;
-  const auto known = [](char byte) { return byte == 1 || byte == 2 || byte == 3 || byte == 5 || byte == 7; };
-  return (content[0] == 0 && known(content[1])) || (known(content[0]) && content[1] == 0);
+  const std::string_view version = content.substr(0, 2);
+  if (version != std::string_view("\5\0", 2) && version != std::string_view("\0\5", 2)) return false;
+  // Two bytes are a weak mark: the size of the wave must be at least that of its header.
+  Bytes bytes(content, {}, 0, byte_order(content));
+  bytes.skip(4);
+  return bytes.take<std::int32_t>() >= static_cast<std::int32_t>(kWaveHeader);
 }
 
 RawMap parse_ibw(std::string_view content, const ReadRequest& request) {

@@ -168,7 +168,10 @@ void read_heights(const ZipArchive& archive, const Document& document, const std
 
 }  // namespace
 
-bool is_x3p(std::string_view content) { return content.starts_with("PK\x03\x04"); }
+bool is_x3p(std::string_view content) {
+  // Other instruments' formats are zip archives too; the names of entries stand there unpacked.
+  return content.starts_with("PK\x03\x04") && content.find("main.xml") != std::string_view::npos;
+}
 
 RawMap parse_x3p(std::string_view content, const ReadRequest& request) {
   const std::string& file = request.file;
