@@ -109,10 +109,11 @@ std::vector<std::string> gwy_seeds() {
 }
 
 std::vector<std::string> ibw_seeds() {
-  MadeUpIbw bare;
+  MadeUpIbw bare, big;
+  big.big_endian = true;
   bare.channels.resize(1);
   bare.labels = bare.asylum = false;
-  return {ibw_file(), ibw_file(bare)};
+  return {ibw_file(), ibw_file(bare), ibw_file(big)};
 }
 
 std::vector<std::string> nanoscope_seeds() {

@@ -3,6 +3,7 @@
 #include <zip.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -87,23 +88,28 @@ std::string gwy_file(const MadeUpGwy& made) {
 
 std::string ibw_file(const MadeUpIbw& made) {
   const std::string note = made.asylum ? "ScanSize: 1e-05\rInvOLS: 4e-08\rUserIn0Unit: V\r" : "";
+  const auto number = [&](auto value) {
+    std::string bytes = bytes_of(value);
+    if (made.big_endian) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+  };
   std::string data, labels;
   labels += padded("", 32);
   for (const MadeUpChannel& channel : made.channels) {
-    for (const double value : from_below(channel.values)) data += bytes_of(static_cast<float>(value * 1e-6));
+    for (const double value : from_below(channel.values)) data += number(static_cast<float>(value * 1e-6));
     labels += padded(channel.name, 32);
   }
   if (!made.labels) labels.clear();
-  const auto size = [](std::size_t n) { return bytes_of(static_cast<std::int32_t>(n)); };
-  std::string file = bytes_of(std::int16_t{5}) + bytes_of(std::int16_t{0}) + size(320 + data.size()) +
-                     size(0) + size(note.size()) + size(0) + std::string(16, '\0') + size(0) + size(0) +
+  const auto size = [&](std::size_t n) { return number(static_cast<std::int32_t>(n)); };
+  std::string file = number(std::int16_t{5}) + number(std::int16_t{0}) + size(320 + data.size()) + size(0) +
+                     size(note.size()) + size(0) + std::string(16, '\0') + size(0) + size(0) +
                      size(labels.size()) + size(0);
   file = padded(file, 64);
-  file += std::string(16, '\0') + bytes_of(std::int16_t{2}) + std::string(10, '\0') + padded("wave", 32) +
+  file += std::string(16, '\0') + number(std::int16_t{2}) + std::string(10, '\0') + padded("wave", 32) +
           std::string(8, '\0');
   file += size(kMadeUpColumns) + size(kMadeUpRows) +
           size(made.channels.size() > 1 ? made.channels.size() : 0) + size(0);
-  for (const double step : {2e-6, 1e-6, 1.0, 1.0}) file += bytes_of(step);
+  for (const double step : {2e-6, 1e-6, 1.0, 1.0}) file += number(step);
   file += std::string(32, '\0') + padded(made.channels.front().unit, 4) + padded(made.lateral_unit, 4) +
           padded(made.lateral_unit, 4) + std::string(8, '\0');
   return padded(file, 384) + data + note + labels;

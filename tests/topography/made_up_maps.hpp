@@ -38,7 +38,7 @@ std::string gwy_file(const MadeUpGwy& made = {});
 
 struct MadeUpIbw {
   std::vector<MadeUpChannel> channels{{"HeightRetrace", "m"}, {"PhaseRetrace", "m"}};
-  bool labels = true, asylum = true;
+  bool labels = true, asylum = true, big_endian = false;
   std::string lateral_unit = "m";
 };
 /// Pitch 2 x 1 um; a "UserIn0Unit: V" in the note.

@@ -168,6 +168,8 @@ TEST_CASE("an Igor wave is read, with Asylum's channel names and what they say o
   check_made_up(read(ibw_file(made)));
   CHECK(says(read(ibw_file(made)).steps[0], "channel \"HeightRetrace\" of 2"));
   CHECK(says(complaint(ibw_file(made), channel("Phase")), "\"PhaseRetrace\" is in \"deg\""));
+  made.big_endian = true;
+  check_made_up(read(ibw_file(made)));
   made.channels[1].name = "UserIn0Retrace";
   CHECK(says(complaint(ibw_file(made), channel("User")), "is in \"V\""));
   made.channels.resize(1);
