@@ -16,6 +16,8 @@ scintray_dependency(fmt 9)
 scintray_dependency(spdlog 1.10)
 scintray_dependency(HDF5 COMPONENTS C)
 scintray_dependency(ZLIB)
+scintray_dependency(libzip 1.7)
+scintray_dependency(pugixml 1.13)
 
 # embree's own version file accepts no other major number than its own; 3 and 4 both serve.
 if(EMBREE_VERSION VERSION_LESS 3.13)

@@ -27,7 +27,7 @@ double length_um(const std::string& text) { return parse_quantity(text, Dimensio
 
 struct BuildArguments {
   std::string map, output, level = "plane", tiling = "auto";
-  std::string pitch, width, unit, loess, incidence_step, azimuth_step;
+  std::string channel, pitch, width, unit, loess, incidence_step, azimuth_step;
   double inside_index = 0.0, outside_index = 1.0;
   bool periodic = false, no_refine = false;
   TableSettings settings;
@@ -39,6 +39,7 @@ ReadOptions read_options(const BuildArguments& arguments) {
   if (!arguments.width.empty()) options.width_um = length_um(arguments.width);
   if (!arguments.unit.empty())
     options.height_unit_um = unit_factor(arguments.unit, Dimension::length) * kUmPerMm;
+  if (!arguments.channel.empty()) options.channel = arguments.channel;
   options.periodic = arguments.periodic;
   return options;
 }
@@ -130,8 +131,14 @@ void build(BuildArguments arguments) {
 void add_build(CLI::App& table) {
   auto arguments = std::make_shared<BuildArguments>();
   CLI::App* app = table.add_subcommand("build", "Trace a height map into a surface table");
-  app->add_option("map", arguments->map, "Height map: .gsf, Gwyddion text, profiler or bare matrix, also .gz")
+  app->add_option(
+         "map", arguments->map,
+         "Height map: .gwy, .gsf, .ibw, Nanoscope (.spm, .001), .mi, .sdf, .x3p, text (matrix, x y z "
+         "list, Gwyddion's export, profiler), also .gz; others through gwyddion where installed")
       ->required();
+  app->add_option("--channel", arguments->channel,
+                  "Channel of the file by name, as \"Height Sensor\"; without it, the height that a sensor "
+                  "measured, else the height");
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   app->add_option("--inside-index", arguments->inside_index, "Refractive index of the part whose face it is")
       ->required();

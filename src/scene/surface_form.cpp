@@ -131,6 +131,7 @@ HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   HeightMapSpec spec;
   spec.where = table.where();
   spec.path = table.existing_file("file");
+  spec.options.channel = table.optional_string("channel");
   spec.options.pitch_um = read_optional_um(table, "pitch");
   spec.options.width_um = read_optional_um(table, "width");
   spec.options.height_unit_um = read_optional_um(table, "height_unit");

@@ -122,13 +122,15 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   const auto add = [&](const std::string& text) {
     library.add(LibraryKind::surface, {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
   };
-  add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\npitch = \"0.175 um\"\nheight_unit = \"1 "
+  add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\nchannel = \"Height\"\npitch = \"0.175 "
+      "um\"\nheight_unit = \"1 "
       "nm\"\n"
       "level = \"polynomial\"\ndegree = 2\ntiling = \"mirror\"\n[tracing]\nrays = 100\nincidence_step = \"5 "
       "deg\"\n");
   const SurfaceSpec surface = library.surface("mine");
   const auto& map = std::get<HeightMapSpec>(surface.microsurface);
   CHECK(map.path.filename() == "map.txt");
+  CHECK(map.options.channel == "Height");
   CHECK(*map.options.pitch_um == doctest::Approx(0.175));
   CHECK(*map.options.height_unit_um == doctest::Approx(1e-3));
   CHECK(map.leveling.kind == LevelingSpec::Kind::polynomial);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -20,6 +21,10 @@ std::filesystem::path written(const std::string& name, const std::string& conten
   static const auto folder = test::scratch_folder("height_maps");
   std::ofstream(folder / name, std::ios::binary) << content;
   return folder / name;
+}
+
+long missing_points(const HeightMap& map) {
+  return std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
 }
 
 /// The text of the first problem that reading meets.
@@ -75,11 +80,30 @@ TEST_CASE("simple fields that lie about their size, or lack a pixel, are refused
            "expected"));
   CHECK(says(complaint(written("none.gsf", std::string("Gwyddion Simple Field 1.0\nYRes = 2\n\0", 36))),
              "XRes is missing"));
+}
+
+TEST_CASE("missing points are kept as such, counted, and refused where light is to meet the map") {
   HeightMap holed = ramp();
-  holed.at(3, 1) = std::nan("");
-  const auto missing = written("nan.gsf", "");
-  write_gsf(missing, holed);
-  CHECK(says(complaint(missing), "column 4, row 2"));
+  holed.at(3, 1) = holed.at(4, 2) = std::nan("");
+  const auto path = written("nan.gsf", "");
+  write_gsf(path, holed);
+  const HeightMap map = read_height_map(path);
+  CHECK(std::isnan(map.at(3, 1)));
+  CHECK(missing_points(map) == 2);
+  CHECK(map.steps.back() == "2 of 15 points missing");
+  try {
+    make_height_field(map);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(says(error.problems().front().text(), "2 of 15 points"));
+    CHECK(says(error.problems().front().hint, "--fill"));
+  }
+  ReadOptions um;
+  um.pitch_um = um.height_unit_um = 1.0;
+  CHECK(missing_points(read_height_map(written("nan.txt", "1 nan\n3 4\n"), um)) == 1);
+  CHECK(says(complaint(written("all.txt", "nan nan\nnan nan\n"), um), "no point of the map"));
+  CHECK(says(complaint(written("inf.txt", "1 2\n3 inf\n"), um), "column 2, row 2 is infinite"));
+  CHECK(says(complaint(written("huge.txt", "1 2\n3 1e308\n"), {{}, 1.0, 1e6, {}, false, false}), "infinite"));
 }
 
 TEST_CASE("Gwyddion's text export is read with its units, in English, German and Latin-1") {
@@ -113,6 +137,7 @@ TEST_CASE("a profiler's matrix is read with its conversion factor, also compress
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 9);
   CHECK(says(complaint(path), "gzip"));
   CHECK(says(complaint(written("short.txt", text.substr(0, text.size() - 7))), "the header says"));
+  CHECK(says(complaint(written("vast.txt", "h=1e300" + text.substr(3))), "the header says 3 x 1e+300"));
 }
 
 TEST_CASE("units are asked for, never guessed") {
@@ -138,10 +163,13 @@ TEST_CASE("units are asked for, never guessed") {
 TEST_CASE("text that is no height map is refused with its place") {
   CHECK(says(complaint(written("word.txt", "1 2\n3 x\n")), "word.txt:2:3"));
   CHECK(says(complaint(written("comma.txt", "1,5 2\n")), "decimal point"));
+  CHECK(says(complaint(written("bytes.txt", "1 2\n3 \x01\xB5\n")), "found \"??\""));
+  ReadOptions um;
+  um.pitch_um = um.height_unit_um = 1.0;
+  CHECK(read_height_map(written("semicolon.csv", "1.5;2\n3; 4\n"), um).at(1, 1) == 4.0);
   CHECK(says(complaint(written("ragged.txt", "1 2\n3 4 5\n")), "ragged.txt:2"));
   CHECK(says(complaint(written("empty.txt", "")), "empty"));
-  CHECK(says(complaint(written("binary.gwy", std::string("GWYP\0\0\0", 7))), ".gsf"));
-  CHECK(says(complaint(written("nan.txt", "1 nan\n3 4\n"), {1.0, {}, 1.0, false}), "column 2, row 1"));
+  CHECK(says(complaint(written("binary.gwy", std::string("GWYP\0\0\0", 7))), "truncated"));
   CHECK(says(complaint("no/such/file.gsf"), "no such file"));
 }
 
@@ -188,19 +216,38 @@ TEST_CASE("mirror tiling doubles the period less the edges and keeps the extreme
   CHECK(tiling_name(periodic, Tiling::automatic) == "periodic");
 }
 
-TEST_CASE("published maps have their known heights after levelling") {
-  const auto matrix = test::shared_file("data/topography/matrix-2.txt.gz");
-  const auto chip = test::shared_file("data/topography/chip.gsf");
-  if (!matrix || !chip) return;
-  HeightMap map = read_height_map(*matrix);
-  CHECK(map.columns == 650);
-  CHECK(map.pitch_x_um == doctest::Approx(0.369862));
-  level_plane(map);
-  CHECK(map_statistics(map).sq_um == doctest::Approx(0.276).epsilon(0.005));
-  CHECK(map_statistics(map).sz_um == doctest::Approx(3.36).epsilon(0.005));
-  map = read_height_map(*chip);
-  CHECK(map.pitch_x_um == doctest::Approx(80.0 / 300));
-  level_plane(map);
-  CHECK(map_statistics(map).sq_um == doctest::Approx(1.274).epsilon(0.005));
-  CHECK(map_statistics(map).sz_um == doctest::Approx(4.50).epsilon(0.005));
+TEST_CASE("Gwyddion's export may have the decimal comma of its locale, other text may not") {
+  const std::string numbers = "1,5\t2,25\n-3\t4e-1\n";
+  const HeightMap map =
+      read_height_map(written("comma-export.txt",
+                              "# Kanal: a\n# Breite: 1,2 \xC2\xB5m\n# H\xC3\xB6he: 2,4 \xC2\xB5m\n"
+                              "# Werteinheiten: \xC2\xB5m\n" +
+                                  numbers));
+  CHECK(map.pitch_x_um == doctest::Approx(0.6));
+  CHECK(map.pitch_y_um == doctest::Approx(1.2));
+  CHECK(map.at(1, 0) == doctest::Approx(2.25));
+  CHECK(says(complaint(written("comma-bare.txt", numbers)), "decimal point"));
+}
+
+TEST_CASE("a list of x y z becomes a grid, whatever its order, with gaps as missing points") {
+  const std::string list = "10 0 1\n12 0 2\n14 0 3\n10 1 4\n14 1 6\n12 1 5\n10 2 7\n12 2 8\n";
+  const auto path = written("xyz.txt", list);
+  CHECK(says(complaint(path), "--width"));
+  ReadOptions options;
+  options.width_um = 6.0;
+  options.height_unit_um = 1.0;
+  const HeightMap map = read_height_map(path, options);
+  CHECK(map.columns == 3);
+  CHECK(map.rows == 3);
+  CHECK(map.pitch_x_um == doctest::Approx(2.0));
+  CHECK(map.pitch_y_um == doctest::Approx(1.0));
+  CHECK(map.at(0, 0) == 7.0);  // the largest y is the top row
+  CHECK(map.at(1, 1) == 5.0);
+  CHECK(std::isnan(map.at(2, 0)));
+  CHECK(map.steps.back() == "1 of 9 points missing");
+  CHECK(says(complaint(written("xyz2.txt", list + "10 0 1\n"), options), "twice (number 9)"));
+  CHECK(says(complaint(written("xyz3.txt", "0 0 1\n1 0 1\n0 1.3 1\n1 3 1\n0 4 1\n1 5 1\n"), options),
+             "equal distances"));
+  CHECK(says(complaint(written("xyz4.txt", "0 0 1\n1 1 1\n2 2 1\n3 3 1\n"), options), "half of their grid"));
+  CHECK(says(complaint(written("xyz5.txt", "0 0 1\n0 1 1\n0 2 1\n0 3 1\n"), options), "span a plane"));
 }

@@ -1,22 +1,22 @@
 /// Gwyddion simple field, http://gwyddion.net/documentation/user-guide-en/gsf.html
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include "scintray/core/error.hpp"
 #include "scintray/topography/height_map.hpp"
-#include "scintray/topography/raw_map.hpp"
+#include "scintray/topography/readers/bytes.hpp"
+#include "scintray/topography/readers/channels.hpp"
+#include "scintray/topography/readers/formats.hpp"
 
 namespace scintray {
 
 namespace {
 
 constexpr std::string_view kMagic = "Gwyddion Simple Field 1.0\n";
-static_assert(std::endian::native == std::endian::little, "GSF data are little-endian");
 
 using Fields = std::map<std::string, std::string, std::less<>>;
 
@@ -30,7 +30,8 @@ Fields header_fields(std::string_view header, const std::string& file) {
     header.remove_prefix(std::min(end + 1, header.size()));
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos)
-      throw InputError({{file, line}, "found \"" + std::string(text) + "\"; expected NAME = VALUE", ""});
+      throw InputError(
+          {{file, line}, "found " + in_quotes(text) + "; expected NAME = VALUE", "the header is damaged"});
     fields[std::string(trimmed(text.substr(0, equals)))] = std::string(trimmed(text.substr(equals + 1)));
   }
   return fields;
@@ -42,9 +43,9 @@ std::uint32_t resolution(const Fields& fields, const char* name, const std::stri
   if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value))
     throw InputError({{file},
                       std::string(name) + " is " +
-                          (found == fields.end() ? "missing" : "\"" + found->second + "\"") +
+                          (found == fields.end() ? "missing" : in_quotes(found->second)) +
                           "; expected a number of points",
-                      ""});
+                      "the header is damaged"});
   return static_cast<std::uint32_t>(*value);
 }
 
@@ -55,7 +56,7 @@ std::optional<double> extent_um(const Fields& fields, const char* name, const st
   const auto value = whole_number(real->second);
   if (!value || !(*value > 0.0) || !std::isfinite(*value))
     throw InputError(
-        {{file}, std::string(name) + " is \"" + real->second + "\"; expected a positive size", ""});
+        {{file}, std::string(name) + " is " + in_quotes(real->second) + "; expected a positive size", ""});
   const auto factor = length_unit_um(unit->second);
   return factor ? std::optional(*value * *factor) : std::nullopt;
 }
@@ -64,7 +65,8 @@ std::optional<double> extent_um(const Fields& fields, const char* name, const st
 
 bool is_gsf(std::string_view content) { return content.starts_with(kMagic); }
 
-RawMap parse_gsf(std::string_view content, const std::string& file) {
+RawMap parse_gsf(std::string_view content, const ReadRequest& request) {
+  const std::string& file = request.file;
   const std::size_t header_end = content.find('\0');
   if (header_end == std::string_view::npos)
     throw InputError({{file}, "header of a Gwyddion simple field without its end", "the file is truncated"});
@@ -74,26 +76,21 @@ RawMap parse_gsf(std::string_view content, const std::string& file) {
   map.columns = resolution(fields, "XRes", file);
   map.rows = resolution(fields, "YRes", file);
   // One to four zero bytes bring the header to a multiple of four.
-  const std::size_t data_start = (header_end / 4 + 1) * 4;
-  const std::size_t points = std::size_t{map.columns} * map.rows;
-  const std::size_t expected = data_start + points * sizeof(float);
-  if (content.size() != expected)
-    throw InputError(
-        {{file},
-         std::to_string(content.size()) + " bytes; expected " + std::to_string(expected) + " for " +
-             std::to_string(map.columns) + " x " + std::to_string(map.rows) + " points",
-         content.size() < expected ? "the file is truncated" : "the header does not fit the data"});
-  map.values.reserve(points);
-  for (std::size_t k = 0; k < points; ++k) {
-    float value;
-    std::memcpy(&value, content.data() + data_start + k * sizeof(float), sizeof(float));
-    map.values.push_back(value);
-  }
+  const std::string_view data = content.substr(std::min((header_end / 4 + 1) * 4, content.size()));
+  const std::size_t points = checked_points(map.columns, map.rows, data.size(), sizeof(float), file);
+  if (data.size() != points * sizeof(float))
+    throw InputError({{file},
+                      std::to_string(data.size()) + " bytes of heights; expected " +
+                          std::to_string(points * sizeof(float)) + " for " + std::to_string(map.columns) +
+                          " x " + std::to_string(map.rows) + " points",
+                      "the header does not fit the data"});
+  map.values = decode_samples(data, SampleType::float32);
   if (const auto width = extent_um(fields, "XReal", file)) map.pitch_x_um = *width / map.columns;
   if (const auto height = extent_um(fields, "YReal", file)) map.pitch_y_um = *height / map.rows;
-  if (const auto unit = fields.find("ZUnits"); unit != fields.end())
-    map.height_unit_um = length_unit_um(unit->second);
+  if (const auto unit = fields.find("ZUnits"); unit != fields.end()) map.height_unit = unit->second;
+  map.height_unit_um = length_unit_um(map.height_unit);
   if (const auto title = fields.find("Title"); title != fields.end()) map.title = title->second;
+  require_channel(map.title, request);
   return map;
 }
 

@@ -1,54 +1,45 @@
 /// Height maps as text: Gwyddion's export, optical profilers' matrix, and bare numbers.
 
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <utility>
+#include <sstream>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/raw_map.hpp"
+#include "scintray/topography/readers/channels.hpp"
+#include "scintray/topography/readers/formats.hpp"
+#include "scintray/topography/readers/lines.hpp"
+#include "scintray/topography/readers/xyz.hpp"
 
 namespace scintray {
 
 namespace {
 
-/// Splits a text into lines and knows their numbers.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
+constexpr std::string_view kBlanks = " \t\v\f;", kByteOrderMark = "\xEF\xBB\xBF";
 
-  /// The next line without its end; nothing after the last.
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++number_;
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    return line;
-  }
+/// What a locale's decimal comma stands for.
+enum class Comma { refused, decimal };
 
-  long number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  long number_ = 0;
-};
-
-constexpr std::string_view kBlanks = " \t\v\f";
+std::optional<double> number_of(std::string_view word, Comma comma) {
+  const auto value = whole_number(word);
+  const std::size_t at = word.find(',');
+  if (value || comma == Comma::refused || at == std::string_view::npos) return value;
+  std::string with_point(word);
+  with_point[at] = '.';
+  return whole_number(with_point);
+}
 
 /// Appends the numbers of one line; returns how many there were.
-std::uint32_t read_row(std::string_view line, const FileLocation& line_place, std::vector<double>& values) {
+std::uint32_t read_row(std::string_view line, const FileLocation& line_place, Comma comma,
+                       std::vector<double>& values) {
   std::uint32_t count = 0;
   std::size_t at = line.find_first_not_of(kBlanks);
   while (at != std::string_view::npos) {
     const std::size_t end = std::min(line.find_first_of(kBlanks, at), line.size());
     const std::string_view word = line.substr(at, end - at);
-    const auto value = whole_number(word);
+    const auto value = number_of(word, comma);
     if (!value) {
       FileLocation place = line_place;
       place.column = static_cast<long>(at) + 1;
-      throw InputError({place, "found \"" + std::string(word.substr(0, 40)) + "\"; expected a number",
+      throw InputError({place, "found " + in_quotes(word) + "; expected a number",
                         word.find(',') != std::string_view::npos
                             ? "write decimal points, and blanks between numbers"
                             : "numbers are separated by blanks"});
@@ -61,11 +52,12 @@ std::uint32_t read_row(std::string_view line, const FileLocation& line_place, st
 }
 
 /// Reads rows of equal length until the end of the text. `first` is a line already taken.
-void read_matrix(Lines& lines, std::optional<std::string_view> first, const std::string& file, RawMap& map) {
+void read_matrix(Lines& lines, std::optional<std::string_view> first, const std::string& file, Comma comma,
+                 RawMap& map) {
   for (auto line = first; line; line = lines.next()) {
     if (trimmed(*line).empty()) continue;
     const FileLocation place{file, lines.number()};
-    const std::uint32_t count = read_row(*line, place, map.values);
+    const std::uint32_t count = read_row(*line, place, comma, map.values);
     if (map.rows == 0) map.columns = count;
     if (count != map.columns)
       throw InputError({place,
@@ -80,15 +72,16 @@ void read_matrix(Lines& lines, std::optional<std::string_view> first, const std:
 double length_um(std::string_view text, const FileLocation& place) {
   text = trimmed(text);
   const std::size_t gap = text.find_first_of(kBlanks);
-  const auto value = whole_number(text.substr(0, gap));
+  const auto value = number_of(text.substr(0, gap), Comma::decimal);
   const auto unit = gap == std::string_view::npos ? std::nullopt : length_unit_um(trimmed(text.substr(gap)));
   if (!value || !unit || !(*value > 0.0) || !std::isfinite(*value * *unit))
-    throw InputError({place, "found \"" + std::string(text) + "\"; expected a positive length with its unit",
-                      "for example 90 um, with a decimal point"});
+    throw InputError({place, "found " + in_quotes(text) + "; expected a positive length with its unit",
+                      "for example 90 um"});
   return *value * *unit;
 }
 
 struct GwyddionHeader {
+  bool found = false;
   std::optional<double> width_um, height_um;
 };
 
@@ -99,11 +92,14 @@ void read_gwyddion_line(std::string_view line, const FileLocation& place, RawMap
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return;  // a comment
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
-  if (key == "Channel" || key == "Kanal") map.title = std::string(value);
+  if (key == "Channel" || key == "Kanal") map.title = map.channel = std::string(value);
   if (key == "Width" || key == "Breite") header.width_um = length_um(value, place);
   if (key == "Height" || key == "H\xC3\xB6he" || key == "H\xF6he") header.height_um = length_um(value, place);
-  if (key == "Value units" || key == "Werteinheiten" || key == "Wert-Einheiten")
+  if (key == "Value units" || key == "Werteinheiten" || key == "Wert-Einheiten") {
+    map.height_unit = std::string(value);
     map.height_unit_um = length_unit_um(value);
+    header.found = true;
+  }
 }
 
 RawMap parse_commented_matrix(std::string_view content, const std::string& file) {
@@ -114,11 +110,15 @@ RawMap parse_commented_matrix(std::string_view content, const std::string& file)
   auto line = lines.next();
   for (; line && (line->starts_with('#') || trimmed(*line).empty()); line = lines.next())
     if (line->starts_with('#')) read_gwyddion_line(*line, {file, lines.number()}, map, header);
-  read_matrix(lines, line, file, map);
+  header.found = header.found || header.width_um || header.height_um;
+  // Gwyddion parts numbers by tabs, so that a comma inside one can only be a locale's decimal sign.
+  read_matrix(lines, line, file, header.found ? Comma::decimal : Comma::refused, map);
   if (map.rows == 0) throw InputError({{file}, "no numbers; expected a height map", ""});
+  if (!header.found && is_xyz_list(map)) return grid_of_xyz(map.values, file);
   if (header.width_um) map.pitch_x_um = *header.width_um / map.columns;
   if (header.height_um) map.pitch_y_um = *header.height_um / map.rows;
-  if (header.width_um || header.height_um || map.height_unit_um) map.format = "Gwyddion text export";
+  if (map.pitch_x_um && map.pitch_y_um) map.pitch_ratio = *map.pitch_y_um / *map.pitch_x_um;
+  if (header.found) map.format = "Gwyddion text export";
   return map;
 }
 
@@ -131,9 +131,7 @@ double keyed_number(std::string_view line, std::string_view key, const FileLocat
     if (const auto value = whole_number(text); value && *value > 0.0 && std::isfinite(*value)) return *value;
   }
   throw InputError(
-      {place,
-       "found \"" + std::string(line.substr(0, 80)) + "\"; expected \"" + std::string(key) +
-           "\" and a positive number",
+      {place, "found " + in_quotes(line) + "; expected " + in_quotes(key) + " and a positive number",
        "a profiler's matrix starts with h= w=, pixel size=, data unit=, height conversion factor (-> m)="});
 }
 
@@ -148,57 +146,56 @@ RawMap parse_profiler(std::string_view content, const std::string& file) {
   const std::string_view pixel = header();
   const double size = keyed_number(pixel, "pixel size=", {file, lines.number()});
   const auto unit = length_unit_um(trimmed(pixel.substr(pixel.find_last_of(kBlanks) + 1)));
-  if (!unit) throw InputError({{file, lines.number()}, "pixel size without a length unit", ""});
+  if (!unit)
+    throw InputError(
+        {{file, lines.number()}, "pixel size without a length unit; expected \"pixel size=3.5e-7 m\"", ""});
   map.pitch_x_um = map.pitch_y_um = size * *unit;
   header();  // the unit of the data, which the conversion factor takes to metres
   const std::string_view factor = header();
   map.height_unit_um = keyed_number(factor, "height conversion factor (-> m)=", {file, lines.number()}) * 1e6;
-  read_matrix(lines, lines.next(), file, map);
-  if (map.rows != rows || map.columns != columns)
+  read_matrix(lines, lines.next(), file, Comma::refused, map);
+  if (map.rows != rows || map.columns != columns) {
+    std::ostringstream said;
+    said << columns << " x " << rows;
     throw InputError({{file},
                       std::to_string(map.columns) + " x " + std::to_string(map.rows) +
-                          " points; the header says " + std::to_string(static_cast<long>(columns)) + " x " +
-                          std::to_string(static_cast<long>(rows)),
+                          " points; the header says " + said.str(),
                       "the file is truncated"});
+  }
   return map;
 }
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\v\f\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\v\f\r\n") - first + 1);
+bool is_profiler_matrix(std::string_view content) {
+  return trimmed(content.substr(0, 256)).starts_with("h=");
 }
 
-std::optional<double> whole_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
-  return value;
+RawMap parse_profiler_matrix(std::string_view content, const ReadRequest& request) {
+  require_channel({}, request);
+  return parse_profiler(content, request.file);
 }
 
-std::optional<double> length_unit_um(std::string_view unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 11> kUnits{{{"m", 1e6},
-                                                                        {"cm", 1e4},
-                                                                        {"mm", 1e3},
-                                                                        {"um", 1.0},
-                                                                        {"\xC2\xB5m", 1.0},  // micro sign
-                                                                        {"\xCE\xBCm", 1.0},  // Greek mu
-                                                                        {"\xB5m", 1.0},      // Latin-1
-                                                                        {"nm", 1e-3},
-                                                                        {"pm", 1e-6},
-                                                                        {"\xC3\x85", 1e-4},  // Angstrom
-                                                                        {"\xC5", 1e-4}}};
-  for (const auto& [name, factor] : kUnits)
-    if (unit == name) return factor;
-  return std::nullopt;
+bool is_number_text(std::string_view content) {
+  constexpr std::size_t kProbe = 4096;
+  if (content.substr(0, kProbe).find('\0') != std::string_view::npos) return false;
+  content.remove_prefix(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  Lines lines(content);
+  while (const auto line = lines.next()) {
+    std::string_view text = trimmed(*line);
+    if (text.empty() || text.starts_with('#')) continue;
+    if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+    if (text.starts_with('.')) text.remove_prefix(1);
+    return (!text.empty() && text[0] >= '0' && text[0] <= '9') || lower_case(text.substr(0, 3)) == "nan";
+  }
+  return false;
 }
 
-RawMap parse_text_map(std::string_view content, const std::string& file) {
-  return trimmed(content).starts_with("h=") ? parse_profiler(content, file)
-                                            : parse_commented_matrix(content, file);
+RawMap parse_number_text(std::string_view content, const ReadRequest& request) {
+  RawMap map = parse_commented_matrix(
+      content.substr(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0), request.file);
+  require_channel(map.title, request);
+  return map;
 }
 
 }  // namespace scintray

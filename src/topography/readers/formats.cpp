@@ -1,0 +1,37 @@
+#include "scintray/topography/readers/formats.hpp"
+
+#include <array>
+
+namespace scintray {
+
+namespace {
+
+constexpr std::array<Format, 9> kFormats{
+    {{"Gwyddion simple field (.gsf)", is_gsf, parse_gsf},
+     {"Gwyddion (.gwy)", is_gwy, parse_gwy},
+     {"Nanoscope (.spm, .001)", is_nanoscope, parse_nanoscope},
+     {"PicoView (.mi)", is_picoview, parse_picoview},
+     {"ISO 25178-71 (.sdf)", is_sdf, parse_sdf},
+     {"ISO 25178-72 (.x3p)", is_x3p, parse_x3p},
+     {"profiler's matrix", is_profiler_matrix, parse_profiler_matrix},
+     {"numbers as text (matrix, x y z list, Gwyddion's export)", is_number_text, parse_number_text},
+     // The mark of an Igor wave is weak, so it comes last.
+     {"Igor wave (.ibw)", is_ibw, parse_ibw}}};
+
+}  // namespace
+
+std::span<const Format> formats() { return kFormats; }
+
+const Format* find_format(std::string_view content) {
+  for (const Format& format : kFormats)
+    if (format.recognises(content)) return &format;
+  return nullptr;
+}
+
+std::string format_names() {
+  std::string text;
+  for (const Format& format : kFormats) text += (text.empty() ? "" : ", ") + std::string(format.name);
+  return text;
+}
+
+}  // namespace scintray

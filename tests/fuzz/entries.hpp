@@ -1,0 +1,26 @@
+#pragma once
+/// What is thrown at each reader: bytes that may be a file of its format, or damaged, or made to
+/// harm. The same entries serve the test here and libFuzzer (docs/height_maps.md says how).
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace scintray::fuzz {
+
+struct Entry {
+  const char* name;
+  /// Runs the reader. What it reads must be a whole map that the bytes can hold, and what it throws
+  /// an InputError with a place and words; anything else leaves as an exception. True when all was
+  /// read.
+  bool (*run)(const std::uint8_t* data, std::size_t size);
+  std::vector<std::string> (*seeds)();  ///< sound files to begin with
+  /// Most bytes that may be asked for at once, per byte of input.
+  std::size_t bytes_per_byte;
+};
+
+std::span<const Entry> entries();
+
+}  // namespace scintray::fuzz
