@@ -16,6 +16,8 @@ scintray_dependency(fmt 9)
 scintray_dependency(spdlog 1.10)
 scintray_dependency(HDF5 COMPONENTS C)
 scintray_dependency(ZLIB)
+scintray_dependency(PNG)
+scintray_dependency(Boost 1.74)
 
 # embree's own version file accepts no other major number than its own; 3 and 4 both serve.
 if(EMBREE_VERSION VERSION_LESS 3.13)

@@ -1,5 +1,8 @@
 #include "scintray/topography/height_map.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "scintray/core/error.hpp"
 
 namespace scintray {
@@ -31,6 +34,13 @@ HeightField make_height_field(const HeightMap& map, Tiling tiling) {
                       "height map of " + std::to_string(map.columns) + " x " + std::to_string(map.rows) +
                           " points; expected at least 2 x 2",
                       ""});
+  const auto missing =
+      std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
+  if (missing > 0)
+    throw InputError({{},
+                      std::to_string(missing) + " of " + std::to_string(map.heights_um.size()) +
+                          " points of the height map have no height; a surface needs all of them",
+                      "fill them (`--fill`, or fill_missing = true in a scene) or crop the map"});
   const bool mirror = mirrored(map, tiling);
   const std::uint32_t columns = mirror ? 2 * (map.columns - 1) : map.columns;
   const std::uint32_t rows = mirror ? 2 * (map.rows - 1) : map.rows;

@@ -62,7 +62,8 @@ enum class Tiling {
 /// "mirror" or "periodic": what `tiling` comes to for this map.
 std::string tiling_name(const HeightMap& map, Tiling tiling);
 
-/// The map as a surface without edges. InputError when the map is smaller than 2 x 2.
+/// The map as a surface without edges. InputError when the map is smaller than 2 x 2 or points of it
+/// are missing.
 HeightField make_height_field(const HeightMap& map, Tiling tiling = Tiling::automatic);
 
 }  // namespace scintray

@@ -131,8 +131,8 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   CHECK(map.path.filename() == "map.txt");
   CHECK(*map.options.pitch_um == doctest::Approx(0.175));
   CHECK(*map.options.height_unit_um == doctest::Approx(1e-3));
-  CHECK(map.leveling.kind == LevelingSpec::Kind::polynomial);
-  CHECK(map.leveling.degree == 2);
+  CHECK(map.preparation.leveling.kind == Leveling::Kind::polynomial);
+  CHECK(map.preparation.leveling.degree == 2);
   CHECK(map.tiling == Tiling::mirror);
   REQUIRE(map.table);
   CHECK(map.table->rays == 100);
