@@ -28,8 +28,12 @@ void print_before_and_after(const HeightMap& before, const HeightMap& after) {
 }
 
 void prepare_map(const PrepareArguments& arguments) {
-  const Preparation preparation = preparation_of(arguments.preparation);
-  const HeightMap before = read_map(arguments.map);
+  // What comes before is the part that is kept, as it was measured: both show the same surface.
+  Preparation cropping, preparation = preparation_of(arguments.preparation);
+  std::swap(cropping.crop, preparation.crop);
+  cropping.leveling.kind = Leveling::Kind::none;
+  HeightMap before = read_map(arguments.map);
+  prepare(before, cropping);
   HeightMap after = before;
   prepare(after, preparation);
   print_before_and_after(before, after);

@@ -63,16 +63,15 @@ std::string picture(const std::string& caption, const HeightMap& map) {
          height_image(map, low, high, "heights " + caption) + height_scale(low, high) + "</figure>\n";
 }
 
-/// Heights along the middle row or column; missing points leave gaps between the series' points.
+/// Heights along the middle row or column; the line has a gap where points are missing.
 PlotSeries profile(const std::string& label, const HeightMap& map, bool along_x) {
   PlotSeries series;
   series.label = label;
+  series.marks = false;
   const std::uint32_t n = along_x ? map.columns : map.rows;
   for (std::uint32_t k = 0; k < n; ++k) {
-    const double height = along_x ? map.at(k, map.rows / 2) : map.at(map.columns / 2, k);
-    if (std::isnan(height)) continue;
     series.x.push_back(k * (along_x ? map.pitch_x_um : map.pitch_y_um));
-    series.y.push_back(height);
+    series.y.push_back(along_x ? map.at(k, map.rows / 2) : map.at(map.columns / 2, k));
   }
   return series;
 }
@@ -86,7 +85,8 @@ std::string profiles(const HeightMap& before, const HeightMap& after, bool along
   plot.height = 280.0;
   for (const auto& [label, map] : {std::pair("before", &before), std::pair("after", &after)}) {
     PlotSeries series = profile(label, *map, along_x);
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
+    if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return !std::isnan(y); }))
+      plot.series.push_back(std::move(series));
   }
   return plot.series.empty() ? "" : "<figure>" + svg_plot(plot) + "</figure>\n";
 }

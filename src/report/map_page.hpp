@@ -8,7 +8,7 @@
 
 namespace scintray::report {
 
-/// One self-contained HTML page: both maps as pictures, a line profile along x and one along y
+/// One self-contained HTML page: both maps, which show the same part of a surface, as pictures, a line profile along x and one along y
 /// through their middles, the numbers of both, and the steps. `before` is shown less its mean
 /// height. InputError when every point of a map is missing.
 std::string map_page(const std::string& title, const HeightMap& before, const HeightMap& after);

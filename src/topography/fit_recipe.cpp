@@ -107,7 +107,7 @@ SynthesisRecipe fit_recipe(const SynthesisRecipe& recipe, const SlopeTarget& tar
   // Traced slopes are a little rough as functions of the recipe: differences over 1 % are smooth.
   solver.parameters.epsfcn = 1e-4;
   solver.parameters.xtol = 1e-4;
-  solver.parameters.maxfev = 60;
+  solver.parameters.maxfev = 40;
   // Its verdict is not asked for: what the recipe shows decides.
   solver.solveNumericalDiff(logarithms);
   const SynthesisRecipe result = equations.recipe(logarithms);

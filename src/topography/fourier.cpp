@@ -8,6 +8,7 @@ namespace {
 
 /// Transforms every column of a spectrum, forward or back.
 void transform_columns(HalfSpectrum& spectrum, bool forward) {
+  if (spectrum.rows == 1) return;  // a transform of one point is that point; Eigen's does not know it
   Eigen::FFT<double> fft;
   std::vector<std::complex<double>> column(spectrum.rows), result;
   for (std::uint32_t k = 0; k < spectrum.kept(); ++k) {
@@ -33,7 +34,10 @@ HalfSpectrum fourier_transform(const std::vector<double>& heights, std::uint32_t
   for (std::uint32_t l = 0; l < rows; ++l) {
     std::copy_n(heights.begin() + static_cast<std::ptrdiff_t>(std::size_t{l} * columns), columns,
                 line.begin());
-    fft.fwd(result, line);
+    if (columns == 1)
+      result.assign(1, line[0]);
+    else
+      fft.fwd(result, line);
     std::copy(result.begin(), result.end(), &spectrum.at(0, l));
   }
   transform_columns(spectrum, true);
@@ -51,7 +55,10 @@ std::vector<double> inverse_fourier_transform(const HalfSpectrum& spectrum) {
   for (std::uint32_t l = 0; l < work.rows; ++l) {
     for (std::uint32_t k = 0; k < work.columns; ++k)
       line[k] = k < work.kept() ? work.at(k, l) : std::conj(work.at(work.columns - k, l));
-    fft.inv(result, line);
+    if (work.columns == 1)
+      result = line;
+    else
+      fft.inv(result, line);
     for (const auto& value : result) heights.push_back(value.real());
   }
   return heights;
