@@ -143,16 +143,21 @@ std::optional<double> lay_direction(const HeightMap& map) {
     }
   }
   if (!(most > 0.0)) return std::nullopt;
-  // Where in the five sectors the power lies.
-  const double middle = (best + 0.5) * kDegree;
-  double moment = 0.0, power = 0.0;
-  for (const Term& term : terms) {
-    const double off = std::remainder(term.angle - middle, kPi);
-    if (std::abs(off) > (kHalf + 0.5) * kDegree) continue;
-    moment += term.power * off;
-    power += term.power;
+  // The few terms of a map stand in few directions: the middle of the power about the maximum says
+  // more than the sector itself. The weight falls smoothly, so that no term jumps in or out.
+  constexpr int kRounds = 30;
+  double angle = (best + 0.5) * kDegree;
+  for (int round = 0; round < kRounds; ++round) {
+    double moment = 0.0, power = 0.0;
+    for (const Term& term : terms) {
+      const double off = std::remainder(term.angle - angle, kPi);
+      if (std::abs(off) > 0.25 * kPi) continue;
+      const double weight = std::pow(std::cos(2.0 * off), 2) * term.power;
+      moment += weight * off;
+      power += weight;
+    }
+    angle += moment / power;
   }
-  const double angle = middle + moment / power;
   return angle - kPi * std::floor(angle / kPi);
 }
 

@@ -48,7 +48,8 @@ struct MapTexture {
 
 /// The power spectrum for Std is taken under a Hann window (none on a periodic map), with missing
 /// points at the mean height, from two periods a width up to the Nyquist frequency, in sectors of
-/// 1 deg averaged over 5. A flat map has no texture.
+/// 1 deg averaged over 5; Std is the middle of the power within 45 deg of the maximum, weighted by cos^2 of
+/// twice the angle from it. A flat map has no texture.
 MapTexture map_texture(const HeightMap& map);
 
 /// What makes a map a poor description of its surface, in sentences: points too far apart for its

@@ -96,8 +96,8 @@ std::string describe(const SynthesisRecipe& r) {
     text += fmt::format(", Gaussian relief Sq {} um, correlation length {} um", g.rms_height_um,
                         g.correlation_length_um);
     if (g.lay_length_um > 0.0)
-      text +=
-          fmt::format(" across and {} um along a lay at {} deg", g.lay_length_um, g.lay_angle_rad / kDegree);
+      text += fmt::format(" across and {} um along a lay at {:.10g} deg", g.lay_length_um,
+                          g.lay_angle_rad / kDegree);
   }
   if (const FractureRelief& f = r.fracture; f.spacing_um > 0.0)
     text +=
@@ -140,17 +140,18 @@ HeightMap synthesize(const SynthesisRecipe& recipe) {
 SynthesisRecipe ground_recipe() {
   SynthesisRecipe recipe;
   recipe.name = "ground";
-  recipe.gaussian.rms_height_um = 0.05;
-  recipe.gaussian.correlation_length_um = 1.0;
-  recipe.fracture = {3.0, 0.0366, 5.15, 0.25, 0.3};
+  recipe.gaussian.rms_height_um = 0.4033;
+  recipe.gaussian.correlation_length_um = 7.0;
+  recipe.fracture = {2.5, 0.03815, 5.2185, 0.05, 0.1};
   return recipe;
 }
 
 SynthesisRecipe polished_recipe() {
   SynthesisRecipe recipe;
   recipe.name = "polished";
-  recipe.gaussian.rms_height_um = 0.0112;
+  recipe.gaussian.rms_height_um = 0.0109;
   recipe.gaussian.correlation_length_um = 0.9;
+  recipe.scratches = {10.0, 30.0, 0.02, 0.5};
   return recipe;
 }
 

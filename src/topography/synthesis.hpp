@@ -72,13 +72,19 @@ struct SynthesisRecipe {
   std::uint64_t seed = 1;
 };
 
-/// A ground crystal, heavy-tailed in slope: the mean slope met is 18 deg at normal incidence and
-/// 35 deg at grazing (88.5 deg), heights within about +-3 um (Roncali and Cherry 2013, Phys. Med.
-/// Biol. 58, 2185, section 3.1). The rms height is no part of that source.
+/// A ground crystal, heavy-tailed in slope: on average over seeds 1 to 5 the mean slope met is 18 deg
+/// at normal incidence and 35 deg at grazing (88.5 deg), heights within about +-3 um (Roncali and
+/// Cherry 2013, Phys. Med. Biol. 58, 2185, section 3.1), and Sq is 0.45 um, which is no part of that
+/// source. Spacing, spreads and correlation length were chosen so that heights stay within those
+/// limits, the rest was searched by
+///     scintray map synthesize ground --fit-normal "18 deg" --fit-grazing "35 deg"
+///         --fit-rms-height "0.45 um" --seeds 5 -o ground.gsf
 SynthesisRecipe ground_recipe();
 
-/// A polished crystal with scratches: mean slope met 1.25 deg, heights within about +-0.05 um (as
-/// above).
+/// A polished crystal with scratches: on average over seeds 1 to 5 the mean slope met is 1.25 deg, at
+/// any incidence up to 85 deg within 0.02 deg, heights within about +-0.05 um (as above). The
+/// scratches are an assumption; the height of the Gaussian relief was searched beside them by
+///     scintray map synthesize polished --fit-normal "1.25 deg" --seeds 5 -o polished.gsf
 SynthesisRecipe polished_recipe();
 
 /// Makes the map; the same recipe always gives the same map. InputError names what is out of range.

@@ -57,7 +57,7 @@ TEST_CASE("map prepare mends a map, says what became of it, and draws it before 
   const auto folder = folder_with_map("prepare");
   const Ended ended =
       run_program({"map", "prepare", "map.gsf", "-o", "out.gsf", "--crop", "5 um,0 um,50 um,45 um",
-                   "--outliers", "20", "--fill", "--loess", "3 um", "--page", "page.html"},
+                   "--outliers", "100", "--fill", "--loess", "3 um", "--page", "page.html"},
                   folder);
   CAPTURE(ended.output);
   REQUIRE(ended.exit_code == cli::kSuccess);
@@ -89,10 +89,10 @@ TEST_CASE("map synthesize makes the same map again, and a table is built from it
     CHECK(contains(ended.output, "mean slope met"));
   }
   CHECK(content_of(folder / "a.gsf") == content_of(folder / "b.gsf"));
-  const Ended built =
-      run_program({"table", "build", "a.gsf", "-o", "a.h5", "--inside-index", "1.82", "--periodic", "--rays",
-                   "2", "--incidence-step", "30 deg", "--azimuth-step", "90 deg", "--no-refine"},
-                  folder);
+  const Ended built = run_program(
+      {"table", "build", "a.gsf", "-o", "a.h5", "--inside-index", "1.82", "--outside-index", "1",
+       "--periodic", "--rays", "2", "--incidence-step", "30 deg", "--azimuth-step", "90 deg", "--no-refine"},
+      folder);
   CAPTURE(built.output);
   CHECK(built.exit_code == cli::kSuccess);
 }

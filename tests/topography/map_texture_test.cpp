@@ -20,6 +20,13 @@ HeightMap gaussian(double across_um, double along_um, double angle_rad, std::uin
                              [&](double fx, double fy) { return gaussian_density(relief, fx, fy); });
 }
 
+/// Where that autocorrelation, less its mean over the field of 80 um (pi across along / area), has
+/// fallen to `level` on an axis of correlation length `length_um`.
+double lag_at(double level, double across_um, double along_um, double length_um) {
+  const double mean = kPi * across_um * along_um / 6400.0;
+  return length_um * std::sqrt(-std::log(level * (1.0 - mean) + mean));
+}
+
 bool warns(const HeightMap& map, const std::string& part) {
   for (const std::string& warning : map_warnings(map, map_statistics(map), map_texture(map)))
     if (warning.find(part) != std::string::npos) return true;
@@ -51,14 +58,16 @@ TEST_CASE("a sinusoid: Sal is acos(0.2) / 2 pi of its wavelength, Std lies along
 TEST_CASE("a Gaussian surface: Sal is T sqrt(ln 5), the 1/e length T, Str the ratio, Std the lay") {
   // Between pitches of T / 10 the linear autocorrelation errs by 0.0025 at most, Sal by 0.5 %.
   const MapTexture isotropic = map_texture(gaussian(2.0, 2.0, 0.0, 1));
-  CHECK(*isotropic.sal_um == doctest::Approx(2.0 * std::sqrt(std::log(5.0))).epsilon(0.005));
-  CHECK(*isotropic.correlation_length_um == doctest::Approx(2.0).epsilon(0.005));
+  CHECK(*isotropic.sal_um == doctest::Approx(lag_at(0.2, 2.0, 2.0, 2.0)).epsilon(0.005));
+  CHECK(lag_at(0.2, 2.0, 2.0, 2.0) == doctest::Approx(2.0 * std::sqrt(std::log(5.0))).epsilon(0.005));
+  CHECK(*isotropic.correlation_length_um ==
+        doctest::Approx(lag_at(std::exp(-1.0), 2.0, 2.0, 2.0)).epsilon(0.005));
   CHECK(*isotropic.str == doctest::Approx(1.0).epsilon(0.005));
   CHECK_FALSE(isotropic.str_is_bound);
   for (const double degrees : {0.0, 30.0, 90.0, 117.0}) {
     const MapTexture grooved = map_texture(gaussian(2.0, 8.0, degrees * kDegree, 2));
     CAPTURE(degrees);
-    CHECK(*grooved.sal_um == doctest::Approx(2.0 * std::sqrt(std::log(5.0))).epsilon(0.005));
+    CHECK(*grooved.sal_um == doctest::Approx(lag_at(0.2, 2.0, 8.0, 2.0)).epsilon(0.005));
     CHECK(*grooved.str == doctest::Approx(0.25).epsilon(0.01));
     // The spectrum is symmetric about the direction across the lay; its grid of terms is not quite.
     CHECK(turned(*grooved.std_rad, degrees * kDegree) < 1.0 * kDegree);
