@@ -4,8 +4,7 @@
 
 namespace scintray::cli {
 
-/// Adds `scintray table build | show | synthesize`: surface tables from height maps, what is in
-/// them, and height maps from recipes.
+/// Adds `scintray table build | show`: surface tables from height maps, and what is in them.
 void add_table_command(CLI::App& app);
 
 }  // namespace scintray::cli

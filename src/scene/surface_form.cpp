@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "scintray/scene/map_forms.hpp"
+
 namespace scintray {
 
 namespace {
@@ -93,39 +95,6 @@ std::optional<TableSettings> read_tracing(const TomlTable& surface) {
   return settings;
 }
 
-std::optional<double> read_optional_um(const TomlTable& table, const std::string& key) {
-  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
-  if (!length_mm) return std::nullopt;
-  table.expect(key, *length_mm > 0.0, "\"" + key + "\" must be positive");
-  return *length_mm * 1e3;
-}
-
-double read_um(const TomlTable& table, const std::string& key, double fallback_um, bool zero_allowed) {
-  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
-  if (!length_mm) return fallback_um;
-  table.expect(key, zero_allowed ? *length_mm >= 0.0 : *length_mm > 0.0,
-               "\"" + key + "\" must " + (zero_allowed ? "not be negative" : "be positive"));
-  return *length_mm * 1e3;
-}
-
-LevelingSpec read_leveling(const TomlTable& table) {
-  using Leveling = LevelingSpec::Kind;
-  const std::string word = table.choice("level", {"none", "mean", "plane", "polynomial"});
-  LevelingSpec leveling;
-  leveling.kind = word == "none"    ? Leveling::none
-                  : word == "mean"  ? Leveling::mean
-                  : word == "plane" ? Leveling::plane
-                                    : Leveling::polynomial;
-  table.has("degree");
-  if (leveling.kind == Leveling::polynomial) {
-    leveling.degree = static_cast<int>(table.integer("degree"));
-    table.expect("degree", leveling.degree >= 1 && leveling.degree <= 8,
-                 "the degree of the levelling polynomial lies between 1 and 8");
-  }
-  leveling.loess_width_um = read_optional_um(table, "loess_width");
-  return leveling;
-}
-
 HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   const TomlTable table = surface.table("height_map");
   HeightMapSpec spec;
@@ -138,7 +107,7 @@ HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   spec.options.periodic = table.boolean("periodic", false);
   table.expect("width", !spec.options.pitch_um || !spec.options.width_um,
                "\"pitch\" and \"width\" are both given, but each follows from the other", "keep one of them");
-  if (surface.has("height_map")) spec.leveling = read_leveling(table);
+  if (surface.has("height_map")) spec.preparation = read_preparation(table);
   const std::string tiling = table.choice("tiling", {"automatic", "mirror", "periodic"}, "automatic");
   spec.tiling = tiling == "mirror"     ? Tiling::mirror
                 : tiling == "periodic" ? Tiling::periodic
@@ -147,51 +116,12 @@ HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   return spec;
 }
 
-void read_relief(const TomlTable& table, const std::string& kind, SynthesisRecipe& recipe) {
-  const bool bare = kind == "gaussian" || kind == "fracture";
-  for (const char* key : {"rms_height", "correlation_length", "spacing", "rise"}) table.has(key);
-  const auto need = [&](const std::string& key) {
-    if (!table.has(key))
-      table.report(key, "a recipe of kind \"" + kind + "\" needs \"" + key + "\"",
-                   "give it, or start from kind = \"ground\" or \"polished\"");
-  };
-  if (bare) {
-    need("rms_height");
-    need("correlation_length");
-  }
-  recipe.gaussian.rms_height_um = read_um(table, "rms_height", recipe.gaussian.rms_height_um, true);
-  recipe.gaussian.correlation_length_um =
-      read_um(table, "correlation_length", recipe.gaussian.correlation_length_um, false);
-  if (kind == "gaussian" || kind == "polished") return;
-  if (kind == "fracture") {
-    need("spacing");
-    need("rise");
-  }
-  FractureRelief& fracture = recipe.fracture;
-  fracture.spacing_um = read_um(table, "spacing", fracture.spacing_um, false);
-  fracture.rise_um = read_um(table, "rise", fracture.rise_um, true);
-  fracture.exponent = table.number("exponent", fracture.exponent);
-  table.expect("exponent", fracture.exponent >= 1.0, "\"exponent\" must be at least 1");
-  fracture.depth_spread_um = read_um(table, "depth_spread", fracture.depth_spread_um, true);
-  fracture.size_spread = table.number("size_spread", fracture.size_spread);
-  table.expect("size_spread", fracture.size_spread >= 0.0 && fracture.size_spread < 1.0,
-               "\"size_spread\" lies between 0 and 1, 1 excluded");
-}
-
 RecipeSpec read_recipe(const TomlTable& surface) {
   const TomlTable table = surface.table("recipe");
   RecipeSpec spec;
   spec.where = table.where();
   if (!surface.has("recipe")) return spec;
-  const std::string kind = table.choice("kind", {"ground", "polished", "gaussian", "fracture"});
-  if (kind == "ground") spec.recipe = ground_recipe();
-  if (kind == "polished") spec.recipe = polished_recipe();
-  if (kind == "gaussian" || kind == "fracture") spec.recipe.name = kind;
-  read_relief(table, kind, spec.recipe);
-  spec.recipe.pitch_um = read_um(table, "pitch", spec.recipe.pitch_um, false);
-  spec.recipe.columns = static_cast<std::uint32_t>(read_count(table, "columns", spec.recipe.columns, 2));
-  spec.recipe.rows = static_cast<std::uint32_t>(read_count(table, "rows", spec.recipe.rows, 2));
-  spec.recipe.seed = read_count(table, "seed", spec.recipe.seed, 0);
+  spec.recipe = read_synthesis(table);
   spec.table = read_tracing(surface);
   return spec;
 }

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "scintray/core/version.hpp"
-#include "scintray/topography/prepare.hpp"
 
 namespace scintray {
 
@@ -31,13 +30,13 @@ std::string content_of(const std::filesystem::path& path) {
   return content.str();
 }
 
-std::string describe(const SynthesisRecipe& r) {
-  return fmt::format(
-      "recipe {}: Sq {} um, correlation length {} um, spacing {} um, rise {} um, exponent {}, "
-      "depth spread {} um, size spread {}, {} x {} points of {} um, seed {}",
-      r.name, r.gaussian.rms_height_um, r.gaussian.correlation_length_um, r.fracture.spacing_um,
-      r.fracture.rise_um, r.fracture.exponent, r.fracture.depth_spread_um, r.fracture.size_spread, r.columns,
-      r.rows, r.pitch_um, r.seed);
+/// Names a recipe's map among all others: the description and the spectrum that it only sums up.
+std::string key_of(const SynthesisRecipe& recipe) {
+  const SpectrumRelief& spectrum = recipe.spectrum;
+  std::string points;
+  for (std::size_t k = 0; k < spectrum.frequency_per_um.size(); ++k)
+    points += fmt::format(" {} {}", spectrum.frequency_per_um[k], spectrum.density_um4[k]);
+  return fmt::format("{}, spectrum {:016x}", describe(recipe), fnv1a(points));
 }
 
 std::string describe(const TableSettings& s) {
@@ -45,23 +44,6 @@ std::string describe(const TableSettings& s) {
       "incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad",
       s.incidence_step_rad, s.azimuth_step_rad, s.rays, s.seed, s.refine, s.refine_change,
       s.refine_down_to_rad, s.grazing_rad);
-}
-
-void prepare(HeightMap& map, const LevelingSpec& leveling) {
-  switch (leveling.kind) {
-    case LevelingSpec::Kind::none:
-      break;
-    case LevelingSpec::Kind::mean:
-      subtract_mean(map);
-      break;
-    case LevelingSpec::Kind::plane:
-      level_plane(map);
-      break;
-    case LevelingSpec::Kind::polynomial:
-      level_polynomial(map, leveling.degree);
-      break;
-  }
-  if (leveling.loess_width_um) filter_loess_lines(map, *leveling.loess_width_um);
 }
 
 double ratio(const IndexPair& index) { return index.inside / index.outside; }
@@ -103,8 +85,8 @@ std::filesystem::path SurfaceMaker::default_cache() {
 
 SurfaceMaker::Relief SurfaceMaker::relief(const RecipeSpec& spec) {
   Relief result;
-  result.key = describe(spec.recipe);
-  result.provenance.map = result.key;
+  result.key = key_of(spec.recipe);
+  result.provenance.map = describe(spec.recipe);
   auto& field = fields_[result.key];
   if (!field) {
     const HeightMap map = synthesize(spec.recipe);
@@ -118,7 +100,7 @@ SurfaceMaker::Relief SurfaceMaker::relief(const RecipeSpec& spec) {
 
 SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
   HeightMap map = read_height_map(spec.path, spec.options);
-  prepare(map, spec.leveling);
+  prepare(map, spec.preparation);
   Relief result;
   result.provenance.map = spec.path.filename().string();
   result.provenance.preparation = map.history();

@@ -14,6 +14,7 @@
 #include "scintray/surface/unified.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/height_map.hpp"
+#include "scintray/topography/preparation.hpp"
 #include "scintray/topography/synthesis.hpp"
 
 namespace scintray {
@@ -29,19 +30,11 @@ struct TableFileSpec {
   FileLocation where;
 };
 
-/// What is taken off a height map before use.
-struct LevelingSpec {
-  enum class Kind { none, mean, plane, polynomial };
-  Kind kind = Kind::plane;
-  int degree = 1;                        ///< of the polynomial
-  std::optional<double> loess_width_um;  ///< width of the weighted local regression along each line
-};
-
 /// A measured height map.
 struct HeightMapSpec {
   std::filesystem::path path;  ///< it exists
   ReadOptions options;
-  LevelingSpec leveling;
+  Preparation preparation;
   Tiling tiling = Tiling::automatic;
   std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
   FileLocation where;
