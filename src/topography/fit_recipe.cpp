@@ -50,14 +50,21 @@ class Equations {
   }
 
   SynthesisRecipe recipe(const Eigen::VectorXd& logarithms) const {
-    // Far from any surface, where a step of the search may stray, sizes stay finite.
-    const auto value = [&](Eigen::Index k) { return std::exp(std::clamp(logarithms[k], -20.0, 5.0)); };
+    // A search for what cannot be strays far from any surface, where rays take for ever: reliefs as
+    // high as they are wide, and bowls with walls, are its ends.
+    const auto value = [&](Eigen::Index k, double most) {
+      return std::exp(std::clamp(logarithms[k], -20.0, std::log(most)));
+    };
+    constexpr double kMostExponent = 8.0;
     SynthesisRecipe result = recipe_;
-    const bool fractured = result.fracture.spacing_um > 0.0;
-    (fractured ? result.fracture.rise_um : result.gaussian.rms_height_um) = value(0);
+    if (result.fracture.spacing_um > 0.0)
+      result.fracture.rise_um = value(0, 0.5 * result.fracture.spacing_um);
+    else
+      result.gaussian.rms_height_um = value(0, result.gaussian.correlation_length_um);
     Eigen::Index next = 1;
-    if (target_.grazing_rad > 0.0) result.fracture.exponent = 1.0 + value(next++);
-    if (target_.rms_height_um > 0.0) result.gaussian.rms_height_um = value(next);
+    if (target_.grazing_rad > 0.0) result.fracture.exponent = 1.0 + value(next++, kMostExponent - 1.0);
+    if (target_.rms_height_um > 0.0)
+      result.gaussian.rms_height_um = value(next, result.gaussian.correlation_length_um);
     return result;
   }
 
@@ -107,7 +114,7 @@ SynthesisRecipe fit_recipe(const SynthesisRecipe& recipe, const SlopeTarget& tar
   // Traced slopes are a little rough as functions of the recipe: differences over 1 % are smooth.
   solver.parameters.epsfcn = 1e-4;
   solver.parameters.xtol = 1e-4;
-  solver.parameters.maxfev = 40;
+  solver.parameters.maxfev = 30;
   // Its verdict is not asked for: what the recipe shows decides.
   solver.solveNumericalDiff(logarithms);
   const SynthesisRecipe result = equations.recipe(logarithms);
