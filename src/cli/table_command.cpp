@@ -9,6 +9,8 @@
 
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
+#include "scintray/cli/table_export_command.hpp"
+#include "scintray/cli/table_import_command.hpp"
 #include "scintray/cli/table_plot.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
@@ -252,6 +254,8 @@ void add_table_command(CLI::App& app) {
   add_build(*table);
   add_show(*table);
   add_synthesize(*table);
+  add_table_export_command(*table);
+  add_table_import_command(*table);
 }
 
 }  // namespace scintray::cli

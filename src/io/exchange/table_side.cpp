@@ -1,0 +1,111 @@
+#include "scintray/io/exchange/table_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/io/exchange/node_absorption.hpp"
+
+namespace scintray {
+
+namespace {
+
+const DirectionQuantiles& directions(const TableNode& node, Leaving way) {
+  return way == Leaving::reflected ? node.reflected : node.transmitted;
+}
+
+double share_of(const TableNode& node, Leaving way) {
+  return way == Leaving::reflected ? node.reflectance
+                                   : std::max(0.0, 1.0 - node.reflectance - absorptance_of(node));
+}
+
+/// s of the level P = 2 s^2 and its mirror image: the inverse of polar_level.
+double polar_step(double level) {
+  return level < 0.5 ? std::sqrt(0.5 * level) : 1.0 - std::sqrt(0.5 * (1.0 - level));
+}
+
+/// The inverse of azimuth_level.
+double azimuth_step(double level) { return 1.0 - std::sqrt(1.0 - level); }
+
+/// A table of a surface with direction is no function of incidence alone.
+template <class Table>
+void refuse_directional(const Table& table) {
+  if constexpr (requires { table.azimuths(); })
+    if (table.azimuths() > 1)
+      throw InputError({{},
+                        "a table of a surface with direction (" + std::to_string(table.azimuths()) +
+                            " azimuths of incidence); the format knows the incidence angle only",
+                        "build the table without directions"});
+}
+
+}  // namespace
+
+TableSide::TableSide(const SurfaceTable& table, Side side)
+    : nodes_(&table.nodes(side)),
+      before_(table.index_pair().on(side)),
+      behind_(table.index_pair().on(other(side))) {
+  refuse_directional(table);
+}
+
+TableSide::Place TableSide::place(double incidence_rad) const {
+  const auto above =
+      std::lower_bound(nodes_->begin() + 1, nodes_->end() - 1, incidence_rad,
+                       [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
+  const TableNode &low = *(above - 1), &high = *above;
+  const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
+  return {&low, &high, std::clamp(share, 0.0, 1.0)};
+}
+
+double TableSide::share(Leaving way, double incidence_rad) const {
+  const Place at = place(incidence_rad);
+  const double low = share_of(*at.low, way);
+  return low + at.share * (share_of(*at.high, way) - low);
+}
+
+double TableSide::absorptance(double incidence_rad) const {
+  const Place at = place(incidence_rad);
+  const double low = absorptance_of(*at.low);
+  return low + at.share * (absorptance_of(*at.high) - low);
+}
+
+bool TableSide::has_directions(Leaving way, double incidence_rad) const {
+  const Place at = place(incidence_rad);
+  return !directions(*at.low, way).empty() || !directions(*at.high, way).empty();
+}
+
+ExitAngles TableSide::direction(Leaving way, double incidence_rad, double u, double v) const {
+  const Place at = place(incidence_rad);
+  const DirectionQuantiles* low = &directions(*at.low, way);
+  const DirectionQuantiles* high = &directions(*at.high, way);
+  if (low->empty()) low = high;
+  if (high->empty()) high = low;
+  const double s = polar_step(u) * kPolarBins, t = azimuth_step(v) * kAzimuthBins;
+  const int row = std::clamp(static_cast<int>(s), 0, kPolarBins - 1);
+  const int column = std::clamp(static_cast<int>(t), 0, kAzimuthBins - 1);
+  const auto angles = [&](const DirectionQuantiles& q) -> ExitAngles {
+    const float* polar = q.polar.data() + row;
+    const float* azimuth = q.azimuth.data() + row * (kAzimuthBins + 1) + column;
+    return {polar[0] + static_cast<float>(s - row) * (polar[1] - polar[0]),
+            azimuth[0] + static_cast<float>(t - column) * (azimuth[1] - azimuth[0])};
+  };
+  const ExitAngles a = angles(*low), b = angles(*high);
+  const auto share = static_cast<float>(at.share);
+  return {a.polar + share * (b.polar - a.polar), a.azimuth + share * (b.azimuth - a.azimuth)};
+}
+
+CubePoint cube_point(std::uint64_t k, const CubePoint& shift) {
+  constexpr double kG = 1.2207440846057596;
+  const auto turn = [&](double step, double start) {
+    const double value = start + static_cast<double>(k) * step;
+    return value - std::floor(value);
+  };
+  return {turn(1.0 / kG, shift.u), turn(1.0 / (kG * kG), shift.v), turn(1.0 / (kG * kG * kG), shift.w)};
+}
+
+CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
+  Rng rng(seed, StreamKind::other, a, b);
+  const double u = rng.uniform(), v = rng.uniform();
+  return {u, v, rng.uniform()};
+}
+
+}  // namespace scintray
