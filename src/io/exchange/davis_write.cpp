@@ -38,6 +38,7 @@ class Degree {
   double light() const { return light_; }
   bool empty() const { return cumulative_.back() <= 0.0; }
 
+  /// Polar angle and azimuth, negative on one side of the plane of incidence.
   ExitAngles direction(const CubePoint& at) const {
     const double level = at.w * cumulative_.back();
     const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, level);
@@ -45,7 +46,11 @@ class Degree {
     const double width = cumulative_[stratum + 1] - cumulative_[stratum];
     const double part = width > 0.0 ? std::clamp((level - cumulative_[stratum]) / width, 0.0, 1.0) : 0.5;
     const double incidence = (begin_ + (static_cast<double>(stratum) + part) / kStrata) * kDegree;
-    return side_.direction(way_, incidence, at.u, at.v);
+    // The table holds |azimuth|: the halves of one coordinate are the two sides of the plane of incidence.
+    const double side = 2.0 * at.v - 1.0;
+    ExitAngles exit = side_.direction(way_, incidence, at.u, std::abs(side));
+    if (side < 0.0) exit.azimuth = -exit.azimuth;
+    return exit;
   }
 
  private:
@@ -67,8 +72,6 @@ void append_block(fmt::memory_buffer& text, const Degree& degree, Leaving way, c
     ExitAngles exit = degree.direction(cube_point(j, shift));
     exit.polar = std::clamp(exit.polar, kLeastAngle, static_cast<float>(0.5 * kPi) - kLeastAngle);
     if (way == Leaving::transmitted) exit.polar = static_cast<float>(kPi) - exit.polar;
-    // Both sides of the plane of incidence in turn: the table holds |azimuth|.
-    if (j % 2 == 1) exit.azimuth = -exit.azimuth;
     fmt::format_to(std::back_inserter(text), "{:.5f} {:.5f}\n", exit.azimuth, exit.polar);
   }
 }

@@ -72,7 +72,7 @@ TableNode node_of(const std::vector<float>& values, std::size_t incidence, const
   const double leaving = cells.leaving_weight / cells.all_weight;
   TableNode node;
   // Reflected and leaving, or reflected, not leaving, and all over again.
-  node.reflectance = reflectance * leaving / (1.0 - reflectance * (1.0 - leaving));
+  node.reflectance = std::min(1.0, reflectance * leaving / (1.0 - reflectance * (1.0 - leaving)));
   set_absorptance(node, 1.0 - node.reflectance);
   node.reflected = quantiles_of_cells(cells);
   return node;

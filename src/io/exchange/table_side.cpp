@@ -27,6 +27,16 @@ double polar_step(double level) {
 /// The inverse of azimuth_level.
 double azimuth_step(double level) { return 1.0 - std::sqrt(1.0 - level); }
 
+/// The digits of `k` in a base, mirrored at the point.
+double mirrored_digits(std::uint64_t k, std::uint64_t base) {
+  double value = 0.0, digit = 1.0;
+  for (; k > 0; k /= base) {
+    digit /= static_cast<double>(base);
+    value += digit * static_cast<double>(k % base);
+  }
+  return value;
+}
+
 /// A table of a surface with direction is no function of incidence alone.
 template <class Table>
 void refuse_directional(const Table& table) {
@@ -94,12 +104,11 @@ ExitAngles TableSide::direction(Leaving way, double incidence_rad, double u, dou
 }
 
 CubePoint cube_point(std::uint64_t k, const CubePoint& shift) {
-  constexpr double kG = 1.2207440846057596;
-  const auto turn = [&](double step, double start) {
-    const double value = start + static_cast<double>(k) * step;
+  const auto moved = [&](std::uint64_t base, double start) {
+    const double value = mirrored_digits(k, base) + start;
     return value - std::floor(value);
   };
-  return {turn(1.0 / kG, shift.u), turn(1.0 / (kG * kG), shift.v), turn(1.0 / (kG * kG * kG), shift.w)};
+  return {moved(2, shift.u), moved(3, shift.v), moved(5, shift.w)};
 }
 
 CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {

@@ -44,9 +44,9 @@ class TableSide {
   double before_, behind_;
 };
 
-/// Point `k` of an even filling of the unit cube, moved by `shift` (each in [0, 1)). Coordinates are
-/// multiples of 1/g, 1/g^2, 1/g^3 modulo 1, with g^4 = g + 1.
-/// Source: M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R_3.
+/// Point `k` of an even filling of the unit cube, moved by `shift` (each in [0, 1)) modulo 1.
+/// Source: J. H. Halton 1960, Numer. Math. 2, 84-90, bases 2, 3, 5; the shift is that of R. Cranley and
+/// T. Patterson 1976, SIAM J. Numer. Anal. 13, 904-914.
 struct CubePoint {
   double u, v, w;
 };
