@@ -1,11 +1,12 @@
-#include "scintray/cli/table_export_command.hpp"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "scintray/cli/table_command.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/units.hpp"
 #include "scintray/io/exchange/bsdf_text.hpp"
 #include "scintray/io/exchange/davis.hpp"
 #include "scintray/io/exchange/table_csv.hpp"
@@ -15,13 +16,20 @@ namespace scintray::cli {
 namespace {
 
 struct ExportArguments {
-  std::string table, format, output, side = "inside";
+  std::string table, format, output, wavelength, side = "inside";
   std::uint64_t rays = BsdfSettings{}.rays, seed = 1;
 };
+
+std::size_t slice_of(const ExportArguments& arguments, const SurfaceTable& table) {
+  std::optional<double> wavelength;
+  if (!arguments.wavelength.empty()) wavelength = parse_quantity(arguments.wavelength, Dimension::wavelength);
+  return slice_at(table, wavelength);
+}
 
 void export_davis(const ExportArguments& arguments, const SurfaceTable& table, Side side) {
   DavisSettings settings;
   settings.side = side;
+  settings.slice = slice_of(arguments, table);
   settings.seed = arguments.seed;
   const auto losses = write_davis(arguments.output, table, settings);
   const DavisFiles files = davis_files(arguments.output);
@@ -39,6 +47,7 @@ void export_bsdf(const ExportArguments& arguments, const SurfaceTable& table, Si
   for (const Leaving way : {Leaving::reflected, Leaving::transmitted}) {
     BsdfSettings settings;
     settings.side = side;
+    settings.slice = slice_of(arguments, table);
     settings.way = way;
     settings.rays = arguments.rays;
     settings.seed = arguments.seed;
@@ -78,6 +87,8 @@ void add_table_export_command(CLI::App& table) {
   app->add_option("--side", arguments->side, "Where the light comes from (davis, bsdf)")
       ->check(CLI::IsMember({"inside", "outside"}))
       ->capture_default_str();
+  app->add_option("--wavelength", arguments->wavelength,
+                  "Which wavelength of a table of several, as \"420 nm\" (davis, bsdf)");
   app->add_option("--rays", arguments->rays, "Points of the distribution per angle (bsdf)")
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{100'000'000}))
       ->capture_default_str();

@@ -1,11 +1,10 @@
-#include "scintray/cli/table_import_command.hpp"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "scintray/cli/table_command.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/exchange/davis.hpp"
 #include "scintray/io/exchange/lbnl.hpp"

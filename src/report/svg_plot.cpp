@@ -201,7 +201,7 @@ class Drawing {
             go + number(x_.at(s.x[i])) + " " + number(y) + " L" + number(x_.at(s.x[i + 1])) + " " + number(y);
       } else {
         path += go + number(x_.at(s.x[i])) + " " + number(y);
-        marks += marker(index, x_.at(s.x[i]), y);
+        if (s.marks) marks += marker(index, x_.at(s.x[i]), y);
       }
       joined = true;
       if (!s.error.empty() && s.error[i] > 0.0)

@@ -12,6 +12,7 @@ struct PlotSeries {
   std::vector<double> y;
   std::vector<double> error;  ///< one sigma; empty for none
   bool steps = false;         ///< a histogram's outline instead of points joined by lines
+  bool marks = true;          ///< points: a mark at each; without, for many points, the line alone
 };
 
 struct Plot {

@@ -12,6 +12,13 @@
 
 namespace scintray {
 
+void add_definitions(Library& library, const SceneSpec& spec) {
+  library.add(LibraryKind::medium, spec.media);
+  library.add(LibraryKind::surface, spec.surfaces);
+  library.add(LibraryKind::sensor, spec.sensors);
+  library.add(LibraryKind::reflector, spec.reflectors);
+}
+
 namespace {
 
 /// Wavelengths that photons of a scene can have, and the one tables are made for.
@@ -21,10 +28,7 @@ struct WavelengthRange {
 
 Library library_for(const SceneSpec& spec) {
   Library library = Library::shipped();
-  library.add(LibraryKind::medium, spec.media);
-  library.add(LibraryKind::surface, spec.surfaces);
-  library.add(LibraryKind::sensor, spec.sensors);
-  library.add(LibraryKind::reflector, spec.reflectors);
+  add_definitions(library, spec);
   return library;
 }
 

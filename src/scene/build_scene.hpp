@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/scene/library.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
 #include "scintray/scene/surface_maker.hpp"
@@ -38,5 +39,8 @@ class SceneBuilder {
  private:
   SurfaceMaker surface_maker_;
 };
+
+/// Adds a scene's own media, surfaces, sensors and reflectors to a library.
+void add_definitions(Library& library, const SceneSpec& spec);
 
 }  // namespace scintray

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+
+#include "scintray/scene/map_forms.hpp"
 
 namespace scintray {
 
@@ -74,13 +78,16 @@ std::uint64_t read_count(const TomlTable& table, const std::string& key, std::ui
 }
 
 /// [tracing]: nothing for rays traced on the spot, else how the table is made.
-std::optional<TableSettings> read_tracing(const TomlTable& surface) {
-  TableSettings settings;
+std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
+  TracingSpec tracing;
+  TableSettings& settings = tracing.settings;
   const std::optional<TomlTable> table = surface.optional_table("tracing");
-  if (!table) return settings;
+  if (!table) return tracing;
   const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
   if (on_the_spot) {
-    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine"}) table->has(key);
+    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine", "wavelengths",
+                            "directional", "target_error"})
+      table->has(key);
     return std::nullopt;
   }
   settings.incidence_step_rad =
@@ -90,40 +97,38 @@ std::optional<TableSettings> read_tracing(const TomlTable& surface) {
   settings.rays = read_count(*table, "rays", settings.rays, 1);
   settings.seed = read_count(*table, "seed", settings.seed, 0);
   settings.refine = table->boolean("refine", settings.refine);
-  return settings;
+  settings.directional = table->boolean("directional", settings.directional);
+  settings.target_error = table->number("target_error", settings.target_error);
+  table->expect("target_error", settings.target_error >= 0.0 && settings.target_error < 1.0,
+                "\"target_error\" is an error of the reflectance, between 0 (none) and 1");
+  tracing.wavelengths_nm = table->quantities("wavelengths", Dimension::wavelength, 0, false);
+  table->expect("wavelengths",
+                std::adjacent_find(tracing.wavelengths_nm.begin(), tracing.wavelengths_nm.end(),
+                                   std::greater_equal<>()) == tracing.wavelengths_nm.end(),
+                "the wavelengths of a table rise, without repeats");
+  return tracing;
 }
 
-std::optional<double> read_optional_um(const TomlTable& table, const std::string& key) {
-  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
-  if (!length_mm) return std::nullopt;
-  table.expect(key, *length_mm > 0.0, "\"" + key + "\" must be positive");
-  return *length_mm * 1e3;
-}
-
-double read_um(const TomlTable& table, const std::string& key, double fallback_um, bool zero_allowed) {
-  const std::optional<double> length_mm = table.optional_quantity(key, Dimension::length);
-  if (!length_mm) return fallback_um;
-  table.expect(key, zero_allowed ? *length_mm >= 0.0 : *length_mm > 0.0,
-               "\"" + key + "\" must " + (zero_allowed ? "not be negative" : "be positive"));
-  return *length_mm * 1e3;
-}
-
-LevelingSpec read_leveling(const TomlTable& table) {
-  using Leveling = LevelingSpec::Kind;
-  const std::string word = table.choice("level", {"none", "mean", "plane", "polynomial"});
-  LevelingSpec leveling;
-  leveling.kind = word == "none"    ? Leveling::none
-                  : word == "mean"  ? Leveling::mean
-                  : word == "plane" ? Leveling::plane
-                                    : Leveling::polynomial;
-  table.has("degree");
-  if (leveling.kind == Leveling::polynomial) {
-    leveling.degree = static_cast<int>(table.integer("degree"));
-    table.expect("degree", leveling.degree >= 1 && leveling.degree <= 8,
-                 "the degree of the levelling polynomial lies between 1 and 8");
+/// mixture = [{ surface = "NAME", share = 0.6 }, ...]
+std::vector<ShareSpec> read_mixture(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems) {
+  std::vector<ShareSpec> mixture;
+  double sum = 0.0;
+  for (const TomlTable& part : table.tables("mixture")) {
+    const std::string name = part.string("surface");
+    const double share = read_share(part, "share", std::nullopt);
+    sum += share;
+    if (name.empty()) continue;
+    try {
+      mixture.push_back(
+          {share, std::make_shared<const SurfaceSpec>(lookup.surface(name, part.where("surface")))});
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
   }
-  leveling.loess_width_um = read_optional_um(table, "loess_width");
-  return leveling;
+  constexpr double kRounding = 1e-9;
+  table.expect("mixture", mixture.empty() || std::abs(sum - 1.0) <= kRounding,
+               "the shares of a mixture sum to " + std::to_string(sum) + "; expected 1");
+  return mixture;
 }
 
 HeightMapSpec read_height_map_spec(const TomlTable& surface) {
@@ -138,7 +143,7 @@ HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   spec.options.periodic = table.boolean("periodic", false);
   table.expect("width", !spec.options.pitch_um || !spec.options.width_um,
                "\"pitch\" and \"width\" are both given, but each follows from the other", "keep one of them");
-  if (surface.has("height_map")) spec.leveling = read_leveling(table);
+  if (surface.has("height_map")) spec.preparation = read_preparation(table);
   const std::string tiling = table.choice("tiling", {"automatic", "mirror", "periodic"}, "automatic");
   spec.tiling = tiling == "mirror"     ? Tiling::mirror
                 : tiling == "periodic" ? Tiling::periodic
@@ -147,51 +152,12 @@ HeightMapSpec read_height_map_spec(const TomlTable& surface) {
   return spec;
 }
 
-void read_relief(const TomlTable& table, const std::string& kind, SynthesisRecipe& recipe) {
-  const bool bare = kind == "gaussian" || kind == "fracture";
-  for (const char* key : {"rms_height", "correlation_length", "spacing", "rise"}) table.has(key);
-  const auto need = [&](const std::string& key) {
-    if (!table.has(key))
-      table.report(key, "a recipe of kind \"" + kind + "\" needs \"" + key + "\"",
-                   "give it, or start from kind = \"ground\" or \"polished\"");
-  };
-  if (bare) {
-    need("rms_height");
-    need("correlation_length");
-  }
-  recipe.gaussian.rms_height_um = read_um(table, "rms_height", recipe.gaussian.rms_height_um, true);
-  recipe.gaussian.correlation_length_um =
-      read_um(table, "correlation_length", recipe.gaussian.correlation_length_um, false);
-  if (kind == "gaussian" || kind == "polished") return;
-  if (kind == "fracture") {
-    need("spacing");
-    need("rise");
-  }
-  FractureRelief& fracture = recipe.fracture;
-  fracture.spacing_um = read_um(table, "spacing", fracture.spacing_um, false);
-  fracture.rise_um = read_um(table, "rise", fracture.rise_um, true);
-  fracture.exponent = table.number("exponent", fracture.exponent);
-  table.expect("exponent", fracture.exponent >= 1.0, "\"exponent\" must be at least 1");
-  fracture.depth_spread_um = read_um(table, "depth_spread", fracture.depth_spread_um, true);
-  fracture.size_spread = table.number("size_spread", fracture.size_spread);
-  table.expect("size_spread", fracture.size_spread >= 0.0 && fracture.size_spread < 1.0,
-               "\"size_spread\" lies between 0 and 1, 1 excluded");
-}
-
 RecipeSpec read_recipe(const TomlTable& surface) {
   const TomlTable table = surface.table("recipe");
   RecipeSpec spec;
   spec.where = table.where();
   if (!surface.has("recipe")) return spec;
-  const std::string kind = table.choice("kind", {"ground", "polished", "gaussian", "fracture"});
-  if (kind == "ground") spec.recipe = ground_recipe();
-  if (kind == "polished") spec.recipe = polished_recipe();
-  if (kind == "gaussian" || kind == "fracture") spec.recipe.name = kind;
-  read_relief(table, kind, spec.recipe);
-  spec.recipe.pitch_um = read_um(table, "pitch", spec.recipe.pitch_um, false);
-  spec.recipe.columns = static_cast<std::uint32_t>(read_count(table, "columns", spec.recipe.columns, 2));
-  spec.recipe.rows = static_cast<std::uint32_t>(read_count(table, "rows", spec.recipe.rows, 2));
-  spec.recipe.seed = read_count(table, "seed", spec.recipe.seed, 0);
+  spec.recipe = read_synthesis(table);
   spec.table = read_tracing(surface);
   return spec;
 }
@@ -221,7 +187,9 @@ void read_gap(const TomlTable& table, const SurfaceLookup& lookup, Problems& pro
     surface.gap = table.string("gap");
     if (surface.gap.empty()) return;
     try {
-      surface.gap_index = lookup.index_of(surface.gap, value->where);
+      const Medium medium = lookup.medium(surface.gap, value->where);
+      surface.gap_index = medium.index;
+      surface.gap_absorption_per_mm = medium.absorption_per_mm;
     } catch (const InputError& error) {
       problems.add(error);
     }
@@ -273,11 +241,15 @@ void check_stack(const TomlTable& table, const SurfaceSpec& surface) {
     table.report(
         "gap", "a reflector is given without the gap that separates it from the face",
         "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
-  if (!reflector && table.has("gap") && !painted)
+  const bool thick = table.has("gap_thickness");
+  if (!reflector && table.has("gap") && !painted && !thick)
     table.report(
         "gap", "a gap is given without a reflector behind it",
-        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, or "
-        "give a reflector");
+        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, give a "
+        "reflector, or give the layer a gap_thickness");
+  if (thick && !table.has("gap"))
+    table.report("gap_thickness", "a gap_thickness is given without a gap",
+                 "give gap = \"MEDIUM\", or remove it");
 }
 
 }  // namespace
@@ -330,6 +302,17 @@ SurfaceSpec read_surface(const TomlTable& table, const std::string& name, const 
   table.optional_string("base");
   table.optional_string("source");
   table.strings("needs", 0, false);
+  surface.direction = table.optional_direction("direction").value_or(Vec3::Zero());
+  if (table.has("mixture")) {
+    surface.mixture = read_mixture(table, lookup, problems);
+    for (const char* key : {"model", "gap", "gap_thickness", "reflector", "reflectance", "direction"})
+      if (table.has(key))
+        table.report(key,
+                     "a mixture is made of whole surfaces, and has no " + std::string(key) + " of its own",
+                     "give it to the surfaces that the mixture names");
+    return surface;
+  }
+  surface.gap_thickness_um = read_optional_um(table, "gap_thickness");
   surface.microsurface = read_microsurface(table);
   read_gap(table, lookup, problems, surface);
   read_surface_reflector(table, lookup, problems, surface);

@@ -3,6 +3,7 @@
 /// object it becomes depends on the media on its two sides, so it is made per interface.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "scintray/surface/unified.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/height_map.hpp"
+#include "scintray/topography/preparation.hpp"
 #include "scintray/topography/synthesis.hpp"
 
 namespace scintray {
@@ -29,33 +31,39 @@ struct TableFileSpec {
   FileLocation where;
 };
 
-/// What is taken off a height map before use.
-struct LevelingSpec {
-  enum class Kind { none, mean, plane, polynomial };
-  Kind kind = Kind::plane;
-  int degree = 1;                        ///< of the polynomial
-  std::optional<double> loess_width_um;  ///< width of the weighted local regression along each line
+/// How a table is made of a height map: at one wavelength, the scene's own, or at several.
+struct TracingSpec {
+  TableSettings settings;
+  std::vector<double> wavelengths_nm;  ///< in order; empty: the wavelength that most light has
 };
 
 /// A measured height map.
 struct HeightMapSpec {
   std::filesystem::path path;  ///< it exists
   ReadOptions options;
-  LevelingSpec leveling;
+  Preparation preparation;
   Tiling tiling = Tiling::automatic;
-  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the map itself, on the spot
   FileLocation where;
 };
 
 /// A height map made from a recipe.
 struct RecipeSpec {
   SynthesisRecipe recipe;
-  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the map itself, on the spot
   FileLocation where;
 };
 
 using MicrosurfaceSpec =
     std::variant<SmoothSpec, UnifiedSurface, TableFileSpec, HeightMapSpec, RecipeSpec, PaintedSpec>;
+
+struct SurfaceSpec;
+
+/// A share of a surface's area that is another surface.
+struct ShareSpec {
+  double share = 0.0;
+  std::shared_ptr<const SurfaceSpec> surface;
+};
 
 struct SurfaceSpec {
   std::string name;
@@ -63,8 +71,12 @@ struct SurfaceSpec {
   MicrosurfaceSpec microsurface;
   std::string gap;  ///< medium of the gap under the reflector, or its index as written; empty: none
   Curve gap_index = Curve::constant(1.0);  ///< against wavelength (nm)
-  std::optional<Reflector> reflector;      ///< looked up, with the surface's own specular share
-  std::vector<std::string> sources;        ///< published sources, its own first, then its bases'
+  Curve gap_absorption_per_mm = Curve::constant(0.0);
+  std::optional<double> gap_thickness_um;
+  std::optional<Reflector> reflector;  ///< looked up, with the surface's own specular share
+  Vec3 direction = Vec3::Zero();       ///< of a map's x axis (Surface::direction)
+  std::vector<ShareSpec> mixture;      ///< shares of 1; empty: the surface is one
+  std::vector<std::string> sources;    ///< published sources, its own first, then its bases'
 };
 
 }  // namespace scintray

@@ -131,6 +131,11 @@ class HeightField::Walk {
 
   HeightFieldExit finish() {
     exit_.side = side_;
+    // Back along the ray to the plane of extreme heights, which an empty block may reach beyond.
+    const double plane = side_ == Side::outside ? field_.high_ : field_.low_;
+    const double beyond = exit_.cut ? 0.0 : (z_ - plane) / dz_;
+    exit_.x_um = (x_ - du_ * beyond) * field_.pitch_x_;
+    exit_.y_um = (y_ - dv_ * beyond) * field_.pitch_y_;
     return exit_;
   }
 
@@ -320,21 +325,30 @@ HeightFieldExit HeightField::follow(Ray& ray, Side side, double x_um, double y_u
   return Walk(*this, ray, side, x_um, y_um).run(index, rng);
 }
 
+MapPlace HeightField::random_place(const Vec3& normal, const Vec3& along, Rng& rng) const {
+  MapPlace place{map_frame(normal, along, rng), 0.0, 0.0};
+  place.x_um = period_x_um() * rng.uniform();
+  place.y_um = period_y_um() * rng.uniform();
+  return place;
+}
+
 Side HeightField::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const {
-  const double azimuth = kTwoPi * rng.uniform();
-  const double cosine = std::cos(azimuth), sine = std::sin(azimuth);
-  const Frame about = Frame::about(normal);
-  const Frame map{cosine * about.x + sine * about.y, cosine * about.y - sine * about.x, normal};
+  MapPlace place = random_place(normal, Vec3::Zero(), rng);
+  return scatter(ray, side, place, index, rng);
+}
+
+Side HeightField::scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index, Rng& rng) const {
+  const Frame& map = place.map;
   Ray local{map.to_local(ray.direction), map.to_local(ray.polarisation)};
-  const double x = period_x_um() * rng.uniform();
-  const double y = period_y_um() * rng.uniform();
-  const HeightFieldExit exit = follow(local, side, x, y, index, rng);
+  const HeightFieldExit exit = follow(local, side, place.x_um, place.y_um, index, rng);
+  place.x_um = exit.x_um;
+  place.y_um = exit.y_um;
   ray.direction = map.to_world(local.direction).normalized();
   ray.polarisation = map.to_world(local.polarisation);
   // Turning into the world frame may round a grazing direction through the mean plane.
   const double out = exit.side == Side::outside ? 1.0 : -1.0;
-  const double rise = out * ray.direction.dot(normal);
-  if (rise <= 0.0) ray.direction = (ray.direction + out * (kSmallestRise - rise) * normal).normalized();
+  const double rise = out * ray.direction.dot(map.z);
+  if (rise <= 0.0) ray.direction = (ray.direction + out * (kSmallestRise - rise) * map.z).normalized();
   return exit.side;
 }
 

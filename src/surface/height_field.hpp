@@ -14,7 +14,21 @@ struct HeightFieldExit {
   Side side = Side::inside;    ///< medium the ray left in
   int facets_met = 0;          ///< number of facets met, at least 1
   double first_slope_rad = 0;  ///< angle between the first facet's normal and the mean normal
+  double x_um = 0, y_um = 0;   ///< lateral position where it left the plane of extreme heights
   bool cut = false;            ///< followed for longer than the step limit and released as it was
+};
+
+/// How a map lies on a face, and where on it a ray is: kept while the ray goes to and fro between the map
+/// and what lies close behind it.
+struct MapPlace {
+  Frame map;  ///< the map's x and y, and the mean normal
+  double x_um = 0, y_um = 0;
+
+  /// Moves along the unit vector `direction` (world) by `distance_um`, sideways only.
+  void shift(const Vec3& direction, double distance_um) {
+    x_um += distance_um * direction.dot(map.x);
+    y_um += distance_um * direction.dot(map.y);
+  }
 };
 
 /// Heights on a periodic rectangular lattice; each cell is split along the diagonal from
@@ -43,6 +57,10 @@ class HeightField {
 
   /// As every microsurface: random position and, about `normal`, random azimuth of the map.
   Side scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const;
+  /// The same at a place, which moves to where the ray leaves.
+  Side scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index, Rng& rng) const;
+  /// A place anywhere on the map, its x along `along` (see map_frame).
+  MapPlace random_place(const Vec3& normal, const Vec3& along, Rng& rng) const;
 
   double period_x_um() const { return pitch_x_ * columns_; }
   double period_y_um() const { return pitch_y_ * rows_; }

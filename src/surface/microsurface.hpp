@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "scintray/core/sampling.hpp"
 #include "scintray/surface/fresnel.hpp"
 
 namespace scintray {
@@ -22,6 +23,22 @@ struct IndexPair {
   double outside = 1.0;
   double on(Side side) const { return side == Side::inside ? inside : outside; }
 };
+
+/// The frame of a surface with direction on a face of unit normal `normal`: x along the projection of
+/// `along`; where that is zero (shorter than 1e-6), at a random azimuth.
+inline Frame map_frame(const Vec3& normal, const Vec3& along, Rng& rng) {
+  const Vec3 lateral = along - along.dot(normal) * normal;
+  const double length = lateral.norm();
+  const Vec3 x = length > 1e-6 ? Vec3(lateral / length) : sample_polarisation(normal, rng);
+  return {x, normal.cross(x), normal};
+}
+
+/// What a photon's meeting with a surface came to.
+enum class SurfaceOutcome { inside, outside, absorbed };
+
+constexpr SurfaceOutcome outcome_on(Side side) {
+  return side == Side::inside ? SurfaceOutcome::inside : SurfaceOutcome::outside;
+}
 
 // Every microsurface offers
 //   Side scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const;

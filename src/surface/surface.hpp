@@ -1,10 +1,11 @@
 #pragma once
-/// A surface is a stack: microsurface | gap or glue of no thickness | reflector.
+/// A surface is a stack: microsurface | gap or glue | reflector or next medium.
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "scintray/core/curve.hpp"
 #include "scintray/surface/height_field.hpp"
@@ -33,17 +34,41 @@ struct Reflector {
   std::string name;
   Curve reflectance;            ///< against wavelength (nm)
   double specular_share = 0.0;  ///< share of reflected light that is mirrored; the rest Lambertian
+  /// Volume-like reflectors (PTFE, paint): index of the binder, 0 for none. Light is refracted into it, and
+  /// the light scattered back, Lambertian inside, is refracted out or reflected in again; `reflectance` is
+  /// then that of the volume for diffuse light from within. Source: L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
+  /// 2956, "Diffuse-reflectance model for smooth dielectric surfaces", eqs. (4) to (6).
+  double volume_index = 0.0;
 };
 
-/// What a photon's meeting with a surface came to.
-enum class SurfaceOutcome { inside, outside, absorbed };
+struct Surface;
+
+/// A part of a surface's area, scattered finely over it.
+struct SurfaceShare {
+  double share = 0.0;
+  std::shared_ptr<const Surface> surface;
+};
 
 /// The optical stack of a face. Light without a reflector goes on to the other side.
 struct Surface {
   std::string name;
   Microsurface microsurface = SmoothSurface{};
-  Curve gap_index = Curve::constant(1.0);  ///< index of the gap or glue under the reflector
+
+  /// What lies under the reflector, or, with a thickness and no reflector, between the microsurface and the
+  /// smooth boundary of the next medium.
+  Curve gap_index = Curve::constant(1.0);
+  Curve gap_absorption_per_mm = Curve::constant(0.0);
+  /// Without one the gap is thin but wide: light comes back to the microsurface anywhere on it.
+  std::optional<double> gap_thickness_um;
   std::optional<Reflector> reflector;
+
+  /// Direction of a height map's or directional table's x axis, projected onto the face (world, any
+  /// length); zero, and on faces that it is perpendicular to: at random for every photon.
+  Vec3 direction = Vec3::Zero();
+
+  /// Shares of the area (sum 1) that are other surfaces, as in partial contact; then the fields above,
+  /// but for the name, are not used.
+  std::vector<SurfaceShare> mixture;
 
   /// Follows the ray through the stack until it is on the inside, on the outside, or absorbed.
   ///
@@ -53,7 +78,7 @@ struct Surface {
                       Rng& rng) const;
 
   /// True when no light passes to the other side.
-  bool opaque() const { return reflector.has_value(); }
+  bool opaque() const;
 };
 
 }  // namespace scintray

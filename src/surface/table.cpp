@@ -26,6 +26,9 @@ constexpr double kLeastCosine = 1e-7;
 /// Rounding of angles stored in single precision.
 constexpr double kAngleRounding = 1e-6;
 
+/// Rounding of shares that sum to one.
+constexpr double kShareRounding = 1e-12;
+
 /// Quantile of a sorted sample; order statistic k stands for the level (k + 1/2)/n.
 float quantile(std::span<const float> sorted, double level) {
   const double n = static_cast<double>(sorted.size());
@@ -36,13 +39,15 @@ float quantile(std::span<const float> sorted, double level) {
   return sorted[k] + share * (sorted[next] - sorted[k]);
 }
 
-bool increasing(std::span<const float> edges, double high) {
-  return edges.front() >= 0.0f && edges.back() <= high + kAngleRounding &&
+bool increasing(std::span<const float> edges, double low, double high) {
+  return edges.front() >= low - kAngleRounding && edges.back() <= high + kAngleRounding &&
          std::is_sorted(edges.begin(), edges.end());
 }
 
 class TableCheck {
  public:
+  explicit TableCheck(AzimuthKind kind) : kind_(kind) {}
+
   void nodes(const std::vector<TableNode>& nodes, const std::string& side) {
     if (nodes.size() < 2) {
       fault("table from " + side + " has " + std::to_string(nodes.size()) + " nodes; expected at least 2");
@@ -69,8 +74,12 @@ class TableCheck {
   void node(const TableNode& node, const std::string& name) {
     if (!(node.reflectance >= 0.0 && node.reflectance <= 1.0))
       fault(name + " has reflectance " + std::to_string(node.reflectance) + "; expected 0 to 1");
+    else if (!(node.absorptance >= 0.0 && node.reflectance + node.absorptance <= 1.0 + kShareRounding))
+      fault(name + " has absorptance " + std::to_string(node.absorptance) + "; expected 0 to " +
+            std::to_string(1.0 - node.reflectance) + ", one less its reflectance");
     if (node.reflectance > 0.0 && node.reflected.empty()) fault(name + " reflects but has no directions");
-    if (node.reflectance < 1.0 && node.transmitted.empty()) fault(name + " transmits but has no directions");
+    if (node.transmittance() > kShareRounding && node.transmitted.empty())
+      fault(name + " transmits but has no directions");
     directions(node.reflected, name + ", reflected");
     directions(node.transmitted, name + ", transmitted");
   }
@@ -84,23 +93,26 @@ class TableCheck {
             " and " + std::to_string(kPolarBins * kRow));
       return;
     }
-    if (!increasing(q.polar, 0.5 * kPi)) fault(name + ": polar edges do not increase within 0 to 90 deg");
+    if (!increasing(q.polar, 0.0, 0.5 * kPi))
+      fault(name + ": polar edges do not increase within 0 to 90 deg");
+    const double low = kind_ == AzimuthKind::folded ? 0.0 : -kPi;
     for (int row = 0; row < kPolarBins; ++row)
-      if (!increasing(std::span(q.azimuth).subspan(row * kRow, kRow), kPi)) {
-        fault(name + ": azimuth edges of polar bin " + std::to_string(row) +
-              " do not increase within 0 to 180 deg");
+      if (!increasing(std::span(q.azimuth).subspan(row * kRow, kRow), low, kPi)) {
+        fault(name + ": azimuth edges of polar bin " + std::to_string(row) + " do not increase within " +
+              (low < 0.0 ? "-180" : "0") + " to 180 deg");
         return;
       }
   }
 
   void fault(std::string what) { problems_.add({}, std::move(what), "rebuild the table"); }
 
+  AzimuthKind kind_;
   Problems problems_;
 };
 
 }  // namespace
 
-DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample) {
+DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kind) {
   DirectionQuantiles result;
   result.rays = sample.size();
   if (sample.empty()) return result;
@@ -120,65 +132,118 @@ DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample) {
     values.clear();
     for (std::size_t r = first; r < last; ++r) values.push_back(sample[r].azimuth);
     std::sort(values.begin(), values.end());
-    for (int c = 0; c <= kAzimuthBins; ++c) result.azimuth.push_back(quantile(values, azimuth_level(c)));
+    for (int c = 0; c <= kAzimuthBins; ++c)
+      result.azimuth.push_back(
+          quantile(values, kind == AzimuthKind::folded ? azimuth_level(c) : signed_azimuth_level(c)));
   }
   return result;
 }
 
 SurfaceTable::SurfaceTable(IndexPair index, std::vector<TableNode> from_inside,
                            std::vector<TableNode> from_outside, TableProvenance provenance)
-    : index_(index),
-      nodes_{std::move(from_inside), std::move(from_outside)},
-      provenance_(std::move(provenance)) {
-  TableCheck check;
-  check.nodes(nodes_[0], "inside");
-  check.nodes(nodes_[1], "outside");
+    : SurfaceTable({TableSlice{0.0, 0.0, index, std::move(from_inside), std::move(from_outside)}},
+                   AzimuthKind::folded, std::move(provenance)) {}
+
+SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, TableProvenance provenance)
+    : slices_(std::move(slices)), kind_(kind), provenance_(std::move(provenance)) {
+  check_grid();
+  TableCheck check(kind_);
+  for (const TableSlice& slice : slices_) {
+    check.nodes(slice.from_inside, "inside");
+    check.nodes(slice.from_outside, "outside");
+  }
   check.throw_if_any();
-  for (int side = 0; side < 2; ++side) {
-    for (const TableNode& node : nodes_[side])
-      slants_[side].push_back({slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)), 0.0});
-    for (std::size_t k = 0; k + 1 < nodes_[side].size(); ++k) {
-      const double low = nodes_[side][k].incidence_rad, high = nodes_[side][k + 1].incidence_rad;
-      const double middle = 0.5 * (slants_[side][k].value + slants_[side][k + 1].value);
-      slants_[side][k].bend = 4.0 * ((angle_of_slant(middle) - low) / (high - low) - 0.5);
-    }
-    std::uint32_t node = 0;
-    for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
-      while (node + 2 < nodes_[side].size() && slants_[side][node + 1].value * kLookupSteps <= step) ++node;
-      lookup_[side].push_back(node);
-    }
+  opaque_ = true;
+  for (const TableSlice& slice : slices_) {
+    index_.push_back(make_index(slice.from_inside));
+    index_.push_back(make_index(slice.from_outside));
+    for (const TableNode& node : slice.from_inside) opaque_ = opaque_ && node.transmitted.empty();
+    for (const Side side : {Side::inside, Side::outside})
+      for (const TableNode& node : slice.nodes(side)) absorbs_ = absorbs_ || node.absorptance > 0.0;
   }
 }
 
-SurfaceTable::Place SurfaceTable::place(int side, double sine, double cosine) const {
-  const std::vector<Slant>& slants = slants_[side];
+void SurfaceTable::check_grid() {
+  const auto fault = [](const std::string& what) {
+    throw InputError({{}, "the slices of a table " + what, "rebuild the table"});
+  };
+  if (slices_.empty()) fault("are missing");
+  for (const TableSlice& slice : slices_)
+    if (wavelengths_nm_.empty() || slice.wavelength_nm != wavelengths_nm_.back())
+      wavelengths_nm_.push_back(slice.wavelength_nm);
+  for (std::size_t k = 1; k < wavelengths_nm_.size(); ++k)
+    if (!(wavelengths_nm_[k] > wavelengths_nm_[k - 1])) fault("are not in order of wavelength");
+  azimuths_ = slices_.size() / wavelengths_nm_.size();
+  if (kind_ == AzimuthKind::folded && azimuths_ != 1) fault("have several azimuths, but no direction");
+  for (std::size_t k = 0; k < slices_.size(); ++k) {
+    const double azimuth = kTwoPi * static_cast<double>(k % azimuths_) / static_cast<double>(azimuths_);
+    if (slices_[k].wavelength_nm != wavelengths_nm_[std::min(k / azimuths_, wavelengths_nm_.size() - 1)] ||
+        !(std::abs(slices_[k].azimuth_rad - azimuth) < kAngleRounding))
+      fault("are not at the same azimuths, evenly spaced from 0, for every wavelength");
+  }
+}
+
+SurfaceTable::Index SurfaceTable::make_index(const std::vector<TableNode>& nodes) {
+  Index index;
+  for (const TableNode& node : nodes)
+    index.slants.push_back({slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)), 0.0});
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    const double low = nodes[k].incidence_rad, high = nodes[k + 1].incidence_rad;
+    const double middle = 0.5 * (index.slants[k].value + index.slants[k + 1].value);
+    index.slants[k].bend = 4.0 * ((angle_of_slant(middle) - low) / (high - low) - 0.5);
+  }
+  std::uint32_t node = 0;
+  for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
+    while (node + 2 < nodes.size() && index.slants[node + 1].value * kLookupSteps <= step) ++node;
+    index.lookup.push_back(node);
+  }
+  return index;
+}
+
+SurfaceTable::Place SurfaceTable::place(const Index& index, double sine, double cosine) const {
+  const std::vector<Slant>& slants = index.slants;
   const double value = slant(sine, cosine);
-  std::uint32_t node =
-      lookup_[side][std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
+  std::uint32_t node = index.lookup[std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
   while (node + 2 < slants.size() && value >= slants[node + 1].value) ++node;
   const double low = slants[node].value, high = slants[node + 1].value;
   const double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
   return {node, x + slants[node].bend * x * (1.0 - x)};
 }
 
-double SurfaceTable::reflectance(Side side, double incidence_rad) const {
-  const auto& nodes = this->nodes(side);
+double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {
+  const auto& at = nodes(side, slice);
   const auto above =
-      std::lower_bound(nodes.begin() + 1, nodes.end() - 1, incidence_rad,
+      std::lower_bound(at.begin() + 1, at.end() - 1, incidence_rad,
                        [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
   const TableNode &low = *(above - 1), &high = *above;
   const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
   return low.reflectance + std::clamp(share, 0.0, 1.0) * (high.reflectance - low.reflectance);
 }
 
-double SurfaceTable::reflectance(int side, const Place& at) const {
-  const double low = nodes_[side][at.node].reflectance;
-  return low + at.share * (nodes_[side][at.node + 1].reflectance - low);
+std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_nm, Rng& rng) const {
+  std::size_t spectral = 0;
+  if (wavelengths_nm_.size() > 1) {
+    const auto above =
+        std::upper_bound(wavelengths_nm_.begin() + 1, wavelengths_nm_.end() - 1, wavelength_nm);
+    const double low = *(above - 1), high = *above;
+    spectral = static_cast<std::size_t>(above - wavelengths_nm_.begin()) - 1;
+    if (rng.uniform() < (wavelength_nm - low) / (high - low)) ++spectral;
+  }
+  std::size_t azimuth = 0;
+  if (azimuths_ > 1) {
+    const double turns = lateral_azimuth / kTwoPi;
+    const double at = (turns - std::floor(turns)) * static_cast<double>(azimuths_);
+    azimuth = static_cast<std::size_t>(at);
+    if (rng.uniform() < at - std::floor(at)) ++azimuth;
+    azimuth %= azimuths_;
+  }
+  return spectral * azimuths_ + azimuth;
 }
 
-ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rng& rng) const {
+ExitAngles SurfaceTable::sample(const std::vector<TableNode>& nodes, const Place& place, bool reflected,
+                                Rng& rng) const {
   const auto directions = [&](std::uint32_t node) -> const DirectionQuantiles& {
-    return reflected ? nodes_[side][node].reflected : nodes_[side][node].transmitted;
+    return reflected ? nodes[node].reflected : nodes[node].transmitted;
   };
   const DirectionQuantiles* low = &directions(place.node);
   const DirectionQuantiles* high = &directions(place.node + 1);
@@ -186,10 +251,14 @@ ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rn
   if (low->empty()) low = high;
   if (high->empty()) high = low;
 
-  const double u = rng.uniform();
-  const double s = u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
+  const auto two_tails = [](double u) {
+    return u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
+  };
+  const bool folded = kind_ == AzimuthKind::folded;
+  const double s = two_tails(rng.uniform());
   const std::uint64_t bits = rng.bits();
-  const double t = 1.0 - std::sqrt(1.0 - static_cast<double>(bits >> 11) * 0x1.0p-53);
+  const double u = static_cast<double>(bits >> 11) * 0x1.0p-53;
+  const double t = folded ? 1.0 - std::sqrt(1.0 - u) : two_tails(u);
   const int polar_bin = std::min(static_cast<int>(s * kPolarBins), kPolarBins - 1);
   const int azimuth_bin = std::min(static_cast<int>(t * kAzimuthBins), kAzimuthBins - 1);
   const auto polar_part = static_cast<float>(s * kPolarBins - polar_bin);
@@ -204,21 +273,41 @@ ExitAngles SurfaceTable::sample(int side, const Place& place, bool reflected, Rn
   };
   const ExitAngles a = angles(*low), b = angles(*high);
   const float azimuth = a.azimuth + share * (b.azimuth - a.azimuth);
-  // A bit that t does not use: either side of the plane of incidence.
-  return {a.polar + share * (b.polar - a.polar), (bits & 1) != 0 ? azimuth : -azimuth};
+  // A bit that u does not use: either side of the plane of incidence.
+  return {a.polar + share * (b.polar - a.polar), folded && (bits & 1) != 0 ? -azimuth : azimuth};
 }
 
-Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair&, Rng& rng) const {
-  const int from = static_cast<int>(side);
-  const double along = ray.direction.dot(normal);
-  const Vec3 lateral = ray.direction - along * normal;
+SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const Vec3& normal, const Vec3& along,
+                                  double wavelength_nm, Rng& rng) const {
+  const double cosine = ray.direction.dot(normal);
+  const Vec3 lateral = ray.direction - cosine * normal;
   const double sine = lateral.norm();
-  const Place at = place(from, sine, std::abs(along));
-  const bool reflected = rng.uniform() < reflectance(from, at);
-  const ExitAngles exit = sample(from, at, reflected, rng);
-
   const Vec3 forward = sine > kNoPlane ? Vec3(lateral / sine) : sample_polarisation(normal, rng);
   const Vec3 across = normal.cross(forward);
+
+  std::size_t slice = 0;
+  if (slices_.size() > 1) {
+    double azimuth = 0.0;
+    if (azimuths_ > 1) {
+      const Frame map = map_frame(normal, along, rng);
+      azimuth = std::atan2(forward.dot(map.y), forward.dot(map.x));
+    }
+    slice = pick_slice(azimuth, wavelength_nm, rng);
+  }
+  const std::vector<TableNode>& nodes = slices_[slice].nodes(side);
+  const Place at = place(index_[2 * slice + static_cast<std::size_t>(side)], sine, std::abs(cosine));
+  const TableNode &low = nodes[at.node], &high = nodes[at.node + 1];
+  const double reflectance = low.reflectance + at.share * (high.reflectance - low.reflectance);
+  const double u = rng.uniform();
+  const bool reflected = u < reflectance;
+  if (absorbs_ && !reflected) {
+    const double absorptance = low.absorptance + at.share * (high.absorptance - low.absorptance);
+    // Rounding must not let light through where no node does.
+    const bool closed = low.transmitted.empty() && high.transmitted.empty();
+    if (closed || u < reflectance + absorptance) return SurfaceOutcome::absorbed;
+  }
+  const ExitAngles exit = sample(nodes, at, reflected, rng);
+
   const Side after = reflected ? side : other(side);
   const double out = after == Side::outside ? 1.0 : -1.0;
   // Cosines in single precision, as the table holds the angles, and sines that go with them exactly. A
@@ -229,7 +318,13 @@ Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexP
   const double sin_azimuth = std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth);
   ray.direction = sin_polar * (cos_azimuth * forward + sin_azimuth * across) + out * cos_polar * normal;
   if (!ray.polarisation.isZero(0.0)) ray.polarisation = sample_polarisation(ray.direction, rng);
-  return after;
+  return outcome_on(after);
+}
+
+Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair&, Rng& rng) const {
+  return meet(ray, side, normal, Vec3::Zero(), wavelengths_nm_.front(), rng) == SurfaceOutcome::inside
+             ? Side::inside
+             : Side::outside;
 }
 
 }  // namespace scintray

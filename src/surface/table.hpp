@@ -1,6 +1,7 @@
 #pragma once
 /// Surface tables: reflectance and direction distributions against incidence angle.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -29,10 +30,24 @@ constexpr double azimuth_level(int k) {
   return s * (2.0 - s);
 }
 
+/// Cumulative probability at edge k in [0, kAzimuthBins] of a signed azimuth, for tables of surfaces with
+/// direction: fine in both tails, as polar_level.
+constexpr double signed_azimuth_level(int k) {
+  const double s = static_cast<double>(k) / kAzimuthBins;
+  return s < 0.5 ? 2.0 * s * s : 1.0 - 2.0 * (1.0 - s) * (1.0 - s);
+}
+
+/// What a table's azimuths are.
+enum class AzimuthKind {
+  folded,       ///< |azimuth| in [0, pi]: the surface has no direction, both sides of the plane are alike
+  directional,  ///< signed azimuth in [-pi, pi], and a slice of the table per azimuth of incidence
+};
+
 /// Distribution of directions that leave on one side for one incidence node, as quantiles at fixed
 /// levels: `polar` holds the quantiles of the polar angle (rad, from the outgoing normal of the
-/// side) at `polar_level`, and within each polar bin `azimuth` those of |azimuth| from the plane of
-/// incidence (rad, 0 is forward, the specular side) at `azimuth_level`. Sampling needs no search,
+/// side) at `polar_level`, and within each polar bin `azimuth` those of the azimuth from the plane of
+/// incidence (rad, 0 is forward, the specular side, positive about the outward normal) at `azimuth_level`
+/// of |azimuth| or `signed_azimuth_level`. Sampling needs no search,
 /// is continuous inside bins, and bins are narrow where light is dense. Empty when no ray left that
 /// way.
 struct DirectionQuantiles {
@@ -42,7 +57,7 @@ struct DirectionQuantiles {
   bool empty() const { return polar.empty(); }
 };
 
-/// One direction that left: polar angle and |azimuth|, rad.
+/// One direction that left: polar angle and azimuth, rad.
 struct ExitAngles {
   float polar = 0.0f;
   float azimuth = 0.0f;
@@ -50,22 +65,38 @@ struct ExitAngles {
 
 /// Quantiles of a sample of directions (reordered). Quantiles of n values sit at the order
 /// statistics (k + 1/2)/n, linear between, level beyond. An empty sample gives an empty result.
-DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample);
+DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kind = AzimuthKind::folded);
 
 /// One incidence angle met from one side.
 struct TableNode {
   double incidence_rad = 0.0;
   double reflectance = 0.0;
   double reflectance_error = 0.0;     ///< one-sigma
+  double absorptance = 0.0;           ///< zero without a reflector or absorbing layer in the table
+  double absorptance_error = 0.0;     ///< one-sigma
   double mean_slope_rad = 0.0;        ///< mean angle of the first facet met to the mean normal
   double traced_incidence_rad = 0.0;  ///< where it was traced: below incidence_rad at 90 deg only
   std::uint64_t rays = 0;
   DirectionQuantiles reflected, transmitted;
+  double transmittance() const { return std::max(0.0, 1.0 - reflectance - absorptance); }
+};
+
+/// A table at one wavelength and, for a surface with direction, one azimuth of incidence.
+struct TableSlice {
+  double wavelength_nm = 0.0;  ///< 0: not said, or for any
+  double azimuth_rad = 0.0;    ///< of the lateral direction of travel from the map's x axis, about the normal
+  IndexPair index;
+  std::vector<TableNode> from_inside, from_outside;
+
+  const std::vector<TableNode>& nodes(Side side) const {
+    return side == Side::inside ? from_inside : from_outside;
+  }
 };
 
 /// How a table came to be.
 struct TableProvenance {
   std::string map;          ///< file name or recipe
+  std::string stack;        ///< what is tabulated beside the map: gap, reflector, shares; empty: nothing
   std::string preparation;  ///< levelling and filters applied, in order
   std::string tiling;       ///< "mirror" or "periodic"
   std::uint64_t seed = 0;
@@ -73,29 +104,55 @@ struct TableProvenance {
   std::uint64_t azimuths = 0;
   std::uint64_t unclassified = 0;  ///< rays without a medium: zero by construction
   std::uint64_t cut = 0;           ///< rays released at the step limit
+  double target_error = 0.0;       ///< of the reflectance, that rays were added for; 0: none
+  std::uint64_t unconverged = 0;   ///< nodes that missed it at the most rays allowed
   std::string version;             ///< ScintRay version that built it
 };
 
-/// A microsurface tabulated for one pair of indices. Valid for that pair only.
+/// A microsurface, or a whole stack, tabulated. Valid for its pairs of indices only.
+///
+/// Between wavelengths, and between azimuths of incidence, one of the two neighbouring slices is drawn for
+/// each photon in proportion to nearness, which interpolates every distribution linearly. Beyond the first
+/// and the last wavelength the nearest slice holds.
 class SurfaceTable {
  public:
   SurfaceTable() = default;
-  /// Nodes strictly increasing in incidence from 0 to pi/2 on each side, reflectances in [0, 1],
-  /// quantiles of the right number, increasing and within [0, pi/2] and [0, pi], and present
-  /// wherever the reflectance says that light leaves; InputError with every fault otherwise.
+  /// One slice for all wavelengths and azimuths.
+  /// Nodes strictly increasing in incidence from 0 to pi/2 on each side, reflectances and absorptances in
+  /// [0, 1] with a sum of at most 1, quantiles of the right number, increasing and within [0, pi/2] and the
+  /// range of the azimuth, and present wherever the shares say that light leaves; InputError with every
+  /// fault otherwise.
   SurfaceTable(IndexPair index, std::vector<TableNode> from_inside, std::vector<TableNode> from_outside,
                TableProvenance provenance);
+  /// The whole grid: slices in order of wavelength, within each of azimuth; every wavelength with the same
+  /// azimuths, which are evenly spaced over the circle from 0. InputError otherwise, as above.
+  SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, TableProvenance provenance);
 
-  /// As every microsurface. The polarisation, which a table does not hold, is drawn afresh unless
-  /// the ray is unpolarised. `index` is not used: `index_pair()` says what the table is for.
+  /// The ray arrives on `side` and leaves with its new direction on the side of the outcome. The
+  /// polarisation, which a table does not hold, is drawn afresh unless the ray is unpolarised.
+  /// @param along  for a directional table: direction of the map's x axis (projected onto the face; zero:
+  ///               at random)
+  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, const Vec3& along, double wavelength_nm,
+                      Rng& rng) const;
+
+  /// As every microsurface, for tables without absorption: the first wavelength, the map at any azimuth.
+  /// `index` is not used: `index_pair()` says what the table is for.
   Side scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const;
 
   /// Reflectance met from `side` at an incidence angle (rad), linear between nodes.
-  double reflectance(Side side, double incidence_rad) const;
+  double reflectance(Side side, double incidence_rad, std::size_t slice = 0) const;
 
-  const IndexPair& index_pair() const { return index_; }
-  const std::vector<TableNode>& nodes(Side side) const { return nodes_[static_cast<int>(side)]; }
+  const std::vector<TableSlice>& slices() const { return slices_; }
+  const std::vector<double>& wavelengths_nm() const { return wavelengths_nm_; }
+  std::size_t azimuths() const { return azimuths_; }
+  AzimuthKind azimuth_kind() const { return kind_; }
+  const IndexPair& index_pair(std::size_t slice = 0) const { return slices_[slice].index; }
+  const std::vector<TableNode>& nodes(Side side, std::size_t slice = 0) const {
+    return slices_[slice].nodes(side);
+  }
   const TableProvenance& provenance() const { return provenance_; }
+  bool absorbs() const { return absorbs_; }  ///< some node does
+  bool opaque() const { return opaque_; }    ///< nothing that comes from inside is transmitted
 
  private:
   /// Where an incidence angle falls between two nodes.
@@ -109,20 +166,30 @@ class SurfaceTable {
   struct Slant {
     double value = 0.0, bend = 0.0;
   };
-  Place place(int side, double sine, double cosine) const;
-  double reflectance(int side, const Place& at) const;
+  /// Lookups of one slice and side.
+  struct Index {
+    std::vector<Slant> slants;
+    std::vector<std::uint32_t> lookup;  ///< first candidate node for equal steps of the slant
+  };
+  /// Wavelengths and azimuths of the slices; InputError when they are no grid.
+  void check_grid();
+  static Index make_index(const std::vector<TableNode>& nodes);
+  Place place(const Index& index, double sine, double cosine) const;
+  std::size_t pick_slice(double lateral_azimuth, double wavelength_nm, Rng& rng) const;
   /// Polar angle and azimuth from the plane of incidence, either side of it.
-  ExitAngles sample(int side, const Place& place, bool reflected, Rng& rng) const;
+  ExitAngles sample(const std::vector<TableNode>& nodes, const Place& place, bool reflected, Rng& rng) const;
 
-  IndexPair index_;
-  std::vector<TableNode> nodes_[2];
-  std::vector<Slant> slants_[2];
-  std::vector<std::uint32_t> lookup_[2];  ///< first candidate node for equal steps of the slant
+  std::vector<TableSlice> slices_;
+  std::vector<Index> index_;  ///< two per slice: from inside, from outside
+  std::vector<double> wavelengths_nm_;
+  std::size_t azimuths_ = 1;
+  AzimuthKind kind_ = AzimuthKind::folded;
+  bool absorbs_ = false, opaque_ = false;
   TableProvenance provenance_;
 };
 
 /// Version of the table file layout; files of another version are refused.
-inline constexpr std::int64_t kTableFileVersion = 1;
+inline constexpr std::int64_t kTableFileVersion = 2;
 
 /// Writes / reads a table as HDF5. Reading checks version, shapes and ranges (InputError).
 void write_table(const std::filesystem::path& path, const SurfaceTable& table);

@@ -1,4 +1,4 @@
-/// Table files: one HDF5 group per side with one row per node.
+/// Table files: one HDF5 group per slice, in it one per side with one row per node.
 
 #include <algorithm>
 #include <map>
@@ -12,6 +12,8 @@ namespace scintray {
 namespace {
 
 constexpr const char* kFormat = "ScintRay surface table";
+constexpr const char* kFolded = "folded";
+constexpr const char* kDirectional = "directional";
 constexpr std::uint64_t kAzimuthRow = kPolarBins * (kAzimuthBins + 1);
 
 /// Directions of one kind (reflected or transmitted) of all nodes; rows of empty nodes are zero.
@@ -43,6 +45,8 @@ void write_side(h5::Group group, const std::vector<TableNode>& nodes) {
     columns["traced_incidence_rad"].push_back(node.traced_incidence_rad);
     columns["reflectance"].push_back(node.reflectance);
     columns["reflectance_error"].push_back(node.reflectance_error);
+    columns["absorptance"].push_back(node.absorptance);
+    columns["absorptance_error"].push_back(node.absorptance_error);
     columns["mean_slope_rad"].push_back(node.mean_slope_rad);
     rays.push_back(node.rays);
   }
@@ -54,16 +58,19 @@ void write_side(h5::Group group, const std::vector<TableNode>& nodes) {
 
 void write_provenance(h5::Group group, const TableProvenance& p) {
   group.set_attribute("", "map", p.map);
+  group.set_attribute("", "stack", p.stack);
   group.set_attribute("", "preparation", p.preparation);
   group.set_attribute("", "tiling", p.tiling);
   group.set_attribute("", "version", p.version);
-  const std::vector<std::pair<const char*, std::uint64_t>> counts = {{"seed", p.seed},
-                                                                     {"rays_per_azimuth", p.rays_per_azimuth},
-                                                                     {"azimuths", p.azimuths},
-                                                                     {"unclassified", p.unclassified},
-                                                                     {"cut", p.cut}};
+  const std::vector<std::pair<const char*, std::uint64_t>> counts = {
+      {"seed", p.seed},         {"rays_per_azimuth", p.rays_per_azimuth},
+      {"azimuths", p.azimuths}, {"unclassified", p.unclassified},
+      {"cut", p.cut},           {"unconverged", p.unconverged}};
+  group.set_attribute("", "target_error", p.target_error);
   for (const auto& [name, value] : counts) group.write(name, std::vector<std::uint64_t>{value});
 }
+
+std::string slice_name(std::size_t slice) { return "slice_" + std::to_string(slice); }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what,
                          const std::string& hint) {
@@ -127,6 +134,8 @@ std::vector<TableNode> read_side(const Reader& reader, const h5::Group& group) {
   const auto traced = reader.array<double>(group, "traced_incidence_rad", {n});
   const auto reflectance = reader.array<double>(group, "reflectance", {n});
   const auto error = reader.array<double>(group, "reflectance_error", {n});
+  const auto absorptance = reader.array<double>(group, "absorptance", {n});
+  const auto absorptance_error = reader.array<double>(group, "absorptance_error", {n});
   const auto slope = reader.array<double>(group, "mean_slope_rad", {n});
   const auto rays = reader.array<std::uint64_t>(group, "rays", {n});
   std::vector<TableNode> nodes(n);
@@ -135,6 +144,8 @@ std::vector<TableNode> read_side(const Reader& reader, const h5::Group& group) {
     nodes[k].traced_incidence_rad = traced[k];
     nodes[k].reflectance = reflectance[k];
     nodes[k].reflectance_error = error[k];
+    nodes[k].absorptance = absorptance[k];
+    nodes[k].absorptance_error = absorptance_error[k];
     nodes[k].mean_slope_rad = slope[k];
     nodes[k].rays = rays[k];
   }
@@ -146,6 +157,7 @@ std::vector<TableNode> read_side(const Reader& reader, const h5::Group& group) {
 TableProvenance read_provenance(const Reader& reader, const h5::Group& group) {
   TableProvenance p;
   p.map = group.string_attribute("", "map");
+  p.stack = group.string_attribute("", "stack");
   p.preparation = group.string_attribute("", "preparation");
   p.tiling = group.string_attribute("", "tiling");
   p.version = group.string_attribute("", "version");
@@ -155,6 +167,8 @@ TableProvenance read_provenance(const Reader& reader, const h5::Group& group) {
   p.azimuths = count("azimuths");
   p.unclassified = count("unclassified");
   p.cut = count("cut");
+  p.unconverged = count("unconverged");
+  p.target_error = group.double_attribute("", "target_error");
   return p;
 }
 
@@ -175,17 +189,30 @@ void check_version(const std::filesystem::path& path, const h5::Group& root) {
 void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
   h5::File file = h5::File::create(path);
   h5::Group root = file.root();
+  const bool directional = table.azimuth_kind() == AzimuthKind::directional;
   root.set_attribute("", "format", std::string(kFormat));
   root.set_attribute("", "format_version", kTableFileVersion);
-  root.set_attribute("", "index_inside", table.index_pair().inside);
-  root.set_attribute("", "index_outside", table.index_pair().outside);
+  root.set_attribute("", "azimuths", std::string(directional ? kDirectional : kFolded));
   std::vector<double> polar, azimuth;
   for (int k = 0; k <= kPolarBins; ++k) polar.push_back(polar_level(k));
-  for (int k = 0; k <= kAzimuthBins; ++k) azimuth.push_back(azimuth_level(k));
+  for (int k = 0; k <= kAzimuthBins; ++k)
+    azimuth.push_back(directional ? signed_azimuth_level(k) : azimuth_level(k));
   root.write("polar_levels", polar);
   root.write("azimuth_levels", azimuth);
-  write_side(root.create_group("from_inside"), table.nodes(Side::inside));
-  write_side(root.create_group("from_outside"), table.nodes(Side::outside));
+  std::vector<double> wavelengths, azimuths, inside, outside;
+  for (const TableSlice& slice : table.slices()) {
+    h5::Group group = root.create_group(slice_name(wavelengths.size()));
+    wavelengths.push_back(slice.wavelength_nm);
+    azimuths.push_back(slice.azimuth_rad);
+    inside.push_back(slice.index.inside);
+    outside.push_back(slice.index.outside);
+    write_side(group.create_group("from_inside"), slice.from_inside);
+    write_side(group.create_group("from_outside"), slice.from_outside);
+  }
+  root.write("wavelength_nm", wavelengths);
+  root.write("azimuth_rad", azimuths);
+  root.write("index_inside", inside);
+  root.write("index_outside", outside);
   write_provenance(root.create_group("provenance"), table.provenance());
   file.commit();
 }
@@ -195,12 +222,26 @@ SurfaceTable read_table(const std::filesystem::path& path) {
   const h5::Group root = file.root();
   check_version(path, root);
   const Reader reader(path);
-  const IndexPair index{root.double_attribute("", "index_inside"),
-                        root.double_attribute("", "index_outside")};
-  if (!(index.inside > 0.0 && index.outside > 0.0)) reader.damaged("refractive indices are not positive");
+  const auto wavelengths = root.read<double>("wavelength_nm");
+  const std::uint64_t n = wavelengths.size();
+  const auto azimuths = reader.array<double>(root, "azimuth_rad", {n});
+  const auto inside = reader.array<double>(root, "index_inside", {n});
+  const auto outside = reader.array<double>(root, "index_outside", {n});
+  const std::string kind = root.string_attribute("", "azimuths");
+  if (kind != kDirectional && kind != kFolded) reader.damaged("its azimuths are \"" + kind + "\"");
+  std::vector<TableSlice> slices;
+  for (std::uint64_t k = 0; k < n; ++k) {
+    if (!(inside[k] > 0.0 && outside[k] > 0.0)) reader.damaged("refractive indices are not positive");
+    const h5::Group group = reader.group(root, slice_name(k));
+    slices.push_back({wavelengths[k],
+                      azimuths[k],
+                      {inside[k], outside[k]},
+                      read_side(reader, reader.group(group, "from_inside")),
+                      read_side(reader, reader.group(group, "from_outside"))});
+  }
   try {
-    return SurfaceTable(index, read_side(reader, reader.group(root, "from_inside")),
-                        read_side(reader, reader.group(root, "from_outside")),
+    return SurfaceTable(std::move(slices),
+                        kind == kDirectional ? AzimuthKind::directional : AzimuthKind::folded,
                         read_provenance(reader, reader.group(root, "provenance")));
   } catch (const InputError& error) {
     // Say which file: the checks of the table itself do not know.

@@ -18,30 +18,46 @@ namespace {
 /// depend on the order in which nodes were found.
 constexpr std::uint64_t kUnitsPerStep = std::uint64_t{1} << 24;
 
+/// What became of one ray.
+struct RayEnd {
+  SurfaceOutcome outcome = SurfaceOutcome::inside;
+  double first_slope_rad = 0.0;
+  bool cut = false;
+};
+
+/// Sends a ray, in the surface's own frame (z: the mean normal), to the surface and on its way.
+using SendRay = std::function<RayEnd(Ray& ray, Side side, const SpectralPoint& at, Rng& rng)>;
+
 struct RayRecord {
   ExitAngles exit;
   float first_slope_rad = 0.0f;
-  bool reflected = false;
+  SurfaceOutcome outcome = SurfaceOutcome::inside;
   bool cut = false;
 };
 
 /// Angles of a direction that left, from the outgoing normal and from the forward azimuth.
-ExitAngles exit_angles(const Vec3& direction, double forward_azimuth) {
+ExitAngles exit_angles(const Vec3& direction, double forward_azimuth, AzimuthKind kind) {
   const double lateral = std::hypot(direction.x(), direction.y());
   const double polar = std::atan2(lateral, std::abs(direction.z()));
-  double azimuth = std::atan2(direction.y(), direction.x()) - forward_azimuth;
-  azimuth = std::abs(std::remainder(azimuth, kTwoPi));
-  return {static_cast<float>(polar), static_cast<float>(azimuth)};
+  const double azimuth = std::remainder(std::atan2(direction.y(), direction.x()) - forward_azimuth, kTwoPi);
+  return {static_cast<float>(polar),
+          static_cast<float>(kind == AzimuthKind::folded ? std::abs(azimuth) : azimuth)};
 }
 
-void check(const IndexPair& index, const TableSettings& s) {
+void check(const std::vector<SpectralPoint>& spectrum, const TableSettings& s) {
   Problems problems;
+  if (spectrum.empty()) problems.add({}, "no wavelength or pair of indices to build the table for");
   const auto positive = [&](double value, const std::string& name) {
     if (!(value > 0.0 && std::isfinite(value)))
       problems.add({}, name + " is " + std::to_string(value) + "; expected a positive number");
   };
-  positive(index.inside, "index inside");
-  positive(index.outside, "index outside");
+  for (const SpectralPoint& point : spectrum) {
+    positive(point.index.inside, "index inside");
+    positive(point.index.outside, "index outside");
+  }
+  if (!(s.target_error >= 0.0 && s.target_error < 1.0))
+    problems.add({}, "target error is " + std::to_string(s.target_error) + "; expected 0 up to 1");
+  if (s.most_rays == 0) problems.add({}, "at most 0 times the rays; expected at least 1");
   positive(s.refine_change, "change of reflectance to refine at");
   positive(s.refine_down_to_rad, "smallest incidence interval");
   if (!(s.incidence_step_rad > 0.0 && s.incidence_step_rad <= 0.5 * kPi))
@@ -57,16 +73,49 @@ void check(const IndexPair& index, const TableSettings& s) {
   problems.throw_if_any();
 }
 
+/// Lays the maps of a surface, and of its shares, along x: the builder turns the light instead.
+void lay_along_x(Surface& surface) {
+  surface.direction = Vec3::UnitX();
+  for (SurfaceShare& part : surface.mixture) {
+    Surface share = *part.surface;
+    lay_along_x(share);
+    part.surface = std::make_shared<const Surface>(std::move(share));
+  }
+}
+
 class Builder {
  public:
-  Builder(const HeightField& field, const IndexPair& index, const TableSettings& settings,
+  Builder(SendRay send, const std::vector<SpectralPoint>& spectrum, const TableSettings& settings,
           const TableProgress& progress)
-      : field_(field), index_(index), settings_(settings), progress_(progress) {
+      : send_(std::move(send)), spectrum_(spectrum), settings_(settings), progress_(progress) {
     intervals_ = static_cast<std::uint64_t>(std::ceil(0.5 * kPi / settings.incidence_step_rad - 1e-9));
     azimuths_ = static_cast<std::uint64_t>(std::ceil(kTwoPi / settings.azimuth_step_rad - 1e-9));
-    records_.resize(azimuths_ * settings.rays);
-    planned_ = 2 * (intervals_ + 1);
+    kind_ = settings.directional ? AzimuthKind::directional : AzimuthKind::folded;
+    planned_ = 2 * (intervals_ + 1) * spectrum.size() * slices_per_wavelength();
   }
+
+  std::vector<TableSlice> slices() {
+    std::vector<TableSlice> result;
+    for (std::size_t k = 0; k < spectrum_.size(); ++k)
+      for (std::uint64_t azimuth = 0; azimuth < slices_per_wavelength(); ++azimuth) {
+        point_ = &spectrum_[k];
+        slice_ = result.size();
+        slice_azimuth_ = kTwoPi * static_cast<double>(azimuth) / static_cast<double>(azimuths_);
+        result.push_back({point_->wavelength_nm, settings_.directional ? slice_azimuth_ : 0.0, point_->index,
+                          side(Side::inside), side(Side::outside)});
+      }
+    return result;
+  }
+
+  AzimuthKind kind() const { return kind_; }
+  std::uint64_t azimuths() const { return azimuths_; }
+  std::uint64_t cut() const { return cut_; }
+  std::uint64_t unconverged() const { return unconverged_; }
+
+ private:
+  std::uint64_t slices_per_wavelength() const { return settings_.directional ? azimuths_ : 1; }
+  /// Rays of one batch of a node.
+  std::uint64_t batch() const { return settings_.rays * (settings_.directional ? 1 : azimuths_); }
 
   std::vector<TableNode> side(Side side) {
     std::map<std::uint64_t, TableNode> nodes;
@@ -82,10 +131,6 @@ class Builder {
     return result;
   }
 
-  std::uint64_t azimuths() const { return azimuths_; }
-  std::uint64_t cut() const { return cut_; }
-
- private:
   double incidence(std::uint64_t position) const {
     return 0.5 * kPi * static_cast<double>(position) / static_cast<double>(intervals_ * kUnitsPerStep);
   }
@@ -106,76 +151,135 @@ class Builder {
 
   RayRecord follow(Side side, std::uint64_t position, double angle, std::uint64_t number) const {
     const std::uint64_t address = (static_cast<std::uint64_t>(side) << 60) | position;
-    Rng rng(settings_.seed, StreamKind::table, address, number);
+    Rng rng(settings_.seed, StreamKind::table, address, number, slice_);
     // Azimuths are stratified, not fixed: the rows of the map are no special direction.
-    const double azimuth = kTwoPi * (static_cast<double>(number / settings_.rays) + rng.uniform()) /
-                           static_cast<double>(azimuths_);
-    const double x = field_.period_x_um() * rng.uniform();
-    const double y = field_.period_y_um() * rng.uniform();
+    const double stratum = static_cast<double>((number % batch()) / settings_.rays);
+    const double azimuth = settings_.directional
+                               ? slice_azimuth_
+                               : kTwoPi * (stratum + rng.uniform()) / static_cast<double>(azimuths_);
     const double up = side == Side::inside ? 1.0 : -1.0;
     Ray ray{{std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), up * std::cos(angle)},
             Vec3::Zero()};
-    const HeightFieldExit exit = field_.follow(ray, side, x, y, index_, rng);
-    return {exit_angles(ray.direction, azimuth), static_cast<float>(exit.first_slope_rad), exit.side == side,
-            exit.cut};
+    const RayEnd end = send_(ray, side, *point_, rng);
+    return {exit_angles(ray.direction, azimuth, kind_), static_cast<float>(end.first_slope_rad), end.outcome,
+            end.cut};
   }
 
   TableNode trace(Side side, std::uint64_t position) {
     TableNode node;
     node.incidence_rad = incidence(position);
     node.traced_incidence_rad = std::min(node.incidence_rad, settings_.grazing_rad);
-    constexpr std::size_t kGrain = 1024;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, records_.size(), kGrain), [&](const auto& range) {
-      for (std::size_t k = range.begin(); k != range.end(); ++k)
-        records_[k] = follow(side, position, node.traced_incidence_rad, k);
-    });
-    fill(node);
+    records_.clear();
+    do {
+      add_batch(side, position, node.traced_incidence_rad);
+      reduce(node, side);
+    } while (!converged(node) && records_.size() < settings_.most_rays * batch());
+    unconverged_ += converged(node) ? 0 : 1;
     if (progress_ && !progress_(static_cast<double>(++done_) / static_cast<double>(planned_)))
       throw TableStopped("building the surface table was stopped");
     return node;
   }
 
-  /// Reduces the records in their order, whatever threads made them.
-  void fill(TableNode& node) {
-    std::vector<ExitAngles> reflected, transmitted;
-    double slopes = 0.0;
-    for (const RayRecord& record : records_) {
-      (record.reflected ? reflected : transmitted).push_back(record.exit);
-      slopes += record.first_slope_rad;
-      cut_ += record.cut ? 1 : 0;
-    }
-    node.rays = records_.size();
-    node.reflectance = static_cast<double>(reflected.size()) / static_cast<double>(node.rays);
-    node.reflectance_error = binomial_estimate(reflected.size(), node.rays).error;
-    node.mean_slope_rad = slopes / static_cast<double>(node.rays);
-    node.reflected = quantiles_of(reflected);
-    node.transmitted = quantiles_of(transmitted);
+  void add_batch(Side side, std::uint64_t position, double angle) {
+    constexpr std::size_t kGrain = 1024;
+    const std::size_t first = records_.size();
+    records_.resize(first + batch());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, records_.size(), kGrain),
+                      [&](const auto& range) {
+                        for (std::size_t k = range.begin(); k != range.end(); ++k)
+                          records_[k] = follow(side, position, angle, k);
+                      });
   }
 
-  const HeightField& field_;
-  const IndexPair& index_;
+  bool converged(const TableNode& node) const {
+    return settings_.target_error == 0.0 ||
+           std::max(node.reflectance_error, node.absorptance_error) <= settings_.target_error;
+  }
+
+  /// Reduces the records in their order, whatever threads made them.
+  void reduce(TableNode& node, Side side) {
+    std::vector<ExitAngles> reflected, transmitted;
+    std::uint64_t absorbed = 0, cut = 0;
+    double slopes = 0.0;
+    for (const RayRecord& record : records_) {
+      slopes += record.first_slope_rad;
+      cut += record.cut ? 1 : 0;
+      if (record.outcome == SurfaceOutcome::absorbed)
+        ++absorbed;
+      else
+        (record.outcome == outcome_on(side) ? reflected : transmitted).push_back(record.exit);
+    }
+    node.rays = records_.size();
+    const double rays = static_cast<double>(node.rays);
+    node.reflectance = static_cast<double>(reflected.size()) / rays;
+    node.reflectance_error = binomial_estimate(reflected.size(), node.rays).error;
+    node.absorptance = static_cast<double>(absorbed) / rays;
+    node.absorptance_error = absorbed > 0 ? binomial_estimate(absorbed, node.rays).error : 0.0;
+    node.mean_slope_rad = slopes / rays;
+    if (!converged(node) && records_.size() < settings_.most_rays * batch()) return;
+    cut_ += cut;
+    node.reflected = quantiles_of(reflected, kind_);
+    node.transmitted = quantiles_of(transmitted, kind_);
+  }
+
+  const SendRay send_;
+  const std::vector<SpectralPoint>& spectrum_;
   const TableSettings& settings_;
   const TableProgress& progress_;
-  std::uint64_t intervals_ = 0, azimuths_ = 0, cut_ = 0;
+  AzimuthKind kind_ = AzimuthKind::folded;
+  const SpectralPoint* point_ = nullptr;  ///< of the slice under way
+  std::uint64_t slice_ = 0;
+  double slice_azimuth_ = 0.0;
+  std::uint64_t intervals_ = 0, azimuths_ = 0, cut_ = 0, unconverged_ = 0;
   std::uint64_t done_ = 0, planned_ = 0;
   std::vector<RayRecord> records_;
 };
 
-}  // namespace
-
-SurfaceTable build_table(const HeightField& field, const IndexPair& index, const TableSettings& settings,
-                         TableProvenance provenance, const TableProgress& progress) {
-  check(index, settings);
-  Builder builder(field, index, settings, progress);
-  std::vector<TableNode> inside = builder.side(Side::inside);
-  std::vector<TableNode> outside = builder.side(Side::outside);
+SurfaceTable build(SendRay send, const std::vector<SpectralPoint>& spectrum, const TableSettings& settings,
+                   TableProvenance provenance, const TableProgress& progress) {
+  check(spectrum, settings);
+  Builder builder(std::move(send), spectrum, settings, progress);
+  std::vector<TableSlice> slices = builder.slices();
   provenance.seed = settings.seed;
   provenance.rays_per_azimuth = settings.rays;
   provenance.azimuths = builder.azimuths();
-  provenance.unclassified = 0;  // HeightField has no such exit
+  provenance.unclassified = 0;  // a surface has no such exit
   provenance.cut = builder.cut();
+  provenance.target_error = settings.target_error;
+  provenance.unconverged = builder.unconverged();
   provenance.version = version();
-  return SurfaceTable(index, std::move(inside), std::move(outside), std::move(provenance));
+  return SurfaceTable(std::move(slices), builder.kind(), std::move(provenance));
+}
+
+}  // namespace
+
+SurfaceTable build_table(const HeightField& field, const std::vector<SpectralPoint>& spectrum,
+                         const TableSettings& settings, TableProvenance provenance,
+                         const TableProgress& progress) {
+  const auto send = [&field](Ray& ray, Side side, const SpectralPoint& at, Rng& rng) -> RayEnd {
+    const double x = field.period_x_um() * rng.uniform();
+    const double y = field.period_y_um() * rng.uniform();
+    const HeightFieldExit exit = field.follow(ray, side, x, y, at.index, rng);
+    return {outcome_on(exit.side), exit.first_slope_rad, exit.cut};
+  };
+  return build(send, spectrum, settings, std::move(provenance), progress);
+}
+
+SurfaceTable build_table(const HeightField& field, const IndexPair& index, const TableSettings& settings,
+                         TableProvenance provenance, const TableProgress& progress) {
+  return build_table(field, std::vector<SpectralPoint>{{0.0, index}}, settings, std::move(provenance),
+                     progress);
+}
+
+SurfaceTable build_stack_table(const Surface& surface, const std::vector<SpectralPoint>& spectrum,
+                               const TableSettings& settings, TableProvenance provenance,
+                               const TableProgress& progress) {
+  Surface laid = surface;
+  lay_along_x(laid);
+  const auto send = [&laid](Ray& ray, Side side, const SpectralPoint& at, Rng& rng) -> RayEnd {
+    return {laid.meet(ray, side, Vec3::UnitZ(), at.index, at.wavelength_nm, rng), 0.0, false};
+  };
+  return build(send, spectrum, settings, std::move(provenance), progress);
 }
 
 }  // namespace scintray

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/surface/height_field.hpp"
+#include "scintray/surface/surface.hpp"
 #include "scintray/surface/table.hpp"
 
 namespace scintray {
@@ -22,6 +24,20 @@ struct TableSettings {
   double refine_change = 0.05;  ///< change of reflectance that asks for another node
   double refine_down_to_rad = 0.1 * kDegree;  ///< intervals not wider than this are left
   double grazing_rad = 89.9 * kDegree;        ///< where the node at 90 deg is traced
+
+  /// A slice per azimuth step of incidence on the map, for surfaces with direction; `rays` are then traced
+  /// for each incidence angle and slice.
+  bool directional = false;
+  /// One-sigma error of a node's reflectance (and absorptance) down to which rays are added; 0: the number
+  /// of rays is fixed.
+  double target_error = 0.0;
+  std::uint64_t most_rays = 64;  ///< at most this many times the rays of a fixed number
+};
+
+/// A wavelength to tabulate, and the indices there.
+struct SpectralPoint {
+  double wavelength_nm = 0.0;  ///< 0: not said
+  IndexPair index;
 };
 
 /// Told the share of the work done so far, between 0 and 1; returns false to stop.
@@ -33,14 +49,26 @@ class TableStopped : public Error {
   using Error::Error;
 };
 
-/// Traces unpolarised light from both sides at every incidence node: positions uniform over the
-/// map (so facets are met as the beam sees them), azimuths of the map stratified over the circle,
-/// rays followed until they leave. Nodes are then bisected where settings.refine says so.
+/// Traces unpolarised light from both sides at every incidence node of every wavelength: positions uniform
+/// over the map (so facets are met as the beam sees them), azimuths of the map stratified over the circle
+/// (or, for a directional table, one by one), rays followed until they leave. Nodes are then bisected where
+/// settings.refine says so, and rays added as settings.target_error asks.
 ///
 /// Runs on all threads of the calling task arena; the result is the same for any number of them.
+/// @param spectrum   at least one point, in order of wavelength
 /// @param provenance map, preparation and tiling as the caller knows them; the rest is filled in.
 /// InputError on settings out of range; TableStopped when `progress` returns false.
+SurfaceTable build_table(const HeightField& field, const std::vector<SpectralPoint>& spectrum,
+                         const TableSettings& settings, TableProvenance provenance = {},
+                         const TableProgress& progress = {});
+/// The same at one pair of indices.
 SurfaceTable build_table(const HeightField& field, const IndexPair& index, const TableSettings& settings,
                          TableProvenance provenance = {}, const TableProgress& progress = {});
+
+/// A whole stack as one table: the same for any surface, its gap, reflector and shares included. Of a stack
+/// the mean slope met is not known: it is left at zero.
+SurfaceTable build_stack_table(const Surface& surface, const std::vector<SpectralPoint>& spectrum,
+                               const TableSettings& settings, TableProvenance provenance = {},
+                               const TableProgress& progress = {});
 
 }  // namespace scintray

@@ -1,217 +1,119 @@
 #include "scintray/topography/synthesis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/sampling.hpp"
-#include "scintray/topography/map_statistics.hpp"
+#include "scintray/topography/relief.hpp"
 
 namespace scintray {
 
 namespace {
 
-/// Independent numbers for the parts of a relief.
-enum class Part : std::uint64_t { gaussian = 0, ridges = 1, grooves = 2 };
+using Require = std::function<void(bool, const std::string&)>;
 
-void check(const SynthesisRecipe& r) {
-  Problems problems;
-  const auto require = [&](bool good, const std::string& what) {
-    if (!good) problems.add({}, "recipe " + r.name + ": " + what);
-  };
-  require(r.columns >= 2 && r.rows >= 2, "map smaller than 2 x 2 points");
-  require(r.pitch_um > 0.0, "pitch is not positive");
-  require(r.gaussian.rms_height_um >= 0.0, "rms height is negative");
-  require(r.gaussian.correlation_length_um > 0.0, "correlation length is not positive");
-  const double narrow = std::min(r.columns, r.rows) * r.pitch_um;
-  require(r.gaussian.correlation_length_um < 0.25 * narrow,
+void check(const GaussianRelief& g, double narrow, const Require& require) {
+  require(g.rms_height_um >= 0.0, "rms height is negative");
+  require(g.correlation_length_um > 0.0, "correlation length is not positive");
+  require(g.correlation_length_um < 0.25 * narrow,
           "correlation length is not below a quarter of the map's width");
-  const FractureRelief& f = r.fracture;
+  require(g.lay_length_um == 0.0 || g.lay_length_um >= g.correlation_length_um,
+          "the correlation length along the lay is below the one across it");
+  require(std::isfinite(g.lay_length_um) && std::isfinite(g.lay_angle_rad), "the lay is not finite");
+}
+
+void check(const FractureRelief& f, double narrow, const Require& require) {
   require(f.spacing_um >= 0.0 && f.spacing_um < 0.25 * narrow,
           "fracture spacing is not between 0 and a quarter of the map's width");
   require(f.rise_um >= 0.0 && f.depth_spread_um >= 0.0, "fracture heights are negative");
   require(f.exponent >= 1.0, "fracture exponent is below 1");
   require(f.size_spread >= 0.0 && f.size_spread < 1.0, "size spread is not in [0, 1)");
+}
+
+void check(const ScratchRelief& s, double narrow, const Require& require) {
+  require(s.spacing_um >= 0.0, "spacing of scratches is negative");
+  if (s.spacing_um == 0.0) return;
+  require(s.depth_um >= 0.0 && std::isfinite(s.depth_um), "depth of scratches is negative");
+  require(s.width_um > 0.0 && s.width_um < 0.05 * narrow,
+          "width of scratches is not between 0 and a twentieth of the map's width");
+  require(s.length_um > 0.0 && s.length_um < 0.5 * narrow,
+          "length of scratches is not between 0 and half the map's width");
+  // As many as there are pixels along the map's width, ten times over, are no scratches any more.
+  require(s.spacing_um * 10.0 >= s.width_um, "scratches are closer than a tenth of their width");
+}
+
+void check(const KCorrelationRelief& k, const Require& require) {
+  require(k.rms_height_um >= 0.0, "rms height of the K-correlation spectrum is negative");
+  require(k.knee_length_um > 0.0, "knee length is not positive");
+  require(k.exponent > 1.0,
+          "exponent of the K-correlation spectrum is not above 1, so its power is infinite");
+}
+
+void check(const SpectrumRelief& s, const Require& require) {
+  require(s.frequency_per_um.size() == s.density_um4.size(), "spectrum with columns of different length");
+  if (s.frequency_per_um.empty() || s.frequency_per_um.size() != s.density_um4.size()) return;
+  require(s.frequency_per_um.size() >= 2, "spectrum of a single point; expected at least 2");
+  for (std::size_t k = 0; k < s.frequency_per_um.size(); ++k) {
+    const double f = s.frequency_per_um[k], density = s.density_um4[k];
+    if (!(f > 0.0 && std::isfinite(f)))
+      return require(
+          false, fmt::format("spatial frequency {} of the spectrum is {} 1/um; expected above 0", k + 1, f));
+    if (k > 0 && f <= s.frequency_per_um[k - 1])
+      return require(false, fmt::format("spatial frequency {} of the spectrum is {} 1/um after {}; expected "
+                                        "increasing frequencies",
+                                        k + 1, f, s.frequency_per_um[k - 1]));
+    if (!(density >= 0.0 && std::isfinite(density)))
+      return require(false, fmt::format("power density {} of the spectrum is {} um^4; expected 0 or more",
+                                        k + 1, density));
+  }
+}
+
+void check(const SynthesisRecipe& r) {
+  Problems problems;
+  const Require require = [&](bool good, const std::string& what) {
+    if (!good) problems.add({}, "recipe " + r.name + ": " + what);
+  };
+  require(r.columns >= 2 && r.rows >= 2, "map smaller than 2 x 2 points");
+  require(r.columns <= 16384 && r.rows <= 16384, "map larger than 16384 x 16384 points");
+  require(r.pitch_um > 0.0, "pitch is not positive");
+  const double narrow = std::min(r.columns, r.rows) * r.pitch_um;
+  check(r.gaussian, narrow, require);
+  check(r.fracture, narrow, require);
+  check(r.scratches, narrow, require);
+  check(r.k_correlation, require);
+  check(r.spectrum, require);
   problems.throw_if_any();
 }
 
-/// One pass of a periodic filter along x; the result is transposed, so that two passes make both.
-std::vector<double> blur_and_transpose(const std::vector<double>& values, std::uint32_t columns,
-                                       std::uint32_t rows, const std::vector<double>& kernel) {
-  const std::size_t half = kernel.size() / 2;
-  std::vector<double> result(values.size());
-  std::vector<double> padded(columns + 2 * half);
-  for (std::uint32_t j = 0; j < rows; ++j) {
-    for (std::size_t k = 0; k < padded.size(); ++k)
-      padded[k] = values[std::size_t{j} * columns + (k + std::size_t{columns} * half - half) % columns];
-    for (std::uint32_t i = 0; i < columns; ++i) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kernel.size(); ++k) sum += kernel[k] * padded[i + k];
-      result[std::size_t{i} * rows + j] = sum;
-    }
-  }
-  return result;
-}
-
-/// White noise under a Gaussian kernel exp(-2 r^2 / T^2), whose autocorrelation is exp(-r^2 / T^2),
-/// scaled to exactly the rms height asked for.
-void add_gaussian(const SynthesisRecipe& recipe, std::vector<double>& heights) {
-  const GaussianRelief& relief = recipe.gaussian;
-  if (relief.rms_height_um == 0.0) return;
-  const double scale = recipe.pitch_um / relief.correlation_length_um;
-  // Below 1e-16 of the peak beyond 4.3 correlation lengths.
-  const auto half = static_cast<std::size_t>(std::ceil(4.3 / scale));
-  std::vector<double> kernel;
-  for (std::size_t k = 0; k <= 2 * half; ++k) {
-    const double r = (static_cast<double>(k) - static_cast<double>(half)) * scale;
-    kernel.push_back(std::exp(-2.0 * r * r));
-  }
-  Rng rng(recipe.seed, StreamKind::synthesis, static_cast<std::uint64_t>(Part::gaussian));
-  std::vector<double> field(heights.size());
-  for (double& value : field) value = sample_normal(rng);
-  field = blur_and_transpose(field, recipe.columns, recipe.rows, kernel);
-  field = blur_and_transpose(field, recipe.rows, recipe.columns, kernel);
-
-  Moments moments;
-  for (const double value : field) moments.add(value);
-  const double mean = moments.mean().value;
-  double squares = 0.0;
-  for (const double value : field) squares += (value - mean) * (value - mean);
-  const double factor = relief.rms_height_um / std::sqrt(squares / static_cast<double>(field.size()));
-  for (std::size_t k = 0; k < field.size(); ++k) heights[k] += factor * (field[k] - mean);
-}
-
-struct Bowl {
-  double x, y, depth, scale;  // lateral um, um, 1/radius
-};
-
-/// The lowest of a periodic set of bowls, at every pixel.
-class Bowls {
- public:
-  Bowls(const SynthesisRecipe& recipe, Part part)
-      : recipe_(recipe),
-        width_x_(recipe.columns * recipe.pitch_um),
-        width_y_(recipe.rows * recipe.pitch_um),
-        half_exponent_(0.5 * recipe.fracture.exponent) {
-    const FractureRelief& f = recipe.fracture;
-    Rng rng(recipe.seed, StreamKind::synthesis, static_cast<std::uint64_t>(part));
-    // One bowl anywhere in each cell of a grid: no large gap, whose rim would tower over the rest.
-    const auto across = static_cast<std::uint32_t>(std::lround(width_x_ / f.spacing_um));
-    const auto along = static_cast<std::uint32_t>(std::lround(width_y_ / f.spacing_um));
-    for (std::uint32_t k = 0; k < across * along; ++k) {
-      const double x = width_x_ * (k % across + rng.uniform()) / across;
-      const double y = width_y_ * (k / across + rng.uniform()) / along;
-      const double depth = f.depth_spread_um * (2.0 * rng.uniform() - 1.0);
-      const double radius = 0.5 * f.spacing_um * (1.0 + f.size_spread * (2.0 * rng.uniform() - 1.0));
-      bowls_.push_back({x, y, depth, 1.0 / radius});
-    }
-  }
-
-  /// Adds sign * (lowest bowl) to every height. Tiles of pixels keep only bowls that can be lowest
-  /// somewhere in the tile.
-  void add(double sign, std::vector<double>& heights) const {
-    constexpr std::uint32_t kTile = 16;
-    std::vector<Bowl> near;
-    for (std::uint32_t j0 = 0; j0 < recipe_.rows; j0 += kTile)
-      for (std::uint32_t i0 = 0; i0 < recipe_.columns; i0 += kTile) {
-        const std::uint32_t i1 = std::min(i0 + kTile, recipe_.columns),
-                            j1 = std::min(j0 + kTile, recipe_.rows);
-        candidates(0.5 * (i0 + i1 - 1) * recipe_.pitch_um, 0.5 * (j0 + j1 - 1) * recipe_.pitch_um,
-                   0.5 * kTile * recipe_.pitch_um * std::sqrt(2.0), near);
-        for (std::uint32_t j = j0; j < j1; ++j)
-          for (std::uint32_t i = i0; i < i1; ++i)
-            heights[std::size_t{j} * recipe_.columns + i] +=
-                sign * lowest(i * recipe_.pitch_um, j * recipe_.pitch_um, near);
-      }
-  }
-
- private:
-  double distance2(const Bowl& bowl, double x, double y) const {
-    const double dx = std::remainder(x - bowl.x, width_x_), dy = std::remainder(y - bowl.y, width_y_);
-    return dx * dx + dy * dy;
-  }
-
-  double height(const Bowl& bowl, double squared) const {
-    return bowl.depth +
-           recipe_.fracture.rise_um * std::pow(squared * bowl.scale * bowl.scale, half_exponent_);
-  }
-
-  void candidates(double x, double y, double reach, std::vector<Bowl>& near) const {
-    double bound = std::numeric_limits<double>::infinity();
-    for (const Bowl& bowl : bowls_) {
-      const double far = std::sqrt(distance2(bowl, x, y)) + reach;
-      bound = std::min(bound, height(bowl, far * far));
-    }
-    near.clear();
-    for (const Bowl& bowl : bowls_) {
-      const double close = std::max(0.0, std::sqrt(distance2(bowl, x, y)) - reach);
-      if (height(bowl, close * close) <= bound) near.push_back(bowl);
-    }
-  }
-
-  double lowest(double x, double y, const std::vector<Bowl>& near) const {
-    double result = std::numeric_limits<double>::infinity();
-    for (const Bowl& bowl : near)
-      if (bowl.depth < result) result = std::min(result, height(bowl, distance2(bowl, x, y)));
-    return result;
-  }
-
-  const SynthesisRecipe& recipe_;
-  double width_x_, width_y_, half_exponent_;
-  std::vector<Bowl> bowls_;
-};
+}  // namespace
 
 std::string describe(const SynthesisRecipe& r) {
-  std::string text = "made by recipe " + r.name + ", seed " + std::to_string(r.seed);
-  if (r.gaussian.rms_height_um > 0.0)
-    text += ", Gaussian relief Sq " + std::to_string(r.gaussian.rms_height_um) + " um, correlation length " +
-            std::to_string(r.gaussian.correlation_length_um) + " um";
-  if (r.fracture.spacing_um > 0.0)
-    text += ", fracture spacing " + std::to_string(r.fracture.spacing_um) + " um, rise " +
-            std::to_string(r.fracture.rise_um) + " um, exponent " + std::to_string(r.fracture.exponent) +
-            ", depth spread " + std::to_string(r.fracture.depth_spread_um) + " um, size spread " +
-            std::to_string(r.fracture.size_spread);
+  std::string text = fmt::format("recipe {}: {} x {} points of {} um, seed {}", r.name, r.columns, r.rows,
+                                 r.pitch_um, r.seed);
+  if (const GaussianRelief& g = r.gaussian; g.rms_height_um > 0.0) {
+    text += fmt::format(", Gaussian relief Sq {} um, correlation length {} um", g.rms_height_um,
+                        g.correlation_length_um);
+    if (g.lay_length_um > 0.0)
+      text += fmt::format(" across and {} um along a lay at {:.10g} deg", g.lay_length_um,
+                          g.lay_angle_rad / kDegree);
+  }
+  if (const FractureRelief& f = r.fracture; f.spacing_um > 0.0)
+    text +=
+        fmt::format(", fracture spacing {} um, rise {} um, exponent {}, depth spread {} um, size spread {}",
+                    f.spacing_um, f.rise_um, f.exponent, f.depth_spread_um, f.size_spread);
+  if (const ScratchRelief& s = r.scratches; s.spacing_um > 0.0)
+    text += fmt::format(", scratches of spacing {} um, length {} um, depth {} um, width {} um", s.spacing_um,
+                        s.length_um, s.depth_um, s.width_um);
+  if (const KCorrelationRelief& k = r.k_correlation; k.rms_height_um > 0.0)
+    text += fmt::format(", K-correlation spectrum of Sq {} um, knee length {} um, exponent {}",
+                        k.rms_height_um, k.knee_length_um, k.exponent);
+  if (const SpectrumRelief& s = r.spectrum; !s.frequency_per_um.empty())
+    text += fmt::format(", spectrum of {} points from {} to {} 1/um", s.frequency_per_um.size(),
+                        s.frequency_per_um.front(), s.frequency_per_um.back());
   return text;
 }
-
-/// Slope met from inside by a recipe's map.
-double slope_met(const SynthesisRecipe& recipe, double incidence_rad) {
-  constexpr std::uint64_t kRays = 40000;
-  const HeightField field = make_height_field(synthesize(recipe));
-  return mean_slope_met(field, Side::inside, incidence_rad, kRays).value;
-}
-
-constexpr double kSearchTolerance = 0.02 * kDegree;
-
-/// Root of an increasing function on [low, high], to a tolerance in its value.
-double bisect(const std::function<double(double)>& f, double low, double high) {
-  double middle = 0.5 * (low + high);
-  for (int step = 0; step < 40; ++step) {
-    middle = 0.5 * (low + high);
-    const double value = f(middle);
-    if (std::abs(value) < kSearchTolerance) break;
-    (value < 0.0 ? low : high) = middle;
-  }
-  return middle;
-}
-
-/// Scales the relief until the slope at normal incidence is met.
-SynthesisRecipe fit_normal(SynthesisRecipe recipe, double target_rad) {
-  const bool fractured = recipe.fracture.spacing_um > 0.0;
-  double& size = fractured ? recipe.fracture.rise_um : recipe.gaussian.rms_height_um;
-  const double widest = fractured ? recipe.fracture.spacing_um : recipe.gaussian.correlation_length_um;
-  size = bisect(
-      [&](double value) {
-        size = value;
-        return slope_met(recipe, 0.0) - target_rad;
-      },
-      0.0, widest);
-  return recipe;
-}
-
-}  // namespace
 
 HeightMap synthesize(const SynthesisRecipe& recipe) {
   check(recipe);
@@ -221,13 +123,13 @@ HeightMap synthesize(const SynthesisRecipe& recipe) {
   map.pitch_x_um = map.pitch_y_um = recipe.pitch_um;
   map.title = recipe.name;
   map.periodic = true;
-  map.steps.push_back(describe(recipe));
+  map.steps.push_back("made by " + describe(recipe));
   map.heights_um.assign(std::size_t{recipe.columns} * recipe.rows, 0.0);
   add_gaussian(recipe, map.heights_um);
-  if (recipe.fracture.spacing_um > 0.0) {
-    Bowls(recipe, Part::ridges).add(1.0, map.heights_um);
-    Bowls(recipe, Part::grooves).add(-1.0, map.heights_um);
-  }
+  add_k_correlation(recipe, map.heights_um);
+  add_spectrum(recipe, map.heights_um);
+  add_fracture(recipe, map.heights_um);
+  add_scratches(recipe, map.heights_um);
   double mean = 0.0;
   for (const double h : map.heights_um) mean += h;
   mean /= static_cast<double>(map.heights_um.size());
@@ -235,41 +137,21 @@ HeightMap synthesize(const SynthesisRecipe& recipe) {
   return map;
 }
 
-SynthesisRecipe fit_recipe(SynthesisRecipe recipe, const SlopeTarget& target) {
-  if (recipe.fracture.spacing_um > 0.0 && target.grazing_rad > 0.0) {
-    recipe.fracture.exponent = bisect(
-        [&](double exponent) {
-          recipe.fracture.exponent = exponent;
-          recipe = fit_normal(recipe, target.normal_rad);
-          return slope_met(recipe, kGrazingStated_rad) - target.grazing_rad;
-        },
-        1.5, 8.0);
-  }
-  recipe = fit_normal(recipe, target.normal_rad);
-  constexpr double kClose = 0.5 * kDegree;
-  const double normal = slope_met(recipe, 0.0), grazing = slope_met(recipe, kGrazingStated_rad);
-  if (std::abs(normal - target.normal_rad) > kClose ||
-      (target.grazing_rad > 0.0 && std::abs(grazing - target.grazing_rad) > kClose))
-    throw InputError({{},
-                      "recipe " + recipe.name + " comes to mean slopes of " +
-                          std::to_string(normal / kDegree) + " deg at normal and " +
-                          std::to_string(grazing / kDegree) + " deg at grazing incidence, not to the targets",
-                      "change its spacing, spreads or correlation length"});
-  return recipe;
-}
-
 SynthesisRecipe ground_recipe() {
   SynthesisRecipe recipe;
   recipe.name = "ground";
-  recipe.gaussian = {0.05, 1.0};
-  recipe.fracture = {3.0, 0.0366, 5.15, 0.25, 0.3};
+  recipe.gaussian.rms_height_um = 0.4033;
+  recipe.gaussian.correlation_length_um = 7.0;
+  recipe.fracture = {2.5, 0.03815, 5.2185, 0.05, 0.1};
   return recipe;
 }
 
 SynthesisRecipe polished_recipe() {
   SynthesisRecipe recipe;
   recipe.name = "polished";
-  recipe.gaussian = {0.0112, 0.9};
+  recipe.gaussian.rms_height_um = 0.0109;
+  recipe.gaussian.correlation_length_um = 0.9;
+  recipe.scratches = {10.0, 30.0, 0.02, 0.5};
   return recipe;
 }
 

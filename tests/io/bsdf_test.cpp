@@ -180,11 +180,12 @@ TEST_CASE("densities of the CSV times the cells' solid angles add up to reflecta
   std::size_t rows = 0;
   double error_squares = 0.0;
   while (std::getline(file, line)) {
-    if (line.starts_with("#") || line.starts_with("side,")) continue;
+    if (line.starts_with("#") || line.starts_with("wavelength_nm,")) continue;
     std::istringstream text(line);
     std::vector<std::string> cells;
     for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-    REQUIRE(cells.size() == 7);
+    REQUIRE(cells.size() == 8);
+    cells.erase(cells.begin());
     const double polar = std::stod(cells[3]),
                  solid_angle = 2.0 * 15.0 * kDegree *
                                (std::cos((polar - 2.5) * kDegree) - std::cos((polar + 2.5) * kDegree));

@@ -227,6 +227,46 @@ TEST_CASE("from outside an imported surface is what the user says, and the table
   CHECK((ray.direction - Vec3(0.6, 0.0, 0.8)).norm() < 1e-6);
 }
 
+TEST_CASE("what a table absorbs is named when a pair is written, and can be asked for when one is read") {
+  std::vector<TableNode> nodes = rough_table().nodes(Side::inside);
+  for (TableNode& node : nodes) {
+    node.absorptance = 0.25 * (1.0 - node.reflectance);
+    node.absorptance_error = 0.0;
+  }
+  const auto folder = scratch_folder("davis_absorbing");
+  const SurfaceTable absorbing(kLsoToAir, nodes, rough_table().nodes(Side::outside), {});
+  DavisSettings settings;
+  settings.layout.samples = 10;
+  const auto notes = write_davis(folder / "A_LUT.dat", absorbing, settings);
+  REQUIRE(notes.size() == 4);
+  CHECK(notes.back().find("absorbed") != std::string::npos);
+  ImportSettings import = lso_to_air();
+  import.unreflected = Unreflected::absorbed;
+  import.from_outside = FromOutside::absorb;
+  const SurfaceTable read = read_davis(rough().file, import);
+  CHECK(read.opaque());
+  CHECK(read.nodes(Side::inside)[40].absorptance ==
+        doctest::Approx(1.0 - read.nodes(Side::inside)[40].reflectance));
+  Rng rng(55, StreamKind::other, 0);
+  Ray ray{{0.6, 0.0, -0.8}, Vec3::Zero()};
+  CHECK(read.meet(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
+}
+
+TEST_CASE("of a table of several wavelengths one has to be chosen; a surface with direction is refused") {
+  const auto folder = scratch_folder("davis_wavelengths");
+  const auto slice = [&](double wavelength_nm, double azimuth_rad) {
+    return TableSlice{wavelength_nm, azimuth_rad, kLsoToAir, rough_table().nodes(Side::inside),
+                      rough_table().nodes(Side::outside)};
+  };
+  const SurfaceTable colours({slice(400.0, 0.0), slice(500.0, 0.0)}, AzimuthKind::folded, {});
+  CHECK(slice_at(colours, 500.0) == 1);
+  CHECK_THROWS_WITH_AS(slice_at(colours, {}), doctest::Contains("400 nm, 500 nm"), InputError);
+  CHECK_THROWS_WITH_AS(slice_at(colours, 450.0), doctest::Contains("no slice at 450 nm"), InputError);
+  const SurfaceTable grooves({slice(0.0, 0.0), slice(0.0, kPi)}, AzimuthKind::directional, {});
+  CHECK_THROWS_WITH_AS(write_davis(folder / "A_LUT.z", grooves), doctest::Contains("2 azimuths"), InputError);
+  CHECK(std::filesystem::is_empty(folder));
+}
+
 TEST_CASE("the same seed gives the same pair, another seed another") {
   const auto folder = scratch_folder("davis_seeds");
   DavisSettings settings;

@@ -202,6 +202,24 @@ TEST_CASE("a reflectance has to be given, and what it takes is absorbed") {
   const std::vector<float> values = made_up(lobe);
   for (const double wrong : {0.0, -0.5, 1.1, std::nan("")})
     CHECK_THROWS_AS(lbnl_table(values, lso_to_air(wrong), "made up"), InputError);
+  // A third of the tries end at the horizon, and each try is another chance to be absorbed.
+  const std::vector<float> thirds = made_up([](double, double t, double p) {
+    if (p != 0.0) return 0.0;
+    return t == -90.0 ? 0.5 : t == -30.0 || t == 30.0 ? 0.5 : 0.0;
+  });
+  const SurfaceTable table = lbnl_table(thirds, lso_to_air(0.9), "made up");
+  CHECK(table.opaque());
+  std::uint64_t ours = 0, theirs = 0;
+  constexpr std::uint64_t kRays = 40'000;
+  for (std::uint64_t k = 0; k < kRays; ++k) {
+    Rng rng(65, StreamKind::other, 0, k);
+    Ray ray{{0.6, 0.0, 0.8}, Vec3::Zero()};
+    if (table.meet(ray, Side::inside, Vec3::UnitZ(), Vec3::Zero(), 440.0, rng) == SurfaceOutcome::inside)
+      ++ours;
+    if (geant4_sample(thirds, std::asin(0.6), 0.9, rng)) ++theirs;
+  }
+  CHECK(table.reflectance(Side::inside, 0.5) == doctest::Approx(0.9 * (2.0 / 3.0) / (1.0 - 0.9 / 3.0)));
+  CHECK(sigmas(binomial_estimate(ours, kRays), binomial_estimate(theirs, kRays)) < 4.0);
 }
 
 TEST_CASE("an LBNL table is read from a file") {

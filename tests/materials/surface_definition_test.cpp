@@ -133,12 +133,12 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   CHECK(map.options.channel == "Height");
   CHECK(*map.options.pitch_um == doctest::Approx(0.175));
   CHECK(*map.options.height_unit_um == doctest::Approx(1e-3));
-  CHECK(map.leveling.kind == LevelingSpec::Kind::polynomial);
-  CHECK(map.leveling.degree == 2);
+  CHECK(map.preparation.leveling.kind == Leveling::Kind::polynomial);
+  CHECK(map.preparation.leveling.degree == 2);
   CHECK(map.tiling == Tiling::mirror);
   REQUIRE(map.table);
-  CHECK(map.table->rays == 100);
-  CHECK(map.table->incidence_step_rad == doctest::Approx(5.0 * kDegree));
+  CHECK(map.table->settings.rays == 100);
+  CHECK(map.table->settings.incidence_step_rad == doctest::Approx(5.0 * kDegree));
 
   add("model = \"height_map\"\n[height_map]\nfile = \"nothing.txt\"\nlevel = \"plane\"\n");
   CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "does not exist"));
@@ -160,4 +160,82 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   CHECK(reports(surface_problems("model = \"recipe\"\n[recipe]\nkind = \"polished\"\n[tracing]\nmode = "
                                  "\"on_the_spot\"\nrays = 5\n"),
                 6, "no meaning"));
+}
+
+TEST_CASE("a height map is cropped, mended and filtered as its definition says") {
+  const TemporaryLibrary files("preparation");
+  files.write("map.txt", "0 1\n1 0\n");
+  Library library = shipped_library();
+  const auto add = [&](const std::string& keys) {
+    const std::string text =
+        "model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\npitch = \"1 um\"\nheight_unit = \"1 um\"\n"
+        "level = \"mean\"\n" +
+        keys;
+    library.add(LibraryKind::surface, {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
+  };
+  add("crop = [\"1 um\", \"0 um\", \"40 um\", \"30 um\"]\noutliers = 6\noutlier_radius = 3\nfill_missing = "
+      "true\n"
+      "median_radius = 2\nloess_width = \"2 um\"\ngaussian_width = \"0.3 um\"\n");
+  const auto made = std::get<HeightMapSpec>(library.surface("mine").microsurface);
+  const Preparation& p = made.preparation;
+  const auto& crop = std::get<CropLengths>(p.crop);
+  CHECK(crop.x_um == doctest::Approx(1.0));
+  CHECK(crop.height_um == doctest::Approx(30.0));
+  CHECK(*p.outlier_limit == 6.0);
+  CHECK(p.outlier_radius == 3);
+  CHECK(p.fill_missing);
+  CHECK(*p.median_radius == 2);
+  CHECK(*p.loess_width_um == doctest::Approx(2.0));
+  CHECK(*p.gaussian_um == doctest::Approx(0.3));
+  CHECK(p.leveling.kind == Leveling::Kind::mean);
+  add("outliers = 0.5\n");
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 7, "at least 1"));
+  add("outlier_radius = 3\n");
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 7, "no meaning"));
+  add("crop = [\"1 um\", \"0 um\"]\n");
+  CHECK_FALSE(problems_of([&] { library.surface("mine"); }).empty());
+}
+
+TEST_CASE("recipes of every kind are read, with what each needs and nothing that it would not obey") {
+  const auto recipe_of = [](const std::string& keys) {
+    return std::get<RecipeSpec>(surface_of("model = \"recipe\"\n[recipe]\n" + keys).microsurface).recipe;
+  };
+  const SynthesisRecipe saw = recipe_of(
+      "kind = \"saw_cut\"\nrms_height = \"0.8 um\"\ncorrelation_length = \"2 um\"\nlay_length = \"12 um\"\n"
+      "lay_angle = \"30 deg\"\nscratches = { spacing = \"50 um\", length = \"20 um\", depth = \"0.1 um\", "
+      "width = "
+      "\"0.5 um\" }\n");
+  CHECK(saw.gaussian.lay_length_um == doctest::Approx(12.0));
+  CHECK(saw.gaussian.lay_angle_rad == doctest::Approx(30 * kDegree));
+  CHECK(saw.scratches.spacing_um == doctest::Approx(50.0));
+  CHECK(saw.scratches.depth_um == doctest::Approx(0.1));
+  const SynthesisRecipe k = recipe_of(
+      "kind = \"k_correlation\"\nrms_height = \"0.1 um\"\nknee_length = \"5 um\"\nexponent = 2.5\n");
+  CHECK(k.k_correlation.knee_length_um == doctest::Approx(5.0));
+  CHECK(k.k_correlation.exponent == 2.5);
+  CHECK(k.gaussian.rms_height_um == 0.0);
+  CHECK(recipe_of("kind = \"polished\"\n").scratches.spacing_um > 0.0);
+  const auto problems = [](const std::string& keys) {
+    return surface_problems("model = \"recipe\"\n[recipe]\n" + keys);
+  };
+  CHECK_FALSE(problems("kind = \"saw_cut\"\nrms_height = \"1 um\"\ncorrelation_length = \"2 um\"\n").empty());
+  CHECK(reports(problems("kind = \"polished\"\nspacing = \"3 um\"\n"), 4, "no meaning"));
+
+  const TemporaryLibrary files("spectra");
+  files.write("psd.csv", "0.1,1e9\n1,1e7\n");
+  files.write("wrong.csv", "0.1,1\n0.05,1\n");
+  Library library = shipped_library();
+  const auto add = [&](const std::string& file) {
+    library.add(LibraryKind::surface,
+                {{"mine", parse_toml("model = \"recipe\"\n[recipe]\nkind = \"spectrum\"\nspectrum = \"" +
+                                         file + "\"\nfrequency_unit = \"1/um\"\ndensity_unit = \"nm4\"\n",
+                                     (files.folder() / "scene.toml").string())}});
+  };
+  add("psd.csv");
+  const auto made = std::get<RecipeSpec>(library.surface("mine").microsurface).recipe;
+  REQUIRE(made.spectrum.density_um4.size() == 2);
+  CHECK(made.spectrum.density_um4[0] == doctest::Approx(1e-3));
+  CHECK(made.spectrum.frequency_per_um[1] == doctest::Approx(1.0));
+  add("wrong.csv");
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 4, "wrong.csv:2"));
 }

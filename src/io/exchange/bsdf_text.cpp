@@ -119,7 +119,7 @@ std::vector<double> projected_cells(const BsdfAngles& angles, double specular_ra
 }
 
 Bsdf bsdf_of(const SurfaceTable& table, const BsdfSettings& settings) {
-  const TableSide side(table, settings.side);
+  const TableSide side(table, settings.side, settings.slice);
   Bsdf bsdf;
   bsdf.angles = settings.angles;
   bsdf.angles.specular.clear();
@@ -137,7 +137,7 @@ Bsdf bsdf_of(const SurfaceTable& table, const BsdfSettings& settings) {
 
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const SurfaceTable& table,
                 const BsdfSettings& settings) {
-  const TableSide side(table, settings.side);
+  const TableSide side(table, settings.side, settings.slice);
   const BsdfAngles& angles = bsdf.angles;
   OutputFile file(path, Container::plain);
   file.write(fmt::format("# ScintRay {}: light that meets index {:g} from index {:g}, calculated\n",

@@ -32,6 +32,7 @@ struct Bsdf {
 struct BsdfSettings {
   Side side = Side::inside;
   Leaving way = Leaving::reflected;
+  std::size_t slice = 0;        ///< of the table, as from slice_at
   std::uint64_t rays = 200000;  ///< points that fill the distribution evenly, for each specular angle
   std::uint64_t seed = 1;
   BsdfAngles angles = default_bsdf_angles();

@@ -46,6 +46,7 @@ DavisFiles davis_files(const std::filesystem::path& directions);
 
 struct DavisSettings {
   Side side = Side::inside;  ///< which way light goes that Geant4 is to meet
+  std::size_t slice = 0;     ///< of the table, as from slice_at
   std::uint64_t seed = 1;
   DavisLayout layout;
 };

@@ -5,7 +5,6 @@
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/io/exchange/davis.hpp"
-#include "scintray/io/exchange/node_absorption.hpp"
 
 namespace scintray {
 
@@ -114,7 +113,7 @@ std::vector<TableNode> inside_nodes(const DavisPair& pair, Unreflected unreflect
     edges.push_back(degree * kDegree);
     TableNode node;
     node.reflectance = pair.reflectances[degree];
-    if (!transmits) set_absorptance(node, 1.0 - node.reflectance);
+    if (!transmits) node.absorptance = 1.0 - node.reflectance;
     if (degree > 0) {
       std::vector<ExitAngles> back = exits(pair, Leaving::reflected, degree);
       node.rays = back.size();

@@ -136,7 +136,7 @@ std::vector<std::string> write_davis(const std::filesystem::path& directions, co
                                      const DavisSettings& settings) {
   const DavisFiles files = davis_files(directions);
   const Container container = files.packed ? Container::zlib : Container::plain;
-  const TableSide side(table, settings.side);
+  const TableSide side(table, settings.side, settings.slice);
   OutputFile reflectances(files.reflectances, container);
   for (int degree = 0; degree < kDavisDegrees; ++degree)
     reflectances.write(fmt::format("{:.7g}\n", Degree(side, Leaving::reflected, degree).light()));

@@ -5,7 +5,6 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/io/exchange/node_absorption.hpp"
 
 namespace scintray {
 
@@ -23,7 +22,7 @@ TableNode outside_node(double incidence_rad, const IndexPair& index, FromOutside
   const bool grazing = incidence_rad >= 0.5 * kPi;
   if (choice == FromOutside::mirror || choice == FromOutside::absorb) {
     node.reflectance = choice == FromOutside::mirror ? 1.0 : 0.0;
-    set_absorptance(node, 1.0 - node.reflectance);
+    node.absorptance = 1.0 - node.reflectance;
   } else {
     node.reflectance = grazing ? 1.0 : flat.unpolarised();
   }

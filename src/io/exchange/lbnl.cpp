@@ -7,7 +7,6 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/io/exchange/node_absorption.hpp"
 
 namespace scintray {
 
@@ -73,7 +72,7 @@ TableNode node_of(const std::vector<float>& values, std::size_t incidence, const
   TableNode node;
   // Reflected and leaving, or reflected, not leaving, and all over again.
   node.reflectance = std::min(1.0, reflectance * leaving / (1.0 - reflectance * (1.0 - leaving)));
-  set_absorptance(node, 1.0 - node.reflectance);
+  node.absorptance = 1.0 - node.reflectance;
   node.reflected = quantiles_of_cells(cells);
   return node;
 }

@@ -64,17 +64,20 @@ std::string rows_of(const TableSide& side, const TableNode& node, Leaving way, c
 void write_table_csv(const std::filesystem::path& path, const SurfaceTable& table) {
   OutputFile file(path, Container::plain);
   const IndexPair& index = table.index_pair();
-  file.write(fmt::format("# ScintRay {}: surface table for index {:g} inside, {:g} outside\n", version(),
-                         index.inside, index.outside));
+  file.write(fmt::format("# ScintRay {}: surface table for index {:g} inside, {:g} outside{}\n", version(),
+                         index.inside, index.outside,
+                         table.wavelengths_nm().size() > 1 ? " at the first wavelength" : ""));
   file.write("# azimuth: 0 forward, both sides of the plane of incidence together\n");
-  file.write("side,incidence_deg,kind,polar_deg,azimuth_deg,density_per_sr,error_per_sr\n");
-  for (const Side which : {Side::inside, Side::outside}) {
-    const TableSide side(table, which);
-    const std::string name = which == Side::inside ? "inside" : "outside";
-    for (const TableNode& node : side.nodes())
-      for (const Leaving way : {Leaving::reflected, Leaving::transmitted})
-        file.write(rows_of(side, node, way, name));
-  }
+  file.write("wavelength_nm,side,incidence_deg,kind,polar_deg,azimuth_deg,density_per_sr,error_per_sr\n");
+  for (const double wavelength : table.wavelengths_nm())
+    for (const Side which : {Side::inside, Side::outside}) {
+      const TableSide side(table, which, slice_at(table, wavelength));
+      const std::string begin =
+          fmt::format("{:g},{}", wavelength, which == Side::inside ? "inside" : "outside");
+      for (const TableNode& node : side.nodes())
+        for (const Leaving way : {Leaving::reflected, Leaving::transmitted})
+          file.write(rows_of(side, node, way, begin));
+    }
   file.commit();
 }
 

@@ -1,10 +1,13 @@
 #include "scintray/io/exchange/table_side.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "scintray/core/error.hpp"
 #include "scintray/core/philox.hpp"
-#include "scintray/io/exchange/node_absorption.hpp"
 
 namespace scintray {
 
@@ -15,8 +18,7 @@ const DirectionQuantiles& directions(const TableNode& node, Leaving way) {
 }
 
 double share_of(const TableNode& node, Leaving way) {
-  return way == Leaving::reflected ? node.reflectance
-                                   : std::max(0.0, 1.0 - node.reflectance - absorptance_of(node));
+  return way == Leaving::reflected ? node.reflectance : node.transmittance();
 }
 
 /// s of the level P = 2 s^2 and its mirror image: the inverse of polar_level.
@@ -37,24 +39,42 @@ double mirrored_digits(std::uint64_t k, std::uint64_t base) {
   return value;
 }
 
-/// A table of a surface with direction is no function of incidence alone.
-template <class Table>
-void refuse_directional(const Table& table) {
-  if constexpr (requires { table.azimuths(); })
-    if (table.azimuths() > 1)
-      throw InputError({{},
-                        "a table of a surface with direction (" + std::to_string(table.azimuths()) +
-                            " azimuths of incidence); the format knows the incidence angle only",
-                        "build the table without directions"});
+std::string wavelength_list(const SurfaceTable& table) {
+  std::string text;
+  for (const double wavelength : table.wavelengths_nm())
+    text += (text.empty() ? "" : ", ") + fmt::format("{:g} nm", wavelength);
+  return text;
 }
 
 }  // namespace
 
-TableSide::TableSide(const SurfaceTable& table, Side side)
-    : nodes_(&table.nodes(side)),
-      before_(table.index_pair().on(side)),
-      behind_(table.index_pair().on(other(side))) {
-  refuse_directional(table);
+std::size_t slice_at(const SurfaceTable& table, std::optional<double> wavelength_nm) {
+  const std::vector<double>& wavelengths = table.wavelengths_nm();
+  if (!wavelength_nm) {
+    if (wavelengths.size() == 1) return 0;
+    throw InputError(
+        {{},
+         "a table of " + std::to_string(wavelengths.size()) + " wavelengths; the format holds one",
+         "choose with --wavelength one of " + wavelength_list(table)});
+  }
+  constexpr double kSame_nm = 1e-3;
+  for (std::size_t k = 0; k < wavelengths.size(); ++k)
+    if (std::abs(wavelengths[k] - *wavelength_nm) < kSame_nm) return k * table.azimuths();
+  throw InputError({{},
+                    fmt::format("no slice at {:g} nm; expected one of {} (0 nm: not stated)", *wavelength_nm,
+                                wavelength_list(table)),
+                    "build the table at this wavelength"});
+}
+
+TableSide::TableSide(const SurfaceTable& table, Side side, std::size_t slice)
+    : nodes_(&table.nodes(side, slice)),
+      before_(table.index_pair(slice).on(side)),
+      behind_(table.index_pair(slice).on(other(side))) {
+  if (table.azimuth_kind() == AzimuthKind::directional)
+    throw InputError({{},
+                      "a table of a surface with direction (" + std::to_string(table.azimuths()) +
+                          " azimuths of incidence); the format knows the angle of incidence only",
+                      "build the table without direction"});
 }
 
 TableSide::Place TableSide::place(double incidence_rad) const {
@@ -74,8 +94,8 @@ double TableSide::share(Leaving way, double incidence_rad) const {
 
 double TableSide::absorptance(double incidence_rad) const {
   const Place at = place(incidence_rad);
-  const double low = absorptance_of(*at.low);
-  return low + at.share * (absorptance_of(*at.high) - low);
+  const double low = at.low->absorptance;
+  return low + at.share * (at.high->absorptance - low);
 }
 
 bool TableSide::has_directions(Leaving way, double incidence_rad) const {

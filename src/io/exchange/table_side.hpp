@@ -1,6 +1,7 @@
 #pragma once
 /// One side of a surface table as a continuous function of the incidence angle, for the writers.
 
+#include <optional>
 #include <vector>
 
 #include "scintray/surface/table.hpp"
@@ -10,13 +11,17 @@ namespace scintray {
 /// The two ways in which light leaves a surface.
 enum class Leaving { reflected, transmitted };
 
+/// The slice of a table at one of its wavelengths; without a wavelength, the only one. InputError when there
+/// is none such, or several and none was asked for.
+std::size_t slice_at(const SurfaceTable& table, std::optional<double> wavelength_nm);
+
 /// Light met from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller says
 /// where in the distribution, so that points can be spread evenly.
 class TableSide {
  public:
-  /// `table` must outlive this. InputError when the table cannot be written as a function of incidence
-  /// alone.
-  TableSide(const SurfaceTable& table, Side side);
+  /// `table` must outlive this; `slice` as from slice_at. InputError for a table of a surface with
+  /// direction, which is no function of the incidence angle alone.
+  TableSide(const SurfaceTable& table, Side side, std::size_t slice = 0);
 
   /// Share of the light met at an incidence (rad) that leaves this way.
   double share(Leaving way, double incidence_rad) const;
