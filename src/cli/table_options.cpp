@@ -48,6 +48,8 @@ void add_tracing_options(CLI::App& app, TracingOptions& options) {
       ->capture_default_str();
   app.add_flag("--directional", options.settings.directional,
                "For surfaces with direction: a slice of the table for every azimuth of incidence");
+  app.add_flag("--reciprocal", options.settings.reciprocal,
+               "Make the table of a lossless surface exactly reciprocal, and say how far it was");
   app.add_option("--seed", options.settings.seed, "Seed of the random numbers")->capture_default_str();
   app.add_option("--incidence-step", options.incidence_step, "Step of incidence, \"2.25 deg\" unless given");
   app.add_option("--azimuth-step", options.azimuth_step, "Step of azimuth, \"9 deg\" unless given");
@@ -110,6 +112,7 @@ void write_and_report(const std::string& path, const SurfaceTable& table) {
     std::cout << fmt::format(
         "warning      {} nodes have a larger error than {:g} at the most rays allowed; raise --most-rays\n",
         p.unconverged, p.target_error);
+  if (!p.reciprocity.empty()) std::cout << "reciprocal   " << p.reciprocity << "\n";
   std::cout << "written      " << path << "\n";
 }
 

@@ -22,6 +22,7 @@ void print_provenance(const SurfaceTable& table) {
   if (p.target_error > 0.0)
     std::cout << fmt::format("error        rays added down to {:g}; {} nodes missed it\n", p.target_error,
                              p.unconverged);
+  if (!p.reciprocity.empty()) std::cout << fmt::format("reciprocal   {}\n", p.reciprocity);
   std::cout << "built by     ScintRay " << p.version << "\n";
 }
 

@@ -86,7 +86,7 @@ std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
   const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
   if (on_the_spot) {
     for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine", "wavelengths",
-                            "directional", "target_error"})
+                            "directional", "target_error", "reciprocal"})
       table->has(key);
     return std::nullopt;
   }
@@ -98,6 +98,9 @@ std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
   settings.seed = read_count(*table, "seed", settings.seed, 0);
   settings.refine = table->boolean("refine", settings.refine);
   settings.directional = table->boolean("directional", settings.directional);
+  settings.reciprocal = table->boolean("reciprocal", settings.reciprocal);
+  table->expect("reciprocal", !(settings.reciprocal && settings.directional),
+                "a table with direction cannot be made reciprocal", "keep one of the two keys");
   settings.target_error = table->number("target_error", settings.target_error);
   table->expect("target_error", settings.target_error >= 0.0 && settings.target_error < 1.0,
                 "\"target_error\" is an error of the reflectance, between 0 (none) and 1");

@@ -43,9 +43,9 @@ std::string key_of(const SynthesisRecipe& recipe) {
 std::string describe(const TableSettings& s) {
   return fmt::format(
       "incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad, "
-      "directional {}, target error {} within {}",
+      "directional {}, target error {} within {}, reciprocal {}",
       s.incidence_step_rad, s.azimuth_step_rad, s.rays, s.seed, s.refine, s.refine_change,
-      s.refine_down_to_rad, s.grazing_rad, s.directional, s.target_error, s.most_rays);
+      s.refine_down_to_rad, s.grazing_rad, s.directional, s.target_error, s.most_rays, s.reciprocal);
 }
 
 std::string describe(const std::vector<SpectralPoint>& spectrum) {

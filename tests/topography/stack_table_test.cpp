@@ -204,6 +204,53 @@ TEST_CASE("Rays are added until the stated error is reached, or the table says h
   CHECK_THROWS_AS(build_table(*rough_map(), kIndex, settings), InputError);
 }
 
+TEST_CASE("A table made reciprocal is so exactly, keeps equilibrium, and says how far it was") {
+  TableSettings settings = quick();
+  settings.reciprocal = true;
+  const SurfaceTable table = build_table(*rough_map(), kIndex, settings);
+  const ReciprocalKernel& kernel = *table.slices().front().reciprocal;
+  constexpr int kStates = ReciprocalKernel::kStates, kTurns = ReciprocalKernel::kTurns,
+                kPolar = ReciprocalKernel::kPolar;
+  const auto flux = [&](int a, int b, int m) {
+    const double n = a < kPolar ? kIndex.inside : kIndex.outside;
+    return n * n *
+           static_cast<double>(kernel.shares()[static_cast<std::size_t>((a * kStates + b) * kTurns + m)]);
+  };
+  double asymmetry = 0.0, worst_column = 0.0;
+  for (int b = 0; b < kStates; ++b) {
+    double arriving = 0.0;
+    for (int a = 0; a < kStates; ++a)
+      for (int m = 0; m < kTurns; ++m) {
+        arriving += flux(a, b, m);
+        asymmetry = std::max(asymmetry, std::abs(flux(a, b, m) - flux(b, a, m)));
+      }
+    const double n = b < kPolar ? kIndex.inside : kIndex.outside;
+    worst_column = std::max(worst_column, std::abs(arriving / (n * n) - 1.0));
+  }
+  CHECK(asymmetry < 1e-6);     // single precision
+  CHECK(worst_column < 1e-5);  // isotropic light stays isotropic
+  CHECK(table.provenance().reciprocity.find("n1^2 (1 - R12)") != std::string::npos);
+  // It reflects as the traced table does, within a bin's width and the noise of both.
+  for (const double degrees : {10.0, 40.0, 70.0}) {
+    const double low = std::pow(std::sin((degrees - 0.7) * kDegree), 2);
+    CAPTURE(degrees);
+    const double traced =
+        build_table(*rough_map(), kIndex, quick()).reflectance(Side::inside, degrees * kDegree);
+    CHECK(std::abs(kernel.reflectance(Side::inside, low) - traced) < 0.03);
+  }
+  // And light leaves as the kernel says.
+  const Surface surface = of_table(table);
+  const double angle = 40.0 * kDegree;
+  const Estimate seen = binomial_estimate(shine(surface, angle, 0.0, 420.0, 10).outcomes[0], kRays);
+  CHECK(sigmas(seen, {table.reflectance(Side::inside, angle), 0.0}) < kSigmas);
+
+  Surface lossy;
+  lossy.reflector = Reflector{"ESR", Curve::constant(0.9), 1.0};
+  CHECK_THROWS_AS(build_stack_table(lossy, {{420.0, kIndex}}, settings), InputError);
+  settings.directional = true;
+  CHECK_THROWS_AS(build_table(*rough_map(), kIndex, settings), InputError);
+}
+
 TEST_CASE("A table of many slices is the same after a file") {
   TableSettings settings = quick();
   settings.directional = true;
