@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <memory>
 #include <numeric>
 
 #include "io/geant4_davis.hpp"
@@ -252,11 +253,17 @@ TEST_CASE("what a table absorbs is named when a pair is written, and can be aske
   CHECK(read.meet(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
 }
 
-TEST_CASE("of a table of several wavelengths one has to be chosen; a surface with direction is refused") {
+TEST_CASE(
+    "of a table of several wavelengths one has to be chosen; tables that no format can hold are refused") {
   const auto folder = scratch_folder("davis_wavelengths");
   const auto slice = [&](double wavelength_nm, double azimuth_rad) {
-    return TableSlice{wavelength_nm, azimuth_rad, kLsoToAir, rough_table().nodes(Side::inside),
-                      rough_table().nodes(Side::outside)};
+    TableSlice result;
+    result.wavelength_nm = wavelength_nm;
+    result.azimuth_rad = azimuth_rad;
+    result.index = kLsoToAir;
+    result.from_inside = rough_table().nodes(Side::inside);
+    result.from_outside = rough_table().nodes(Side::outside);
+    return result;
   };
   const SurfaceTable colours({slice(400.0, 0.0), slice(500.0, 0.0)}, AzimuthKind::folded, {});
   CHECK(slice_at(colours, 500.0) == 1);
@@ -264,6 +271,17 @@ TEST_CASE("of a table of several wavelengths one has to be chosen; a surface wit
   CHECK_THROWS_WITH_AS(slice_at(colours, 450.0), doctest::Contains("no slice at 450 nm"), InputError);
   const SurfaceTable grooves({slice(0.0, 0.0), slice(0.0, kPi)}, AzimuthKind::directional, {});
   CHECK_THROWS_WITH_AS(write_davis(folder / "A_LUT.z", grooves), doctest::Contains("2 azimuths"), InputError);
+  // Light that keeps its bin and goes on forward.
+  constexpr std::size_t kRow = std::size_t{ReciprocalKernel::kStates} * ReciprocalKernel::kTurns;
+  std::vector<float> shares(ReciprocalKernel::kStates * kRow, 0.0f);
+  for (int state = 0; state < ReciprocalKernel::kStates; ++state)
+    shares[static_cast<std::size_t>(state) * kRow +
+           static_cast<std::size_t>(ReciprocalKernel::target(state, 0.0))] = 1.0f;
+  TableSlice mirrors = slice(0.0, 0.0);
+  mirrors.reciprocal = std::make_shared<const ReciprocalKernel>(shares);
+  const SurfaceTable reciprocal({mirrors}, AzimuthKind::folded, {});
+  CHECK_THROWS_WITH_AS(write_davis(folder / "A_LUT.z", reciprocal), doctest::Contains("made reciprocal"),
+                       InputError);
   CHECK(std::filesystem::is_empty(folder));
 }
 

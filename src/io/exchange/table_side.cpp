@@ -75,6 +75,11 @@ TableSide::TableSide(const SurfaceTable& table, Side side, std::size_t slice)
                       "a table of a surface with direction (" + std::to_string(table.azimuths()) +
                           " azimuths of incidence); the format knows the angle of incidence only",
                       "build the table without direction"});
+  if (table.slices()[slice].reciprocal)
+    throw InputError({{},
+                      "a table made reciprocal, whose light follows bins and not the distributions of its "
+                      "angles of incidence",
+                      "export the table built without that"});
 }
 
 TableSide::Place TableSide::place(double incidence_rad) const {

@@ -20,7 +20,7 @@ std::size_t slice_at(const SurfaceTable& table, std::optional<double> wavelength
 class TableSide {
  public:
   /// `table` must outlive this; `slice` as from slice_at. InputError for a table of a surface with
-  /// direction, which is no function of the incidence angle alone.
+  /// direction, which is no function of the incidence angle alone, and for one made reciprocal.
   TableSide(const SurfaceTable& table, Side side, std::size_t slice = 0);
 
   /// Share of the light met at an incidence (rad) that leaves this way.
