@@ -10,6 +10,8 @@ void add_table_command(CLI::App& app) {
   add_table_build_command(*table);
   add_table_stack_command(*table);
   add_table_show_command(*table);
+  add_table_export_command(*table);
+  add_table_import_command(*table);
   add_map_synthesize_command(*table);  // the same as under `map`, where a table starts from no measurement
 }
 

@@ -11,5 +11,7 @@ void add_table_command(CLI::App& app);
 void add_table_build_command(CLI::App& table);
 void add_table_stack_command(CLI::App& table);
 void add_table_show_command(CLI::App& table);
+void add_table_export_command(CLI::App& table);
+void add_table_import_command(CLI::App& table);
 
 }  // namespace scintray::cli

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "exchange_entries.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/topography/readers/formats.hpp"
 #include "topography/made_up_maps.hpp"
@@ -185,7 +186,7 @@ std::vector<std::string> all_seeds() {
 /// A number of one byte becomes a double of eight, and a vector that grows holds twice its content.
 constexpr std::size_t kPerByte = 32;
 
-constexpr std::array<Entry, 12> kEntries{
+constexpr std::array<Entry, 15> kEntries{
     {{"gsf", run_format<is_gsf, parse_gsf>, gsf_seeds, kPerByte},
      {"gwy", run_format<is_gwy, parse_gwy>, gwy_seeds, kPerByte},
      {"ibw", run_format<is_ibw, parse_ibw>, ibw_seeds, kPerByte},
@@ -197,6 +198,9 @@ constexpr std::array<Entry, 12> kEntries{
      {"profiler", run_format<is_profiler_matrix, parse_profiler_matrix>, profiler_seeds, kPerByte},
      {"text", run_format<is_number_text, parse_number_text>, text_seeds, kPerByte},
      {"gzip", run_gzip, gzip_seeds, kDeflate * 2},
+     {"davis", run_davis, davis_seeds, kPerByte},
+     {"davis_reflectances", run_davis_reflectances, davis_reflectance_seeds, kPerByte},
+     {"lbnl", run_lbnl, lbnl_seeds, kPerByte},
      {"any", run_any, all_seeds, kDeflate* kPerByte}}};
 
 }  // namespace

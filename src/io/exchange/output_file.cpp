@@ -1,0 +1,110 @@
+#include "scintray/io/exchange/output_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray {
+
+struct OutputFile::State {
+  std::filesystem::path path, temporary;
+  int descriptor = -1;
+  bool packed = false, finished = false, committed = false;
+  z_stream stream{};
+  std::array<char, 1 << 16> part{};
+
+  ~State() {
+    if (packed) deflateEnd(&stream);
+    if (descriptor >= 0) ::close(descriptor);
+    std::error_code ignored;
+    if (!committed) std::filesystem::remove(temporary, ignored);
+  }
+
+  [[noreturn]] void fail(int cause) const {
+    throw SystemError(path.string() + ": cannot write: " + std::strerror(cause));
+  }
+
+  void put(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
+      if (done < 0 && errno == EINTR) continue;
+      if (done < 0) fail(errno);
+      bytes.remove_prefix(static_cast<std::size_t>(done));
+    }
+  }
+
+  void pack(std::string_view text, int flush) {
+    // zlib counts in 32 bits.
+    constexpr std::size_t kMost = 1 << 30;
+    do {
+      const std::size_t taken = std::min(text.size(), kMost);
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+      stream.avail_in = static_cast<uInt>(taken);
+      do {
+        stream.next_out = reinterpret_cast<Bytef*>(part.data());
+        stream.avail_out = static_cast<uInt>(part.size());
+        deflate(&stream, taken == text.size() ? flush : Z_NO_FLUSH);
+        put({part.data(), part.size() - stream.avail_out});
+      } while (stream.avail_out == 0);
+      text.remove_prefix(taken);
+    } while (!text.empty());
+  }
+};
+
+OutputFile::OutputFile(std::filesystem::path path, Container container) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.path = std::move(path);
+  if (std::filesystem::is_directory(s.path)) s.fail(EISDIR);
+  s.temporary = s.path;
+  s.temporary.replace_filename("." + s.path.filename().string() + "." + std::to_string(::getpid()) +
+                               ".unfinished");
+  s.descriptor = ::open(s.temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (s.descriptor < 0) s.fail(errno);
+  if (container == Container::plain) return;
+  if (deflateInit(&s.stream, Z_DEFAULT_COMPRESSION) != Z_OK) throw SystemError("cannot start zlib");
+  s.packed = true;
+}
+
+OutputFile::OutputFile(OutputFile&&) noexcept = default;
+OutputFile::~OutputFile() = default;
+
+void OutputFile::write(std::string_view text) {
+  if (text.empty()) return;
+  if (state_->packed)
+    state_->pack(text, Z_NO_FLUSH);
+  else
+    state_->put(text);
+}
+
+void OutputFile::finish() {
+  State& s = *state_;
+  if (s.finished) return;
+  if (s.packed) s.pack({}, Z_FINISH);
+  // EINVAL: a file system that cannot sync.
+  if (::fsync(s.descriptor) != 0 && errno != EINVAL) s.fail(errno);
+  const int status = ::close(s.descriptor);
+  const int cause = errno;
+  s.descriptor = -1;
+  if (status != 0) s.fail(cause);
+  s.finished = true;
+}
+
+void OutputFile::commit() {
+  finish();
+  State& s = *state_;
+  std::error_code error;
+  std::filesystem::rename(s.temporary, s.path, error);
+  if (error) s.fail(error.value());
+  s.committed = true;
+}
+
+}  // namespace scintray

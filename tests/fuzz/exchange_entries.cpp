@@ -1,0 +1,104 @@
+#include "exchange_entries.hpp"
+
+#include <zlib.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "scintray/core/error.hpp"
+#include "scintray/io/exchange/davis.hpp"
+#include "scintray/io/exchange/lbnl.hpp"
+
+namespace scintray::fuzz {
+
+namespace {
+
+constexpr DavisLayout kDavis{2};
+constexpr LbnlLayout kLbnl{2, 45, 37};
+
+void require(bool good, const char* what) {
+  if (!good) throw std::logic_error(what);
+}
+
+template <class Read>
+bool expect_numbers_or_input_error(Read read) {
+  try {
+    read();
+    return true;
+  } catch (const InputError& error) {
+    require(!error.problems().empty(), "an error without problems");
+    for (const Problem& problem : error.problems())
+      require(problem.where.file == "fuzz" && !problem.what.empty(), "an error without place or words");
+    return false;
+  }
+}
+
+std::string deflated(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
+           text.size());
+  packed.resize(size);
+  return packed;
+}
+
+std::string directions() {
+  std::string text;
+  for (std::size_t k = 0; k + 1 < kDavis.numbers(); k += 2)
+    text += k < kDavis.half() ? "-.3 0.7\n" : "6e-1 2.50\n";
+  return text + "0\n";
+}
+
+std::string reflectances() {
+  std::string text;
+  for (int degree = 0; degree < kDavisDegrees; ++degree) text += degree < 30 ? "0.25 " : "+1e0\n";
+  return text;
+}
+
+bool parse_pair(std::string_view lut, std::string_view shares) {
+  return expect_numbers_or_input_error([&] {
+    const DavisPair pair =
+        parse_davis(lut, shares, {"fuzz", "fuzz", false}, Unreflected::transmitted, kDavis);
+    require(pair.reflectances.size() == kDavisDegrees, "a wrong number of reflectances");
+    require(pair.directions.size() >= kDavis.numbers() - 1 && pair.directions.size() <= kDavis.numbers(),
+            "a wrong number of directions");
+    for (const float r : pair.reflectances) require(r >= 0.0f && r <= 1.0f, "a reflectance out of range");
+    for (const float angle : pair.directions) require(std::isfinite(angle), "an angle that is not finite");
+  });
+}
+
+std::string_view view(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace
+
+bool run_davis(const std::uint8_t* data, std::size_t size) {
+  static const std::string sound = reflectances();
+  return parse_pair(view(data, size), sound);
+}
+
+bool run_davis_reflectances(const std::uint8_t* data, std::size_t size) {
+  static const std::string sound = directions();
+  return parse_pair(sound, view(data, size));
+}
+
+bool run_lbnl(const std::uint8_t* data, std::size_t size) {
+  return expect_numbers_or_input_error([&] {
+    const std::vector<float> values = parse_lbnl(view(data, size), "fuzz", kLbnl);
+    require(values.size() == kLbnl.numbers(), "a wrong number of values");
+    for (const float value : values) require(value >= 0.0f && value <= 1.0f, "a value out of range");
+  });
+}
+
+std::vector<std::string> davis_seeds() { return {directions(), deflated(directions())}; }
+
+std::vector<std::string> davis_reflectance_seeds() { return {reflectances(), deflated(reflectances())}; }
+
+std::vector<std::string> lbnl_seeds() {
+  std::string text;
+  for (std::size_t k = 0; k < kLbnl.numbers(); ++k) text += k % 7 == 0 ? ".5\n" : "0 ";
+  return {text, deflated(text)};
+}
+
+}  // namespace scintray::fuzz

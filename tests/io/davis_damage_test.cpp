@@ -1,0 +1,143 @@
+/// Davis pairs that are damaged, of another kind, or made to harm.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/io/exchange/davis.hpp"
+
+using namespace scintray;
+
+namespace {
+
+/// A small pair as numbers, for damage.
+struct Small {
+  Small() {
+    layout.samples = 3;
+    for (int degree = 0; degree < 90; ++degree) reflectances += "0.5\n";
+    for (std::size_t k = 0; k + 1 < layout.numbers(); k += 2) {
+      const bool reflected = k < layout.half();
+      values.insert(values.end(), {"0.3", reflected ? "0.7" : "2.5"});
+    }
+    values.push_back("0");
+  }
+  std::string directions() const {
+    return std::accumulate(values.begin(), values.end(), std::string(),
+                           [](std::string text, const std::string& value) { return text + value + "\n"; });
+  }
+  std::string message(Unreflected unreflected = Unreflected::transmitted) const {
+    return message_of(directions(), unreflected);
+  }
+  std::string message_of(const std::string& content,
+                         Unreflected unreflected = Unreflected::transmitted) const {
+    try {
+      parse_davis(content, reflectances, {"X_LUT.z", "X_LUTR.z", true}, unreflected, layout);
+    } catch (const InputError& error) {
+      CHECK(!error.problems().front().where.file.empty());
+      CHECK(!error.problems().front().hint.empty());
+      return error.problems().front().where.file + ": " + error.problems().front().what;
+    }
+    return "";
+  }
+
+  DavisLayout layout;
+  std::vector<std::string> values;
+  std::string reflectances;
+};
+
+bool holds(const std::string& text, const std::string& part) {
+  CAPTURE(text);
+  CAPTURE(part);
+  const bool found = text.find(part) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+std::string deflated(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
+           text.size());
+  packed.resize(size);
+  return packed;
+}
+
+}  // namespace
+
+TEST_CASE("damaged pairs are refused by messages that say where and what") {
+  CHECK(Small().message().empty());
+  {
+    Small one_less;  // Geant4's array has one number more than two halves
+    one_less.values.pop_back();
+    CHECK(one_less.message().empty());
+    one_less.values.pop_back();
+    holds(one_less.message(), fmt::format("{} numbers; expected", one_less.layout.numbers() - 2));
+  }
+  {
+    Small longer;
+    longer.values.push_back("1");
+    holds(longer.message(), "more than 1093 numbers");
+  }
+  for (const char* word : {"nan", "inf", "-inf", "1e99", "zero", "0x5", "1.2.3", "+-1", "\xFF"}) {
+    Small odd;
+    odd.values[6] = word;
+    holds(odd.message(), "as number 7");
+  }
+  {
+    Small tiny;
+    tiny.values[0] = "1e-60";
+    CHECK(tiny.message().empty());
+  }
+  {
+    Small loud;
+    loud.reflectances.replace(0, 3, "1.5");
+    holds(loud.message(), "X_LUTR.z: reflectance 1.5");
+    loud.reflectances = loud.reflectances.substr(4);
+    holds(loud.message(), "X_LUTR.z: 89 numbers");
+  }
+  {
+    Small degrees;  // angles in degrees
+    degrees.values[1] = "45";
+    holds(degrees.message(), "expected -2 pi to 2 pi and 0 to pi");
+  }
+  {
+    Small through;
+    through.values[1] = "2.0";
+    holds(through.message(), "reflected direction 1 of 1 deg has elevation 114.59");
+  }
+  {
+    Small back;
+    back.values[back.layout.transmitted(7) + 3] = "0.9";
+    holds(back.message(), "transmitted direction 2 of 7 deg");
+  }
+  {
+    Small empty;
+    for (std::size_t k = 0; k < empty.layout.block(); ++k)
+      empty.values[empty.layout.transmitted(7) + k] = "0";
+    holds(empty.message(), "no transmitted direction at 7 deg");
+    CHECK(empty.message(Unreflected::absorbed).empty());
+    for (std::size_t k = 0; k < empty.layout.block(); ++k) empty.values[empty.layout.reflected(9) + k] = "0";
+    holds(empty.message(Unreflected::absorbed), "no reflected direction at 9 deg");
+  }
+}
+
+TEST_CASE("damaged zlib streams, other packings and files that unpack to too much are refused") {
+  const Small small;
+  const std::string packed = deflated(small.directions());
+  CHECK(small.message_of(packed).empty());
+  holds(small.message_of(packed.substr(0, packed.size() / 2)), "damaged or truncated zlib stream");
+  holds(small.message_of(packed + "more"), "4 bytes after the end");
+  std::string flipped = packed;
+  flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 0x55);
+  CHECK(!small.message_of(flipped).empty());
+  holds(small.message_of("\x1f\x8b" + packed), "gzip data");
+  holds(small.message_of(deflated(std::string(10'000'000, ' '))), "unpacks to more than");
+  holds(small.message_of(std::string(10'000'000, ' ')), "bytes; expected at most");
+  holds(small.message_of(""), "0 numbers");
+  holds(small.message_of(std::string(5000, '1')), "as number 1");
+}
