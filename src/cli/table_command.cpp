@@ -128,10 +128,12 @@ void add_show(CLI::App& table) {
 }  // namespace
 
 void add_table_command(CLI::App& app) {
-  CLI::App* table = app.add_subcommand("table", "Surface tables from height maps");
+  CLI::App* table = app.add_subcommand("table", "Surface tables, and the surfaces of the library");
   table->require_subcommand(1);
   add_build(*table);
   add_show(*table);
+  add_table_list_command(*table);
+  add_table_compare_command(*table);
 }
 
 }  // namespace scintray::cli

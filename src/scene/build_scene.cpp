@@ -19,15 +19,6 @@ struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
 };
 
-Library library_for(const SceneSpec& spec) {
-  Library library = Library::shipped();
-  library.add(LibraryKind::medium, spec.media);
-  library.add(LibraryKind::surface, spec.surfaces);
-  library.add(LibraryKind::sensor, spec.sensors);
-  library.add(LibraryKind::reflector, spec.reflectors);
-  return library;
-}
-
 /// The part of an emission spectrum that is not zero.
 WavelengthRange range_of(const Curve& emission) {
   WavelengthRange range;
@@ -283,6 +274,15 @@ void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed,
 }  // namespace
 
 SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
+
+Library library_for(const SceneSpec& spec) {
+  Library library = Library::shipped();
+  library.add(LibraryKind::medium, spec.media);
+  library.add(LibraryKind::surface, spec.surfaces);
+  library.add(LibraryKind::sensor, spec.sensors);
+  library.add(LibraryKind::reflector, spec.reflectors);
+  return library;
+}
 
 BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;

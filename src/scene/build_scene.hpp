@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/scene/library.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
 #include "scintray/scene/surface_maker.hpp"
@@ -24,6 +25,9 @@ struct BuiltScene {
   std::vector<PartReport> parts;
   std::vector<std::string> warnings;  ///< things a user should know, none of which stops a run
 };
+
+/// The shipped library with the definitions of a scene, which win.
+Library library_for(const SceneSpec& spec);
 
 /// Builds scenes; surfaces made for one are kept for the next, so a sweep traces each table once.
 class SceneBuilder {
