@@ -41,7 +41,7 @@ SurfaceMaker watched_maker(ProgressLine& line) {
 }
 
 std::string share_text(const Estimate& share) {
-  return fmt::format("{:>10.5f} +- {:.5f}", share.value, share.error);
+  return fmt::format("{:.5f} +- {:.5f}", share.value, share.error);
 }
 
 }  // namespace scintray::cli

@@ -28,7 +28,7 @@ double angle_rad(const std::string& text);
 /// A maker that shows its progress on the line, and stops when the user asks.
 SurfaceMaker watched_maker(ProgressLine& line);
 
-/// "0.1234 +- 0.0005" in a column of its own.
+/// "0.12345 +- 0.00050".
 std::string share_text(const Estimate& share);
 
 }  // namespace scintray::cli

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
 #include "scintray/cli/bench_options.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/table_command.hpp"
-#include "scintray/report/goniometer_page.hpp"
 #include "scintray/report/goniometer_plots.hpp"
 #include "scintray/report/page.hpp"
 #include "scintray/surface/fresnel.hpp"
@@ -23,6 +24,7 @@ struct Options {
   BenchOptions bench;
   std::vector<std::string> surfaces, outside{"air"};
   std::string angle = "45 deg", slopes, reflectance, directions;
+  bool on_the_spot = false;
 };
 
 /// Steps of 2.5 deg, and 88.5 deg, at which grazing slopes of recipes are stated.
@@ -33,29 +35,44 @@ std::vector<double> incidences() {
   return angles;
 }
 
-/// Surfaces by name between the inside medium and each outside one.
-struct Bench {
-  std::string label;
-  BenchSurface surface;
-};
-
-std::vector<Bench> make_all(const Options& options, bool on_the_spot,
-                            const std::vector<std::string>& outside) {
+/// The surfaces between the inside medium and one outside medium.
+std::vector<BenchSurface> make_all(const Options& options, const std::string& outside, bool on_the_spot) {
   ProgressLine line(true);
   SurfaceMaker maker = watched_maker(line);
   const Library library = library_of(options.bench);
-  std::vector<Bench> all;
-  for (const std::string& medium : outside)
-    for (const std::string& name : options.surfaces)
-      all.push_back({outside.size() > 1 ? name + ", " + medium : name,
-                     make_bench_surface(library, maker, place_of(options.bench, name, medium), on_the_spot)});
+  std::vector<BenchSurface> all;
+  for (const std::string& name : options.surfaces)
+    all.push_back(make_bench_surface(library, maker, place_of(options.bench, name, outside), on_the_spot));
   return all;
 }
 
-void print_heading(const std::string& what, const std::vector<Bench>& all) {
-  std::cout << "\n" << what << "\n" << fmt::format("{:>10}", "deg");
-  for (const Bench& bench : all) std::cout << fmt::format("  {:>22}", bench.label);
-  std::cout << "\n";
+/// Rows of numbers, a column for each surface.
+class Columns {
+ public:
+  Columns(const std::string& what, const std::vector<std::string>& names) {
+    std::cout << "\n" << what << "\n" << fmt::format("{:>8}", "deg");
+    for (const std::string& name : names) {
+      widths_.push_back(std::max<std::size_t>(21, name.size()) + 2);
+      std::cout << fmt::format("{:>{}}", name, widths_.back());
+    }
+    std::cout << "\n";
+  }
+  void row(double degrees, const std::vector<std::string>& cells) const {
+    std::cout << fmt::format("{:>8.2f}", degrees);
+    for (std::size_t k = 0; k < cells.size(); ++k) std::cout << fmt::format("{:>{}}", cells[k], widths_[k]);
+    std::cout << "\n";
+  }
+
+ private:
+  std::vector<std::size_t> widths_;
+};
+
+GoniometerSettings settings_of(const Options& options) {
+  GoniometerSettings settings;
+  settings.rays = options.bench.rays;
+  settings.seed = options.bench.seed;
+  settings.wavelength_nm = place_of(options.bench, "", "").wavelength_nm;
+  return settings;
 }
 
 void write(const std::string& path, const report::Plot& plot) {
@@ -64,91 +81,85 @@ void write(const std::string& path, const report::Plot& plot) {
 }
 
 void slopes(const Options& options) {
-  const std::vector<Bench> all = make_all(options, true, {options.outside.front()});
-  print_heading("mean slope met from inside (deg) against incidence", all);
+  const std::vector<BenchSurface> all = make_all(options, options.outside.front(), true);
+  const Columns columns("mean slope met from inside (deg) against incidence", options.surfaces);
   report::Plot plot = report::incidence_plot("Mean slope met against incidence", "mean slope met (deg)");
-  for (const Bench& bench : all) plot.series.push_back({bench.label, {}, {}, {}});
+  plot.series.resize(all.size());
   for (const double angle : incidences()) {
-    std::cout << fmt::format("{:>10.2f}", angle / kDegree);
+    std::vector<std::string> cells;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const Estimate slope = mean_slope_met(all[k].surface.surface, Side::inside, angle);
-      std::cout << fmt::format("  {:>12.3f} +- {:.3f}", slope.value / kDegree, slope.error / kDegree);
-      plot.series[k].x.push_back(angle / kDegree);
-      plot.series[k].y.push_back(slope.value / kDegree);
-      plot.series[k].error.push_back(slope.error / kDegree);
+      const Estimate slope = mean_slope_met(all[k].surface, Side::inside, angle);
+      cells.push_back(fmt::format("{:.3f} +- {:.3f}", slope.value / kDegree, slope.error / kDegree));
+      report::PlotSeries& series = plot.series[k];
+      series.label = options.surfaces[k];
+      series.x.push_back(angle / kDegree);
+      series.y.push_back(slope.value / kDegree);
     }
-    std::cout << "\n";
+    columns.row(angle / kDegree, cells);
   }
   write(options.slopes, plot);
 }
 
-void reflectance(const Options& options) {
-  const std::vector<Bench> all = make_all(options, false, options.outside);
-  GoniometerSettings settings;
-  settings.rays = options.bench.rays;
-  settings.seed = options.bench.seed;
-  settings.wavelength_nm = all.front().surface.place.wavelength_nm;
+/// Prints reflectances into one medium, and adds them to the plot.
+void reflectance_into(const Options& options, const std::string& outside, report::Plot& plot) {
+  const std::vector<BenchSurface> all = make_all(options, outside, options.on_the_spot);
+  const IndexPair index = all.front().index;
   const std::vector<double> angles = incidences();
-  report::Plot plot = report::incidence_plot("Reflectance against incidence", "reflectance");
-  plot.y_high = 1.0;
+  const std::string suffix = fmt::format(", n {:.2f}", index.outside);
   std::vector<std::vector<GoniometerReading>> readings;
-  for (const Bench& bench : all) {
-    readings.push_back(sweep_incidence(bench.surface.surface, bench.surface.index, settings, angles));
-    plot.series.push_back(report::reflectance_series(bench.label, readings.back()));
+  for (const BenchSurface& bench : all) {
+    readings.push_back(sweep_incidence(bench.surface, index, settings_of(options), angles));
+    plot.series.push_back(report::reflectance_series(bench.place.surface + suffix, readings.back()));
   }
-  print_heading("reflectance from inside against incidence, with Fresnel's below each", all);
+  plot.series.push_back(report::fresnel_series("Fresnel" + suffix, index.inside, index.outside));
+
+  std::vector<std::string> names = options.surfaces;
+  names.push_back("Fresnel");
+  std::string what = fmt::format("reflectance from inside into {} (n {:.4f})", outside, index.outside);
+  if (index.inside > index.outside)
+    what += fmt::format(", critical angle {:.2f} deg", std::asin(index.outside / index.inside) / kDegree);
+  const Columns columns(what, names);
   for (std::size_t row = 0; row < angles.size(); ++row) {
-    std::cout << fmt::format("{:>10.2f}", angles[row] / kDegree);
-    for (const auto& of_surface : readings)
-      std::cout << fmt::format("  {:>22}", share_text(of_surface[row].reflectance()));
-    std::cout << fmt::format("\n{:>10}", "Fresnel");
-    for (const Bench& bench : all)
-      std::cout << fmt::format(
-          "  {:>11.5f}{:11}",
-          fresnel(std::cos(angles[row]), bench.surface.index.inside, bench.surface.index.outside)
-              .unpolarised(),
-          "");
-    std::cout << "\n";
+    std::vector<std::string> cells;
+    for (const auto& of_surface : readings) cells.push_back(share_text(of_surface[row].reflectance()));
+    cells.push_back(
+        fmt::format("{:.5f}", fresnel(std::cos(angles[row]), index.inside, index.outside).unpolarised()));
+    columns.row(angles[row] / kDegree, cells);
   }
-  for (std::size_t k = 0; k < options.outside.size(); ++k) {
-    const IndexPair index = all[k * options.surfaces.size()].surface.index;
-    plot.series.push_back(
-        report::fresnel_series("Fresnel, " + options.outside[k], index.inside, index.outside));
-    if (index.inside > index.outside)
-      std::cout << fmt::format("critical angle to {}: {:.2f} deg\n", options.outside[k],
-                               std::asin(index.outside / index.inside) / kDegree);
-  }
+}
+
+void reflectance(const Options& options) {
+  report::Plot plot = report::incidence_plot("Reflectance against incidence", "reflectance");
+  for (const std::string& outside : options.outside) reflectance_into(options, outside, plot);
   write(options.reflectance, plot);
 }
 
 void directions(const Options& options) {
-  const std::vector<Bench> all = make_all(options, false, {options.outside.front()});
-  GoniometerSettings settings;
-  settings.rays = kDirectionFactor * options.bench.rays;
-  settings.seed = options.bench.seed;
-  settings.wavelength_nm = all.front().surface.place.wavelength_nm;
+  const std::vector<BenchSurface> all = make_all(options, options.outside.front(), options.on_the_spot);
+  GoniometerSettings settings = settings_of(options);
+  settings.rays *= kDirectionFactor;
   settings.incidence_rad = angle_rad(options.angle);
   report::Plot plot = report::profile_plot("Reflected directions in the plane of incidence");
   plot.log_y = true;
   std::vector<GoniometerReading> readings;
-  for (const Bench& bench : all) {
-    readings.push_back(read_goniometer(bench.surface.surface, bench.surface.index, settings));
+  for (const BenchSurface& bench : all) {
+    readings.push_back(read_goniometer(bench.surface, bench.index, settings));
     plot.series.push_back(
-        report::profile_series(bench.label, readings.back().reflected_directions, settings));
+        report::profile_series(bench.place.surface, readings.back().reflected_directions, settings));
   }
-  print_heading(
-      fmt::format("reflected light per sr against the angle in the plane of incidence, incidence {}",
-                  options.angle),
-      all);
+  const Columns columns(
+      fmt::format("reflected light (1/sr) within {:g} deg of the plane of incidence, into {}, "
+                  "incidence {:g} deg",
+                  settings.profile_half_width_rad / kDegree, options.outside.front(),
+                  settings.incidence_rad / kDegree),
+      options.surfaces);
   const double solid_angle = profile_bin_sr(settings.profile_half_width_rad);
-  for (std::size_t bin = 0; bin < DirectionCounts::kProfileBins; ++bin) {
-    std::cout << fmt::format("{:>10.1f}", profile_edge_deg(static_cast<int>(bin)) + 0.5);
-    for (const GoniometerReading& reading : readings) {
-      const Estimate value =
-          density_per_sr(reading.reflected_directions.profile[bin], settings.rays, solid_angle);
-      std::cout << fmt::format("  {:>11.5f} +- {:.5f}", value.value, value.error);
-    }
-    std::cout << "\n";
+  for (int bin = 0; bin < DirectionCounts::kProfileBins; ++bin) {
+    std::vector<std::string> cells;
+    for (const GoniometerReading& reading : readings)
+      cells.push_back(share_text(density_per_sr(
+          reading.reflected_directions.profile[static_cast<std::size_t>(bin)], settings.rays, solid_angle)));
+    columns.row(profile_edge_deg(bin) + 0.5, cells);
   }
   write(options.directions, plot);
 }
@@ -177,7 +188,10 @@ void add_table_compare_command(CLI::App& table) {
       ->capture_default_str();
   command->add_option("--angle", options->angle, "Angle of incidence of the directions")
       ->capture_default_str();
-  auto* slope_file = command->add_option("--slopes", options->slopes, "SVG file for the mean slope met");
+  command->add_flag("--on-the-spot", options->on_the_spot,
+                    "Follow rays on the height maps themselves instead of their tables");
+  auto* slope_file = command->add_option(
+      "--slopes", options->slopes, "SVG file for the mean slope met, always on the height maps themselves");
   auto* reflectance_file = command->add_option("--reflectance", options->reflectance,
                                                "SVG file for reflectance against incidence");
   auto* direction_file = command->add_option("--directions", options->directions,

@@ -14,12 +14,13 @@ namespace scintray::report {
 namespace {
 
 constexpr const char* kStyle = R"css(
-.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(18rem, 1fr)); gap: 1.5rem; max-width: 46rem; }
+.pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 22rem)); gap: 1.5rem; }
 svg.hemisphere { display: block; width: 100%; height: auto; font: 13px system-ui, sans-serif; }
 svg.hemisphere .beyond { fill: var(--paper); }
 svg.hemisphere .ring { fill: none; stroke: #ffffff; stroke-opacity: .55; stroke-width: 1; }
 svg.hemisphere text { fill: #ffffff; fill-opacity: .85; }
 svg.hemisphere .cross { fill: none; stroke: #ff5a5a; stroke-width: 2; }
+figure { margin-top: 1.25rem; }
 .scale { display: flex; align-items: center; gap: .6rem; color: var(--soft); font-size: .85rem;
   font-variant-numeric: tabular-nums; white-space: nowrap; margin: 0 5%; }
 .scale i { flex: 1; height: .7rem; }
@@ -51,8 +52,8 @@ std::string lobe_row(const std::string& name, const Lobe& lobe) {
       "<tr><th>{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
       "class=\"n\">{}</td></tr>\n",
       name, in_degrees(lobe.in_plane_rad), in_degrees(lobe.across_rad),
-      compact(std::asin(std::min(1.0, lobe.width_in_plane)) / kDegree, 3),
-      compact(std::asin(std::min(1.0, lobe.width_across)) / kDegree, 3));
+      fixed(std::asin(std::min(1.0, lobe.width_in_plane)) / kDegree, 2),
+      fixed(std::asin(std::min(1.0, lobe.width_across)) / kDegree, 2));
 }
 
 std::string lobe_table(const GoniometerReading& reading) {

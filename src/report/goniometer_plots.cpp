@@ -47,7 +47,6 @@ PlotSeries reflectance_series(const std::string& label, const std::vector<Goniom
   for (const GoniometerReading& reading : readings) {
     series.x.push_back(reading.settings.incidence_rad / kDegree);
     series.y.push_back(reading.reflectance().value);
-    series.error.push_back(reading.reflectance().error);
   }
   return series;
 }

@@ -18,7 +18,7 @@ PlotSeries measured_series(const std::string& label, const MeasuredProfile& meas
 /// A plot of profiles from -90 to 90 deg.
 Plot profile_plot(const std::string& title);
 
-/// Reflectance against incidence, with errors.
+/// Reflectance against incidence.
 PlotSeries reflectance_series(const std::string& label, const std::vector<GoniometerReading>& readings);
 /// Fresnel's reflectance for unpolarised light from index n1 to n2, up to 90 deg, dashed.
 PlotSeries fresnel_series(const std::string& label, double n1, double n2);

@@ -33,7 +33,6 @@ std::string incidence(const SurfaceReadings& readings, const std::string& name) 
   plot.x_step = 30.0;
   plot.y_high = 1.0;
   plot.series.push_back(reflectance_series("reflected", readings.sweep));
-  plot.series.back().error.clear();
   plot.series.push_back(fresnel_series("Fresnel", readings.bench.index.inside, readings.bench.index.outside));
   PlotSeries absorbed = plot.series.front();
   absorbed.label = "absorbed";

@@ -142,10 +142,14 @@ SurfaceOutline Library::outline(const std::string& surface, const FileLocation& 
   Problems problems;
   Chain found = chain(surface, where, problems);
   const TomlNode* model = found.merged.find("model");
+  std::vector<std::string> sources;  // each once: bases often name the same
+  for (std::string& source : found.sources)
+    if (std::find(sources.begin(), sources.end(), source) == sources.end())
+      sources.push_back(std::move(source));
   return {model ? model->text : "",
           {found.names.begin() + 1, found.names.end()},
           unmet_needs(found.merged),
-          std::move(found.sources)};
+          std::move(sources)};
 }
 
 SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {

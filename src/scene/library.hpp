@@ -22,7 +22,7 @@ struct SurfaceOutline {
   std::string model;                 ///< "smooth", "unified", "recipe", ...; empty when none is given
   std::vector<std::string> bases;    ///< what it is based on, nearest first
   std::vector<std::string> needs;    ///< what it leaves to the user, as "unified.sigma_alpha"
-  std::vector<std::string> sources;  ///< published sources, its own first, then its bases'
+  std::vector<std::string> sources;  ///< published sources, each once, its own first, then its bases'
 };
 
 /// Finds definitions by name: first among a scene's own, then in each folder in turn, where the file is
