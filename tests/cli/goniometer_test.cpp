@@ -1,5 +1,7 @@
 /// `scintray goniometer`, `scintray table list` and `scintray table compare`.
 
+#include <algorithm>
+
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "support/shared.hpp"
