@@ -147,7 +147,8 @@ void add_goniometer_command(CLI::App& app) {
       "goniometer", "Shoot a beam at a surface of the library and show where its light goes");
   command->add_option("SURFACE", options->surface, "Surface of the library, or of the scene")->required();
   command->add_option("--angle", options->angles, "Angle of incidence, as \"45 deg\"; several are allowed")
-      ->required();
+      ->required()
+      ->allow_extra_args(false);
   add_bench_options(*command, options->bench, kRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
   command->add_option("--side", options->side, "Side that the light comes from")

@@ -185,6 +185,7 @@ void add_table_compare_command(CLI::App& table) {
   command
       ->add_option("--outside", options->outside,
                    "Medium outside; of several, the first is that of slopes and directions")
+      ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--angle", options->angle, "Angle of incidence of the directions")
       ->capture_default_str();

@@ -137,8 +137,9 @@ class Drawing {
         if (!drawable(series.y[i])) continue;
         const double error = series.error.empty() ? 0.0 : series.error[i];
         y.include(series.y[i] + error);
-        if (!plot_.log_y)
-          y.include(series.y[i] - error);
+        if (!plot_.log_y)  // what cannot be negative does not become so by its error
+          y.include(plot_.y_from_zero && series.y[i] >= 0.0 ? std::max(0.0, series.y[i] - error)
+                                                            : series.y[i] - error);
         else
           y.include(series.y[i]);
       }
@@ -230,7 +231,8 @@ class Drawing {
 
   std::string error_bar(double x, double value, double error, bool caps) const {
     const double high = y_.at(value + error);
-    const double low = plot_.log_y && value - error <= 0.0 ? y_.start : y_.at(value - error);
+    const double low =
+        plot_.log_y && value - error <= 0.0 ? y_.start : std::min(y_.start, y_.at(value - error));
     std::string out = line(x, low, x, high, "error");
     if (caps) out += line(x - 3.5, low, x + 3.5, low, "error") + line(x - 3.5, high, x + 3.5, high, "error");
     return out;

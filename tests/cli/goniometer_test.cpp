@@ -79,8 +79,8 @@ time = "0 ns"
 photons = 10
 )";
   const Ended ended =
-      run_program({"goniometer", "mine", "--scene", "scene.toml", "--inside", "thick", "--outside", "vacuum",
-                   "--side", "outside", "--angle", "0 deg", "--angle", "80 deg", "--rays", "200000"},
+      run_program({"goniometer", "--angle", "0 deg", "mine", "--scene", "scene.toml", "--inside", "thick",
+                   "--outside", "vacuum", "--side", "outside", "--angle", "80 deg", "--rays", "200000"},
                   folder);
   CAPTURE(ended.output);
   REQUIRE(ended.exit_code == cli::kSuccess);

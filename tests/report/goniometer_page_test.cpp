@@ -93,6 +93,16 @@ TEST_CASE("a plot as a file stands alone; axes, dashes and loose points are draw
   CHECK(drawing.find(">20<") == std::string::npos);
 }
 
+TEST_CASE("an error bar does not pull the axis of something positive below zero") {
+  Plot plot = incidence_plot("R", "reflectance");
+  plot.series.push_back({"measured", {10.0, 20.0}, {0.01, 0.9}, {0.1, 0.1}});
+  const std::string positive = svg_plot(plot);
+  CHECK(positive.find(">0<") != std::string::npos);
+  CHECK(positive.find(">-") == std::string::npos);
+  plot.series.back().y.front() = -0.01;
+  CHECK(svg_plot(plot).find(">-0.5<") != std::string::npos);
+}
+
 TEST_CASE("the page of surfaces says of each what it is, what it needs, or why it was not made") {
   SurfaceEntry shown, preset, failed;
   shown.name = "flat";
