@@ -63,10 +63,9 @@ decltype(Preparation::crop) parse_crop(const std::string& text) {
 double length_um(const std::string& text) { return parse_quantity(text, Dimension::length) * kUmPerMm; }
 
 void add_map_options(CLI::App& app, MapOptions& options) {
-  app.add_option(
-         "map", options.map,
-         "Height map: .gwy, .gsf, .ibw, Nanoscope (.spm, .001), .mi, .sdf, .x3p, text (matrix, x y z "
-         "list, Gwyddion's export, profiler), also .gz; others through gwyddion where installed")
+  app.add_option("map", options.map,
+                 "Height map: .gwy, .gsf, .ibw, Nanoscope (.spm, .001), .mi, .sdf, .x3p, text (matrix, x y z "
+                 "list, Gwyddion's export, profiler), also .gz; others through gwyddion where installed")
       ->required();
   app.add_option("--channel", options.channel,
                  "Channel of the file by name, as \"Height Sensor\"; without it, the height that a sensor "
