@@ -21,8 +21,9 @@ void add_bench_options(CLI::App& app, BenchOptions& options, std::uint64_t rays)
 }
 
 Library library_of(const BenchOptions& options) {
-  if (options.scene.empty()) return Library::shipped();
-  return library_for(SceneFile::load(options.scene).spec(0));
+  Library library = Library::shipped();
+  if (!options.scene.empty()) add_definitions(library, SceneFile::load(options.scene).spec(0));
+  return library;
 }
 
 BenchPlace place_of(const BenchOptions& options, const std::string& surface, const std::string& outside) {

@@ -1,12 +1,17 @@
 #pragma once
+/// `scintray table`: surface tables made, and what is in them.
 
 #include <CLI/App.hpp>
 
 namespace scintray::cli {
 
-/// Adds `scintray table build | show`: surface tables from height maps, and what is in them.
 void add_table_command(CLI::App& app);
-void add_table_compare_command(CLI::App& table);
+
+/// Its subcommands, each in a file of its own.
+void add_table_build_command(CLI::App& table);
+void add_table_stack_command(CLI::App& table);
+void add_table_show_command(CLI::App& table);
 void add_table_list_command(CLI::App& table);
+void add_table_compare_command(CLI::App& table);
 
 }  // namespace scintray::cli

@@ -12,12 +12,25 @@
 
 namespace scintray {
 
+void add_definitions(Library& library, const SceneSpec& spec) {
+  library.add(LibraryKind::medium, spec.media);
+  library.add(LibraryKind::surface, spec.surfaces);
+  library.add(LibraryKind::sensor, spec.sensors);
+  library.add(LibraryKind::reflector, spec.reflectors);
+}
+
 namespace {
 
 /// Wavelengths that photons of a scene can have, and the one tables are made for.
 struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
 };
+
+Library library_for(const SceneSpec& spec) {
+  Library library = Library::shipped();
+  add_definitions(library, spec);
+  return library;
+}
 
 /// The part of an emission spectrum that is not zero.
 WavelengthRange range_of(const Curve& emission) {
@@ -274,15 +287,6 @@ void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed,
 }  // namespace
 
 SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
-
-Library library_for(const SceneSpec& spec) {
-  Library library = Library::shipped();
-  library.add(LibraryKind::medium, spec.media);
-  library.add(LibraryKind::surface, spec.surfaces);
-  library.add(LibraryKind::sensor, spec.sensors);
-  library.add(LibraryKind::reflector, spec.reflectors);
-  return library;
-}
 
 BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;

@@ -26,9 +26,6 @@ struct BuiltScene {
   std::vector<std::string> warnings;  ///< things a user should know, none of which stops a run
 };
 
-/// The shipped library with the definitions of a scene, which win.
-Library library_for(const SceneSpec& spec);
-
 /// Builds scenes; surfaces made for one are kept for the next, so a sweep traces each table once.
 class SceneBuilder {
  public:
@@ -42,5 +39,8 @@ class SceneBuilder {
  private:
   SurfaceMaker surface_maker_;
 };
+
+/// Adds a scene's own media, surfaces, sensors and reflectors to a library.
+void add_definitions(Library& library, const SceneSpec& spec);
 
 }  // namespace scintray

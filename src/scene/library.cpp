@@ -153,6 +153,14 @@ SurfaceOutline Library::outline(const std::string& surface, const FileLocation& 
 }
 
 SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {
+  return surface(name, where, {});
+}
+
+SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
+                             const std::vector<std::string>& within) const {
+  if (std::find(within.begin(), within.end(), name) != within.end())
+    throw InputError({where, "the surface \"" + name + "\" is a mixture of itself (" + joined(within) + ")",
+                      "mix other surfaces"});
   Problems problems;
   Chain chain = this->chain(name, where, problems);
   const std::vector<std::string> unmet = unmet_needs(chain.merged);
@@ -163,12 +171,16 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where)
                           ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
                           : "add these keys beside base = \"" + chain.names[1] + "\""});
 
-  const SurfaceLookup lookup{[this](const std::string& medium_name, const FileLocation& at) {
-                               return medium(medium_name, at).index;
-                             },
-                             [this](const std::string& reflector_name, const FileLocation& at) {
-                               return reflector(reflector_name, at);
-                             }};
+  const SurfaceLookup lookup{
+      [this](const std::string& medium_name, const FileLocation& at) { return medium(medium_name, at); },
+      [&](const std::string& part, const FileLocation& at) {
+        std::vector<std::string> around = within;
+        around.push_back(name);
+        return surface(part, at, around);
+      },
+      [this](const std::string& reflector_name, const FileLocation& at) {
+        return reflector(reflector_name, at);
+      }};
   const TomlTable table(std::make_shared<const TomlNode>(std::move(chain.merged)), problems);
   SurfaceSpec surface = read_surface(table, name, lookup, problems);
   table.finish();

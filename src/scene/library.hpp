@@ -52,6 +52,9 @@ class Library {
   std::vector<std::string> names(LibraryKind kind) const;
 
  private:
+  /// @param within names of the mixtures that this surface is a share of
+  SurfaceSpec surface(const std::string& name, const FileLocation& where,
+                      const std::vector<std::string>& within) const;
   struct Definition {
     TomlNodePtr node;
     bool from_file = false;

@@ -271,6 +271,13 @@ Reflector read_reflector(const TomlTable& table, const std::string& name, Source
     direction.expect("specular_share", reflector.specular_share >= 0.0 && reflector.specular_share <= 1.0,
                      "a share lies between 0 and 1");
   }
+  if (table.has("volume")) {
+    const TomlTable volume = table.table("volume");
+    read_source(volume, rule, sources);
+    reflector.volume_index = volume.number("index");
+    volume.expect("index", reflector.volume_index >= 1.0 && reflector.volume_index <= 5.0,
+                  "the index of a reflector's volume lies between 1 and 5");
+  }
   return reflector;
 }
 

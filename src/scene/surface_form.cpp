@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 
 #include "scintray/scene/map_forms.hpp"
 
@@ -76,13 +78,16 @@ std::uint64_t read_count(const TomlTable& table, const std::string& key, std::ui
 }
 
 /// [tracing]: nothing for rays traced on the spot, else how the table is made.
-std::optional<TableSettings> read_tracing(const TomlTable& surface) {
-  TableSettings settings;
+std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
+  TracingSpec tracing;
+  TableSettings& settings = tracing.settings;
   const std::optional<TomlTable> table = surface.optional_table("tracing");
-  if (!table) return settings;
+  if (!table) return tracing;
   const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
   if (on_the_spot) {
-    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine"}) table->has(key);
+    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine", "wavelengths",
+                            "directional", "target_error", "reciprocal"})
+      table->has(key);
     return std::nullopt;
   }
   settings.incidence_step_rad =
@@ -92,7 +97,41 @@ std::optional<TableSettings> read_tracing(const TomlTable& surface) {
   settings.rays = read_count(*table, "rays", settings.rays, 1);
   settings.seed = read_count(*table, "seed", settings.seed, 0);
   settings.refine = table->boolean("refine", settings.refine);
-  return settings;
+  settings.directional = table->boolean("directional", settings.directional);
+  settings.reciprocal = table->boolean("reciprocal", settings.reciprocal);
+  table->expect("reciprocal", !(settings.reciprocal && settings.directional),
+                "a table with direction cannot be made reciprocal", "keep one of the two keys");
+  settings.target_error = table->number("target_error", settings.target_error);
+  table->expect("target_error", settings.target_error >= 0.0 && settings.target_error < 1.0,
+                "\"target_error\" is an error of the reflectance, between 0 (none) and 1");
+  tracing.wavelengths_nm = table->quantities("wavelengths", Dimension::wavelength, 0, false);
+  table->expect("wavelengths",
+                std::adjacent_find(tracing.wavelengths_nm.begin(), tracing.wavelengths_nm.end(),
+                                   std::greater_equal<>()) == tracing.wavelengths_nm.end(),
+                "the wavelengths of a table rise, without repeats");
+  return tracing;
+}
+
+/// mixture = [{ surface = "NAME", share = 0.6 }, ...]
+std::vector<ShareSpec> read_mixture(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems) {
+  std::vector<ShareSpec> mixture;
+  double sum = 0.0;
+  for (const TomlTable& part : table.tables("mixture")) {
+    const std::string name = part.string("surface");
+    const double share = read_share(part, "share", std::nullopt);
+    sum += share;
+    if (name.empty()) continue;
+    try {
+      mixture.push_back(
+          {share, std::make_shared<const SurfaceSpec>(lookup.surface(name, part.where("surface")))});
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+  }
+  constexpr double kRounding = 1e-9;
+  table.expect("mixture", mixture.empty() || std::abs(sum - 1.0) <= kRounding,
+               "the shares of a mixture sum to " + std::to_string(sum) + "; expected 1");
+  return mixture;
 }
 
 HeightMapSpec read_height_map_spec(const TomlTable& surface) {
@@ -151,7 +190,9 @@ void read_gap(const TomlTable& table, const SurfaceLookup& lookup, Problems& pro
     surface.gap = table.string("gap");
     if (surface.gap.empty()) return;
     try {
-      surface.gap_index = lookup.index_of(surface.gap, value->where);
+      const Medium medium = lookup.medium(surface.gap, value->where);
+      surface.gap_index = medium.index;
+      surface.gap_absorption_per_mm = medium.absorption_per_mm;
     } catch (const InputError& error) {
       problems.add(error);
     }
@@ -203,11 +244,15 @@ void check_stack(const TomlTable& table, const SurfaceSpec& surface) {
     table.report(
         "gap", "a reflector is given without the gap that separates it from the face",
         "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
-  if (!reflector && table.has("gap") && !painted)
+  const bool thick = table.has("gap_thickness");
+  if (!reflector && table.has("gap") && !painted && !thick)
     table.report(
         "gap", "a gap is given without a reflector behind it",
-        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, or "
-        "give a reflector");
+        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, give a "
+        "reflector, or give the layer a gap_thickness");
+  if (thick && !table.has("gap"))
+    table.report("gap_thickness", "a gap_thickness is given without a gap",
+                 "give gap = \"MEDIUM\", or remove it");
 }
 
 }  // namespace
@@ -260,6 +305,17 @@ SurfaceSpec read_surface(const TomlTable& table, const std::string& name, const 
   table.optional_string("base");
   table.optional_string("source");
   table.strings("needs", 0, false);
+  surface.direction = table.optional_direction("direction").value_or(Vec3::Zero());
+  if (table.has("mixture")) {
+    surface.mixture = read_mixture(table, lookup, problems);
+    for (const char* key : {"model", "gap", "gap_thickness", "reflector", "reflectance", "direction"})
+      if (table.has(key))
+        table.report(key,
+                     "a mixture is made of whole surfaces, and has no " + std::string(key) + " of its own",
+                     "give it to the surfaces that the mixture names");
+    return surface;
+  }
+  surface.gap_thickness_um = read_optional_um(table, "gap_thickness");
   surface.microsurface = read_microsurface(table);
   read_gap(table, lookup, problems, surface);
   read_surface_reflector(table, lookup, problems, surface);

@@ -4,14 +4,16 @@
 #include <functional>
 #include <string>
 
+#include "scintray/medium/medium.hpp"
 #include "scintray/scene/surface_spec.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
 
-/// Looks up what a surface names; both throw InputError at `where` when there is nothing of the name.
+/// Looks up what a surface names; all throw InputError at `where` when there is nothing of the name.
 struct SurfaceLookup {
-  std::function<Curve(const std::string& medium, const FileLocation& where)> index_of;
+  std::function<Medium(const std::string& name, const FileLocation& where)> medium;
+  std::function<SurfaceSpec(const std::string& name, const FileLocation& where)> surface;
   std::function<Reflector(const std::string& name, const FileLocation& where)> reflector;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -41,9 +42,18 @@ std::string key_of(const SynthesisRecipe& recipe) {
 
 std::string describe(const TableSettings& s) {
   return fmt::format(
-      "incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad",
+      "incidence step {} rad, azimuth step {} rad, {} rays, seed {}, refine {} {} {}, grazing {} rad, "
+      "directional {}, target error {} within {}, reciprocal {}",
       s.incidence_step_rad, s.azimuth_step_rad, s.rays, s.seed, s.refine, s.refine_change,
-      s.refine_down_to_rad, s.grazing_rad);
+      s.refine_down_to_rad, s.grazing_rad, s.directional, s.target_error, s.most_rays, s.reciprocal);
+}
+
+std::string describe(const std::vector<SpectralPoint>& spectrum) {
+  std::string text;
+  for (const SpectralPoint& point : spectrum)
+    text += fmt::format("{}{} nm: {} {}", text.empty() ? "" : ", ", point.wavelength_nm, point.index.inside,
+                        point.index.outside);
+  return text;
 }
 
 double ratio(const IndexPair& index) { return index.inside / index.outside; }
@@ -116,10 +126,9 @@ SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
 
 std::shared_ptr<const SurfaceTable> SurfaceMaker::table(const std::string& surface, const Relief& relief,
                                                         const TableSettings& settings,
-                                                        const IndexPair& index) {
-  const std::string key =
-      fmt::format("{}; {}; indices {} {}; layout {}; ScintRay {}", relief.key, describe(settings),
-                  index.inside, index.outside, kTableFileVersion, version());
+                                                        const std::vector<SpectralPoint>& spectrum) {
+  const std::string key = fmt::format("{}; {}; indices {}; layout {}; ScintRay {}", relief.key,
+                                      describe(settings), describe(spectrum), kTableFileVersion, version());
   auto& known = tables_[key];
   if (known) return known;
   const auto file = hooks_.cache.empty() ? std::filesystem::path()
@@ -131,46 +140,115 @@ std::shared_ptr<const SurfaceTable> SurfaceMaker::table(const std::string& surfa
     return !(hooks_.stop && hooks_.stop());
   };
   known = std::make_shared<SurfaceTable>(
-      build_table(*relief.field, index, settings, relief.provenance, progress));
+      build_table(*relief.field, spectrum, settings, relief.provenance, progress));
   if (!file.empty()) write_cached(file, *known);
   return known;
 }
+
+namespace {
+
+/// What a surface lies between, and the wavelengths in use.
+struct Setting {
+  const SurfaceSpec& spec;
+  const Medium &inside, &outside;
+  double reference_nm, low_nm, high_nm;
+
+  /// Indices on the two sides of the microsurface.
+  IndexPair indices(double nm) const {
+    const bool layer = spec.reflector || spec.gap_thickness_um;
+    return {inside.index(nm), layer ? spec.gap_index(nm) : outside.index(nm)};
+  }
+  std::vector<SpectralPoint> spectrum(const std::vector<double>& wavelengths_nm) const {
+    if (wavelengths_nm.empty()) return {{reference_nm, indices(reference_nm)}};
+    std::vector<SpectralPoint> points;
+    for (const double nm : wavelengths_nm) points.push_back({nm, indices(nm)});
+    return points;
+  }
+};
+
+/// The ratio of indices that a table stands for at a wavelength. Of a stack that lets nothing through, only
+/// the inside index matters.
+double tabulated_ratio(const SurfaceTable& table, double nm) {
+  const auto of_slice = [&](std::size_t spectral) {
+    const IndexPair& index = table.index_pair(spectral * table.azimuths());
+    return table.opaque() ? index.inside : ratio(index);
+  };
+  const std::vector<double>& at = table.wavelengths_nm();
+  if (at.size() == 1) return of_slice(0);
+  const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, nm);
+  const auto k = static_cast<std::size_t>(above - at.begin());
+  const double share = std::clamp((nm - at[k - 1]) / (at[k] - at[k - 1]), 0.0, 1.0);
+  return of_slice(k - 1) + share * (of_slice(k) - of_slice(k - 1));
+}
+
+/// Relative difference between the indices here and the table's.
+double mismatch(const SurfaceTable& table, const Setting& setting, double nm) {
+  const IndexPair here = setting.indices(nm);
+  return std::abs((table.opaque() ? here.inside : ratio(here)) / tabulated_ratio(table, nm) - 1.0);
+}
+
+void warn_of_dispersion(const SurfaceTable& table, const Setting& setting,
+                        std::vector<std::string>& warnings) {
+  double worst = 0.0;
+  for (const double nm : {setting.low_nm, setting.reference_nm, setting.high_nm})
+    worst = std::max(worst, mismatch(table, setting, nm));
+  if (worst > SurfaceMaker::kIndexTolerance)
+    warnings.push_back(fmt::format(
+        "surface \"{}\" ({} to {}): over the wavelengths in use, {:.0f} to {:.0f} nm, the ratio of indices "
+        "differs from its table's by up to {:.1f} %; a table for more wavelengths would follow it "
+        "(tracing.wavelengths)",
+        setting.spec.name, setting.inside.name, setting.outside.name, setting.low_nm, setting.high_nm,
+        100.0 * worst));
+}
+
+std::shared_ptr<const SurfaceTable> load_table(const TableFileSpec& file, const Setting& setting) {
+  auto table = std::make_shared<const SurfaceTable>(read_table(file.path));
+  const std::string& name = setting.spec.name;
+  if (table->absorbs() && (setting.spec.reflector || setting.spec.gap_thickness_um))
+    throw InputError({file.where,
+                      "the table of surface \"" + name + "\" holds a whole stack (" +
+                          table->provenance().stack + "), and another lies on it",
+                      "remove the surface's gap and reflector, or name a table of the bare microsurface"});
+  if (mismatch(*table, setting, setting.reference_nm) > SurfaceMaker::kIndexTolerance) {
+    const IndexPair own = table->index_pair(), here = setting.indices(setting.reference_nm);
+    throw InputError(
+        {file.where,
+         fmt::format("the table of surface \"{}\" is for indices {:.4f} to {:.4f}, but here light goes from "
+                     "{:.4f} to {:.4f}",
+                     name, own.inside, own.outside, here.inside, here.outside),
+         "build a table for these media with `scintray table build`, or name the height map itself"});
+  }
+  return table;
+}
+
+}  // namespace
 
 MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, const Medium& outside,
                                double reference_nm, double low_nm, double high_nm) {
   MadeSurface made;
   Surface& surface = made.surface;
   surface.name = spec.name;
+  for (const ShareSpec& part : spec.mixture) {
+    MadeSurface share = make(*part.surface, inside, outside, reference_nm, low_nm, high_nm);
+    surface.mixture.push_back({part.share, std::make_shared<const Surface>(std::move(share.surface))});
+    made.warnings.insert(made.warnings.end(), share.warnings.begin(), share.warnings.end());
+  }
+  if (!spec.mixture.empty()) return made;
+
   surface.reflector = spec.reflector;
   surface.gap_index = spec.gap_index;
-  const Curve& beyond = spec.reflector ? spec.gap_index : outside.index;
-  const auto indices_at = [&](double nm) { return IndexPair{inside.index(nm), beyond(nm)}; };
-  const IndexPair index = indices_at(reference_nm);
-
-  const auto check_dispersion = [&](const IndexPair& tabulated) {
-    double worst = 0.0;
-    for (const double nm : {low_nm, reference_nm, high_nm})
-      worst = std::max(worst, std::abs(ratio(indices_at(nm)) / ratio(tabulated) - 1.0));
-    if (worst > kIndexTolerance)
-      made.warnings.push_back(
-          fmt::format("surface \"{}\" ({} to {}): its table is for one index ratio, {:.4f}; over the "
-                      "wavelengths in use the "
-                      "ratio differs by up to {:.1f} %",
-                      spec.name, inside.name, outside.name, ratio(tabulated), 100.0 * worst));
-  };
-  const auto tabulated = [&](const Relief& map,
-                             const std::optional<TableSettings>& settings) -> Microsurface {
-    if (!settings) return map.field;
-    auto built = table(spec.name, map, *settings, index);
-    check_dispersion(built->index_pair());
-    return built;
+  surface.gap_absorption_per_mm = spec.gap_absorption_per_mm;
+  surface.gap_thickness_um = spec.gap_thickness_um;
+  surface.direction = spec.direction;
+  const Setting setting{spec, inside, outside, reference_nm, low_nm, high_nm};
+  const auto of_relief = [&](const Relief& map, const std::optional<TracingSpec>& tracing) -> Microsurface {
+    if (!tracing) return map.field;
+    return table(spec.name, map, tracing->settings, setting.spectrum(tracing->wavelengths_nm));
   };
   struct Visitor {
     SurfaceMaker& maker;
-    const decltype(tabulated)& tabulate;
-    const decltype(check_dispersion)& check;
-    const SurfaceSpec& spec;
-    const IndexPair& index;
+    const decltype(of_relief)& tabulate;
+    const Setting& setting;
     Microsurface operator()(const SmoothSpec&) const { return SmoothSurface{}; }
     Microsurface operator()(const PaintedSpec&) const { return PaintedSurface{}; }
     Microsurface operator()(const UnifiedSurface& unified) const { return unified; }
@@ -178,22 +256,11 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
     Microsurface operator()(const RecipeSpec& recipe) const {
       return tabulate(maker.relief(recipe), recipe.table);
     }
-    Microsurface operator()(const TableFileSpec& file) const {
-      auto table = std::make_shared<const SurfaceTable>(read_table(file.path));
-      const IndexPair& own = table->index_pair();
-      if (std::abs(ratio(own) / ratio(index) - 1.0) > kIndexTolerance)
-        throw InputError(
-            {file.where,
-             fmt::format("the table of surface \"{}\" is for indices {:.4f} to {:.4f}, but here light "
-                         "goes from {:.4f} to {:.4f}",
-                         spec.name, own.inside, own.outside, index.inside, index.outside),
-             "build a table for these media with `scintray table build`, or name the height map itself"});
-      check(own);
-      return table;
-    }
+    Microsurface operator()(const TableFileSpec& file) const { return load_table(file, setting); }
   };
-  surface.microsurface =
-      std::visit(Visitor{*this, tabulated, check_dispersion, spec, index}, spec.microsurface);
+  surface.microsurface = std::visit(Visitor{*this, of_relief, setting}, spec.microsurface);
+  if (const auto* tabulated = std::get_if<std::shared_ptr<const SurfaceTable>>(&surface.microsurface))
+    warn_of_dispersion(**tabulated, setting, made.warnings);
   return made;
 }
 

@@ -34,8 +34,9 @@ class SurfaceMaker {
   SurfaceMaker();
   explicit SurfaceMaker(Hooks hooks) : hooks_(std::move(hooks)) {}
 
-  /// The surface between two media. Tables are for the indices at `reference_nm`; a warning says so
-  /// when an index ratio changes by more than kIndexTolerance over [low_nm, high_nm].
+  /// The surface between two media. Tables are for the indices at `reference_nm`, or at the wavelengths that
+  /// the surface names; a warning says so when the ratio of indices departs from the table's by more than
+  /// kIndexTolerance over [low_nm, high_nm].
   /// @throws InputError for a table file of other indices, an unreadable map, or bad settings.
   MadeSurface make(const SurfaceSpec& spec, const Medium& inside, const Medium& outside, double reference_nm,
                    double low_nm, double high_nm);
@@ -55,7 +56,8 @@ class SurfaceMaker {
   Relief relief(const HeightMapSpec& spec);
   Relief relief(const RecipeSpec& spec);
   std::shared_ptr<const SurfaceTable> table(const std::string& surface, const Relief& relief,
-                                            const TableSettings& settings, const IndexPair& index);
+                                            const TableSettings& settings,
+                                            const std::vector<SpectralPoint>& spectrum);
 
   Hooks hooks_;
   std::map<std::string, std::shared_ptr<const HeightField>> fields_;

@@ -3,6 +3,7 @@
 /// object it becomes depends on the media on its two sides, so it is made per interface.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -30,25 +31,39 @@ struct TableFileSpec {
   FileLocation where;
 };
 
+/// How a table is made of a height map: at one wavelength, the scene's own, or at several.
+struct TracingSpec {
+  TableSettings settings;
+  std::vector<double> wavelengths_nm;  ///< in order; empty: the wavelength that most light has
+};
+
 /// A measured height map.
 struct HeightMapSpec {
   std::filesystem::path path;  ///< it exists
   ReadOptions options;
   Preparation preparation;
   Tiling tiling = Tiling::automatic;
-  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the map itself, on the spot
   FileLocation where;
 };
 
 /// A height map made from a recipe.
 struct RecipeSpec {
   SynthesisRecipe recipe;
-  std::optional<TableSettings> table;  ///< nothing: rays are traced on the map itself, on the spot
+  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the map itself, on the spot
   FileLocation where;
 };
 
 using MicrosurfaceSpec =
     std::variant<SmoothSpec, UnifiedSurface, TableFileSpec, HeightMapSpec, RecipeSpec, PaintedSpec>;
+
+struct SurfaceSpec;
+
+/// A share of a surface's area that is another surface.
+struct ShareSpec {
+  double share = 0.0;
+  std::shared_ptr<const SurfaceSpec> surface;
+};
 
 struct SurfaceSpec {
   std::string name;
@@ -56,8 +71,12 @@ struct SurfaceSpec {
   MicrosurfaceSpec microsurface;
   std::string gap;  ///< medium of the gap under the reflector, or its index as written; empty: none
   Curve gap_index = Curve::constant(1.0);  ///< against wavelength (nm)
-  std::optional<Reflector> reflector;      ///< looked up, with the surface's own specular share
-  std::vector<std::string> sources;        ///< published sources, its own first, then its bases'
+  Curve gap_absorption_per_mm = Curve::constant(0.0);
+  std::optional<double> gap_thickness_um;
+  std::optional<Reflector> reflector;  ///< looked up, with the surface's own specular share
+  Vec3 direction = Vec3::Zero();       ///< of a map's x axis (Surface::direction)
+  std::vector<ShareSpec> mixture;      ///< shares of 1; empty: the surface is one
+  std::vector<std::string> sources;    ///< published sources, its own first, then its bases'
 };
 
 }  // namespace scintray

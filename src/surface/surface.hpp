@@ -36,8 +36,8 @@ struct Reflector {
   double specular_share = 0.0;  ///< share of reflected light that is mirrored; the rest Lambertian
   /// Volume-like reflectors (PTFE, paint): index of the binder, 0 for none. Light is refracted into it, and
   /// the light scattered back, Lambertian inside, is refracted out or reflected in again; `reflectance` is
-  /// then that of the volume for diffuse light from within. Source: L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
-  /// 2956, "Diffuse-reflectance model for smooth dielectric surfaces", eqs. (4) to (6).
+  /// then that of the volume for diffuse light from within. After L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
+  /// 2956, "Diffuse-reflectance model for smooth dielectric surfaces".
   double volume_index = 0.0;
 };
 

@@ -141,7 +141,7 @@ DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kin
 
 SurfaceTable::SurfaceTable(IndexPair index, std::vector<TableNode> from_inside,
                            std::vector<TableNode> from_outside, TableProvenance provenance)
-    : SurfaceTable({TableSlice{0.0, 0.0, index, std::move(from_inside), std::move(from_outside)}},
+    : SurfaceTable({TableSlice{0.0, 0.0, index, std::move(from_inside), std::move(from_outside), nullptr}},
                    AzimuthKind::folded, std::move(provenance)) {}
 
 SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, TableProvenance provenance)
@@ -211,6 +211,8 @@ SurfaceTable::Place SurfaceTable::place(const Index& index, double sine, double 
 }
 
 double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {
+  if (const auto& kernel = slices_[slice].reciprocal)
+    return kernel->reflectance(side, std::pow(std::sin(incidence_rad), 2));
   const auto& at = nodes(side, slice);
   const auto above =
       std::lower_bound(at.begin() + 1, at.end() - 1, incidence_rad,
@@ -294,6 +296,20 @@ SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const Vec3& normal, const
     }
     slice = pick_slice(azimuth, wavelength_nm, rng);
   }
+  const auto leave = [&](Side after, double sin_polar, double cos_polar, double sin_azimuth,
+                         double cos_azimuth) {
+    const double out = after == Side::outside ? 1.0 : -1.0;
+    ray.direction = sin_polar * (cos_azimuth * forward + sin_azimuth * across) + out * cos_polar * normal;
+    if (!ray.polarisation.isZero(0.0)) ray.polarisation = sample_polarisation(ray.direction, rng);
+    return outcome_on(after);
+  };
+  if (const ReciprocalKernel* kernel = slices_[slice].reciprocal.get()) {
+    const ReciprocalKernel::Sample exit = kernel->sample(side, std::min(1.0, sine * sine), rng);
+    const double cos2 = std::max(1.0 - exit.sine2, kLeastCosine * kLeastCosine);
+    const double sin_turn = std::sin(exit.turn);
+    return leave(exit.side, std::sqrt(1.0 - cos2), std::sqrt(cos2),
+                 (rng.bits() & 1) != 0 ? sin_turn : -sin_turn, std::cos(exit.turn));
+  }
   const std::vector<TableNode>& nodes = slices_[slice].nodes(side);
   const Place at = place(index_[2 * slice + static_cast<std::size_t>(side)], sine, std::abs(cosine));
   const TableNode &low = nodes[at.node], &high = nodes[at.node + 1];
@@ -308,17 +324,12 @@ SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const Vec3& normal, const
   }
   const ExitAngles exit = sample(nodes, at, reflected, rng);
 
-  const Side after = reflected ? side : other(side);
-  const double out = after == Side::outside ? 1.0 : -1.0;
   // Cosines in single precision, as the table holds the angles, and sines that go with them exactly. A
   // direction exactly in the surface would be on neither side.
   const double cos_polar = std::max<double>(std::cos(exit.polar), kLeastCosine);
-  const double sin_polar = std::sqrt(1.0 - cos_polar * cos_polar);
   const double cos_azimuth = std::cos(exit.azimuth);
-  const double sin_azimuth = std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth);
-  ray.direction = sin_polar * (cos_azimuth * forward + sin_azimuth * across) + out * cos_polar * normal;
-  if (!ray.polarisation.isZero(0.0)) ray.polarisation = sample_polarisation(ray.direction, rng);
-  return outcome_on(after);
+  return leave(reflected ? side : other(side), std::sqrt(1.0 - cos_polar * cos_polar), cos_polar,
+               std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth), cos_azimuth);
 }
 
 Side SurfaceTable::scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair&, Rng& rng) const {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scintray/surface/microsurface.hpp"
+#include "scintray/surface/reciprocal_kernel.hpp"
 
 namespace scintray {
 
@@ -87,6 +89,8 @@ struct TableSlice {
   double azimuth_rad = 0.0;    ///< of the lateral direction of travel from the map's x axis, about the normal
   IndexPair index;
   std::vector<TableNode> from_inside, from_outside;
+  /// When there, light is sent where this says, in place of the nodes' distributions.
+  std::shared_ptr<const ReciprocalKernel> reciprocal;
 
   const std::vector<TableNode>& nodes(Side side) const {
     return side == Side::inside ? from_inside : from_outside;
@@ -106,6 +110,7 @@ struct TableProvenance {
   std::uint64_t cut = 0;           ///< rays released at the step limit
   double target_error = 0.0;       ///< of the reflectance, that rays were added for; 0: none
   std::uint64_t unconverged = 0;   ///< nodes that missed it at the most rays allowed
+  std::string reciprocity;         ///< of a table made reciprocal: how far the traced one was; else empty
   std::string version;             ///< ScintRay version that built it
 };
 
@@ -139,7 +144,8 @@ class SurfaceTable {
   /// `index` is not used: `index_pair()` says what the table is for.
   Side scatter(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, Rng& rng) const;
 
-  /// Reflectance met from `side` at an incidence angle (rad), linear between nodes.
+  /// Reflectance met from `side` at an incidence angle (rad): linear between nodes; of a table made
+  /// reciprocal, that of the angle's bin.
   double reflectance(Side side, double incidence_rad, std::size_t slice = 0) const;
 
   const std::vector<TableSlice>& slices() const { return slices_; }

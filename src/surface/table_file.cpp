@@ -61,6 +61,7 @@ void write_provenance(h5::Group group, const TableProvenance& p) {
   group.set_attribute("", "stack", p.stack);
   group.set_attribute("", "preparation", p.preparation);
   group.set_attribute("", "tiling", p.tiling);
+  group.set_attribute("", "reciprocity", p.reciprocity);
   group.set_attribute("", "version", p.version);
   const std::vector<std::pair<const char*, std::uint64_t>> counts = {
       {"seed", p.seed},         {"rays_per_azimuth", p.rays_per_azimuth},
@@ -69,6 +70,8 @@ void write_provenance(h5::Group group, const TableProvenance& p) {
   group.set_attribute("", "target_error", p.target_error);
   for (const auto& [name, value] : counts) group.write(name, std::vector<std::uint64_t>{value});
 }
+
+const h5::Shape kKernelShape{ReciprocalKernel::kStates, ReciprocalKernel::kStates, ReciprocalKernel::kTurns};
 
 std::string slice_name(std::size_t slice) { return "slice_" + std::to_string(slice); }
 
@@ -154,12 +157,19 @@ std::vector<TableNode> read_side(const Reader& reader, const h5::Group& group) {
   return nodes;
 }
 
+std::shared_ptr<const ReciprocalKernel> read_kernel(const Reader& reader, const h5::Group& slice) {
+  if (!slice.has("reciprocal_shares")) return nullptr;
+  return std::make_shared<const ReciprocalKernel>(
+      reader.array<float>(slice, "reciprocal_shares", kKernelShape));
+}
+
 TableProvenance read_provenance(const Reader& reader, const h5::Group& group) {
   TableProvenance p;
   p.map = group.string_attribute("", "map");
   p.stack = group.string_attribute("", "stack");
   p.preparation = group.string_attribute("", "preparation");
   p.tiling = group.string_attribute("", "tiling");
+  p.reciprocity = group.string_attribute("", "reciprocity");
   p.version = group.string_attribute("", "version");
   const auto count = [&](const char* name) { return reader.array<std::uint64_t>(group, name, {1}).front(); };
   p.seed = count("seed");
@@ -208,6 +218,7 @@ void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
     outside.push_back(slice.index.outside);
     write_side(group.create_group("from_inside"), slice.from_inside);
     write_side(group.create_group("from_outside"), slice.from_outside);
+    if (slice.reciprocal) group.write("reciprocal_shares", slice.reciprocal->shares(), kKernelShape);
   }
   root.write("wavelength_nm", wavelengths);
   root.write("azimuth_rad", azimuths);
@@ -229,17 +240,18 @@ SurfaceTable read_table(const std::filesystem::path& path) {
   const auto outside = reader.array<double>(root, "index_outside", {n});
   const std::string kind = root.string_attribute("", "azimuths");
   if (kind != kDirectional && kind != kFolded) reader.damaged("its azimuths are \"" + kind + "\"");
-  std::vector<TableSlice> slices;
-  for (std::uint64_t k = 0; k < n; ++k) {
-    if (!(inside[k] > 0.0 && outside[k] > 0.0)) reader.damaged("refractive indices are not positive");
-    const h5::Group group = reader.group(root, slice_name(k));
-    slices.push_back({wavelengths[k],
-                      azimuths[k],
-                      {inside[k], outside[k]},
-                      read_side(reader, reader.group(group, "from_inside")),
-                      read_side(reader, reader.group(group, "from_outside"))});
-  }
   try {
+    std::vector<TableSlice> slices;
+    for (std::uint64_t k = 0; k < n; ++k) {
+      if (!(inside[k] > 0.0 && outside[k] > 0.0)) reader.damaged("refractive indices are not positive");
+      const h5::Group group = reader.group(root, slice_name(k));
+      slices.push_back({wavelengths[k],
+                        azimuths[k],
+                        {inside[k], outside[k]},
+                        read_side(reader, reader.group(group, "from_inside")),
+                        read_side(reader, reader.group(group, "from_outside")),
+                        read_kernel(reader, group)});
+    }
     return SurfaceTable(std::move(slices),
                         kind == kDirectional ? AzimuthKind::directional : AzimuthKind::folded,
                         read_provenance(reader, reader.group(root, "provenance")));

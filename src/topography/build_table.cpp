@@ -1,5 +1,6 @@
 #include "scintray/topography/build_table.hpp"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -17,6 +18,9 @@ namespace {
 /// Nodes are addressed by integers so that bisection is exact and a node's random streams do not
 /// depend on the order in which nodes were found.
 constexpr std::uint64_t kUnitsPerStep = std::uint64_t{1} << 24;
+
+/// Random streams of the reciprocal kernel's states, apart from those of nodes.
+constexpr std::uint64_t kKernelStreams = std::uint64_t{1} << 62;
 
 /// What became of one ray.
 struct RayEnd {
@@ -57,6 +61,8 @@ void check(const std::vector<SpectralPoint>& spectrum, const TableSettings& s) {
   }
   if (!(s.target_error >= 0.0 && s.target_error < 1.0))
     problems.add({}, "target error is " + std::to_string(s.target_error) + "; expected 0 up to 1");
+  if (s.reciprocal && s.directional)
+    problems.add({}, "a table with direction cannot be made reciprocal", "ask for one of the two");
   if (s.most_rays == 0) problems.add({}, "at most 0 times the rays; expected at least 1");
   positive(s.refine_change, "change of reflectance to refine at");
   positive(s.refine_down_to_rad, "smallest incidence interval");
@@ -102,12 +108,14 @@ class Builder {
         slice_ = result.size();
         slice_azimuth_ = kTwoPi * static_cast<double>(azimuth) / static_cast<double>(azimuths_);
         result.push_back({point_->wavelength_nm, settings_.directional ? slice_azimuth_ : 0.0, point_->index,
-                          side(Side::inside), side(Side::outside)});
+                          side(Side::inside), side(Side::outside),
+                          settings_.reciprocal ? reciprocal_kernel() : nullptr});
       }
     return result;
   }
 
   AzimuthKind kind() const { return kind_; }
+  const std::string& reciprocity() const { return reciprocity_; }
   std::uint64_t azimuths() const { return azimuths_; }
   std::uint64_t cut() const { return cut_; }
   std::uint64_t unconverged() const { return unconverged_; }
@@ -163,6 +171,43 @@ class Builder {
     const RayEnd end = send_(ray, side, *point_, rng);
     return {exit_angles(ray.direction, azimuth, kind_), static_cast<float>(end.first_slope_rad), end.outcome,
             end.cut};
+  }
+
+  std::shared_ptr<const ReciprocalKernel> reciprocal_kernel() {
+    using Kernel = ReciprocalKernel;
+    const std::uint64_t rays = std::max<std::uint64_t>(1, batch() / 2);
+    constexpr std::size_t kRow = std::size_t{Kernel::kStates} * Kernel::kTurns;
+    std::vector<std::uint32_t> counts(Kernel::kStates * kRow);
+    // A task a state: none writes into another's row.
+    tbb::parallel_for(0, Kernel::kStates, [&](int state) {
+      const Side from = state < Kernel::kPolar ? Side::inside : Side::outside;
+      for (std::uint64_t k = 0; k < rays; ++k) {
+        Rng rng(settings_.seed, StreamKind::table, kKernelStreams | static_cast<std::uint64_t>(state), k,
+                slice_);
+        const double sine2 = (state % Kernel::kPolar + rng.uniform()) / Kernel::kPolar;
+        const double azimuth = kTwoPi * rng.uniform();
+        const double sine = std::sqrt(sine2), cosine = std::sqrt(1.0 - sine2);
+        Ray ray{{sine * std::cos(azimuth), sine * std::sin(azimuth), from == Side::inside ? cosine : -cosine},
+                Vec3::Zero()};
+        const RayEnd end = send_(ray, from, *point_, rng);
+        if (end.outcome == SurfaceOutcome::absorbed) continue;
+        const ExitAngles exit = exit_angles(ray.direction, azimuth, AzimuthKind::folded);
+        const double out = std::pow(std::sin(static_cast<double>(exit.polar)), 2);
+        const Side to = end.outcome == SurfaceOutcome::inside ? Side::inside : Side::outside;
+        ++counts[static_cast<std::size_t>(state) * kRow +
+                 static_cast<std::size_t>(Kernel::target(Kernel::state(to, out), exit.azimuth))];
+      }
+    });
+    Kernel::Report report;
+    auto kernel = std::make_shared<const Kernel>(Kernel::from_counts(point_->index, counts, rays, report));
+    reciprocity_ += fmt::format(
+        "{}traced: chi2 of reversal {:.0f} for {} pairs of directions, {:.4f} a pair; n1^2 (1 - R12) = "
+        "{:.5f} +- {:.5f}, "
+        "n2^2 (1 - R21) = {:.5f} +- {:.5f}; largest scaling {:.2g}",
+        reciprocity_.empty() ? "" : "; ", report.chi2, report.pairs,
+        report.chi2 / static_cast<double>(report.pairs), report.diffuse_inside, report.diffuse_inside_error,
+        report.diffuse_outside, report.diffuse_outside_error, report.largest_scaling);
+    return kernel;
   }
 
   TableNode trace(Side side, std::uint64_t position) {
@@ -232,6 +277,7 @@ class Builder {
   double slice_azimuth_ = 0.0;
   std::uint64_t intervals_ = 0, azimuths_ = 0, cut_ = 0, unconverged_ = 0;
   std::uint64_t done_ = 0, planned_ = 0;
+  std::string reciprocity_;
   std::vector<RayRecord> records_;
 };
 
@@ -247,6 +293,7 @@ SurfaceTable build(SendRay send, const std::vector<SpectralPoint>& spectrum, con
   provenance.cut = builder.cut();
   provenance.target_error = settings.target_error;
   provenance.unconverged = builder.unconverged();
+  provenance.reciprocity = builder.reciprocity();
   provenance.version = version();
   return SurfaceTable(std::move(slices), builder.kind(), std::move(provenance));
 }

@@ -32,6 +32,9 @@ struct TableSettings {
   /// of rays is fixed.
   double target_error = 0.0;
   std::uint64_t most_rays = 64;  ///< at most this many times the rays of a fixed number
+  /// Lossless surfaces only: the table is made exactly reciprocal (ReciprocalKernel), each of its states lit
+  /// with half as many rays as a node. Not together with `directional`.
+  bool reciprocal = false;
 };
 
 /// A wavelength to tabulate, and the indices there.

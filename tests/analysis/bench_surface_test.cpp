@@ -89,4 +89,9 @@ TEST_CASE("slopes met: none on a flat face, of a table as of its map, no answer 
   table.microsurface = std::make_shared<const SurfaceTable>(
       SurfaceTable({1.82, 1.0}, {low, high}, {low, high}, TableProvenance{}));
   CHECK(mean_slope_met(table, Side::inside, 0.125 * kPi).value == doctest::Approx(0.25));
+  TableProvenance stack;
+  stack.stack = "with its reflector";
+  table.microsurface =
+      std::make_shared<const SurfaceTable>(SurfaceTable({1.82, 1.0}, {low, high}, {low, high}, stack));
+  CHECK_THROWS_AS(mean_slope_met(table, Side::inside, 0.5), InputError);
 }

@@ -137,8 +137,8 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   CHECK(map.preparation.leveling.degree == 2);
   CHECK(map.tiling == Tiling::mirror);
   REQUIRE(map.table);
-  CHECK(map.table->rays == 100);
-  CHECK(map.table->incidence_step_rad == doctest::Approx(5.0 * kDegree));
+  CHECK(map.table->settings.rays == 100);
+  CHECK(map.table->settings.incidence_step_rad == doctest::Approx(5.0 * kDegree));
 
   add("model = \"height_map\"\n[height_map]\nfile = \"nothing.txt\"\nlevel = \"plane\"\n");
   CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "does not exist"));

@@ -59,3 +59,75 @@ TEST_CASE("Reflectance follows the wavelength") {
   CHECK(painted.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 400.0, rng) == SurfaceOutcome::absorbed);
   CHECK(painted.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 500.0, rng) == SurfaceOutcome::inside);
 }
+
+TEST_CASE("An absorbing layer of stated thickness under a mirror: Beer and Lambert, there and back") {
+  // q = rho exp(-2 alpha t / cos): T (1 - q) / (1 - q R) of the light is absorbed.
+  Surface stack;
+  stack.reflector = Reflector{"mirror", Curve::constant(0.9), 1.0};
+  stack.gap_index = Curve::constant(1.5);
+  stack.gap_absorption_per_mm = Curve::constant(2.0);
+  stack.gap_thickness_um = 100.0;
+  const double angle = 30.0 * kDegree;
+  const double r = fresnel(std::cos(angle), 1.82, 1.5).unpolarised();
+  const double cos_gap = std::sqrt(1.0 - std::pow(std::sin(angle) * 1.82 / 1.5, 2));
+  const double q = 0.9 * std::exp(-2.0 * 2.0 * 0.1 / cos_gap);
+  CHECK(sigmas(absorbed_share(stack, angle, Side::inside), {(1.0 - r) * (1.0 - q) / (1.0 - q * r), 0.0}) <
+        kSigmas);
+}
+
+TEST_CASE("A layer without a reflector ends at the next medium: a lossless plate, from both sides") {
+  // Incoherent plate between 1.82 and 1.0: T = T1 T2 / (1 - R1 R2), the same both ways.
+  Surface layer;
+  layer.gap_index = Curve::constant(1.5);
+  layer.gap_thickness_um = 50.0;
+  const double r1 = fresnel(1.0, 1.82, 1.5).unpolarised(), r2 = fresnel(1.0, 1.5, 1.0).unpolarised();
+  const double law = (1.0 - r1) * (1.0 - r2) / (1.0 - r1 * r2);
+  for (const Side side : {Side::inside, Side::outside}) {
+    std::uint64_t through = 0;
+    const SurfaceOutcome beyond = outcome_on(other(side));
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+      Rng rng(2, StreamKind::other, i);
+      Ray ray{side == Side::inside ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitZ()), Vec3::Zero()};
+      through += layer.meet(ray, side, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng) == beyond;
+    }
+    CHECK(sigmas(binomial_estimate(through, kRays), {law, 0.0}) < kSigmas);
+  }
+  CHECK_FALSE(layer.opaque());
+}
+
+TEST_CASE("A mixture of couplings by area is the mean of its parts") {
+  const auto painted = [](double reflectance) {
+    auto surface = std::make_shared<Surface>();
+    surface->microsurface = PaintedSurface{};
+    surface->reflector = Reflector{"paint", Curve::constant(reflectance), 0.0};
+    return surface;
+  };
+  Surface mixed;
+  mixed.mixture = {{0.3, painted(0.9)}, {0.7, painted(0.2)}};
+  CHECK(sigmas(absorbed_share(mixed, 0.5, Side::inside), {0.3 * 0.1 + 0.7 * 0.8, 0.0}) < kSigmas);
+  CHECK(mixed.opaque());
+  mixed.mixture[1].surface = std::make_shared<Surface>();
+  CHECK_FALSE(mixed.opaque());
+}
+
+TEST_CASE("A volume-like reflector: light refracted in, scattered, and refracted out or kept") {
+  // R = Rf + (1 - Rf) rho Td / (1 - rho (1 - Td)), Td the diffuse transmittance from within.
+  const double n = 1.35, rho = 0.95;
+  Surface volume;
+  volume.microsurface = PaintedSurface{};
+  volume.reflector = Reflector{"PTFE", Curve::constant(rho), 0.0, n};
+  double diffuse = 0.0;  // of sin^2, by the midpoint rule
+  constexpr int kSteps = 20'000;
+  for (int k = 0; k < kSteps; ++k)
+    diffuse += (1.0 - fresnel(std::sqrt(1.0 - (k + 0.5) / kSteps), n, 1.0).unpolarised()) / kSteps;
+  const double rf = fresnel(std::cos(0.6), 1.0, n).unpolarised();
+  const double law = rf + (1.0 - rf) * rho * diffuse / (1.0 - rho * (1.0 - diffuse));
+  std::uint64_t absorbed = 0;
+  for (std::uint64_t i = 0; i < kRays; ++i) {
+    Rng rng(3, StreamKind::other, i);
+    Ray ray{Vec3(std::sin(0.6), 0.0, std::cos(0.6)), Vec3::Zero()};
+    absorbed +=
+        volume.meet(ray, Side::inside, Vec3::UnitZ(), {1.0, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
+  }
+  CHECK(sigmas(binomial_estimate(absorbed, kRays), {1.0 - law, 0.0}) < kSigmas);
+}

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "scintray/cli/table_command.hpp"
+#include "scintray/cli/table_options.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene/library.hpp"
+#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene/surface_maker.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct StackArguments {
+  std::string surface, output;
+  std::filesystem::path scene;
+  TracingOptions tracing;
+};
+
+/// Maps are traced themselves, not by way of a table of their own.
+SurfaceSpec on_the_spot(SurfaceSpec spec) {
+  if (auto* map = std::get_if<HeightMapSpec>(&spec.microsurface)) map->table.reset();
+  if (auto* recipe = std::get_if<RecipeSpec>(&spec.microsurface)) recipe->table.reset();
+  for (ShareSpec& part : spec.mixture)
+    part.surface = std::make_shared<const SurfaceSpec>(on_the_spot(*part.surface));
+  return spec;
+}
+
+std::string describe(const SurfaceSpec& spec) {
+  if (!spec.mixture.empty()) {
+    std::string text;
+    for (const ShareSpec& part : spec.mixture)
+      text += fmt::format("{}{:g} of {}", text.empty() ? "" : ", ", part.share, describe(*part.surface));
+    return text;
+  }
+  std::string text = spec.name;
+  if (!spec.gap.empty()) text += " | " + spec.gap;
+  if (spec.gap_thickness_um) text += fmt::format(" {:g} um", *spec.gap_thickness_um);
+  if (spec.reflector) text += " | " + spec.reflector->name;
+  return text;
+}
+
+void build(const StackArguments& arguments) {
+  Library library = Library::shipped();
+  if (!arguments.scene.empty()) add_definitions(library, SceneFile::load(arguments.scene).spec(0));
+  const SurfaceSpec spec = on_the_spot(library.surface(arguments.surface));
+  const Between media = between(arguments.tracing);
+  const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
+  const Surface surface = SurfaceMaker().make(spec, media.inside, media.outside, nm, nm, nm).surface;
+  TableProvenance provenance;
+  provenance.map = spec.name;
+  provenance.stack = describe(spec);
+  provenance.preparation = "as the surface's definition says";
+  provenance.tiling = "as the surface's definition says";
+  write_and_report(arguments.output, build_with_progress([&](const TableProgress& progress) {
+                     return build_stack_table(surface, media.spectrum(), settings_of(arguments.tracing),
+                                              provenance, progress);
+                   }));
+}
+
+}  // namespace
+
+void add_table_stack_command(CLI::App& table) {
+  auto arguments = std::make_shared<StackArguments>();
+  CLI::App* app = table.add_subcommand(
+      "stack", "Trace a whole surface of the library, with its gap, reflector and shares, into one table");
+  app->add_option("surface", arguments->surface, "Name of the surface")->required();
+  app->add_option("--scene", arguments->scene, "Scene file whose own definitions are known, too");
+  app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
+  add_tracing_options(*app, arguments->tracing);
+  app->callback([arguments] { build(*arguments); });
+}
+
+}  // namespace scintray::cli
