@@ -13,7 +13,7 @@ body { max-width: 80rem; }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(34rem, 1fr)); gap: 1.75rem; margin-top: 2rem; }
 .card { border: 1px solid var(--rule); border-radius: 6px; padding: .9rem 1rem; break-inside: avoid; }
 .card h2 { margin: 0; border: 0; padding: 0; font-size: 1.05rem; overflow-wrap: anywhere; }
-.card p { margin: .2rem 0; font-size: .85rem; color: var(--soft); }
+.card p { margin: .2rem 0; font-size: .85rem; color: var(--soft); overflow-wrap: anywhere; }
 .card p.needs { color: var(--ink); }
 .plots { display: grid; grid-template-columns: 1fr 1fr; gap: .75rem; margin-top: .5rem; }
 @media (max-width: 40rem) { .cards, .plots { grid-template-columns: 1fr; } }
