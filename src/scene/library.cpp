@@ -146,7 +146,9 @@ SurfaceOutline Library::outline(const std::string& surface, const FileLocation& 
   for (std::string& source : found.sources)
     if (std::find(sources.begin(), sources.end(), source) == sources.end())
       sources.push_back(std::move(source));
-  return {model ? model->text : "",
+  return {model                          ? model->text
+          : found.merged.find("mixture") ? "mixture"
+                                         : "",
           {found.names.begin() + 1, found.names.end()},
           unmet_needs(found.merged),
           std::move(sources)};

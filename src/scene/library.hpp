@@ -19,7 +19,7 @@ enum class LibraryKind { medium, surface, sensor, reflector };
 
 /// What a surface's definition says before it is made into a surface.
 struct SurfaceOutline {
-  std::string model;                 ///< "smooth", "unified", "recipe", ...; empty when none is given
+  std::string model;  ///< "smooth", "unified", "recipe", ..., "mixture"; empty when none is given
   std::vector<std::string> bases;    ///< what it is based on, nearest first
   std::vector<std::string> needs;    ///< what it leaves to the user, as "unified.sigma_alpha"
   std::vector<std::string> sources;  ///< published sources, each once, its own first, then its bases'

@@ -57,6 +57,45 @@ TEST_CASE("a surface that leaves something to the user is refused with what it n
   CHECK(contains(refusal({"geant4_ground", "LSO", "air", 420.0}), "unified.sigma_alpha"));
 }
 
+TEST_CASE("of a mixture every part is followed on its map, and looked at for the wavelength") {
+  const auto document = parse_toml(R"(
+[half]
+mixture = [{ surface = "lso_polished", share = 0.5 }, { surface = "glued", share = 0.5 }]
+[glued]
+model = "smooth"
+gap = "short"
+reflector = "lambertian_097"
+)",
+                                   "scene.toml");
+  const auto medium = parse_toml(R"(
+[short.index]
+n = { wavelength = ["400 nm", "430 nm"], value = [1.5, 1.5] }
+[short.absorption]
+none = true
+[short.scattering]
+none = true
+)",
+                                 "scene.toml");
+  Library library = Library::shipped();
+  for (const char* name : {"half", "glued"})
+    library.add(LibraryKind::surface, {{name, std::make_shared<const TomlNode>(*document->find(name))}});
+  library.add(LibraryKind::medium, {{"short", std::make_shared<const TomlNode>(*medium->find("short"))}});
+
+  CHECK(library.outline("half").model == "mixture");
+  SurfaceMaker maker;
+  const BenchSurface bench = make_bench_surface(library, maker, {"half", "LSO", "air", 420.0}, true);
+  REQUIRE(bench.surface.mixture.size() == 2);
+  using Map = std::shared_ptr<const HeightField>;
+  CHECK(std::holds_alternative<Map>(bench.surface.mixture.front().surface->microsurface));
+  CHECK_THROWS_AS(mean_slope_met(bench.surface, Side::inside, 0.5), InputError);
+  try {
+    make_bench_surface(library, maker, {"half", "LSO", "air", 500.0}, true);
+    FAIL("a gap without an index was accepted");
+  } catch (const InputError& error) {
+    CHECK(contains(error.problems().front().text(), "the gap of surface \"glued\""));
+  }
+}
+
 TEST_CASE("what a definition says is told of presets as well") {
   const Library library = Library::shipped();
   const SurfaceOutline preset = library.outline("geant4_ground");
