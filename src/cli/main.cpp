@@ -6,6 +6,7 @@
 #include "scintray/cli/check_command.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/failures.hpp"
+#include "scintray/cli/goniometer_command.hpp"
 #include "scintray/cli/map_command.hpp"
 #include "scintray/cli/replay_command.hpp"
 #include "scintray/cli/report_command.hpp"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   scintray::cli::add_report_command(app);
   scintray::cli::add_map_command(app);
   scintray::cli::add_table_command(app);
+  scintray::cli::add_goniometer_command(app);
   scintray::cli::add_replay_command(app);
   app.failure_message(CLI::FailureMessage::help);
 

@@ -5,8 +5,10 @@
 namespace scintray::cli {
 
 void add_table_command(CLI::App& app) {
-  CLI::App* table = app.add_subcommand("table", "Surface tables from height maps");
+  CLI::App* table = app.add_subcommand("table", "Surface tables, and the surfaces of the library");
   table->require_subcommand(1);
+  add_table_list_command(*table);
+  add_table_compare_command(*table);
   add_table_build_command(*table);
   add_table_stack_command(*table);
   add_table_show_command(*table);

@@ -13,5 +13,7 @@ void add_table_stack_command(CLI::App& table);
 void add_table_show_command(CLI::App& table);
 void add_table_export_command(CLI::App& table);
 void add_table_import_command(CLI::App& table);
+void add_table_list_command(CLI::App& table);
+void add_table_compare_command(CLI::App& table);
 
 }  // namespace scintray::cli

@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
-#include "scintray/core/error.hpp"
-#include "scintray/core/version.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/height_image.hpp"
 #include "scintray/report/map_numbers.hpp"
+#include "scintray/report/page.hpp"
 #include "scintray/report/svg_plot.hpp"
 #include "scintray/topography/prepare.hpp"
 
@@ -19,26 +17,11 @@ namespace scintray::report {
 namespace {
 
 constexpr const char* kStyle = R"css(
-:root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }
-@media (prefers-color-scheme: dark) {
-:root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
-  font: 16px/1.5 system-ui, sans-serif; }
-h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
-h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-bottom: 1px solid var(--rule); }
-.under { color: var(--soft); margin: 0; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1.5rem; }
-figure { margin: 0; break-inside: avoid; } figcaption { font-weight: 600; margin-bottom: .3rem; }
-figcaption span { color: var(--soft); font-weight: 400; }
 img.heights { display: block; width: 100%; image-rendering: pixelated; }
 .scale { display: flex; align-items: center; gap: .6rem; margin-top: .4rem; color: var(--soft);
   font-size: .85rem; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .scale i { flex: 1; height: .7rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
-th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
-thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
 td.meaning { color: var(--soft); }
 )css";
 
@@ -110,30 +93,19 @@ std::string number_table(const HeightMap& before, const HeightMap& after) {
 std::string map_page(const std::string& title, const HeightMap& before, const HeightMap& after) {
   HeightMap centred = before;
   subtract_mean(centred);
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
-  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-          escape_html(title) + "</title>\n<style>" + kStyle + svg_plot_style() +
-          "</style>\n</head>\n<body>\n";
-  page += "<h1>" + escape_html(title) +
-          "</h1>\n<p class=\"under\">Height map before and after preparation · "
-          "ScintRay " +
-          escape_html(version()) + "</p>\n";
+  std::string page;
   page += "<h2>Heights</h2>\n<div class=\"grid\">\n" + picture("before, less the mean", centred) +
           picture("after", after) + "</div>\n";
   page += "<h2>Profiles</h2>\n" + profiles(centred, after, true) + profiles(centred, after, false);
   page += "<h2>Numbers</h2>\n" + number_table(before, after);
   page += "<h2>Steps</h2>\n<ol>\n";
   for (const std::string& step : after.steps) page += "<li>" + escape_html(step) + "</li>\n";
-  return page + "</ol>\n</body>\n</html>\n";
+  return html_page(title, "Height map before and after preparation", kStyle, page + "</ol>\n");
 }
 
 void write_map_page(const std::filesystem::path& path, const std::string& title, const HeightMap& before,
                     const HeightMap& after) {
-  const std::string page = map_page(title, before, after);
-  std::ofstream file(path, std::ios::binary);
-  file << page;
-  file.close();
-  if (!file) throw SystemError("cannot write page " + path.string());
+  write_page(path, map_page(title, before, after));
 }
 
 }  // namespace scintray::report

@@ -101,7 +101,7 @@ class Drawing {
   explicit Drawing(const Plot& plot) : plot_(plot) {
     check();
     direct_labels_ =
-        plot.series.size() <= kColours && plot.series.size() > 1 &&
+        !plot.legend_above && plot.series.size() <= kColours && plot.series.size() > 1 &&
         std::none_of(plot.series.begin(), plot.series.end(), [](const auto& s) { return s.steps; });
     set_axes();
   }
@@ -137,20 +137,23 @@ class Drawing {
         if (!drawable(series.y[i])) continue;
         const double error = series.error.empty() ? 0.0 : series.error[i];
         y.include(series.y[i] + error);
-        if (!plot_.log_y)
-          y.include(series.y[i] - error);
+        if (!plot_.log_y)  // what cannot be negative does not become so by its error
+          y.include(plot_.y_from_zero && series.y[i] >= 0.0 ? std::max(0.0, series.y[i] - error)
+                                                            : series.y[i] - error);
         else
           y.include(series.y[i]);
       }
     }
     if (!(x.low <= x.high) || !(y.low <= y.high)) throw std::invalid_argument("svg_plot: nothing to draw");
     if (plot_.y_from_zero && !plot_.log_y) y.include(0.0);
+    if (plot_.y_high && !plot_.log_y) y.include(*plot_.y_high);
     x_ = linear_axis(x, 8, !steps);
     if (steps) {
       x_.low = x.low;
       x_.high = x.high;
       std::erase_if(x_.ticks, [&](double tick) { return tick < x.low || tick > x.high; });
     }
+    if (plot_.x_low && plot_.x_high) fix_x(*plot_.x_low, *plot_.x_high);
     y_ = plot_.log_y ? log_axis(y) : linear_axis(y, 5, false);
     double widest = 0.0, longest = 0.0;
     for (const double tick : y_.ticks) widest = std::max(widest, text_width(tick_text(tick), kLetterWidth));
@@ -165,6 +168,18 @@ class Drawing {
     x_.end = right_;
     y_.start = bottom_;
     y_.end = top_;
+  }
+
+  void fix_x(double low, double high) {
+    x_.low = low;
+    x_.high = high;
+    x_.ticks = nice_ticks(low, high, 8);
+    if (plot_.x_step > 0.0) {
+      x_.ticks.clear();
+      for (double k = std::ceil(low / plot_.x_step); k * plot_.x_step <= high; k += 1.0)
+        x_.ticks.push_back(k * plot_.x_step);
+    }
+    std::erase_if(x_.ticks, [&](double tick) { return tick < low || tick > high; });
   }
 
   std::string axes() const {
@@ -208,13 +223,16 @@ class Drawing {
         marks += error_bar(s.steps ? 0.5 * (x_.at(s.x[i]) + x_.at(s.x[i + 1])) : x_.at(s.x[i]), s.y[i],
                            s.error[i], !s.steps);
     }
-    return "<g class=\"series c" + std::to_string(index % kColours) + "\">\n<path class=\"curve\" d=\"" +
-           path + "\"/>\n" + marks + "</g>\n";
+    std::string out = "<g class=\"series c" + std::to_string(index % kColours) + "\">\n";
+    if (s.steps || s.joined)
+      out += std::string("<path class=\"curve") + (s.dashed ? " dashed" : "") + "\" d=\"" + path + "\"/>\n";
+    return out + marks + "</g>\n";
   }
 
   std::string error_bar(double x, double value, double error, bool caps) const {
     const double high = y_.at(value + error);
-    const double low = plot_.log_y && value - error <= 0.0 ? y_.start : y_.at(value - error);
+    const double low =
+        plot_.log_y && value - error <= 0.0 ? y_.start : std::min(y_.start, y_.at(value - error));
     std::string out = line(x, low, x, high, "error");
     if (caps) out += line(x - 3.5, low, x + 3.5, low, "error") + line(x - 3.5, high, x + 3.5, high, "error");
     return out;
@@ -291,7 +309,11 @@ class Drawing {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const auto [x, y] = places[i];
       const std::string colour = "c" + std::to_string(i % kColours);
-      out += "<g class=\"series " + colour + "\">" + line(x, y, x + 22.0, y, "curve") + "</g>\n";
+      const PlotSeries& s = plot_.series[i];
+      out += "<g class=\"series " + colour + "\">";
+      if (s.steps || s.joined) out += line(x, y, x + 22.0, y, s.dashed ? "curve dashed" : "curve");
+      if (!s.steps && s.marks) out += marker(i, x + 11.0, y);
+      out += "</g>\n";
       out += text(x + 28.0, y + 5.0, "name " + colour, plot_.series[i].label);
     }
     return out;
@@ -320,6 +342,20 @@ std::vector<double> nice_ticks(double low, double high, int count) {
 
 std::string svg_plot(const Plot& plot) { return Drawing(plot).svg(); }
 
+std::string svg_file(const Plot& plot) {
+  std::string drawing = svg_plot(plot);
+  const std::string opening = "<svg class=\"plot\"";
+  drawing.replace(0, opening.size(), "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\"");
+  const std::string colours =
+      ":root { --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }\n"
+      "@media (prefers-color-scheme: dark) {\n"
+      ":root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }\n";
+  const std::size_t inside = drawing.find(">\n") + 2;
+  drawing.insert(inside,
+                 "<style>" + colours + svg_plot_style() + "svg.plot { background: var(--paper); }</style>\n");
+  return drawing;
+}
+
 std::string svg_plot_style() {
   return R"css(
 :root { --c0:#0072b2; --c1:#d55e00; --c2:#009e73; --c3:#b35a8c; --c4:#b8860b; --c5:#3a9bd6; --c6:#555555; }
@@ -334,6 +370,7 @@ svg.plot text { fill: var(--ink); } svg.plot text.tick { fill: var(--soft); font
 svg.plot .middle { text-anchor: middle; } svg.plot .end { text-anchor: end; }
 svg.plot text.name { fill: var(--c); font-weight: 600; }
 svg.plot .curve { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
+svg.plot .dashed { stroke-dasharray: 7 5; }
 svg.plot .mark { fill: var(--c); } svg.plot .error { stroke: var(--c); stroke-width: 1.4; }
 )css";
 }

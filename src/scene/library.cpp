@@ -27,13 +27,6 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "none" : text;
 }
 
-/// A definition and the definitions that it is based on.
-struct Chain {
-  TomlNode merged;
-  std::vector<std::string> names;  ///< the asked one first
-  std::vector<std::string> sources;
-};
-
 }  // namespace
 
 Library::Library(const std::vector<std::filesystem::path>& folders) : folders_(folders) {
@@ -121,19 +114,11 @@ Reflector Library::reflector(const std::string& name, const FileLocation& where)
   return reflector;
 }
 
-SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {
-  return surface(name, where, {});
-}
-
-SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
-                             const std::vector<std::string>& within) const {
-  if (std::find(within.begin(), within.end(), name) != within.end())
-    throw InputError({where, "the surface \"" + name + "\" is a mixture of itself (" + joined(within) + ")",
-                      "mix other surfaces"});
-  Problems problems;
+Library::Chain Library::chain(const std::string& surface, const FileLocation& where,
+                              Problems& problems) const {
   Chain chain;
   std::vector<TomlNodePtr> levels;
-  for (std::string next = name; !next.empty();) {
+  for (std::string next = surface; !next.empty();) {
     const FileLocation asked = levels.empty() ? where : levels.back()->find("base")->where;
     if (std::find(chain.names.begin(), chain.names.end(), next) != chain.names.end())
       throw InputError(
@@ -150,13 +135,43 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
   }
   chain.merged = *levels.back();
   for (std::size_t i = levels.size() - 1; i-- > 0;) chain.merged = merge_over_base(chain.merged, *levels[i]);
+  return chain;
+}
 
+SurfaceOutline Library::outline(const std::string& surface, const FileLocation& where) const {
+  Problems problems;
+  Chain found = chain(surface, where, problems);
+  const TomlNode* model = found.merged.find("model");
+  std::vector<std::string> sources;  // each once: bases often name the same
+  for (std::string& source : found.sources)
+    if (std::find(sources.begin(), sources.end(), source) == sources.end())
+      sources.push_back(std::move(source));
+  return {model                          ? model->text
+          : found.merged.find("mixture") ? "mixture"
+                                         : "",
+          {found.names.begin() + 1, found.names.end()},
+          unmet_needs(found.merged),
+          std::move(sources)};
+}
+
+SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {
+  return surface(name, where, {});
+}
+
+SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
+                             const std::vector<std::string>& within) const {
+  if (std::find(within.begin(), within.end(), name) != within.end())
+    throw InputError({where, "the surface \"" + name + "\" is a mixture of itself (" + joined(within) + ")",
+                      "mix other surfaces"});
+  Problems problems;
+  Chain chain = this->chain(name, where, problems);
   const std::vector<std::string> unmet = unmet_needs(chain.merged);
   if (!unmet.empty())
-    throw InputError({levels.size() == 1 && !where.file.empty() ? where : chain.merged.where,
+    throw InputError({chain.names.size() == 1 && !where.file.empty() ? where : chain.merged.where,
                       "the surface \"" + name + "\" leaves to you: " + joined(unmet),
-                      levels.size() == 1 ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
-                                         : "add these keys beside base = \"" + chain.names[1] + "\""});
+                      chain.names.size() == 1
+                          ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
+                          : "add these keys beside base = \"" + chain.names[1] + "\""});
 
   const SurfaceLookup lookup{
       [this](const std::string& medium_name, const FileLocation& at) { return medium(medium_name, at); },

@@ -17,11 +17,19 @@ namespace scintray {
 
 enum class LibraryKind { medium, surface, sensor, reflector };
 
+/// What a surface's definition says before it is made into a surface.
+struct SurfaceOutline {
+  std::string model;  ///< "smooth", "unified", "recipe", ..., "mixture"; empty when none is given
+  std::vector<std::string> bases;    ///< what it is based on, nearest first
+  std::vector<std::string> needs;    ///< what it leaves to the user, as "unified.sigma_alpha"
+  std::vector<std::string> sources;  ///< published sources, each once, its own first, then its bases'
+};
+
 /// Finds definitions by name: first among a scene's own, then in each folder in turn, where the file is
 /// FOLDER/media/NAME.toml, FOLDER/surfaces/NAME.toml, FOLDER/sensors/NAME.toml or
 /// FOLDER/reflectors/NAME.toml. Files are read when asked for, and must name their sources.
 ///
-/// The four getters throw InputError: at `where` when there is nothing of that name, with the nearest
+/// The getters throw InputError: at `where` when there is nothing of that name, with the nearest
 /// name and the places searched; at the places in the definition when that is wrong.
 class Library {
  public:
@@ -35,6 +43,8 @@ class Library {
 
   Medium medium(const std::string& name, const FileLocation& where = {}) const;
   SurfaceSpec surface(const std::string& name, const FileLocation& where = {}) const;
+  /// The same of a surface that may leave something to the user, and so be none yet.
+  SurfaceOutline outline(const std::string& surface, const FileLocation& where = {}) const;
   Sensor sensor(const std::string& name, const FileLocation& where = {}) const;
   Reflector reflector(const std::string& name, const FileLocation& where = {}) const;
 
@@ -50,6 +60,13 @@ class Library {
     bool from_file = false;
   };
   Definition find(LibraryKind kind, const std::string& name, const FileLocation& where) const;
+  /// A surface's definition laid over those that it is based on.
+  struct Chain {
+    TomlNode merged;
+    std::vector<std::string> names;  ///< the asked one first
+    std::vector<std::string> sources;
+  };
+  Chain chain(const std::string& surface, const FileLocation& where, Problems& problems) const;
 
   std::vector<std::filesystem::path> folders_;
   std::array<std::map<std::string, std::filesystem::path>, 4> files_;

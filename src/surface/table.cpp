@@ -29,14 +29,19 @@ constexpr double kAngleRounding = 1e-6;
 /// Rounding of shares that sum to one.
 constexpr double kShareRounding = 1e-12;
 
-/// Quantile of a sorted sample; order statistic k stands for the level (k + 1/2)/n.
-float quantile(std::span<const float> sorted, double level) {
+constexpr float kQuarterTurn = static_cast<float>(0.5 * kPi), kHalfTurn = static_cast<float>(kPi);
+
+/// Quantile of a sorted sample within [low, high]; order statistic k stands for the level (k + 1/2)/n. The
+/// half step beyond the first and the last goes on as steeply as the step before it: ending at the extreme
+/// rays of a small sample would leave the tails of the distribution empty.
+float quantile(std::span<const float> sorted, double level, float low, float high) {
   const double n = static_cast<double>(sorted.size());
-  const double rank = std::clamp(level * n - 0.5, 0.0, n - 1.0);
-  const std::size_t k = std::min(static_cast<std::size_t>(rank), sorted.size() - 1);
-  const std::size_t next = std::min(k + 1, sorted.size() - 1);
-  const float share = static_cast<float>(rank - static_cast<double>(k));
-  return sorted[k] + share * (sorted[next] - sorted[k]);
+  if (sorted.size() == 1) return sorted.front();
+  const double rank = std::clamp(level * n - 0.5, -0.5, n - 0.5);
+  const std::size_t k =
+      std::min(static_cast<std::size_t>(std::max(0.0, rank)), sorted.size() - 2);  // steps from k to k + 1
+  const float share = static_cast<float>(rank - static_cast<double>(k));           // -1/2 to 3/2
+  return std::clamp(sorted[k] + share * (sorted[k + 1] - sorted[k]), low, high);
 }
 
 bool increasing(std::span<const float> edges, double low, double high) {
@@ -122,7 +127,8 @@ DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kin
   });
   std::vector<float> values(sample.size());
   std::transform(sample.begin(), sample.end(), values.begin(), [](const ExitAngles& e) { return e.polar; });
-  for (int k = 0; k <= kPolarBins; ++k) result.polar.push_back(quantile(values, polar_level(k)));
+  for (int k = 0; k <= kPolarBins; ++k)
+    result.polar.push_back(quantile(values, polar_level(k), 0.0f, kQuarterTurn));
 
   const double n = static_cast<double>(sample.size());
   for (int k = 0; k < kPolarBins; ++k) {

@@ -129,6 +129,7 @@ ReadOptions without_units(double width_um) {
 
 }  // namespace
 
+// Not the two text exports of Gwyddion: made up to test readers, they rise by metres over micrometres.
 TEST_CASE("no ray on any published map is unclassified: side and direction agree up to 89.9 deg") {
   const std::vector<Published> maps{{"chip.gsf", {}},
                                     {"chip.gwy", {}},
@@ -140,8 +141,6 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
                                     {"x3p-2.x3p", {}},
                                     {"sample-land.x3p", {}, true},
                                     {"sdf-1.sdf", {}},
-                                    {"gwyddion-export-english.txt", {}},
-                                    {"gwyddion-export-german.txt", {}},
                                     {"xyz-1.txt", without_units(4.0)},
                                     {"gwyfile-test.gwy", without_units(128.0)},
                                     {"10x10-one_channel_without_name.ibw", without_units(10.0)}};

@@ -1,0 +1,40 @@
+#pragma once
+/// A surface of the library between two media at one wavelength, ready for the goniometer.
+
+#include <string>
+#include <vector>
+
+#include "scintray/core/statistics.hpp"
+#include "scintray/scene/library.hpp"
+#include "scintray/scene/surface_maker.hpp"
+
+namespace scintray {
+
+/// What lies where.
+struct BenchPlace {
+  std::string surface;
+  std::string inside, outside;  ///< media
+  double wavelength_nm = 0.0;
+};
+
+struct BenchSurface {
+  BenchPlace place;
+  Surface surface;
+  IndexPair index;
+  std::vector<std::string> sources, warnings;
+};
+
+/// Looks the names up and makes the surface, its table included.
+/// @param on_the_spot  rays on height maps and recipes are followed on the map itself, without a table
+/// InputError for unknown names (with the nearest), for a medium, gap or reflector that has no value at the
+/// wavelength, and for what the library and the maker refuse.
+BenchSurface make_bench_surface(const Library& library, SurfaceMaker& maker, const BenchPlace& place,
+                                bool on_the_spot = false);
+
+/// Mean angle (rad) between the mean normal and the first facet met, by light from `side` at an incidence
+/// angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's nodes (then
+/// without an error), 0 for a smooth surface.
+/// InputError for surfaces that have no facets of their own (UNIFIED, painted, mixtures, tables of stacks).
+Estimate mean_slope_met(const Surface& surface, Side side, double incidence_rad);
+
+}  // namespace scintray

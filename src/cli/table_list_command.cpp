@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "scintray/cli/bench_options.hpp"
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/table_command.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/report/page.hpp"
+#include "scintray/report/surface_page.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+constexpr std::uint64_t kRays = 50'000;
+/// The profile needs more: its bins hold a few in ten thousand of the rays.
+constexpr std::uint64_t kProfileFactor = 10;
+constexpr double kStep_deg = 2.5, kProfile_deg = 45.0;
+constexpr double kStated_deg[] = {0.0, 45.0, 80.0};
+
+struct Options {
+  BenchOptions bench;
+  std::string outside = "air", page;
+};
+
+std::vector<double> sweep_angles() {
+  std::vector<double> angles;
+  for (double angle = 0.0; angle < 90.0; angle += kStep_deg) angles.push_back(angle * kDegree);
+  return angles;
+}
+
+report::SurfaceReadings read_surface(BenchSurface bench, const BenchOptions& options) {
+  GoniometerSettings settings;
+  settings.wavelength_nm = bench.place.wavelength_nm;
+  settings.rays = options.rays;
+  settings.seed = options.seed;
+  report::SurfaceReadings readings;
+  const std::vector<double> angles = sweep_angles();
+  readings.sweep = sweep_incidence(bench.surface, bench.index, settings, angles);
+  settings.stream = angles.size();
+  settings.incidence_rad = kProfile_deg * kDegree;
+  settings.rays *= kProfileFactor;
+  readings.profile = read_goniometer(bench.surface, bench.index, settings);
+  readings.bench = std::move(bench);
+  return readings;
+}
+
+report::SurfaceEntry make_entry(const std::string& name, const Library& library, SurfaceMaker& maker,
+                                const Options& options) {
+  report::SurfaceEntry entry;
+  entry.name = name;
+  entry.outline = library.outline(name);
+  if (!entry.outline.needs.empty()) return entry;
+  try {
+    entry.readings = read_surface(
+        make_bench_surface(library, maker, place_of(options.bench, name, options.outside)), options.bench);
+  } catch (const InputError& error) {
+    entry.not_made = error.problems().front().what;
+  }
+  return entry;
+}
+
+std::string reflectance_at(const report::SurfaceReadings& readings, double degrees) {
+  for (const GoniometerReading& reading : readings.sweep)
+    if (std::abs(reading.settings.incidence_rad - degrees * kDegree) < 1e-9)
+      return share_text(reading.reflectance());
+  throw InternalError("an angle that is not in the sweep");
+}
+
+void print_wrapped(const std::string& words) {
+  constexpr std::size_t kWidth = 96;
+  std::istringstream stream(words);
+  std::string row;
+  for (std::string word; stream >> word; row += (row.empty() ? "" : " ") + word)
+    if (row.size() + word.size() > kWidth) {
+      std::cout << "    " << row << "\n";
+      row.clear();
+    }
+  std::cout << "    " << row << "\n";
+}
+
+void print_entry(const report::SurfaceEntry& entry) {
+  std::cout << "\n" << entry.name << "\n    model " << entry.outline.model;
+  for (const std::string& base : entry.outline.bases) std::cout << ", based on " << base;
+  std::cout << "\n";
+  for (const std::string& source : entry.outline.sources) print_wrapped(source);
+  std::string needs;
+  for (const std::string& need : entry.outline.needs) needs += (needs.empty() ? "" : ", ") + need;
+  if (!needs.empty()) print_wrapped("leaves to you: " + needs);
+  if (!entry.not_made.empty()) print_wrapped("not made here: " + entry.not_made);
+  if (!entry.readings) return;
+  std::cout << "    reflected";
+  for (const double degrees : kStated_deg)
+    std::cout << fmt::format("   {:g} deg {}", degrees, reflectance_at(*entry.readings, degrees));
+  std::cout << "\n";
+}
+
+void run(const Options& options) {
+  const InterruptGuard guard;
+  ProgressLine line(true);
+  SurfaceMaker maker = watched_maker(line);
+  const Library library = library_of(options.bench);
+  const BenchPlace place = place_of(options.bench, "", options.outside);
+  library.medium(place.inside);  // a mistake here is one mistake, not one for each surface
+  library.medium(place.outside);
+  const std::string under =
+      fmt::format("{} to {}, {:g} nm, light from inside", place.inside, place.outside, place.wavelength_nm);
+  std::cout << "surfaces     " << under << "\n";
+  std::vector<report::SurfaceEntry> entries;
+  for (const std::string& name : library.names(LibraryKind::surface)) {
+    entries.push_back(make_entry(name, library, maker, options));
+    line.clear();
+    print_entry(entries.back());
+  }
+  if (options.page.empty()) return;
+  report::write_page(options.page, report::surface_page(entries, under));
+  std::cout << "\nwritten      " << options.page << "\n";
+}
+
+}  // namespace
+
+void add_table_list_command(CLI::App& table) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      table.add_subcommand("list", "Print every surface of the library, and show them side by side");
+  add_bench_options(*command, options->bench, kRays);
+  command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
+  command->add_option("--page", options->page, "HTML page to write");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace scintray::cli

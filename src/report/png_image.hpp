@@ -1,0 +1,24 @@
+#pragma once
+/// Pictures made of pixels, for pages.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace scintray::report {
+
+struct Colour {
+  std::uint8_t red = 0, green = 0, blue = 0;
+};
+
+/// Viridis (S. van der Walt and N. Smith 2015, CC0) at a share in [0, 1], clamped: equal steps, linear
+/// between.
+Colour viridis(double share);
+/// The same colours from left to right, as a CSS background.
+std::string viridis_gradient();
+
+/// Pixels, row by row from the top, as "data:image/png;base64,...". `pixels` holds width x height.
+/// SystemError when the PNG library refuses.
+std::string png_data(const std::vector<Colour>& pixels, std::uint32_t width, std::uint32_t height);
+
+}  // namespace scintray::report
