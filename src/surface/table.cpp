@@ -139,8 +139,9 @@ DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kin
     for (std::size_t r = first; r < last; ++r) values.push_back(sample[r].azimuth);
     std::sort(values.begin(), values.end());
     for (int c = 0; c <= kAzimuthBins; ++c)
-      result.azimuth.push_back(
-          quantile(values, kind == AzimuthKind::folded ? azimuth_level(c) : signed_azimuth_level(c)));
+      result.azimuth.push_back(kind == AzimuthKind::folded
+                                   ? quantile(values, azimuth_level(c), 0.0f, kHalfTurn)
+                                   : quantile(values, signed_azimuth_level(c), -kHalfTurn, kHalfTurn));
   }
   return result;
 }
