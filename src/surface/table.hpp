@@ -66,7 +66,8 @@ struct ExitAngles {
 };
 
 /// Quantiles of a sample of directions (reordered). Quantiles of n values sit at the order
-/// statistics (k + 1/2)/n, linear between and for the half step beyond. An empty sample gives an empty result.
+/// statistics (k + 1/2)/n, linear between and for the half step beyond. An empty sample gives an empty
+/// result.
 DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kind = AzimuthKind::folded);
 
 /// One incidence angle met from one side.
