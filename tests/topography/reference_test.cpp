@@ -118,6 +118,7 @@ struct Published {
   const char* file;
   ReadOptions options;
   bool fill = false;
+  std::uint64_t rays = 3000;  ///< per side and incidence angle
 };
 
 ReadOptions without_units(double width_um) {
@@ -129,8 +130,10 @@ ReadOptions without_units(double width_um) {
 
 }  // namespace
 
-// Not the two text exports of Gwyddion: made up to test readers, they rise by metres over micrometres.
+// The two text exports of Gwyddion were made up to test readers and rise by metres over micrometres: a ray
+// passes millions of facets before it leaves them, or is cut at the step limit, on the side where it is.
 TEST_CASE("no ray on any published map is unclassified: side and direction agree up to 89.9 deg") {
+  constexpr std::uint64_t kFewRays = 1;
   const std::vector<Published> maps{{"chip.gsf", {}},
                                     {"chip.gwy", {}},
                                     {"matrix-2.txt.gz", {}},
@@ -141,10 +144,12 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
                                     {"x3p-2.x3p", {}},
                                     {"sample-land.x3p", {}, true},
                                     {"sdf-1.sdf", {}},
+                                    {"gwyddion-export-english.txt", {}, false, kFewRays},
+                                    {"gwyddion-export-german.txt", {}, false, kFewRays},
                                     {"xyz-1.txt", without_units(4.0)},
                                     {"gwyfile-test.gwy", without_units(128.0)},
                                     {"10x10-one_channel_without_name.ibw", without_units(10.0)}};
-  for (const auto& [file, options, fill] : maps) {
+  for (const auto& [file, options, fill, rays] : maps) {
     const auto path = test::shared_file(std::string("data/topography/") + file);
     if (!path) return;
     HeightMap map = read_height_map(*path, options);
@@ -157,10 +162,9 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
     level_plane(map);
     const HeightField field = make_height_field(map);
     std::uint64_t disagree = 0, cut = 0, facets = 0;
-    constexpr std::uint64_t kRays = 3000;
     for (const Side side : {Side::inside, Side::outside})
       for (const double degrees : {0.0, 30.0, 60.0, 80.0, 87.0, 89.9})
-        for (std::uint64_t k = 0; k < kRays; ++k) {
+        for (std::uint64_t k = 0; k < rays; ++k) {
           Rng rng(32, StreamKind::other, static_cast<std::uint64_t>(degrees * 10), k);
           const double up = side == Side::inside ? 1.0 : -1.0;
           const double azimuth = kTwoPi * rng.uniform();
@@ -174,7 +178,7 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
           facets += exit.facets_met > 0 ? 1 : 0;
         }
     CHECK(disagree == 0);
-    CHECK(cut == 0);
-    CHECK(facets == 2 * 6 * kRays);
+    if (rays != kFewRays) CHECK(cut == 0);
+    CHECK(facets == 2 * 6 * rays);
   }
 }
