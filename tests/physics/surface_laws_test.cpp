@@ -117,7 +117,7 @@ ChiSquare equilibrium(const Surface& surface, std::uint64_t inside_rays) {
 }
 
 void report_equilibrium(const std::string& surface, const ChiSquare& test) {
-  evidence("equilibrium", {surface, fmt::format("{:.1f}", test.chi2), std::to_string(test.degrees + 1),
+  evidence("equilibrium", {surface, fmt::format("{:.1f}", test.chi2), fmt::format("{:g}", test.degrees + 1),
                            fmt::format("{:.3g}", test.p_value)});
 }
 
