@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scintray/scene/wavelength_cover.hpp"
 #include "scintray/topography/map_statistics.hpp"
 
 namespace scintray {
@@ -12,45 +13,11 @@ namespace {
 
 constexpr std::uint64_t kSlopeRays = 40'000;
 
-void check_covers(Problems& problems, const Curve& curve, double nm, const std::string& whose,
-                  const std::string& what) {
-  if (curve.covers(nm, nm)) return;
-  problems.add({},
-               fmt::format("{} has {} from {:g} to {:g} nm, but light of {:g} nm is asked for", whose, what,
-                           curve.x().front(), curve.x().back(), nm),
-               "choose another wavelength, or extend the table in its definition");
-}
-
-/// Everything of a surface, and of those it is mixed of, that is tabulated against wavelength.
-void check_covers(Problems& problems, const SurfaceSpec& spec, double nm) {
-  const std::string gap = "the gap of surface \"" + spec.name + "\"";
-  check_covers(problems, spec.gap_index, nm, gap, "refractive indices");
-  check_covers(problems, spec.gap_absorption_per_mm, nm, gap, "an absorption");
-  if (spec.reflector)
-    check_covers(problems, spec.reflector->reflectance, nm, "reflector \"" + spec.reflector->name + "\"",
-                 "reflectances");
-  for (const ShareSpec& part : spec.mixture) check_covers(problems, *part.surface, nm);
-}
-
-SurfaceSpec traced_on_the_spot(SurfaceSpec spec) {
-  if (auto* map = std::get_if<HeightMapSpec>(&spec.microsurface)) map->table.reset();
-  if (auto* recipe = std::get_if<RecipeSpec>(&spec.microsurface)) recipe->table.reset();
-  for (ShareSpec& part : spec.mixture)
-    part.surface = std::make_shared<const SurfaceSpec>(traced_on_the_spot(*part.surface));
-  return spec;
-}
-
 /// Of the first wavelength, over all azimuths: facets do not change with the light's colour.
 double slope_in_table(const SurfaceTable& table, Side side, double incidence_rad) {
   double sum = 0.0;
-  for (std::size_t slice = 0; slice < table.azimuths(); ++slice) {
-    const std::vector<TableNode>& nodes = table.nodes(side, slice);
-    std::size_t next = 1;
-    while (next + 1 < nodes.size() && nodes[next].incidence_rad < incidence_rad) ++next;
-    const TableNode &a = nodes[next - 1], &b = nodes[next];
-    const double share = (incidence_rad - a.incidence_rad) / (b.incidence_rad - a.incidence_rad);
-    sum += std::lerp(a.mean_slope_rad, b.mean_slope_rad, share);
-  }
+  for (std::size_t slice = 0; slice < table.azimuths(); ++slice)
+    sum += table.mean_slope(side, incidence_rad, slice);
   return sum / static_cast<double>(table.azimuths());
 }
 
@@ -77,9 +44,8 @@ BenchSurface make_bench_surface(const Library& library, SurfaceMaker& maker, con
   const double nm = place.wavelength_nm;
   if (!(nm > 0.0))
     problems.add({}, fmt::format("a wavelength of {:g} nm; expected more than 0", nm), "as \"420 nm\"");
-  for (const Medium* medium : {&inside, &outside})
-    check_covers(problems, medium->index, nm, "medium \"" + medium->name + "\"", "refractive indices");
-  check_covers(problems, spec, nm);
+  for (const Medium* medium : {&inside, &outside}) check_cover(problems, {}, *medium, nm, nm);
+  check_cover(problems, spec, nm, nm);
   problems.throw_if_any();
 
   if (on_the_spot) spec = traced_on_the_spot(std::move(spec));

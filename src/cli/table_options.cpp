@@ -10,6 +10,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/scene/library.hpp"
+#include "scintray/scene/wavelength_cover.hpp"
 
 namespace scintray::cli {
 
@@ -67,6 +68,10 @@ Between between(const TracingOptions& options) {
     throw InputError({{},
                       "media are given, but no wavelength",
                       "give --wavelength \"420 nm\", or several: --wavelength \"400 nm,420 nm\""});
+  Problems problems;
+  for (const Medium* medium : {&result.inside, &result.outside})
+    for (const double nm : result.wavelengths_nm) check_cover(problems, {}, *medium, nm, nm);
+  problems.throw_if_any();
   return result;
 }
 

@@ -27,7 +27,8 @@ struct Between {
   std::vector<double> wavelengths_nm;  ///< empty where only indices were given
   std::vector<SpectralPoint> spectrum() const;
 };
-/// InputError when neither an index nor a medium is given for a side, or media without wavelengths.
+/// InputError when neither an index nor a medium is given for a side, for media without wavelengths, and
+/// for wavelengths beyond their indices.
 Between between(const TracingOptions& options);
 TableSettings settings_of(const TracingOptions& options);
 

@@ -9,6 +9,7 @@
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/read_scene.hpp"
 #include "scintray/scene/surface_maker.hpp"
+#include "scintray/scene/wavelength_cover.hpp"
 
 namespace scintray::cli {
 
@@ -19,15 +20,6 @@ struct StackArguments {
   std::filesystem::path scene;
   TracingOptions tracing;
 };
-
-/// Maps are traced themselves, not by way of a table of their own.
-SurfaceSpec on_the_spot(SurfaceSpec spec) {
-  if (auto* map = std::get_if<HeightMapSpec>(&spec.microsurface)) map->table.reset();
-  if (auto* recipe = std::get_if<RecipeSpec>(&spec.microsurface)) recipe->table.reset();
-  for (ShareSpec& part : spec.mixture)
-    part.surface = std::make_shared<const SurfaceSpec>(on_the_spot(*part.surface));
-  return spec;
-}
 
 std::string describe(const SurfaceSpec& spec) {
   if (!spec.mixture.empty()) {
@@ -46,8 +38,11 @@ std::string describe(const SurfaceSpec& spec) {
 void build(const StackArguments& arguments) {
   Library library = Library::shipped();
   if (!arguments.scene.empty()) add_definitions(library, SceneFile::load(arguments.scene).spec(0));
-  const SurfaceSpec spec = on_the_spot(library.surface(arguments.surface));
+  const SurfaceSpec spec = traced_on_the_spot(library.surface(arguments.surface));
   const Between media = between(arguments.tracing);
+  Problems problems;
+  for (const double at : media.wavelengths_nm) check_cover(problems, spec, at, at);
+  problems.throw_if_any();
   const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
   const Surface surface = SurfaceMaker().make(spec, media.inside, media.outside, nm, nm, nm).surface;
   TableProvenance provenance;

@@ -9,6 +9,7 @@
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/wavelength_cover.hpp"
 
 namespace scintray {
 
@@ -100,15 +101,7 @@ class AssemblyMaker {
   }
 
   std::uint32_t add_medium(Medium medium, const FileLocation& where) {
-    if (!medium.index.covers(wavelengths_.low_nm, wavelengths_.high_nm))
-      problems_.add(
-          where,
-          fmt::format(
-              "medium \"{}\" has refractive indices from {:g} to {:g} nm, but light of {:g} to {:g} nm "
-              "is in use",
-              medium.name, medium.index.x().front(), medium.index.x().back(), wavelengths_.low_nm,
-              wavelengths_.high_nm),
-          "extend its index table, or choose other wavelengths");
+    check_cover(problems_, where, medium, wavelengths_.low_nm, wavelengths_.high_nm);
     assembly_.media.emplace_back(std::move(medium), wavelengths_.low_nm, wavelengths_.high_nm);
     return static_cast<std::uint32_t>(assembly_.media.size() - 1);
   }
@@ -138,15 +131,9 @@ class AssemblyMaker {
     Sensor sensor;
     try {
       sensor = library_.sensor(ref.name, ref.where);
-      if (!sensor.efficiency.covers(wavelengths_.low_nm, wavelengths_.high_nm))
-        problems_.add(
-            ref.where,
-            fmt::format(
-                "sensor \"{}\" has an efficiency from {:g} to {:g} nm, but light of {:g} to {:g} nm is "
-                "in use",
-                sensor.name, sensor.efficiency.x().front(), sensor.efficiency.x().back(), wavelengths_.low_nm,
-                wavelengths_.high_nm),
-            "extend its efficiency table, with zeros where it does not respond");
+      check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm, wavelengths_.high_nm,
+                  "sensor \"" + sensor.name + "\"", "an efficiency",
+                  "extend its efficiency table, with zeros where it does not respond");
     } catch (const InputError& error) {
       problems_.add(error);
     }

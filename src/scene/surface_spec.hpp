@@ -79,4 +79,7 @@ struct SurfaceSpec {
   std::vector<std::string> sources;    ///< published sources, its own first, then its bases'
 };
 
+/// The surface, and those it is mixed of, with rays followed on height maps themselves, not by way of tables.
+SurfaceSpec traced_on_the_spot(SurfaceSpec spec);
+
 }  // namespace scintray

@@ -44,6 +44,16 @@ float quantile(std::span<const float> sorted, double level, float low, float hig
   return std::clamp(sorted[k] + share * (sorted[k + 1] - sorted[k]), low, high);
 }
 
+/// A quantity of the nodes at an incidence angle, linear between them.
+double between_nodes(const std::vector<TableNode>& nodes, double incidence_rad, double TableNode::*what) {
+  const auto above =
+      std::lower_bound(nodes.begin() + 1, nodes.end() - 1, incidence_rad,
+                       [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
+  const TableNode &low = *(above - 1), &high = *above;
+  const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
+  return std::lerp(low.*what, high.*what, std::clamp(share, 0.0, 1.0));
+}
+
 bool increasing(std::span<const float> edges, double low, double high) {
   return edges.front() >= low - kAngleRounding && edges.back() <= high + kAngleRounding &&
          std::is_sorted(edges.begin(), edges.end());
@@ -220,13 +230,11 @@ SurfaceTable::Place SurfaceTable::place(const Index& index, double sine, double 
 double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {
   if (const auto& kernel = slices_[slice].reciprocal)
     return kernel->reflectance(side, std::pow(std::sin(incidence_rad), 2));
-  const auto& at = nodes(side, slice);
-  const auto above =
-      std::lower_bound(at.begin() + 1, at.end() - 1, incidence_rad,
-                       [](const TableNode& n, double angle) { return n.incidence_rad < angle; });
-  const TableNode &low = *(above - 1), &high = *above;
-  const double share = (incidence_rad - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
-  return low.reflectance + std::clamp(share, 0.0, 1.0) * (high.reflectance - low.reflectance);
+  return between_nodes(nodes(side, slice), incidence_rad, &TableNode::reflectance);
+}
+
+double SurfaceTable::mean_slope(Side side, double incidence_rad, std::size_t slice) const {
+  return between_nodes(nodes(side, slice), incidence_rad, &TableNode::mean_slope_rad);
 }
 
 std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_nm, Rng& rng) const {

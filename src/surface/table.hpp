@@ -148,6 +148,8 @@ class SurfaceTable {
   /// Reflectance met from `side` at an incidence angle (rad): linear between nodes; of a table made
   /// reciprocal, that of the angle's bin.
   double reflectance(Side side, double incidence_rad, std::size_t slice = 0) const;
+  /// Mean angle of the first facet met (rad), linear between nodes.
+  double mean_slope(Side side, double incidence_rad, std::size_t slice = 0) const;
 
   const std::vector<TableSlice>& slices() const { return slices_; }
   const std::vector<double>& wavelengths_nm() const { return wavelengths_nm_; }

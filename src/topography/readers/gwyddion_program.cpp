@@ -30,7 +30,8 @@ constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 31;
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "scintray-XXXXXX").string();
+    // mkdtemp replaces the six letters by ones of its own.
+    std::string name = (fs::temp_directory_path() / ("scintray-" + std::string(6, 'X'))).string();
     if (!mkdtemp(name.data())) throw SystemError("cannot make a temporary folder " + name);
     path_ = name;
   }

@@ -1,0 +1,24 @@
+#pragma once
+/// Whether what is tabulated against wavelength reaches as far as the light in use.
+
+#include <string>
+
+#include "scintray/core/error.hpp"
+#include "scintray/medium/medium.hpp"
+#include "scintray/scene/surface_spec.hpp"
+
+namespace scintray {
+
+/// Adds a problem at `where` unless the curve covers [low_nm, high_nm]: "WHOSE has WHAT from ... to ... nm,
+/// but light of ... nm is in use".
+void check_cover(Problems& problems, const FileLocation& where, const Curve& curve, double low_nm,
+                 double high_nm, const std::string& whose, const std::string& what, const std::string& hint);
+
+/// The medium's refractive index.
+void check_cover(Problems& problems, const FileLocation& where, const Medium& medium, double low_nm,
+                 double high_nm);
+
+/// Gap and reflector of a surface, and of those it is mixed of.
+void check_cover(Problems& problems, const SurfaceSpec& surface, double low_nm, double high_nm);
+
+}  // namespace scintray
