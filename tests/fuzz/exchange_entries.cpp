@@ -1,17 +1,18 @@
 #include "exchange_entries.hpp"
 
-#include <zlib.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "scintray/core/error.hpp"
 #include "scintray/io/exchange/davis.hpp"
 #include "scintray/io/exchange/lbnl.hpp"
+#include "support/deflated.hpp"
 
 namespace scintray::fuzz {
 
 namespace {
+
+using test::deflated;
 
 constexpr DavisLayout kDavis{2};
 constexpr LbnlLayout kLbnl{2, 45, 37};
@@ -31,15 +32,6 @@ bool expect_numbers_or_input_error(Read read) {
       require(problem.where.file == "fuzz" && !problem.what.empty(), "an error without place or words");
     return false;
   }
-}
-
-std::string deflated(const std::string& text) {
-  uLongf size = compressBound(text.size());
-  std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
-           text.size());
-  packed.resize(size);
-  return packed;
 }
 
 std::string directions() {

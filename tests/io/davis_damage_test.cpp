@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <numeric>
 #include <string>
@@ -10,8 +9,10 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/io/exchange/davis.hpp"
+#include "support/deflated.hpp"
 
 using namespace scintray;
+using test::deflated;
 
 namespace {
 
@@ -56,15 +57,6 @@ bool holds(const std::string& text, const std::string& part) {
   const bool found = text.find(part) != std::string::npos;
   CHECK(found);
   return found;
-}
-
-std::string deflated(const std::string& text) {
-  uLongf size = compressBound(text.size());
-  std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()),
-           text.size());
-  packed.resize(size);
-  return packed;
 }
 
 }  // namespace

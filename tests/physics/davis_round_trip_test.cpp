@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "scintray/io/exchange/davis.hpp"
 #include "scintray/topography/build_table.hpp"
@@ -19,35 +20,14 @@ constexpr IndexPair kLsoToAir{1.82, 1.0};
 constexpr std::uint64_t kPhotons = 500'000;
 
 std::string crystal(double z_mm, const std::filesystem::path& table) {
-  return fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "20 mm"]
-medium = "lso_isotropic"
-surface = "tabulated"
-[[part.face]]
-name = "exit"
-select = {{ normal = [0, 0, -1] }}
-surface = "flat"
-[[part]]
-name = "detector"
-box = ["2 mm", "2 mm", "1 mm"]
-place = {{ touch = "crystal", side = "-z" }}
-medium = "n15"
-sensor = "perfect"
-[source]
-type = "photons"
-region = {{ part = "crystal", slab_z = ["{} mm", "{} mm"] }}
-wavelength = "420 nm"
-polarisation = "unpolarised"
-photons = {}
+  return crystal_scene({"lso_isotropic", "tabulated", slab(z_mm), kPhotons, "", kUnpolarised}) +
+         fmt::format(R"(
 [surfaces.tabulated]
 model = "table"
 [surfaces.tabulated.table]
 file = "{}"
 )",
-                     z_mm - 0.75, z_mm + 0.75, kPhotons, table.string());
+                     table.string());
 }
 
 Estimate detected(double z_mm, const std::filesystem::path& table) {

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
@@ -14,41 +15,21 @@ using nlohmann::json;
 namespace {
 
 /// Crystal, grease, detector and source of a reference run; the README beside the runs describes them.
-std::string crystal_scene(const json& config, const std::string& surface, std::uint64_t seed) {
+std::string reference_scene(const json& config, const std::string& surface, std::uint64_t seed) {
   const bool volume = config["source"] == "volume" || config["z0_mm"].is_null();
-  const double z0 = config["z0_mm"].get<double>(), dz = config["dz_mm"].get<double>();
-  const std::string slab = volume ? "" : fmt::format(", slab_z = [\"{} mm\", \"{} mm\"]", z0 - dz, z0 + dz);
-  return fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["{0} mm", "{0} mm", "20 mm"]
-medium = "lso"
-surface = "{1}"
-[[part.face]]
-name = "exit"
-select = {{ normal = [0, 0, -1] }}
-surface = "flat"
-[[part]]
-name = "detector"
-box = ["{0} mm", "{0} mm", "1 mm"]
-place = {{ touch = "crystal", side = "-z", gap = "0.1 mm", fill = "n15" }}
-medium = "n15"
-sensor = "perfect"
-[source]
-type = "photons"
-region = {{ part = "crystal"{2} }}
-wavelength = "420 nm"
-photons = 200_000
+  CrystalScene scene{"lso", surface, "", 200'000, R"(, gap = "0.1 mm", fill = "n15")"};
+  if (!volume) scene.where = slab(config["z0_mm"].get<double>(), config["dz_mm"].get<double>());
+  scene.width_mm = config["width_mm"].get<double>();
+  return crystal_scene(scene) + fmt::format(R"(
 [run]
-seed = {3}
+seed = {}
 [[tally]]
 type = "exit_angle"
 name = "crystal"
 face = "crystal:exit"
 detected_only = true
 )",
-                     config["width_mm"].get<double>(), surface, slab, seed);
+                                            seed);
 }
 
 /// Walls 0.1 mm away that reflect Lambertian with 0.97, open at the exit end.
@@ -111,10 +92,10 @@ std::uint64_t seed_of(const std::string& run) {
 
 std::string scene_for(const json& config, std::uint64_t seed) {
   const std::string finish = config["finish"];
-  if (finish == "ground") return crystal_scene(config, "ground", seed) + kUnified;
-  if (finish == "polishedbackpainted") return crystal_scene(config, "backpainted", seed) + kBackPainted;
-  if (finish == "tape") return crystal_scene(config, "flat", seed) + kTape;
-  return crystal_scene(config, "flat", seed);
+  if (finish == "ground") return reference_scene(config, "ground", seed) + kUnified;
+  if (finish == "polishedbackpainted") return reference_scene(config, "backpainted", seed) + kBackPainted;
+  if (finish == "tape") return reference_scene(config, "flat", seed) + kTape;
+  return reference_scene(config, "flat", seed);
 }
 
 /// What a run of ours and Geant4's differ by, gathered for docs/validation.md.
@@ -213,7 +194,7 @@ TEST_CASE("Geant4: arrays of polished crystals with air gaps share light alike")
     const int n = run["config"]["array"];
     const double pitch = run["config"]["width_mm"].get<double>() + run["config"]["air_gap_mm"].get<double>();
     // The crystal of the source, at the centre, then its neighbours, each with its grease and detector.
-    std::string scene = crystal_scene(run["config"], "flat", seed_of(name));
+    std::string scene = reference_scene(run["config"], "flat", seed_of(name));
     const std::size_t end_of_parts = scene.find("[source]");
     std::string neighbours;
     for (int i = 0; i < n; ++i)

@@ -1,4 +1,4 @@
-#include "physics/rough_crystal.hpp"
+#include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "support/shared.hpp"
 

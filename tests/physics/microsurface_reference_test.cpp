@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "physics/rough_crystal.hpp"
+#include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
