@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
+#include "scintray/scene/name_pattern.hpp"
 #include "scintray/scene/regions.hpp"
 
 namespace scintray {
@@ -37,7 +39,7 @@ class InterfaceMaker {
 
   void report_unused_contacts() {
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
-      if (contact_used_[i]) continue;
+      if (contact_used_[i] || assembly_.contacts[i].by_builder) continue;
       const ContactSpec& contact = assembly_.contacts[i];
       problems_.add(
           contact.where,
@@ -88,7 +90,7 @@ class InterfaceMaker {
 
   void make_contact(const InterfaceTriangle& t, Interface& result) {
     const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
-    const ContactSpec* contact = find_contact(t.back, t.front);
+    const auto [contact, back_is_first] = find_contact(t.back, t.front);
     const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
     if (kind == ContactKind::dry) {
       result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
@@ -96,8 +98,9 @@ class InterfaceMaker {
       result.front_surface = surface(front.surface, medium(t.front), assembly_.ambient);
       return;
     }
-    if (contact && !contact->surface.empty()) {
-      const bool back_is_first = part(t.back).geometry.name == contact->between[0].name;
+    if (contact && contact->joint) {
+      set_surface(t, result, true, std::string());
+    } else if (contact && !contact->surface.empty()) {
       set_surface(t, result, back_is_first, contact->surface.name);
     } else if (front.surface.empty() || back.surface == front.surface) {
       set_surface(t, result, true, back.surface);
@@ -121,17 +124,44 @@ class InterfaceMaker {
       result.front_surface = surface(name, medium(t.front), medium(t.back));
   }
 
-  const ContactSpec* find_contact(std::int32_t a, std::int32_t b) {
+  /// How much a contact says of a pair; of several that match, the one that says most holds. What the file
+  /// says goes before what builders say, and then more letters of both names before fewer.
+  static std::pair<bool, std::size_t> weight(const ContactSpec& contact) {
+    return {!contact.by_builder,
+            literal_length(contact.between[0].name) + literal_length(contact.between[1].name)};
+  }
+
+  /// The contact of a pair, and whether its first name stands for `a`.
+  std::pair<const ContactSpec*, bool> find_contact(std::int32_t a, std::int32_t b) {
+    const std::string &name_a = part(a).geometry.name, &name_b = part(b).geometry.name;
+    std::optional<std::size_t> best;
+    bool a_is_first = true;
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
       const auto& [first, second] = assembly_.contacts[i].between;
-      const std::string &name_a = part(a).geometry.name, &name_b = part(b).geometry.name;
-      if ((first.name == name_a && second.name == name_b) ||
-          (first.name == name_b && second.name == name_a)) {
-        contact_used_[i] = true;
-        return &assembly_.contacts[i];
-      }
+      const bool straight = matches(first.name, name_a) && matches(second.name, name_b);
+      if (!straight && !(matches(first.name, name_b) && matches(second.name, name_a))) continue;
+      contact_used_[i] = true;
+      if (best && weight(assembly_.contacts[i]) < weight(assembly_.contacts[*best])) continue;
+      if (best && weight(assembly_.contacts[i]) == weight(assembly_.contacts[*best]))
+        report_tie(assembly_.contacts[*best], assembly_.contacts[i], name_a, name_b);
+      best = i;
+      a_is_first = straight;
     }
-    return nullptr;
+    if (!best) return {nullptr, true};
+    return {&assembly_.contacts[*best], a_is_first};
+  }
+
+  void report_tie(const ContactSpec& one, const ContactSpec& other, const std::string& a,
+                  const std::string& b) {
+    if (one.kind == other.kind && one.surface.name == other.surface.name) return;
+    const auto pattern = [](const ContactSpec& c) {
+      return "\"" + c.between[0].name + "\" - \"" + c.between[1].name + "\"";
+    };
+    if (!ties_.insert(pattern(one) + pattern(other)).second) return;
+    problems_.add(other.where,
+                  "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" + a +
+                      "\" - \"" + b + "\", and differ",
+                  "name this pair in a [[contact]] of its own, or spell out more of one of them");
   }
 
   /// A surface for two media, made once per triple.
@@ -160,6 +190,7 @@ class InterfaceMaker {
   Scene& scene_;
   Problems& problems_;
   std::vector<bool> contact_used_;
+  std::set<std::string> ties_;  ///< pairs of contacts already reported
   std::map<InterfaceKey, std::uint32_t> known_;
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
 };

@@ -8,6 +8,7 @@
 #include "scintray/core/curve.hpp"
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/library.hpp"
+#include "scintray/scene/name_pattern.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
 
@@ -188,8 +189,9 @@ class AssemblyMaker {
     for (const AssemblyPart& part : assembly_.parts) names.push_back(part.geometry.name);
     for (const ContactSpec& contact : spec_.contacts) {
       if (!contact.surface.empty()) find_surface(contact.surface);
+      if (contact.by_builder) continue;
       for (const NameRef& part : contact.between) {
-        if (std::find(names.begin(), names.end(), part.name) != names.end()) continue;
+        if (!matching(part.name, names).empty()) continue;
         const std::string near = nearest_word(part.name, names);
         problems_.add(part.where, "no part is called \"" + part.name + "\"",
                       near.empty() ? "name two [[part]]s of this scene" : "did you mean \"" + near + "\"?");

@@ -31,10 +31,13 @@ struct PlacedMesh {
   std::vector<std::string> notes;  ///< what importing left out or turned round
 };
 
+/// The rotations of a placement as one.
+Eigen::Matrix3d rotation_of(const PlacementSpec& placement);
+
 /// Places every part of the scene, with the parts that fill gaps after the part they belong to.
 /// Adds to `problems`: unreadable or unsound meshes, faces that two rules match, rules that match
 /// nothing, faces without a surface, touching a part that does not stand earlier. A part with
-/// problems may be missing from the result.
+/// problems may be missing from the result. Of a builder's parts only the first with problems tells them.
 std::vector<PlacedMesh> place_parts(const SceneSpec& spec, Problems& problems);
 
 }  // namespace scintray

@@ -1,88 +1,16 @@
 #include "scintray/scene/read_parts.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "scintray/scene/name_pattern.hpp"
+#include "scintray/scene/read_shapes.hpp"
 
 namespace scintray {
 
 namespace {
 
-using Kind = TomlNode::Kind;
-
 const std::vector<std::string> kSides{"-x", "+x", "-y", "+y", "-z", "+z"};
-
-bool is_array(const TomlTable& table, const std::string& key) {
-  const TomlNode* node = table.node()->find(key);
-  return node && node->kind == Kind::array;
-}
-
-/// box = [size, size, size], centred in x and y, from z = 0; or box = { low, high }.
-BoxSpec read_box(const TomlTable& table) {
-  const TomlNode* node = table.node()->find("box");
-  if (node->kind == Kind::table) return read_low_high(table, "box").value_or(BoxSpec{});
-  BoxSpec box;
-  box.where = node->where;
-  const Vec3 size = table.optional_quantity3("box", Dimension::length).value_or(Vec3::Zero());
-  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
-               "give three lengths above 0");
-  box.low = Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
-  box.high = Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
-  return box;
-}
-
-CylinderSpec read_cylinder(const TomlTable& part) {
-  const TomlTable table = part.table("cylinder");
-  CylinderSpec cylinder;
-  cylinder.where = table.where();
-  cylinder.radius_mm = table.quantity("radius", Dimension::length);
-  cylinder.height_mm = table.quantity("height", Dimension::length);
-  const std::int64_t segments = table.integer("segments", cylinder.segments);
-  for (const char* key : {"radius", "height"})
-    table.expect(key, (std::string(key) == "radius" ? cylinder.radius_mm : cylinder.height_mm) > 0.0,
-                 std::string("the ") + key + " of a cylinder is not positive", "give a length above 0");
-  table.expect("segments", segments >= 3 && segments <= 1000000,
-               "a cylinder of " + std::to_string(segments) + " segments",
-               "give 3 or more (64 is the default), up to 1000000");
-  cylinder.segments = static_cast<int>(segments);
-  return cylinder;
-}
-
-/// Mesh formats that state their unit (glTF 2.0 specification, section 3.4: metres).
-bool states_its_unit(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".gltf" || extension == ".glb";
-}
-
-MeshFileSpec read_mesh(const TomlTable& table) {
-  MeshFileSpec mesh;
-  mesh.where = table.where("mesh");
-  mesh.path = table.existing_file("mesh");
-  const std::optional<std::string> unit = table.optional_string("unit");
-  if (unit) {
-    try {
-      mesh.unit_mm = unit_factor(*unit, Dimension::length);
-    } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
-    }
-  } else if (!table.has("unit")) {
-    table.expect("mesh", states_its_unit(mesh.path),
-                 "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
-                 "add the unit it was exported in, as unit = \"mm\"");
-  }
-  mesh.scale = table.number("scale", 1.0);
-  table.expect("scale", mesh.scale > 0.0, "a scale that is not positive", "give a factor above 0");
-  return mesh;
-}
-
-ShapeSpec read_shape(const TomlTable& part) {
-  const std::optional<std::string> kind = part.one_of({"mesh", "box", "cylinder"}, true);
-  for (const char* key : {"unit", "scale"}) part.has(key);
-  if (kind == "mesh") return read_mesh(part);
-  if (kind == "cylinder") return read_cylinder(part);
-  if (kind == "box") return read_box(part);
-  return BoxSpec{};
-}
 
 RotationSpec read_rotation(const TomlTable& table) {
   RotationSpec rotation;
@@ -116,16 +44,14 @@ TouchSpec read_touch(const TomlTable& table, const std::vector<std::string>& ear
   return touch;
 }
 
-PlacementSpec read_placement(const TomlTable& part, const std::vector<std::string>& earlier) {
-  PlacementSpec placement;
-  placement.translate = part.optional_quantity3("translate", Dimension::length).value_or(Vec3::Zero());
-  if (is_array(part, "rotate")) {
-    for (const TomlTable& table : part.tables("rotate")) placement.rotate.push_back(read_rotation(table));
-  } else if (const auto table = part.optional_table("rotate")) {
-    placement.rotate.push_back(read_rotation(*table));
-  }
-  if (const auto table = part.optional_table("place")) placement.touch = read_touch(*table, earlier);
-  return placement;
+/// All names, or as many as can be read at a glance.
+std::string name_list(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostListed = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    list += (list.empty() ? "" : ", ") + names[i];
+  if (names.size() > kMostListed) list += ", ... (" + std::to_string(names.size()) + " in all)";
+  return list;
 }
 
 FaceSelectorSpec read_selector(const TomlTable& face) {
@@ -159,11 +85,13 @@ std::string selector_name(const FaceSelectorSpec& select) {
   return "";
 }
 
+}  // namespace
+
 void expect_plain_name(const TomlTable& table, const std::string& key, const std::string& name) {
-  table.expect(
-      key, name.find_first_of(".:\"\n") == std::string::npos,
-      "the name \"" + name + "\" contains a dot, a colon, a quote or a line break",
-      "these characters have a meaning in \"part:face\" and in swept keys: use letters, digits, _ and -");
+  table.expect(key, name.find_first_of(".:*\"\n") == std::string::npos,
+               "the name \"" + name + "\" contains a dot, a colon, a star, a quote or a line break",
+               "these characters have a meaning in \"part:face\", in patterns and in swept keys: use "
+               "letters, digits, _ and -");
 }
 
 std::vector<FaceRuleSpec> read_faces(const TomlTable& part) {
@@ -198,90 +126,55 @@ std::vector<FaceRuleSpec> read_faces(const TomlTable& part) {
   return rules;
 }
 
-PartSpec read_part(const TomlTable& table, const std::vector<std::string>& earlier) {
-  PartSpec part;
-  part.where = table.where();
-  part.name = read_name(table, "name", true);
-  expect_plain_name(table, "name", part.name.name);
+std::optional<BoxSide> side_of(const std::string& word) {
+  const auto found = std::find(kSides.begin(), kSides.end(), word);
+  if (found == kSides.end()) return std::nullopt;
+  const int index = static_cast<int>(found - kSides.begin());
+  return BoxSide{index / 2, index % 2 == 0 ? -1 : 1};
+}
+
+void read_body(const TomlTable& table, PartSpec& part) {
   part.shape = read_shape(table);
-  part.placement = read_placement(table, earlier);
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
   part.faces = read_faces(table);
-  return part;
 }
 
-}  // namespace
+std::vector<RotationSpec> read_rotations(const TomlTable& part) {
+  std::vector<RotationSpec> rotations;
+  if (is_array(part, "rotate")) {
+    for (const TomlTable& table : part.tables("rotate")) rotations.push_back(read_rotation(table));
+  } else if (const auto table = part.optional_table("rotate")) {
+    rotations.push_back(read_rotation(*table));
+  }
+  return rotations;
+}
+
+PlacementSpec read_placement(const TomlTable& table, const std::vector<std::string>& earlier) {
+  PlacementSpec placement;
+  placement.translate = table.optional_quantity3("translate", Dimension::length).value_or(Vec3::Zero());
+  placement.rotate = read_rotations(table);
+  if (const auto touch = table.optional_table("place")) placement.touch = read_touch(*touch, earlier);
+  return placement;
+}
 
 NameRef read_name(const TomlTable& table, const std::string& key, bool required) {
   NameRef name{required ? table.string(key) : table.string(key, ""), table.where(key)};
   return name;
 }
 
-std::optional<BoxSpec> read_low_high(const TomlTable& table, const std::string& key) {
-  if (is_array(table, key)) {
-    table.report(key, "\"" + key + "\" is an array, but a table is expected",
-                 "write " + key + " = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [...] }");
-    table.take(key);
-    return std::nullopt;
-  }
-  const std::optional<TomlTable> corners = table.optional_table(key);
-  if (!corners) return std::nullopt;
-  BoxSpec box;
-  box.where = corners->where();
-  for (const char* corner : {"low", "high"}) {
-    const std::vector<double> mm = corners->quantities(corner, Dimension::length, 3);
-    if (mm.empty()) continue;
-    (corner == std::string("low") ? box.low : box.high) = Vec3(mm[0], mm[1], mm[2]);
-  }
-  if (corners->good("low"))
-    corners->expect("high", (box.high - box.low).minCoeff() > 0.0,
-                    "a coordinate of \"high\" is not above that of \"low\"",
-                    "give the corner with the larger x, y and z");
-  return box;
-}
-
-std::vector<PartSpec> read_parts(const TomlTable& scene) {
-  std::vector<PartSpec> parts;
-  std::vector<std::string> names;
-  const auto claim = [&](const TomlTable& table, const std::string& name, const std::string& hint) {
-    if (name.empty()) return;
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      table.report("name", "the name \"" + name + "\" is already taken by another part", hint);
-    names.push_back(name);
-  };
-  for (const TomlTable& table : scene.tables("part")) {
-    PartSpec part = read_part(table, names);
-    claim(table, part.name.name, "give each [[part]] a name of its own");
-    if (part.placement.touch && !part.placement.touch->fill.empty())
-      claim(table, part.name.name + kFillSuffix,
-            "the fill of a gap is a part of this name: rename one of the two");
-    parts.push_back(std::move(part));
-  }
-  if (!scene.has("part"))
-    scene.report("part", "the scene has no parts", "add a [[part]] with a name, a shape and a medium");
-  return parts;
-}
-
-std::vector<std::string> part_names(const std::vector<PartSpec>& parts) {
-  std::vector<std::string> names;
-  for (const PartSpec& part : parts) {
-    names.push_back(part.name.name);
-    if (part.placement.touch && !part.placement.touch->fill.empty())
-      names.push_back(part.name.name + kFillSuffix);
-  }
-  return names;
-}
-
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts) {
+  if (is_pattern(name.name)) {
+    table.expect(key, !matching(name.name, parts).empty(), "no part matches \"" + name.name + "\"",
+                 "\"*\" stands for any characters; the parts are " + name_list(parts));
+    return;
+  }
   const std::string near = nearest_word(name.name, parts);
-  std::string list;
-  for (const std::string& part : parts) list += (list.empty() ? "" : ", ") + part;
   table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
                "there is no part \"" + name.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + list);
+               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + name_list(parts));
 }
 
 }  // namespace scintray

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "scintray/scene/name_pattern.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -41,7 +42,8 @@ std::string join(const std::vector<std::string>& words) {
 }
 
 /// "part:face" as two names with their places.
-void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts, ExitAngleTallySpec& tally) {
+void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts,
+                    const std::vector<std::string>& known, ExitAngleTallySpec& tally) {
   const std::string face = table.string("face");
   const auto colon = face.find(':');
   table.expect("face", colon != std::string::npos && colon > 0 && colon + 1 < face.size(),
@@ -49,7 +51,6 @@ void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts, 
   if (!table.good("face")) return;
   tally.part = {face.substr(0, colon), table.where("face")};
   tally.face = {face.substr(colon + 1), table.where("face")};
-  const std::vector<std::string> known = part_names(parts);
   expect_part(table, "face", tally.part, known);
   if (!table.good("face")) return;
   std::vector<std::string> faces;
@@ -87,14 +88,18 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.ambient = read_name(root, "ambient", true);
   scene.contacts_default_given = root.has("contacts_default");
   scene.contacts_default = contact_kind(root.choice("contacts_default", {"bonded", "dry"}, "bonded"));
-  scene.parts = read_parts(root);
-  const std::vector<std::string> names = part_names(scene.parts);
+  Bodies bodies = read_bodies(root);
+  const std::vector<std::string> names = part_names(bodies);
+  scene.parts = std::move(bodies.parts);
+  scene.groups = std::move(bodies.groups);
   scene.contacts = read_contacts(root, names);
+  std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   scene.source = read_source(root, names);
   scene.run = read_run(root);
-  scene.exit_angles = read_tallies(root, scene.parts);
+  scene.exit_angles = read_tallies(root, scene.parts, names);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
+  scene.surfaces.merge(bodies.surfaces);
   scene.sensors = read_definitions(root, "sensors");
   scene.reflectors = read_definitions(root, "reflectors");
   read_sweeps(root);
@@ -121,7 +126,8 @@ std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector
                  "remove surface, or write kind = \"bonded\"");
     if (table.good("between")) {
       const auto& [a, b] = std::minmax(names[0], names[1]);
-      table.expect("between", a != b, "a contact of the part \"" + a + "\" with itself", "name two parts");
+      table.expect("between", a != b || is_pattern(a), "a contact of the part \"" + a + "\" with itself",
+                   "name two parts");
       table.expect("between", pairs.insert({a, b}).second,
                    "the contact between \"" + a + "\" and \"" + b + "\" is described twice",
                    "keep one [[contact]]");
@@ -131,7 +137,8 @@ std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector
   return contacts;
 }
 
-std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts) {
+std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts,
+                                             const std::vector<std::string>& names_of_parts) {
   std::vector<ExitAngleTallySpec> tallies;
   std::set<std::string> names;
   for (const TomlTable& table : scene.tables("tally")) {
@@ -142,7 +149,7 @@ std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::
       table.skip();
       continue;
     }
-    read_face_path(table, parts, tally);
+    read_face_path(table, parts, names_of_parts, tally);
     tally.name = table.string("name", tally.part.name + ":" + tally.face.name);
     if (table.good("face") && !names.insert(tally.name).second)
       table.report("name", "there are two tallies named \"" + tally.name + "\"",

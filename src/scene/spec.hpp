@@ -14,6 +14,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
@@ -34,31 +35,6 @@ inline constexpr const char* kOtherFaces = "other";
 /// What the name of a part and this make is the name of the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
 
-/// An axis-aligned box, mm.
-struct BoxSpec {
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
-  FileLocation where;
-};
-
-/// A mesh file, CAD or triangles.
-struct MeshFileSpec {
-  std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
-  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
-  double scale = 1.0;
-  FileLocation where;
-};
-
-/// A closed prism about the z axis, from z = 0 up.
-struct CylinderSpec {
-  double radius_mm = 0.0;  ///< of the circle through the vertices
-  double height_mm = 0.0;
-  int segments = 64;  ///< flat sides
-  FileLocation where;
-};
-
-using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec>;
-
 /// A turn about an axis through the origin of the part's own frame.
 struct RotationSpec {
   Vec3 axis = Vec3::UnitZ();  ///< unit vector
@@ -74,7 +50,7 @@ struct BoxSide {
 
 /// Puts a part against a side of another's bounding box, centred on it laterally.
 struct TouchSpec {
-  NameRef part;  ///< touched; a part that stands earlier in the file
+  NameRef part;  ///< touched; a part or builder that stands earlier in the file
   BoxSide side;  ///< of the touched part's bounding box
   double gap_mm = 0.0;
   NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
@@ -123,6 +99,15 @@ struct PartSpec {
   FileLocation where;
 };
 
+/// What a builder ([[array]], [[light_guide]]) made: parts that are placed as one body. The placement of
+/// each of them, and what its face rules select, count in the builder's own frame.
+struct GroupSpec {
+  NameRef name;
+  std::size_t first = 0;  ///< index of its first part in SceneSpec::parts; the others follow
+  std::size_t count = 0;
+  PlacementSpec placement;
+};
+
 /// How the touching faces of two parts meet.
 enum class ContactKind {
   bonded,  ///< optical contact: one interface between both media
@@ -130,9 +115,11 @@ enum class ContactKind {
 };
 
 struct ContactSpec {
-  std::array<NameRef, 2> between;
+  std::array<NameRef, 2> between;  ///< names, or patterns with "*" (name_pattern.hpp)
   ContactKind kind = ContactKind::bonded;
-  NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
+  NameRef surface;          ///< of the shared interface; empty: the surfaces of the two faces decide
+  bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
+  bool by_builder = false;  ///< made with a builder's parts: yields to what the file says, may find no pair
   FileLocation where;
 };
 
@@ -200,6 +187,7 @@ struct SceneSpec {
   ContactKind contacts_default = ContactKind::bonded;
   bool contacts_default_given = false;
   std::vector<PartSpec> parts;
+  std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;
   SourceSpec source;
   RunSpec run;
