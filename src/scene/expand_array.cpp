@@ -36,13 +36,19 @@ const char* side_name(const BoxSide& side) {
 }
 
 PartSpec box_part(const std::string& name, const Eigen::AlignedBox3d& box, const NameRef& medium,
-                  const NameRef& surface, const FileLocation& where) {
+                  const FileLocation& where) {
   PartSpec part;
   part.name = {name, where};
   part.where = where;
   part.shape = BoxSpec{box.min(), box.max(), 0.0, where};
   part.medium = medium;
-  part.surface = surface;
+  return part;
+}
+
+/// Glue or filler.
+PartSpec liquid_part(const std::string& name, const Eigen::AlignedBox3d& box, const NameRef& medium) {
+  PartSpec part = box_part(name, box, medium, medium.where);
+  part.liquid = true;
   return part;
 }
 
@@ -72,8 +78,7 @@ class ArrayExpander {
       for (int i = 0; i < layer.count[0]; ++i) bounds.extend(add_element(layer, static_cast<int>(k), i, j));
     if (layer.septa) add_septa(layer, *layer.septa, k);
     if (!layer.filler.empty())
-      body_.parts.push_back(
-          box_part(name_ + "_filler" + index_alone(k), bounds, layer.filler, {}, layer.filler.where));
+      body_.parts.push_back(liquid_part(name_ + "_filler" + index_alone(k), bounds, layer.filler));
     bounds_.push_back(bounds);
     height_ = bounds.max().z();
   }
@@ -142,8 +147,8 @@ class ArrayExpander {
     }
     plate.min().z() = height_;
     plate.max().z() = height_ + layer.glue->thickness_mm;
-    body_.parts.push_back(box_part(name_ + "_glue[" + std::to_string(below) + "]", plate, layer.glue->medium,
-                                   {}, layer.glue->medium.where));
+    body_.parts.push_back(
+        liquid_part(name_ + "_glue[" + std::to_string(below) + "]", plate, layer.glue->medium));
     height_ = plate.max().z();
   }
 
@@ -168,8 +173,9 @@ class ArrayExpander {
         (sign < 0 ? high : low)[axis] = sign < 0 ? inner.min()[axis] : inner.max()[axis];
         (sign < 0 ? low : high)[axis] = (sign < 0 ? high : low)[axis] + sign * wrap.thickness_mm;
         outer.extend(sheet);
-        body_.parts.push_back(box_part(name_ + "_wrap[" + side_name({axis, sign}) + "]", sheet,
-                                       wrap.sheet.medium, wrap.sheet.surface, wrap.where));
+        body_.parts.push_back(
+            box_part(name_ + "_wrap[" + side_name({axis, sign}) + "]", sheet, wrap.sheet.medium, wrap.where));
+        body_.parts.back().surface = wrap.sheet.surface;
       }
       inner = outer;
     }

@@ -111,7 +111,7 @@ class FaceTagger {
   }
 
   void add_rest() {
-    const bool smooth_by_nature = !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
+    const bool smooth_by_nature = part_.liquid || !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
     if (part_.surface.empty() && !smooth_by_nature) {
       const auto first = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin();
       problems_.add(part_.where,

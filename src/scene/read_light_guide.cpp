@@ -28,7 +28,7 @@ void read_slits(const TomlTable& table, LightGuideSpec& guide, InlineTables& sur
   table.expect("width", guide.slit_width_mm > 0.0 && guide.slit_width_mm < narrowest,
                "slits that are not wider than 0, or as wide as a segment",
                "the narrowest segment is " + std::to_string(narrowest) + " mm with its share of the slits");
-  guide.slits_from_top = table.choice("from", {"top", "bottom"}) == "top";
+  guide.slits_from_top = table.choice("from", {"top", "bottom"}, "top") == "top";
   guide.slit_surface = read_name(table, "surface", false);
   if (const auto sheet = table.optional_table("sheet")) guide.slit_sheet = read_sheet(*sheet, surfaces);
 }

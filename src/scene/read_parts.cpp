@@ -28,9 +28,7 @@ TouchSpec read_touch(const TomlTable& table, const std::vector<std::string>& ear
   table.expect("touch", std::find(earlier.begin(), earlier.end(), touch.part.name) != earlier.end(),
                "the part \"" + touch.part.name + "\" to be touched does not stand before this one",
                "name a part that stands earlier in the file");
-  const std::string side = table.choice("side", kSides);
-  const auto index = static_cast<int>(std::find(kSides.begin(), kSides.end(), side) - kSides.begin());
-  touch.side = {index / 2, index % 2 == 0 ? -1 : 1};
+  touch.side = side_of(table.choice("side", kSides)).value_or(BoxSide{});
   touch.gap_mm = table.quantity("gap", Dimension::length, 0.0);
   table.expect("gap", touch.gap_mm >= 0.0, "a gap below 0 would make the parts overlap",
                "give a length of 0 or more");
@@ -166,15 +164,17 @@ NameRef read_name(const TomlTable& table, const std::string& key, bool required)
 
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts) {
-  if (is_pattern(name.name)) {
-    table.expect(key, !matching(name.name, parts).empty(), "no part matches \"" + name.name + "\"",
-                 "\"*\" stands for any characters; the parts are " + name_list(parts));
-    return;
-  }
   const std::string near = nearest_word(name.name, parts);
   table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
                "there is no part \"" + name.name + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + name_list(parts));
+}
+
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& name,
+                  const std::vector<std::string>& parts) {
+  if (!is_pattern(name.name)) return expect_part(table, key, name, parts);
+  table.expect(key, !matching(name.name, parts).empty(), "no part matches \"" + name.name + "\"",
+               "\"*\" stands for any characters; the parts are " + name_list(parts));
 }
 
 }  // namespace scintray

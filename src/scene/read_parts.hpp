@@ -49,6 +49,10 @@ std::vector<std::string> part_names(const Bodies& bodies);
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts);
 
+/// The same for a name that may be a pattern, which has to match one part at least.
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& name,
+                  const std::vector<std::string>& parts);
+
 /// [[contact]].
 std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts);
 

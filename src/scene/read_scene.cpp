@@ -79,6 +79,28 @@ class DistinctProblems {
   Problems kept_;
 };
 
+/// A swept value with "*" stands for every part that it matches: a sweep can go over an array's elements.
+void expand_patterns(std::vector<SweepSpec>& sweeps, const TomlNodePtr& document) {
+  std::vector<std::string> parts;
+  for (SweepSpec& sweep : sweeps) {
+    std::vector<TomlNode> values;
+    for (const TomlNode& value : sweep.values) {
+      std::vector<std::string> found;
+      if (value.kind == Kind::string && is_pattern(value.text)) {
+        Problems told_when_the_scene_is_read;
+        if (parts.empty()) parts = part_names(read_bodies(TomlTable(document, told_when_the_scene_is_read)));
+        found = matching(value.text, parts);
+      }
+      if (found.empty()) values.push_back(value);
+      for (const std::string& name : found) {
+        values.push_back(value);
+        values.back().text = name;
+      }
+    }
+    sweep.values = std::move(values);
+  }
+}
+
 SceneSpec read_from(const TomlTable& root, const std::string& text) {
   SceneSpec scene;
   scene.file = root.where().file;
@@ -117,7 +139,7 @@ std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector
     const std::vector<std::string> names = table.strings("between", 2);
     for (std::size_t i = 0; i < names.size(); ++i) {
       contact.between[i] = {names[i], table.where("between")};
-      expect_part(table, "between", contact.between[i], parts);
+      expect_parts(table, "between", contact.between[i], parts);
     }
     contact.kind = contact_kind(table.choice("kind", {"bonded", "dry"}));
     contact.surface = read_name(table, "surface", false);
@@ -189,6 +211,7 @@ SceneFile SceneFile::from_text(const std::string& text, const std::string& file)
   DistinctProblems found;
   Problems sweep_problems;
   scene.sweeps_ = read_sweeps(TomlTable(scene.document_, sweep_problems));
+  expand_patterns(scene.sweeps_, scene.document_);
   const auto try_point = [&](std::size_t point) {
     Problems problems;
     scene.read_point(point, problems);

@@ -96,6 +96,7 @@ struct PartSpec {
   NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
   NameRef sensor;   ///< the whole part is a sensor
   std::vector<FaceRuleSpec> faces;
+  bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   FileLocation where;
 };
 
