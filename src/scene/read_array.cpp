@@ -170,13 +170,14 @@ class LayerReader {
     LayerSpec layer;
     layer.where = own_.where();
     read_element(pick({"element"}), layer);
-    if (own_.node() != array_.node()) read_changes(layer);
+    const bool one_of_several = own_.node() != array_.node();
+    if (one_of_several) read_changes(layer);
     layer.count = read_count(pick({"count"}), "count");
     const TomlTable& distance = pick({"pitch", "gap"});
     read_pitch(distance, layer);
     layer.row_shift_mm = read_row_shift(pick({"row_shift"}), layer);
     if (layer.row_shift_mm == 0.0) check_pitch(distance, layer);
-    read_offset(own_, layer);
+    if (one_of_several) read_offset(own_, layer);
     read_septa(pick({"septa"}), layer, surfaces_);
     layer.filler = read_name(pick({"filler"}), "filler", false);
     layer.glue = read_glue(pick({"glue"}));
