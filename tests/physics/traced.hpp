@@ -9,13 +9,10 @@
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
 #include "scintray/trace/run.hpp"
+#include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 namespace scintray::test {
-
-/// Limit of agreement in combined standard errors. Two-sided, a true law fails it once in 15,800
-/// comparisons; the seeds are fixed, so a test either always passes or always fails.
-inline constexpr double kSigmas = 4.0;
 
 /// Media, surfaces and sensors that the scenes of the tests share: indices without dispersion.
 inline const std::string kLibrary = R"(
