@@ -77,7 +77,7 @@ inline Traced trace(const std::string& text, int threads = 0) {
   SceneBuilder builder(hooks);
   Traced traced{builder.build(spec), {}};
   const PhotonSource source(spec.source, traced.built.scene);
-  const TallyPlan plan(traced.built.scene, spec.exit_angles, false);
+  const TallyPlan plan(traced.built.scene, spec);
   RunSettings settings;
   settings.seed = spec.run.seed;
   settings.max_interactions = spec.run.max_interactions;
