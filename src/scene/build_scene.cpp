@@ -6,9 +6,9 @@
 #include <map>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/library.hpp"
-#include "scintray/scene/name_pattern.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
 

@@ -36,15 +36,16 @@ bool has_fill(const PlacementSpec& placement) { return placement.touch && !place
 class BodyReader {
  public:
   void read(const BodyTable& body) {
-    if (body.kind == BodyKind::part) {
-      read_part(body.table);
-    } else if (body.kind == BodyKind::array) {
+    if (body.kind == BodyKind::part) return read_part(body.table);
+    const std::size_t problems = body.table.problem_count();
+    if (body.kind == BodyKind::array) {
       const ArraySpec array = read_array(body.table, touchable_, bodies_.surfaces);
       add_group(body.table, array.name, array.placement, expand(array));
     } else {
       const LightGuideSpec guide = read_light_guide(body.table, touchable_, bodies_.surfaces);
       add_group(body.table, guide.name, guide.placement, expand(guide));
     }
+    bodies_.names_known &= body.table.problem_count() == problems;
   }
 
   Bodies take() { return std::move(bodies_); }
@@ -107,13 +108,14 @@ Bodies read_bodies(const TomlTable& scene) {
   return reader.take();
 }
 
-std::vector<std::string> part_names(const Bodies& bodies) {
+std::vector<std::string> part_names(const std::vector<PartSpec>& parts,
+                                    const std::vector<GroupSpec>& groups) {
   std::vector<std::string> names;
-  for (const PartSpec& part : bodies.parts) {
+  for (const PartSpec& part : parts) {
     names.push_back(part.name.name);
     if (has_fill(part.placement)) names.push_back(part.name.name + kFillSuffix);
   }
-  for (const GroupSpec& group : bodies.groups)
+  for (const GroupSpec& group : groups)
     if (has_fill(group.placement)) names.push_back(group.name.name + kFillSuffix);
   return names;
 }

@@ -11,10 +11,11 @@ std::array<double, 2> read_end(const TomlTable& table, const std::string& key) {
   const std::array<double, 2> size = read_length_pair(table, key).value_or(std::array{1.0, 1.0});
   table.expect(key, size[0] > 0.0 && size[1] > 0.0, "a side of \"" + key + "\" is not positive",
                "give lengths above 0, along x and y");
-  return size;
+  return table.good(key) ? size : std::array{1.0, 1.0};
 }
 
-void read_slits(const TomlTable& table, LightGuideSpec& guide, InlineTables& surfaces) {
+void read_slits(const TomlTable& owner, LightGuideSpec& guide, InlineTables& surfaces) {
+  const TomlTable table = owner.table("slits");
   guide.segments = read_count(table, "segments");
   guide.slit_depth_mm = table.quantity("depth", Dimension::length);
   table.expect("depth", guide.slit_depth_mm > 0.0 && guide.slit_depth_mm <= guide.height_mm,
@@ -25,7 +26,8 @@ void read_slits(const TomlTable& table, LightGuideSpec& guide, InlineTables& sur
   for (std::size_t axis = 0; axis < 2; ++axis)
     narrowest =
         std::min(narrowest, std::min(guide.bottom_mm[axis], guide.top_mm[axis]) / guide.segments[axis]);
-  table.expect("width", guide.slit_width_mm > 0.0 && guide.slit_width_mm < narrowest,
+  const bool ends_known = owner.good("bottom") && owner.good("top");
+  table.expect("width", guide.slit_width_mm > 0.0 && (!ends_known || guide.slit_width_mm < narrowest),
                "slits that are not wider than 0, or as wide as a segment",
                "the narrowest segment is " + std::to_string(narrowest) + " mm with its share of the slits");
   guide.slits_from_top = table.choice("from", {"top", "bottom"}, "top") == "top";
@@ -54,7 +56,7 @@ LightGuideSpec read_light_guide(const TomlTable& table, const std::vector<std::s
     table.report("slits", "[light_guide] has no \"slits\", which is needed",
                  "add [light_guide.slits]; a guide without slits is a [[part]] with a \"tapered\" shape");
   else
-    read_slits(table.table("slits"), guide, surfaces);
+    read_slits(table, guide, surfaces);
   return guide;
 }
 

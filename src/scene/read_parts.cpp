@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scintray/scene/name_pattern.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/read_shapes.hpp"
 
 namespace scintray {
@@ -164,16 +164,17 @@ NameRef read_name(const TomlTable& table, const std::string& key, bool required)
 
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts) {
+  if (parts.empty()) return;
   const std::string near = nearest_word(name.name, parts);
   table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
                "there is no part \"" + name.name + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + name_list(parts));
 }
 
-void expect_parts(const TomlTable& table, const std::string& key, const NameRef& name,
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
                   const std::vector<std::string>& parts) {
-  if (!is_pattern(name.name)) return expect_part(table, key, name, parts);
-  table.expect(key, !matching(name.name, parts).empty(), "no part matches \"" + name.name + "\"",
+  if (!is_pattern(pattern.name) || parts.empty()) return expect_part(table, key, pattern, parts);
+  table.expect(key, !matching(pattern.name, parts).empty(), "no part matches \"" + pattern.name + "\"",
                "\"*\" stands for any characters; the parts are " + name_list(parts));
 }
 

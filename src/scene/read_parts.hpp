@@ -37,20 +37,21 @@ struct Bodies {
   std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;  ///< that builders make with their parts
   InlineTables surfaces;              ///< that builders make for their sheets
+  bool names_known = true;            ///< false when mistakes left a builder's parts unknown
 };
 
 /// Reads all bodies and checks their names against each other.
 Bodies read_bodies(const TomlTable& scene);
 
 /// Names of all parts, the fills that placements make included, in file order.
-std::vector<std::string> part_names(const Bodies& bodies);
+std::vector<std::string> part_names(const std::vector<PartSpec>& parts, const std::vector<GroupSpec>& groups);
 
-/// Reports at `key` unless the name is one of a part.
+/// Reports at `key` unless the name is one of a part. Says nothing when no name is known.
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts);
 
-/// The same for a name that may be a pattern, which has to match one part at least.
-void expect_parts(const TomlTable& table, const std::string& key, const NameRef& name,
+/// The same for a name that may have wildcards and then must be that of one part at least.
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
                   const std::vector<std::string>& parts);
 
 /// [[contact]].
@@ -62,8 +63,7 @@ SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& p
 /// [run].
 RunSpec read_run(const TomlTable& scene);
 
-/// [[tally]].
-std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts,
-                                             const std::vector<std::string>& names);
+/// [[tally]]: fills scene.exit_angles and scene.tallies, names checked against scene.parts.
+void read_tallies(const TomlTable& table, SceneSpec& scene);
 
 }  // namespace scintray

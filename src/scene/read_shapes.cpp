@@ -60,7 +60,8 @@ PrismSpec read_prism(const TomlTable& part) {
   if (width) {
     const double length = positive_length(table, *width, "prism");
     prism.circumradius_mm = *width == "radius" ? length : 0.5 * length / std::cos(kPi / prism.sides);
-    table.expect(*width, *width == "radius" || prism.sides % 2 == 0,
+    const bool has_flats = prism.sides % 2 == 0 || (table.has("sides") && !table.good("sides"));
+    table.expect(*width, *width == "radius" || has_flats,
                  "a prism of " + std::to_string(prism.sides) + " sides has no flats opposite each other",
                  "give its radius, through the corners");
   }

@@ -105,10 +105,10 @@ TEST_CASE("septa that do not fit") {
   check_mistake("thickness = \"0.065 mm\"", "thickness = @@\"0 mm\"", "not positive", "above 0");
   check_mistake("height = [\"2 mm\", \"10 mm\"]", "height = @@[\"2 mm\", \"11 mm\"]",
                 "septa from 2 mm to 11 mm between elements 10 mm high", "bottom of the elements");
-  check_mistake("reflector = \"ESR\"\n", "reflector = \"ESR\"\n@@surface = \"polished\"\n", "both given",
+  check_mistake("reflector = \"ESR\"\n", "@@reflector = \"ESR\"\nsurface = \"polished\"\n", "both given",
                 "keep one");
   check_mistake("reflector = \"ESR\"\n", "reflector = \"ESR\"\nmedium = \"glass\"\ncontact = @@\"glued\"\n",
-                "one of", "bonded");
+                "one of \"dry\", \"bonded\"", "words");
 }
 
 TEST_CASE("overrides of elements that are not there") {
@@ -138,7 +138,7 @@ TEST_CASE("shapes") {
 }
 
 TEST_CASE("names that builders give, and patterns") {
-  check_mistake("name = \"bar\"", "name = @@\"guide[0,0]\"", "already taken", "rename");
+  check_mistake("name = \"bar\"", "name = @@\"guide[0,0]\"", "already taken", "a name of its own");
   check_mistake("name = \"bar\"", "name = @@\"bar*\"", "a star", "patterns");
   check_mistake("[\"block[0,*]\", \"guide*\"]", "@@[\"blocks[0,*]\", \"guide*\"]", "no part matches",
                 "any characters");

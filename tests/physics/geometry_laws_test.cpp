@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/mesh/shapes.hpp"
-#include "scintray/scene/name_pattern.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/surface/fresnel.hpp"
 #include "scintray/trace/step.hpp"
@@ -377,7 +377,8 @@ photons = 1
     if (medium.is_opaque()) continue;
     double volume = part.volume_mm3;
     for (const PartInfo& other : scene.parts) {
-      const bool in_filler = matches("crystal[0,*", other.name) || matches("crystal_septum*", other.name);
+      const bool in_filler =
+          matches_pattern("crystal[0,*", other.name) || matches_pattern("crystal_septum*", other.name);
       const bool in_box = other.name != "box" && !in_filler;
       if ((part.name == "box" && in_box) || (part.name == "crystal_filler[0]" && in_filler))
         volume -= other.volume_mm3;
