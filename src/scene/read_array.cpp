@@ -112,10 +112,11 @@ void read_septa(const TomlTable& owner, LayerSpec& layer, InlineTables& surfaces
   const Vec3 element = layer.element_bounds.sizes();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double gap = layer.pitch_mm[axis] - element[static_cast<int>(axis)];
-    if (layer.count[axis] == 1 || !(axis == 0 ? septa.x : septa.y)) continue;
+    // Elements that reach into each other are the pitch's mistake.
+    if (layer.count[axis] == 1 || gap < -1e-9 || !(axis == 0 ? septa.x : septa.y)) continue;
     table->expect("thickness", septa.thickness_mm <= gap + 1e-9,
                   "septa of " + mm_text(septa.thickness_mm) + " do not fit the gap of " +
-                      mm_text(std::max(0.0, gap)) + " along " + (axis == 0 ? "x" : "y"),
+                      mm_text(gap) + " along " + (axis == 0 ? "x" : "y"),
                   "make the septa thinner or the pitch larger");
   }
   table->expect("x", layer.row_shift_mm == 0.0 || !septa.x, "septa between columns cut rows that are shifted",
