@@ -93,7 +93,7 @@ InputError unknown_name(const FileLocation& where, const std::string& kind, cons
   const std::string near = nearest_word(wanted, names);
   return InputError(
       {where, "no " + kind + " is called \"" + wanted + "\"",
-       (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the " + kind + "s are: " + list)});
+       (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("there are: " + list)});
 }
 
 }  // namespace scintray
