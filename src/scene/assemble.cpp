@@ -179,7 +179,8 @@ void collect_corners(const PlacedPart& geometry, Scene& scene) {
 
 void describe_parts(const Assembly& assembly, Scene& scene) {
   for (const AssemblyFace& face : assembly.faces)
-    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
+    scene.faces.push_back(
+        {face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const PlacedPart& geometry = assembly.parts[i].geometry;
     PartInfo info;
