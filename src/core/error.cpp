@@ -91,9 +91,8 @@ InputError unknown_name(const FileLocation& where, const std::string& kind, cons
     list += (list.empty() ? "" : ", ") + names[i];
   if (names.size() > kMostNamed) list += " and " + std::to_string(names.size() - kMostNamed) + " more";
   const std::string near = nearest_word(wanted, names);
-  return InputError(
-      {where, "no " + kind + " is called \"" + wanted + "\"",
-       (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the " + kind + "s are: " + list)});
+  return InputError({where, "no " + kind + " is called \"" + wanted + "\"",
+                     (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("there are: " + list)});
 }
 
 }  // namespace scintray
