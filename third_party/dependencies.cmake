@@ -24,7 +24,7 @@ scintray_dependency(Boost 1.74)
 
 # Reads STEP. The build does without it where it is missing, unless told to insist with SCINTRAY_STEP=ON.
 if(SCINTRAY_STEP)
-  scintray_dependency(OpenCASCADE 7.6)
+  scintray_dependency(OpenCASCADE)  # its version file accepts no version but its own exact one
 endif()
 
 # embree's own version file accepts no other major number than its own; 3 and 4 both serve.

@@ -6,11 +6,13 @@
 #include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_Surface.hxx>
+#include <IMeshTools_Parameters.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPConstruct_UnitContext.hxx>
@@ -152,7 +154,12 @@ class ShapeReader {
            << " mm is finer than a millionth of it";
       reject_file(path_, text.str(), "give the tessellation a larger deviation");
     }
-    BRepMesh_IncrementalMesh(shape, tessellation_.deviation_mm, false, tessellation_.angle_rad, false);
+    IMeshTools_Parameters settings;
+    settings.Deflection = settings.DeflectionInterior = tessellation_.deviation_mm;
+    settings.Angle = settings.AngleInterior = tessellation_.angle_rad;
+    // A tenth of the deviation when it is not set, at which small circles stay coarser than the angle.
+    settings.MinSize = Precision::Confusion();
+    BRepMesh_IncrementalMesh(shape, settings);
   }
 
   void read_body(const TDF_Label& product, const TopoDS_Shape& body, const std::string& name,
@@ -167,7 +174,7 @@ class ShapeReader {
   std::optional<std::string> label_colour(const TDF_Label& label) const {
     Quantity_Color colour;
     for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {
-      if (label.IsNull() || !XCAFDoc_ColorTool::GetColor(label, type, colour)) continue;
+      if (label.IsNull() || !colours_->GetColor(label, type, colour)) continue;
       std::string hex = Quantity_Color::ColorToHex(colour).ToCString();
       std::transform(hex.begin(), hex.end(), hex.begin(),
                      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
