@@ -31,8 +31,6 @@ std::string list_of_extensions() {
   return list;
 }
 
-bool is_step(const std::string& extension) { return extension == ".step" || extension == ".stp"; }
-
 RawMesh read_raw(const std::filesystem::path& path, const std::string& extension,
                  const Tessellation& tessellation) {
   const std::string content = read_mesh_file(path);
@@ -69,6 +67,8 @@ const std::vector<std::string>& mesh_extensions() {
                                                       ".dae", ".gltf", ".glb", ".step", ".stp"};
   return extensions;
 }
+
+bool is_step(const std::string& extension) { return extension == ".step" || extension == ".stp"; }
 
 bool states_its_unit(const std::string& extension) {
   return extension == ".gltf" || extension == ".glb" || extension == ".3mf" || extension == ".dae" ||

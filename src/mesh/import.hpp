@@ -61,6 +61,9 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit);
 /// Endings (with the dot, lower case) that import_mesh reads.
 const std::vector<std::string>& mesh_extensions();
 
+/// Whether the ending (with the dot, lower case) is that of STEP, whose curved faces are cut in triangles.
+bool is_step(const std::string& extension);
+
 /// Whether files of this ending (with the dot, lower case) say in which unit they are, or their format
 /// does.
 bool states_its_unit(const std::string& extension);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scintray/scene/read_shape.hpp"
+
 namespace scintray {
 
 namespace {
@@ -13,75 +15,6 @@ const std::vector<std::string> kSides{"-x", "+x", "-y", "+y", "-z", "+z"};
 bool is_array(const TomlTable& table, const std::string& key) {
   const TomlNode* node = table.node()->find(key);
   return node && node->kind == Kind::array;
-}
-
-/// box = [size, size, size], centred in x and y, from z = 0; or box = { low, high }.
-BoxSpec read_box(const TomlTable& table) {
-  const TomlNode* node = table.node()->find("box");
-  if (node->kind == Kind::table) return read_low_high(table, "box").value_or(BoxSpec{});
-  BoxSpec box;
-  box.where = node->where;
-  const Vec3 size = table.optional_quantity3("box", Dimension::length).value_or(Vec3::Zero());
-  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
-               "give three lengths above 0");
-  box.low = Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
-  box.high = Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
-  return box;
-}
-
-CylinderSpec read_cylinder(const TomlTable& part) {
-  const TomlTable table = part.table("cylinder");
-  CylinderSpec cylinder;
-  cylinder.where = table.where();
-  cylinder.radius_mm = table.quantity("radius", Dimension::length);
-  cylinder.height_mm = table.quantity("height", Dimension::length);
-  const std::int64_t segments = table.integer("segments", cylinder.segments);
-  for (const char* key : {"radius", "height"})
-    table.expect(key, (std::string(key) == "radius" ? cylinder.radius_mm : cylinder.height_mm) > 0.0,
-                 std::string("the ") + key + " of a cylinder is not positive", "give a length above 0");
-  table.expect("segments", segments >= 3 && segments <= 1000000,
-               "a cylinder of " + std::to_string(segments) + " segments",
-               "give 3 or more (64 is the default), up to 1000000");
-  cylinder.segments = static_cast<int>(segments);
-  return cylinder;
-}
-
-/// Mesh formats that state their unit (glTF 2.0 specification, section 3.4: metres).
-bool states_its_unit(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".gltf" || extension == ".glb";
-}
-
-MeshFileSpec read_mesh(const TomlTable& table) {
-  MeshFileSpec mesh;
-  mesh.where = table.where("mesh");
-  mesh.path = table.existing_file("mesh");
-  const std::optional<std::string> unit = table.optional_string("unit");
-  if (unit) {
-    try {
-      mesh.unit_mm = unit_factor(*unit, Dimension::length);
-    } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
-    }
-  } else if (!table.has("unit")) {
-    table.expect("mesh", states_its_unit(mesh.path),
-                 "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
-                 "add the unit it was exported in, as unit = \"mm\"");
-  }
-  mesh.scale = table.number("scale", 1.0);
-  table.expect("scale", mesh.scale > 0.0, "a scale that is not positive", "give a factor above 0");
-  return mesh;
-}
-
-ShapeSpec read_shape(const TomlTable& part) {
-  const std::optional<std::string> kind = part.one_of({"mesh", "box", "cylinder"}, true);
-  for (const char* key : {"unit", "scale"}) part.has(key);
-  if (kind == "mesh") return read_mesh(part);
-  if (kind == "cylinder") return read_cylinder(part);
-  if (kind == "box") return read_box(part);
-  return BoxSpec{};
 }
 
 RotationSpec read_rotation(const TomlTable& table) {
@@ -128,6 +61,44 @@ PlacementSpec read_placement(const TomlTable& part, const std::vector<std::strin
   return placement;
 }
 
+/// A scalar as the value of a tag.
+std::optional<std::string> tag_value(const TomlNode& node) {
+  if (node.kind == Kind::string) return node.text;
+  if (node.kind == Kind::boolean) return node.boolean ? "true" : "false";
+  if (node.kind == Kind::integer || node.kind == Kind::number) return tag_text(node.number);
+  return std::nullopt;
+}
+
+/// color = "#rrggbb" and extras = { KEY = VALUE }.
+FaceTags read_tags(const TomlTable& select) {
+  FaceTags tags;
+  if (select.has("color")) {
+    std::string& color = tags["color"] = select.string("color");
+    std::transform(color.begin(), color.end(), color.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    select.expect("color",
+                  color.size() == 7 && color[0] == '#' &&
+                      color.find_first_not_of("0123456789abcdef", 1) == std::string::npos,
+                  "\"" + color + "\" is not a colour", "write red, green and blue as \"#ff8000\"");
+  }
+  if (!select.has("extras")) return tags;
+  const TomlNodePtr extras = select.take("extras");
+  if (extras->kind != Kind::table || extras->items.empty()) {
+    select.report("extras", "\"extras\" is not a table of keys and values",
+                  "write extras = { finish = \"rough\" }");
+    return tags;
+  }
+  for (const TomlNode& member : extras->items) {
+    const std::optional<std::string> value = tag_value(member);
+    if (value)
+      tags[member.key] = *value;
+    else
+      select.report("extras", "the extra \"" + member.key + "\" is not text, a number, true or false",
+                    "only such extras of a glTF file can be asked for");
+  }
+  return tags;
+}
+
 FaceSelectorSpec read_selector(const TomlTable& face) {
   const TomlTable table = face.table("select");
   FaceSelectorSpec select;
@@ -143,9 +114,12 @@ FaceSelectorSpec read_selector(const TomlTable& face) {
   select.nearest = table.optional_quantity3("nearest", Dimension::length);
   const auto group = table.one_of({"group", "gltf_material"}, false);
   if (group) select.group = read_name(table, *group, true);
+  select.tags = read_tags(table);
   if (face.good("select") && table.keys().empty())
-    face.report("select", "an empty selection would match every face",
-                "give normal, box, flat_region, nearest or group; for every face set the part's own surface");
+    face.report(
+        "select", "an empty selection would match every face",
+        "give normal, box, flat_region, nearest, group, color or extras; for every face set the part's own "
+        "surface");
   return select;
 }
 

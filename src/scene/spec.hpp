@@ -13,6 +13,8 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/mesh/tessellation.hpp"
+#include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
@@ -46,6 +48,8 @@ struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
   std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
   double scale = 1.0;
+  std::string body;           ///< name or number of the one body of the file; empty: all together
+  Tessellation tessellation;  ///< of a CAD file's curved faces
   FileLocation where;
 };
 
@@ -99,6 +103,7 @@ struct FaceSelectorSpec {
   std::optional<Vec3> nearest;      ///< point, mm: the one triangle nearest to it
   NameRef group;                    ///< glTF material or OBJ group of the mesh file; side
                                     ///< "-z" of a box, "side" of a cylinder
+  FaceTags tags;                    ///< glTF extras, "color" of a CAD face
   FileLocation where;
 };
 

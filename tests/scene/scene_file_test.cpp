@@ -52,6 +52,7 @@ std::vector<std::string> documented_keys() {
 SceneFile documented_scene() {
   const std::filesystem::path folder = scratch_folder("documented_scene");
   std::ofstream(folder / "crystal.stl") << "solid\nendsolid\n";
+  std::ofstream(folder / "detector.step") << "ISO-10303-21;\n";
   return SceneFile::from_text(documented_example(), (folder / "scene.toml").string());
 }
 
@@ -62,7 +63,7 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(file.points() == 5);
   const SceneSpec scene = file.spec(2);
   CHECK(scene.ambient.name == "air");
-  REQUIRE(scene.parts.size() == 4);
+  REQUIRE(scene.parts.size() == 5);
 
   const PartSpec& crystal = scene.parts[0];
   const auto& mesh = std::get<MeshFileSpec>(crystal.shape);
@@ -92,6 +93,12 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(rod.placement.rotate[1].angle_rad == doctest::Approx(45.0 * kDegree));
   CHECK(rod.placement.translate == Vec3(-8, 0, 3));
   CHECK(rod.medium.name == kOpaqueMedium);
+
+  const auto& guide = std::get<MeshFileSpec>(scene.parts[4].shape);
+  CHECK_FALSE(guide.unit_mm.has_value());
+  CHECK(guide.body == "light guide");
+  CHECK(guide.tessellation.angle_rad == doctest::Approx(5.0 * kDegree));
+  CHECK(scene.parts[4].faces.at(0).select.tags == FaceTags{{"color", "#ff8000"}});
 
   REQUIRE(scene.contacts.size() == 1);
   CHECK(scene.contacts[0].between[1].name == "pmt_fill");
