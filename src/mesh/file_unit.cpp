@@ -97,7 +97,7 @@ FileUnit read_3mf_unit(const std::filesystem::path& path, const std::string& con
   const pugi::xml_attribute unit = element.attribute("unit");
   const std::string name = unit ? unit.value() : "millimeter";
   for (const auto& [known, mm] : k3mfUnits)
-    if (name == known) return {name, mm, !unit.empty(), false};
+    if (name == known) return {name, mm, !unit.empty(), mm};
   reject_file(
       path,
       "the 3MF file is in \"" + name + "\"; expected micron, millimeter, centimeter, inch, foot or meter",
@@ -108,14 +108,15 @@ FileUnit read_collada_unit(const std::filesystem::path& path, const std::string&
   pugi::xml_document document;
   const pugi::xml_node unit = parse_start(content, "unit", document);
   const pugi::xml_attribute meter = unit.attribute("meter");
-  if (!meter) return {"meter", 1000.0, false, false};
-  const double mm = 1000.0 * meter.as_double();
+  constexpr double kMetre_mm = 1000.0;
+  if (!meter) return {"meter", kMetre_mm, false, kMetre_mm};
+  const double mm = kMetre_mm * meter.as_double();
   if (!std::isfinite(mm) || mm <= 0.0)
     reject_file(path,
                 std::string("the COLLADA file gives its unit as \"") + meter.value() +
                     "\" metres; expected a number above 0",
                 "export the mesh again");
-  return {unit.attribute("name").as_string("unit of its own"), mm, true, false};
+  return {unit.attribute("name").as_string("unit of its own"), mm, true, kMetre_mm};
 }
 
 double resolve_unit(const std::filesystem::path& path, double given_mm, const FileUnit& unit,
@@ -138,7 +139,7 @@ double resolve_unit(const std::filesystem::path& path, double given_mm, const Fi
     notes.push_back("the unit given, " + number(given_mm) + " mm, replaces what the format prescribes, " +
                     stated);
   const double unit_mm = given_mm > 0.0 ? given_mm : unit.mm;
-  return unit.converted ? unit_mm / unit.mm : unit_mm;
+  return known ? unit_mm / unit.mm * unit.read_mm : unit_mm;
 }
 
 }  // namespace scintray

@@ -100,7 +100,7 @@ class ModelReader {
 
   RawMesh read() {
     refuse_hidden_geometry();
-    raw_.unit = {"m", 1000.0, false, false};
+    raw_.unit = {"m", 1000.0, false, 1000.0};
     for (const int root : root_nodes()) visit(root, {Eigen::Affine3d::Identity(), {}}, 0);
     raw_.fill_body();
     add_notes();

@@ -95,7 +95,9 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   Tessellation tessellation = options.tessellation;
   tessellation.deviation_mm /= options.scale;
   RawMesh raw = read_raw(path, extension, tessellation);
-  const double scale = options.scale * resolve_unit(path, options.mm_per_unit, raw.unit, raw.notes);
+  std::vector<std::string> unit_notes;
+  const double scale = options.scale * resolve_unit(path, options.mm_per_unit, raw.unit, unit_notes);
+  raw.notes.insert(raw.notes.begin(), unit_notes.begin(), unit_notes.end());
   choose_body(path, raw, options.body);
   if (raw.deviation_mm > 0.0) {
     raw.notes.push_back("curved CAD faces cut in triangles within " +

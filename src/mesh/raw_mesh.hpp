@@ -12,10 +12,10 @@ namespace scintray {
 
 /// The unit of length of a mesh file.
 struct FileUnit {
-  std::string name;        ///< as "inch"; empty when neither the file nor its format says
-  double mm = 0.0;         ///< length of the unit
-  bool written = false;    ///< the file itself says it; otherwise its format prescribes it
-  bool converted = false;  ///< the coordinates that were read are mm already
+  std::string name;      ///< as "inch"; empty when neither the file nor its format says
+  double mm = 0.0;       ///< length of the unit; 0 when unknown
+  bool written = false;  ///< the file itself says it; otherwise its format prescribes it
+  double read_mm = 0.0;  ///< what one unit of the coordinates, as the library gave them, is
 };
 
 /// Triangles as the file has them, in file units; vertices not welded, indices checked.

@@ -283,9 +283,9 @@ FileUnit read_unit(STEPControl_Reader& reader) {
       units = all->GlobalUnitAssignedContext();
     STEPConstruct_UnitContext factors;
     if (units.IsNull() || factors.ComputeFactors(units) != 0 || !factors.LengthDone()) continue;
-    return {lengths.Value(1).ToCString(), factors.LengthFactor(), true, true};
+    return {lengths.Value(1).ToCString(), factors.LengthFactor(), true, 1.0};
   }
-  return {"mm", 1.0, false, true};
+  return {"mm", 1.0, false, 1.0};
 }
 
 }  // namespace
