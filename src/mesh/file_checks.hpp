@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace scintray {
 
@@ -22,6 +23,9 @@ std::string read_mesh_file(const std::filesystem::path& path);
 /// container of 3MF, and nesting too deep for recursive readers. Throws InputError.
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
                          const std::string& content);
+
+/// Greatest depth of elements of an XML text, as far as its angle brackets tell.
+std::size_t xml_depth(std::string_view text);
 
 /// Greatest depth of brackets of a JSON text, strings left out.
 std::size_t json_depth(const std::string& text);
