@@ -26,7 +26,8 @@ void add_end(TriMesh& mesh, const std::vector<std::uint32_t>& ring) {
 }
 
 /// Walls between two rings, corner by corner.
-void add_walls(TriMesh& mesh, const std::vector<std::uint32_t>& ring, const std::vector<std::uint32_t>& next) {
+void add_walls(TriMesh& mesh, const std::vector<std::uint32_t>& ring,
+               const std::vector<std::uint32_t>& next) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t j = (i + 1) % ring.size();
     mesh.triangles.push_back({ring[i], ring[j], next[j]});
@@ -77,8 +78,8 @@ TriMesh revolved(const std::vector<Eigen::Vector2d>& outline, const Turn& turn) 
   TriMesh mesh;
   std::vector<std::vector<std::uint32_t>> rings;
   for (std::size_t step = 0; step < (full ? steps : steps + 1); ++step) {
-    const double phi =
-        turn.start_rad + (full ? kTwoPi : turn.extent_rad) * static_cast<double>(step) / static_cast<double>(steps);
+    const double phi = turn.start_rad + (full ? kTwoPi : turn.extent_rad) * static_cast<double>(step) /
+                                            static_cast<double>(steps);
     std::vector<Vec3> corners;
     for (const Eigen::Vector2d& corner : outline)
       corners.emplace_back(corner.x() * std::cos(phi), corner.x() * std::sin(phi), corner.y());

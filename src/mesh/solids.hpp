@@ -27,7 +27,8 @@ TriMesh revolved(const std::vector<Eigen::Vector2d>& outline, const Turn& turn);
 
 /// The body between flat outlines, one above the other, that have the same number of corners: walls between
 /// each and the next, two triangles for each side, and the first and the last as its ends.
-/// @throws InputError for fewer than 2 outlines, or outlines of fewer than 3 or of different numbers of corners.
+/// @throws InputError for fewer than 2 outlines, or outlines of fewer than 3 or of different numbers of
+/// corners.
 TriMesh lofted(const std::vector<std::vector<Vec3>>& outlines);
 
 /// Corners of (r, z) along an ellipse about (r0, z0) with half axes a (along r) and b (along z), from one

@@ -18,19 +18,65 @@ constexpr std::size_t kMostMatrixNumbers = 10'000'000;
 /// derivatives are 1. Masses follow from 1 kg = 1 J s2/m2, with 1 J = 1 / 1.602176634e-13 MeV (CODATA 2018).
 constexpr double kKilogram = 1e-6 * 1e18 / 1.602176634e-13;
 constexpr std::array<std::pair<const char*, double>, 59> kUnits{{
-    {"pi", kPi},       {"twopi", kTwoPi},   {"halfpi", kPi / 2},
-    {"mm", 1.0},       {"millimeter", 1.0}, {"cm", 10.0},         {"centimeter", 10.0},
-    {"m", 1e3},        {"meter", 1e3},      {"km", 1e6},          {"kilometer", 1e6}, {"um", 1e-3},
-    {"micrometer", 1e-3}, {"nm", 1e-6},     {"nanometer", 1e-6},  {"angstrom", 1e-7}, {"fermi", 1e-12},
-    {"inch", 25.4},    {"mm2", 1.0},        {"cm2", 1e2},         {"m2", 1e6},        {"mm3", 1.0},
-    {"cm3", 1e3},      {"m3", 1e9},         {"rad", 1.0},         {"radian", 1.0},    {"mrad", 1e-3},
-    {"milliradian", 1e-3}, {"deg", kDegree}, {"degree", kDegree}, {"sr", 1.0},        {"steradian", 1.0},
-    {"ns", 1.0},       {"nanosecond", 1.0}, {"s", 1e9},           {"second", 1e9},    {"ms", 1e6},
-    {"millisecond", 1e6}, {"us", 1e3},      {"microsecond", 1e3}, {"ps", 1e-3},       {"picosecond", 1e-3},
-    {"eV", 1e-6},      {"electronvolt", 1e-6}, {"keV", 1e-3},     {"kiloelectronvolt", 1e-3},
-    {"MeV", 1.0},      {"megaelectronvolt", 1.0}, {"GeV", 1e3},   {"gigaelectronvolt", 1e3}, {"TeV", 1e6},
-    {"kg", kKilogram}, {"kilogram", kKilogram}, {"g", 1e-3 * kKilogram}, {"gram", 1e-3 * kKilogram},
-    {"mg", 1e-6 * kKilogram}, {"milligram", 1e-6 * kKilogram}, {"kelvin", 1.0}, {"K", 1.0},
+    {"pi", kPi},
+    {"twopi", kTwoPi},
+    {"halfpi", kPi / 2},
+    {"mm", 1.0},
+    {"millimeter", 1.0},
+    {"cm", 10.0},
+    {"centimeter", 10.0},
+    {"m", 1e3},
+    {"meter", 1e3},
+    {"km", 1e6},
+    {"kilometer", 1e6},
+    {"um", 1e-3},
+    {"micrometer", 1e-3},
+    {"nm", 1e-6},
+    {"nanometer", 1e-6},
+    {"angstrom", 1e-7},
+    {"fermi", 1e-12},
+    {"inch", 25.4},
+    {"mm2", 1.0},
+    {"cm2", 1e2},
+    {"m2", 1e6},
+    {"mm3", 1.0},
+    {"cm3", 1e3},
+    {"m3", 1e9},
+    {"rad", 1.0},
+    {"radian", 1.0},
+    {"mrad", 1e-3},
+    {"milliradian", 1e-3},
+    {"deg", kDegree},
+    {"degree", kDegree},
+    {"sr", 1.0},
+    {"steradian", 1.0},
+    {"ns", 1.0},
+    {"nanosecond", 1.0},
+    {"s", 1e9},
+    {"second", 1e9},
+    {"ms", 1e6},
+    {"millisecond", 1e6},
+    {"us", 1e3},
+    {"microsecond", 1e3},
+    {"ps", 1e-3},
+    {"picosecond", 1e-3},
+    {"eV", 1e-6},
+    {"electronvolt", 1e-6},
+    {"keV", 1e-3},
+    {"kiloelectronvolt", 1e-3},
+    {"MeV", 1.0},
+    {"megaelectronvolt", 1.0},
+    {"GeV", 1e3},
+    {"gigaelectronvolt", 1e3},
+    {"TeV", 1e6},
+    {"kg", kKilogram},
+    {"kilogram", kKilogram},
+    {"g", 1e-3 * kKilogram},
+    {"gram", 1e-3 * kKilogram},
+    {"mg", 1e-6 * kKilogram},
+    {"milligram", 1e-6 * kKilogram},
+    {"kelvin", 1.0},
+    {"K", 1.0},
 }};
 
 }  // namespace
@@ -39,7 +85,8 @@ constexpr std::array<std::pair<const char*, double>, 59> kUnits{{
 class Definitions::Evaluator {
  public:
   Evaluator() {
-    parser_.DefineFun("pow", +[](double x, double y) { return std::pow(x, y); });
+    parser_.DefineFun(
+        "pow", +[](double x, double y) { return std::pow(x, y); });
     for (const auto& [name, value] : kUnits) set(name, value);
   }
 
@@ -61,7 +108,8 @@ class Definitions::Evaluator {
   /// The value, or a message.
   std::string evaluate(const std::string& expression, double& value) {
     std::string text = expression;
-    for (std::size_t at = text.find("**"); at != std::string::npos; at = text.find("**")) text.replace(at, 2, "^");
+    for (std::size_t at = text.find("**"); at != std::string::npos; at = text.find("**"))
+      text.replace(at, 2, "^");
     try {
       parser_.SetExpr(text);
       value = parser_.Eval();
@@ -107,7 +155,8 @@ void Definitions::define(Node node) {
     matrix.values.clear();
     std::istringstream words(file_.required(node, "values"));
     for (std::string word; words >> word;) {
-      if (matrix.values.size() >= kMostMatrixNumbers) file_.reject(node, "a matrix of over 10 million numbers");
+      if (matrix.values.size() >= kMostMatrixNumbers)
+        file_.reject(node, "a matrix of over 10 million numbers");
       matrix.values.push_back(evaluate(word, node));
     }
     if (matrix.values.empty() || matrix.values.size() % matrix.columns != 0)
@@ -116,8 +165,9 @@ void Definitions::define(Node node) {
                        " numbers, which do not fill " + std::to_string(matrix.columns) + " columns",
                    "give every row all its numbers");
   } else {
-    file_.reject(node, "<" + tag + "> in <define> is not known",
-                 "expected constant, variable, quantity, expression, position, rotation, scale, matrix, loop");
+    file_.reject(
+        node, "<" + tag + "> in <define> is not known",
+        "expected constant, variable, quantity, expression, position, rotation, scale, matrix, loop");
   }
 }
 
@@ -149,8 +199,7 @@ double Definitions::angle(Node node, const char* attribute, double fallback) con
 }
 
 Vec3 Definitions::vector(Node node, const char* default_unit, double fallback) const {
-  const double unit =
-      node.attribute("unit") ? number(node, "unit") : evaluate(default_unit, node);
+  const double unit = node.attribute("unit") ? number(node, "unit") : evaluate(default_unit, node);
   return unit * Vec3(number(node, "x", fallback), number(node, "y", fallback), number(node, "z", fallback));
 }
 
@@ -211,7 +260,8 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
       continue;
     }
     const std::string variable = file_.required(child, "for");
-    const double from = number(child, "from", 0.0), to = number(child, "to"), step = number(child, "step", 1.0);
+    const double from = number(child, "from", 0.0), to = number(child, "to"),
+                 step = number(child, "step", 1.0);
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
     for (double value = from; value <= to + 1e-9 * step; value += step) {
       if (++evaluator_->iterations > kMostIterations)

@@ -17,7 +17,8 @@ std::vector<std::size_t> starts_of_lines(const std::string& text) {
   return starts;
 }
 
-FileLocation location(const std::string& file, const std::vector<std::size_t>& starts, std::ptrdiff_t offset) {
+FileLocation location(const std::string& file, const std::vector<std::size_t>& starts,
+                      std::ptrdiff_t offset) {
   if (offset < 0) return {file, 0, 0};
   const auto at = static_cast<std::size_t>(offset);
   const auto next = std::upper_bound(starts.begin(), starts.end(), at);

@@ -138,7 +138,8 @@ class SolidMaker {
   };
 
   /// Trapezoids at -half and +half whose centres lie along (theta, phi).
-  TriMesh slanted(double half, double theta, double phi, const Trapezoid& bottom, const Trapezoid& top) const {
+  TriMesh slanted(double half, double theta, double phi, const Trapezoid& bottom,
+                  const Trapezoid& top) const {
     const Vec3 shift = half * Vec3(std::tan(theta) * std::cos(phi), std::tan(theta) * std::sin(phi), 1.0);
     const auto outline = [](const Trapezoid& t, const Vec3& centre) {
       const double slant = t.half_y * t.tan_alpha;
@@ -151,10 +152,9 @@ class SolidMaker {
   }
 
   TriMesh trap() const {
-    return slanted(
-        0.5 * size("z"), angle("theta"), angle("phi"),
-        {0.5 * size("y1"), 0.5 * length("x1"), 0.5 * length("x2"), std::tan(angle("alpha1"))},
-        {0.5 * size("y2"), 0.5 * length("x3"), 0.5 * length("x4"), std::tan(angle("alpha2"))});
+    return slanted(0.5 * size("z"), angle("theta"), angle("phi"),
+                   {0.5 * size("y1"), 0.5 * length("x1"), 0.5 * length("x2"), std::tan(angle("alpha1"))},
+                   {0.5 * size("y2"), 0.5 * length("x3"), 0.5 * length("x4"), std::tan(angle("alpha2"))});
   }
 
   TriMesh para() const {
@@ -170,7 +170,8 @@ class SolidMaker {
     for (int corner = 1; corner <= 8; ++corner) {
       const std::string name = "v" + std::to_string(corner);
       (corner <= 4 ? bottom : top)
-          .emplace_back(length((name + "x").c_str()), length((name + "y").c_str()), corner <= 4 ? -half : half);
+          .emplace_back(length((name + "x").c_str()), length((name + "y").c_str()),
+                        corner <= 4 ? -half : half);
     }
     bool twisted = false;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -182,7 +183,8 @@ class SolidMaker {
     for (int slice = 0; slice <= slices; ++slice) {
       const double share = static_cast<double>(slice) / slices;
       outlines.emplace_back();
-      for (std::size_t i = 0; i < 4; ++i) outlines.back().push_back((1.0 - share) * bottom[i] + share * top[i]);
+      for (std::size_t i = 0; i < 4; ++i)
+        outlines.back().push_back((1.0 - share) * bottom[i] + share * top[i]);
     }
     return lofted(outlines);
   }
@@ -236,7 +238,8 @@ class SolidMaker {
     std::vector<std::pair<double, std::vector<Vec3>>> sections;
     definitions_.for_each_child(solid_, [&](Node child) {
       if (std::string_view(child.name()) == "twoDimVertex")
-        corners.emplace_back(unit() * definitions_.number(child, "x"), unit() * definitions_.number(child, "y"));
+        corners.emplace_back(unit() * definitions_.number(child, "x"),
+                             unit() * definitions_.number(child, "y"));
     });
     definitions_.for_each_child(solid_, [&](Node child) {
       if (std::string_view(child.name()) != "section") return;
@@ -247,7 +250,8 @@ class SolidMaker {
       std::vector<Vec3> outline;
       for (const Eigen::Vector2d& corner : corners)
         outline.emplace_back(scale * corner.x() + x, scale * corner.y() + y, z);
-      sections.emplace_back(definitions_.number(child, "zOrder", static_cast<double>(sections.size())), outline);
+      sections.emplace_back(definitions_.number(child, "zOrder", static_cast<double>(sections.size())),
+                            outline);
     });
     std::stable_sort(sections.begin(), sections.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -271,7 +275,8 @@ class SolidMaker {
   Outline rz_points() const {
     Outline outline;
     definitions_.for_each_child(solid_, [&](Node point) {
-      outline.emplace_back(unit() * definitions_.number(point, "r"), unit() * definitions_.number(point, "z"));
+      outline.emplace_back(unit() * definitions_.number(point, "r"),
+                           unit() * definitions_.number(point, "z"));
     });
     return outline;
   }
@@ -392,7 +397,8 @@ class SolidMaker {
     Outline outline = meridian(half, radius(outer, outer_slope));
     const Outline hole = meridian(half, radius(inner, inner_slope));
     for (std::size_t i = 0; i < std::min(outline.size(), hole.size()); ++i)
-      if (!(radius(inner, inner_slope)(outline[i].y()) < outline[i].x())) reject("the inner wall meets the outer");
+      if (!(radius(inner, inner_slope)(outline[i].y()) < outline[i].x()))
+        reject("the inner wall meets the outer");
     outline.insert(outline.end(), hole.rbegin(), hole.rend());
     return revolve(outline);
   }

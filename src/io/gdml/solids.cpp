@@ -28,8 +28,8 @@ Eigen::Affine3d placement(const Vec3& position, const Vec3& angles_rad) {
 }  // namespace
 
 Eigen::Matrix3d rotation_matrix(const Vec3& angles_rad) {
-  return (Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) *
-          Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()))
+  return (Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) * Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()))
       .toRotationMatrix();
 }
 
@@ -50,7 +50,8 @@ Node Solids::optical_surface(const std::string& name) const {
 
 Node Solids::element(const std::string& name, Node where) const {
   const auto found = solids_.find(name);
-  if (found == solids_.end()) file_.reject(where, "no solid is called \"" + name + "\"", "define it in <solids>");
+  if (found == solids_.end())
+    file_.reject(where, "no solid is called \"" + name + "\"", "define it in <solids>");
   return found->second;
 }
 
@@ -59,6 +60,8 @@ const TriMesh& Solids::mesh(const std::string& name, Node where) {
   const Node solid = element(name, where);
   if (std::find(in_the_making_.begin(), in_the_making_.end(), name) != in_the_making_.end())
     file_.reject(solid, "solid \"" + name + "\" is made of itself");
+  constexpr std::size_t kDeepest = 500;
+  if (in_the_making_.size() >= kDeepest) file_.reject(solid, "booleans are nested more than 500 deep");
   in_the_making_.push_back(name);
   TriMesh mesh;
   try {
@@ -96,11 +99,11 @@ TriMesh Solids::make_boolean(Node solid) {
     if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
     return mesh(definitions_.name(file_.required(reference, "ref"), reference), reference);
   };
-  const TriMesh first = transformed(
-      operand("first"),
-      placement(definitions_.position(solid, "firstposition"), definitions_.rotation(solid, "firstrotation")));
-  const TriMesh second = transformed(
-      operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
+  const TriMesh first =
+      transformed(operand("first"), placement(definitions_.position(solid, "firstposition"),
+                                              definitions_.rotation(solid, "firstrotation")));
+  const TriMesh second =
+      transformed(operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
   TriMesh result = boolean(first, second, *operation_of(solid));
   if (result.triangles.empty())
     throw InputError(Problem{{}, "nothing is left of the boolean", "check where its two solids lie"});

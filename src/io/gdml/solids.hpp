@@ -16,8 +16,8 @@ namespace scintray::gdml {
 /// Made are: box, tube, cone, trd, trap, para, arb8, tet, tessellated, xtru, polycone, genericPolycone,
 /// polyhedra, genericPolyhedra, sphere, orb, torus, ellipsoid, eltube, elcone, paraboloid, hype, and union,
 /// subtraction, intersection of these. Curved walls have their corners on the true surface and the segments
-/// that the tessellation asks for, in steps of doubling, so that bodies that touch along a cylinder mostly get
-/// the same.
+/// that the tessellation asks for, in steps of doubling, so that bodies that touch along a cylinder mostly
+/// get the same.
 class Solids {
  public:
   /// Throws InputError when two solids have one name.
