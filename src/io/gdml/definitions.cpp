@@ -120,6 +120,7 @@ class Definitions::Evaluator {
   }
 
   std::size_t iterations = 0;
+  LoopVariables loop_variables;
 
  private:
   mu::Parser parser_;
@@ -252,6 +253,13 @@ std::optional<double> Definitions::constant(const std::string& wanted) const {
   return value ? std::optional(*value) : std::nullopt;
 }
 
+const LoopVariables& Definitions::loop_variables() const { return evaluator_->loop_variables; }
+
+void Definitions::set_loop_variables(const LoopVariables& variables) const {
+  evaluator_->loop_variables = variables;
+  for (const auto& [variable, value] : variables) evaluator_->set(variable, value);
+}
+
 void Definitions::for_each_child(Node parent, const std::function<void(Node)>& action) const {
   for (const Node child : parent.children()) {
     if (child.type() != pugi::node_element) continue;
@@ -267,8 +275,10 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
       if (++evaluator_->iterations > kMostIterations)
         file_.reject(child, "the loops of the file make over a million steps together");
       evaluator_->set(variable, value);
+      evaluator_->loop_variables[variable] = value;
       for_each_child(child, action);
     }
+    evaluator_->loop_variables.erase(variable);
   }
 }
 

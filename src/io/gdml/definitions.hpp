@@ -19,6 +19,10 @@ struct Matrix {
   std::vector<double> values;
 };
 
+/// Variables of the loops around an element, as they were when it was met. What is evaluated later than that
+/// needs them back.
+using LoopVariables = std::map<std::string, double>;
+
 /// Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
 class Definitions {
  public:
@@ -55,6 +59,9 @@ class Definitions {
   /// Calls `action` for the children of a node, those in <loop>s once for every value of the loop's variable.
   void for_each_child(Node parent, const std::function<void(Node)>& action) const;
 
+  const LoopVariables& loop_variables() const;
+  void set_loop_variables(const LoopVariables& variables) const;
+
  private:
   class Evaluator;
   void define(Node node);
@@ -65,6 +72,28 @@ class Definitions {
   std::unique_ptr<Evaluator> evaluator_;
   std::map<std::string, Vec3> positions_, rotations_, scales_;
   std::map<std::string, Matrix> matrices_;
+};
+
+/// Puts loop variables back for as long as it lives.
+class LoopScope {
+ public:
+  LoopScope(const Definitions& definitions, const LoopVariables& variables)
+      : definitions_(definitions), before_(definitions.loop_variables()) {
+    definitions_.set_loop_variables(variables);
+  }
+  LoopScope(const LoopScope&) = delete;
+  LoopScope& operator=(const LoopScope&) = delete;
+  ~LoopScope() { definitions_.set_loop_variables(before_); }
+
+ private:
+  const Definitions& definitions_;
+  LoopVariables before_;
+};
+
+/// An element and the loop variables that it was met with.
+struct LoopedNode {
+  Node node;
+  LoopVariables variables;
 };
 
 }  // namespace scintray::gdml

@@ -38,17 +38,19 @@ Solids::Solids(const GdmlFile& file, const Definitions& definitions, const Tesse
   definitions_.for_each_child(file_.section("solids"), [this](Node node) {
     const std::string name = definitions_.name(file_.required(node, "name"), node);
     auto& known = std::string(node.name()) == "opticalsurface" ? surfaces_ : solids_;
-    if (!known.emplace(name, node).second)
+    if (!known.emplace(name, LoopedNode{node, definitions_.loop_variables()}).second)
       file_.reject(node, "the name \"" + name + "\" is already taken", "give every solid a name of its own");
   });
 }
 
 Node Solids::optical_surface(const std::string& name) const {
   const auto found = surfaces_.find(name);
-  return found == surfaces_.end() ? Node() : found->second;
+  return found == surfaces_.end() ? Node() : found->second.node;
 }
 
-Node Solids::element(const std::string& name, Node where) const {
+Node Solids::element(const std::string& name, Node where) const { return find(name, where).node; }
+
+const LoopedNode& Solids::find(const std::string& name, Node where) const {
   const auto found = solids_.find(name);
   if (found == solids_.end())
     file_.reject(where, "no solid is called \"" + name + "\"", "define it in <solids>");
@@ -57,7 +59,8 @@ Node Solids::element(const std::string& name, Node where) const {
 
 const TriMesh& Solids::mesh(const std::string& name, Node where) {
   if (const auto done = made_.find(name); done != made_.end()) return done->second;
-  const Node solid = element(name, where);
+  const auto& [solid, variables] = find(name, where);
+  const LoopScope scope(definitions_, variables);
   if (std::find(in_the_making_.begin(), in_the_making_.end(), name) != in_the_making_.end())
     file_.reject(solid, "solid \"" + name + "\" is made of itself");
   constexpr std::size_t kDeepest = 500;

@@ -33,13 +33,14 @@ class Solids {
   Node element(const std::string& name, Node where) const;
 
  private:
+  const LoopedNode& find(const std::string& name, Node where) const;
   TriMesh make(Node solid);
   TriMesh make_boolean(Node solid);
 
   const GdmlFile& file_;
   const Definitions& definitions_;
   Tessellation tessellation_;
-  std::map<std::string, Node> solids_, surfaces_;
+  std::map<std::string, LoopedNode> solids_, surfaces_;
   std::map<std::string, TriMesh> made_;
   std::vector<std::string> in_the_making_;
 };

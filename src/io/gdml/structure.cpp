@@ -21,7 +21,7 @@ class StructureReader {
       file_.reject(file_.section("structure"), "the file does not say which volume is the world",
                    "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
     structure_.world_volume = reference(world);
-    const Node volume = find(structure_.world_volume, world);
+    const Node volume = find(structure_.world_volume, world).node;
     structure_.world_material = reference(child(volume, "materialref"));
     structure_.world_solid = reference(child(volume, "solidref"));
     place_daughters(volume, Eigen::Affine3d::Identity(), std::nullopt);
@@ -32,8 +32,7 @@ class StructureReader {
   void remember(Node node) {
     const std::string tag = node.name();
     if (tag == "volume" || tag == "assembly") {
-      // Loops define the same element again, with another name.
-      volumes_[definitions_.name(file_.required(node, "name"), node)] = node;
+      volumes_[definitions_.name(file_.required(node, "name"), node)] = {node, definitions_.loop_variables()};
     } else if (tag == "skinsurface") {
       structure_.surfaces.push_back(
           {file_.required(node, "surfaceproperty"), reference(child(node, "volumeref")), "", "", node});
@@ -56,7 +55,7 @@ class StructureReader {
 
   std::string reference(Node node) const { return definitions_.name(file_.required(node, "ref"), node); }
 
-  Node find(const std::string& name, Node where) const {
+  const LoopedNode& find(const std::string& name, Node where) const {
     const auto found = volumes_.find(name);
     if (found == volumes_.end())
       file_.reject(where, "no volume is called \"" + name + "\"", "define it in <structure>");
@@ -92,7 +91,8 @@ class StructureReader {
 
   void add(const std::string& physvol, const std::string& volume, Node where, const Eigen::Affine3d& to_world,
            std::optional<std::size_t> mother) {
-    const Node element = find(volume, where);
+    const auto& [element, variables] = find(volume, where);
+    const LoopScope scope(definitions_, variables);
     if (!inside_.insert(volume).second)
       file_.reject(where, "volume \"" + volume + "\" is placed inside itself");
     if (inside_.size() > 500) file_.reject(where, "volumes are nested more than 500 deep");
@@ -143,7 +143,7 @@ class StructureReader {
   const GdmlFile& file_;
   const Definitions& definitions_;
   Structure structure_;
-  std::map<std::string, Node> volumes_;
+  std::map<std::string, LoopedNode> volumes_;
   std::set<std::string> inside_;
 };
 
