@@ -99,7 +99,7 @@ void check_scene(const std::filesystem::path& path, bool every_point) {
     const SceneSpec spec = file.spec(point);
     const BuiltScene built = builder.build(spec);
     const PhotonSource source(spec.source, built.scene);
-    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    const TallyPlan plan(built.scene, spec);
     line.clear();
     if (point > 0 && !every_point) continue;
     if (file.points() > 1) {
@@ -117,8 +117,11 @@ void check_scene(const std::filesystem::path& path, bool every_point) {
     print_faces(built.scene);
     print_regions(built.scene);
     print_interfaces(built.scene);
+    const std::vector<std::uint32_t> origins = source.regions();
     std::cout << "\nsource: " << source.photons() << " photons from \""
-              << built.scene.regions[source.region()].name << "\"\n";
+              << built.scene.regions[origins.front()].name << "\"";
+    if (origins.size() > 1) std::cout << " and " << origins.size() - 1 << " more parts";
+    std::cout << "\n";
     for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
   }
   std::cout << "\n"

@@ -83,4 +83,17 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return best;
 }
 
+InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
+                        const std::vector<std::string>& names) {
+  constexpr std::size_t kMostNamed = 30;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+    list += (list.empty() ? "" : ", ") + names[i];
+  if (names.size() > kMostNamed) list += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  const std::string near = nearest_word(wanted, names);
+  return InputError(
+      {where, "no " + kind + " is called \"" + wanted + "\"",
+       (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the " + kind + "s are: " + list)});
+}
+
 }  // namespace scintray

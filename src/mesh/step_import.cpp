@@ -107,9 +107,7 @@ class ShapeReader {
 
  private:
   /// Products may refer to each other; the standard allows no loops, files do as they like.
-  static constexpr int kDeepestNesting = 500;
-
-  void visit(const TDF_Label& label, const TopLoc_Location& placement, int depth) {
+  void visit(const TDF_Label& label, const TopLoc_Location& placement, std::size_t depth) {
     if (depth > kDeepestNesting) reject_file(path_, "assemblies are nested more than 500 deep");
     TDF_Label product = label;
     TopLoc_Location place = placement;

@@ -168,9 +168,18 @@ double triangle_area(const InterfaceTriangle& t) {
   return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
 }
 
+/// Gives every face the vertices that its triangles use.
+void collect_corners(const PlacedPart& geometry, Scene& scene) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
+    for (const std::uint32_t vertex : geometry.triangles[t])
+      if (seen.emplace(geometry.face[t], vertex).second)
+        scene.faces[geometry.face[t]].corners.push_back(geometry.vertices[vertex]);
+}
+
 void describe_parts(const Assembly& assembly, Scene& scene) {
   for (const AssemblyFace& face : assembly.faces)
-    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0});
+    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const PlacedPart& geometry = assembly.parts[i].geometry;
     PartInfo info;
@@ -184,10 +193,13 @@ void describe_parts(const Assembly& assembly, Scene& scene) {
       info.volume_mm3 += (va - origin).dot((vb - origin).cross(vc - origin)) / 6.0;
       for (const Vec3& v : {va, vb, vc}) info.bounds.extend(v);
       FaceInfo& face = scene.faces[geometry.face[t]];
-      face.area_mm2 += 0.5 * (vb - va).cross(vc - va).norm();
+      const Vec3 area = 0.5 * (vb - va).cross(vc - va);
+      face.area_mm2 += area.norm();
+      face.area_vector_mm2 += area;
       ++face.triangles;
     }
     scene.parts.push_back(info);
+    collect_corners(geometry, scene);
   }
 }
 

@@ -34,36 +34,6 @@ InlineTables read_definitions(const TomlTable& scene, const std::string& key) {
   return definitions;
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-/// "part:face" as two names with their places.
-void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts, ExitAngleTallySpec& tally) {
-  const std::string face = table.string("face");
-  const auto colon = face.find(':');
-  table.expect("face", colon != std::string::npos && colon > 0 && colon + 1 < face.size(),
-               "\"" + face + "\" is not the name of a face", "write \"part:face\", as \"crystal:exit\"");
-  if (!table.good("face")) return;
-  tally.part = {face.substr(0, colon), table.where("face")};
-  tally.face = {face.substr(colon + 1), table.where("face")};
-  const std::vector<std::string> known = part_names(parts);
-  expect_part(table, "face", tally.part, known);
-  if (!table.good("face")) return;
-  std::vector<std::string> faces;
-  for (const PartSpec& part : parts)
-    if (part.name.name == tally.part.name)
-      for (const FaceRuleSpec& rule : part.faces) faces.push_back(rule.name);
-  faces.emplace_back(kOtherFaces);
-  const std::string near = nearest_word(tally.face.name, faces);
-  table.expect("face", std::find(faces.begin(), faces.end(), tally.face.name) != faces.end(),
-               "the part \"" + tally.part.name + "\" has no face \"" + tally.face.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its faces are " + join(faces) +
-                   "; name more of them with [[part.face]]");
-}
-
 /// Reports several sweeps' and points' common problems once.
 class DistinctProblems {
  public:
@@ -92,7 +62,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.contacts = read_contacts(root, names);
   scene.source = read_source(root, names);
   scene.run = read_run(root);
-  scene.exit_angles = read_tallies(root, scene.parts);
+  read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
   scene.sensors = read_definitions(root, "sensors");
@@ -129,32 +99,6 @@ std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector
     contacts.push_back(std::move(contact));
   }
   return contacts;
-}
-
-std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts) {
-  std::vector<ExitAngleTallySpec> tallies;
-  std::set<std::string> names;
-  for (const TomlTable& table : scene.tables("tally")) {
-    ExitAngleTallySpec tally;
-    tally.where = table.where();
-    table.choice("type", {"exit_angle"});
-    if (table.has("type") && !table.good("type")) {
-      table.skip();
-      continue;
-    }
-    read_face_path(table, parts, tally);
-    tally.name = table.string("name", tally.part.name + ":" + tally.face.name);
-    if (table.good("face") && !names.insert(tally.name).second)
-      table.report("name", "there are two tallies named \"" + tally.name + "\"",
-                   "give each a name of its own");
-    tally.detected_only = table.boolean("detected_only", false);
-    const std::int64_t bins = table.integer("bins", tally.bins);
-    table.expect("bins", bins >= 1 && bins <= 9000, "the number of bins is not in 1 to 9000",
-                 "give the number of equal bins over 0 to 90 deg");
-    tally.bins = static_cast<int>(bins);
-    tallies.push_back(std::move(tally));
-  }
-  return tallies;
 }
 
 SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems) {

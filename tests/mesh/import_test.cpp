@@ -19,7 +19,7 @@ using namespace scintray;
 
 namespace {
 
-std::filesystem::path write(const std::string& name, const std::string& text) {
+std::filesystem::path mesh_file(const std::string& name, const std::string& text) {
   static const auto folder = test::scratch_folder("mesh_import");
   const auto path = folder / name;
   std::ofstream(path, std::ios::binary) << text;
@@ -176,15 +176,15 @@ std::string glb(std::string json, const std::string& binary) {
 }  // namespace
 
 TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
-  const MeshImport obj = import_mesh(write("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
+  const MeshImport obj = import_mesh(mesh_file("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
   check_box(obj, 1.0);
   CHECK(obj.mesh.groups == std::vector<std::string>{"default"});
-  check_box(import_mesh(write("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
+  check_box(import_mesh(mesh_file("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
             10.0);
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
-  check_box(import_mesh(write("BOX.PLY", header + corner_lines("") + quad_lines("4 ", 0)), 0.001), 0.001);
+  check_box(import_mesh(mesh_file("BOX.PLY", header + corner_lines("") + quad_lines("4 ", 0)), 0.001), 0.001);
 
   std::string stl = "solid crystal\n";
   for (const auto& quad : kQuads) {
@@ -198,7 +198,7 @@ TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
       stl += "endloop\nendfacet\n";
     }
   }
-  check_box(import_mesh(write("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
 }
 
 TEST_CASE("Binary PLY of either byte order, data that look like white space included") {
@@ -224,7 +224,7 @@ TEST_CASE("Binary PLY of either byte order, data that look like white space incl
       put(text, static_cast<std::uint32_t>((corner >> 2 & 1) * 3 - 3), 4);  // -3 and 0
     }
     put(text, 0x20, 1);
-    const MeshImport read = import_mesh(write("binary.ply", text), 1.0);
+    const MeshImport read = import_mesh(mesh_file("binary.ply", text), 1.0);
     check_box(read, 1.0);
     const auto bounds = diagnose(read.mesh).bounds;
     CHECK(bounds.min() == Vec3(0.1, 0.0, -3.0));  // exactly: double precision is kept
@@ -234,7 +234,7 @@ TEST_CASE("Binary PLY of either byte order, data that look like white space incl
 }
 
 TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres unless it says otherwise") {
-  const std::filesystem::path path = write("box.dae", collada_text("<up_axis>Z_UP</up_axis>"));
+  const std::filesystem::path path = mesh_file("box.dae", collada_text("<up_axis>Z_UP</up_axis>"));
   const MeshImport read = import_mesh(path, 1.0);
   check_box(read, 1.0);
   const auto bounds = diagnose(read.mesh).bounds;
@@ -247,15 +247,15 @@ TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres u
 
 TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
   const std::string inch = R"(<unit name="inch" meter="0.0254"/>)";
-  const MeshImport read = import_mesh(write("inch.dae", collada_text(inch)), 0.0);
+  const MeshImport read = import_mesh(mesh_file("inch.dae", collada_text(inch)), 0.0);
   check_box(read, 25.4);
   CHECK(read.unit_from_file == "inch");
   CHECK(diagnose(read.mesh).bounds.min().x() == doctest::Approx(254.0));
-  check_box(import_mesh(write("inch.dae", collada_text(inch)), 25.4), 25.4);
-  check_refused(write("inch.dae", collada_text(inch)), 1.0, "says that it is in inch (25.4 mm)");
-  check_refused(write("bad.dae", collada_text(R"(<unit name="inch" meter="none"/>)")), 0.0,
+  check_box(import_mesh(mesh_file("inch.dae", collada_text(inch)), 25.4), 25.4);
+  check_refused(mesh_file("inch.dae", collada_text(inch)), 1.0, "says that it is in inch (25.4 mm)");
+  check_refused(mesh_file("bad.dae", collada_text(R"(<unit name="inch" meter="none"/>)")), 0.0,
                 "gives its unit as \"none\" metres");
-  check_refused(write("bad.dae", collada_text(R"(<unit meter="-1"/>)")), 0.0, "above 0");
+  check_refused(mesh_file("bad.dae", collada_text(R"(<unit meter="-1"/>)")), 0.0, "above 0");
 }
 
 TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
@@ -268,17 +268,17 @@ TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
                                                   {" unit=\"meter\"", 1000.0}};
   for (const auto& [unit, mm] : units) {
     CAPTURE(unit);
-    check_box(import_mesh(write("box.3mf", three_mf(unit)), 0.0), mm);
+    check_box(import_mesh(mesh_file("box.3mf", three_mf(unit)), 0.0), mm);
   }
-  check_refused(write("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "says that it is in inch (25.4 mm)");
-  check_refused(write("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
+  check_refused(mesh_file("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "says that it is in inch (25.4 mm)");
+  check_refused(mesh_file("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
 }
 
 TEST_CASE("3MF objects are bodies, with the transforms of their items") {
   const std::filesystem::path path =
-      write("two.3mf", three_mf(" unit=\"inch\"",
-                                "<item objectid=\"1\"/>"
-                                "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/>"));
+      mesh_file("two.3mf", three_mf(" unit=\"inch\"",
+                                    "<item objectid=\"1\"/>"
+                                    "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/>"));
   const MeshImport all = import_mesh(path, 0.0);
   CHECK(all.mesh.volume() == doctest::Approx(12.0 * std::pow(25.4, 3)).epsilon(1e-5));
   REQUIRE(all.bodies.size() == 2);
@@ -294,7 +294,7 @@ TEST_CASE("An OBJ object is a body, whatever its materials") {
   const std::size_t last = faces.rfind("f ");
   const std::string text = corner_lines("v ") + "o a\nusemtl x\n" + faces + "o b\nusemtl x\n" +
                            faces.substr(0, last) + "usemtl y\n" + faces.substr(last);
-  const std::filesystem::path path = write("bodies.obj", text);
+  const std::filesystem::path path = mesh_file("bodies.obj", text);
   CHECK(import_mesh(path, 1.0).bodies == std::vector<std::string>{"a", "b"});
   ImportOptions options;
   options.mm_per_unit = 2.0;
@@ -312,9 +312,9 @@ TEST_CASE("A format without bodies has none to choose") {
   options.mm_per_unit = 1.0;
   options.body = "crystal";
   const std::string text = "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0);
-  const MeshImport plain = import_mesh(write("plain.off", text), 1.0);
+  const MeshImport plain = import_mesh(mesh_file("plain.off", text), 1.0);
   CHECK(plain.bodies.size() <= 1);
-  CHECK_THROWS_WITH_AS(import_mesh(write("plain.off", text), options), doctest::Contains("\"crystal\""),
+  CHECK_THROWS_WITH_AS(import_mesh(mesh_file("plain.off", text), options), doctest::Contains("\"crystal\""),
                        InputError);
 }
 
@@ -323,7 +323,7 @@ TEST_CASE("OBJ groups are object and material, and either half selects") {
   const std::string faces = quad_lines("f ", 1);
   const std::size_t last = faces.rfind("f ");
   text += faces.substr(0, last) + "usemtl polished\n" + faces.substr(last);
-  const MeshImport read = import_mesh(write("groups.obj", text), 1.0);
+  const MeshImport read = import_mesh(mesh_file("groups.obj", text), 1.0);
   CHECK(read.mesh.groups == std::vector<std::string>{"crystal:ground", "crystal:polished"});
   const auto count = [&read](const std::string& group) {
     FaceSelector selector;
@@ -341,7 +341,7 @@ TEST_CASE("glTF is in metres, moves with its nodes, and its materials are groups
   // Turned by 90 degrees about z: (x, y, z) -> (-y, x, z); then scaled before, moved after.
   const std::string node =
       R"({"mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678],"scale":[2,1,1]})";
-  const MeshImport read = import_mesh(write("box.gltf", gltf_text(embedded(), node)), 0.0);
+  const MeshImport read = import_mesh(mesh_file("box.gltf", gltf_text(embedded(), node)), 0.0);
   CHECK(read.unit_from_file == "m");
   CHECK(read.mesh.volume() == doctest::Approx(12e9).epsilon(1e-6));
   CHECK(diagnose(read.mesh).sound());
@@ -367,7 +367,7 @@ TEST_CASE("glTF extras are tags of groups: of node, mesh, material and primitive
   };
   insert(R"("name":"polished")", R"(,"extras":{"finish":"smooth","paint":"no"})");
   insert(R"("indices":2,"material":1)", R"(,"extras":{"paint":"white"})");
-  const TriMesh mesh = import_mesh(write("extras.gltf", text), 0.0).mesh;
+  const TriMesh mesh = import_mesh(mesh_file("extras.gltf", text), 0.0).mesh;
   CHECK(mesh.groups == std::vector<std::string>{"ground", "polished"});
   CHECK(mesh.tags_of(0) ==
         FaceTags{{"finish", "rough"}, {"layer", "3"}, {"coated", "true"}, {"scale", "0.5"}});
@@ -386,7 +386,7 @@ TEST_CASE("A glTF node is a body") {
   const std::string nodes = R"({"name":"a","mesh":0},{"name":"b","mesh":0,"translation":[5,0,0]})";
   std::string text = gltf_text(embedded(), nodes);
   text.replace(text.find("[0]}]"), 3, "[0,1]");
-  const std::filesystem::path path = write("nodes.gltf", text);
+  const std::filesystem::path path = mesh_file("nodes.gltf", text);
   CHECK(import_mesh(path, 0.0).bodies == std::vector<std::string>{"a", "b"});
   ImportOptions options;
   options.body = "b";
@@ -398,17 +398,18 @@ TEST_CASE("A glTF node is a body") {
 // Fails when the loader comes from libdraco's copy of tinygltf instead of libtinygltf
 // (src/mesh/CMakeLists.txt).
 TEST_CASE("glTF buffers may lie beside the file") {
-  write("box.bin", gltf_buffer());
-  check_box(import_mesh(write("external.gltf", gltf_text(R"(,"uri":"box.bin")", R"({"mesh":0})")), 1.0), 1.0);
+  mesh_file("box.bin", gltf_buffer());
+  check_box(import_mesh(mesh_file("external.gltf", gltf_text(R"(,"uri":"box.bin")", R"({"mesh":0})")), 1.0),
+            1.0);
 }
 
 TEST_CASE("glTF buffers may lie in a glb; a given unit replaces the metre") {
-  check_box(import_mesh(write("box.glb", glb(gltf_text("", R"({"mesh":0})"), gltf_buffer())), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("box.glb", glb(gltf_text("", R"({"mesh":0})"), gltf_buffer())), 1.0), 1.0);
 }
 
 TEST_CASE("A mirroring glTF node keeps the box outward") {
   const std::string node = R"({"mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})";
-  check_box(import_mesh(write("mirror.gltf", gltf_text(embedded(), node)), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("mirror.gltf", gltf_text(embedded(), node)), 1.0), 1.0);
 }
 
 TEST_CASE("A triangle without area is kept out and its neighbour cut, so that the box stays closed") {
@@ -416,7 +417,7 @@ TEST_CASE("A triangle without area is kept out and its neighbour cut, so that th
   const std::string text = corner_lines("v ") + "v 0.5 0 0\n" +
                            "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 5 6 8 7\n"
                            "f 1 3 4 2 9\nf 1 9 2\n";
-  const MeshImport read = import_mesh(write("sliver.obj", text), 1.0);
+  const MeshImport read = import_mesh(mesh_file("sliver.obj", text), 1.0);
   CHECK(read.degenerate_triangles >= 1);
   CHECK(read.mesh.volume() == doctest::Approx(6.0).epsilon(1e-6));
   CHECK(diagnose(read.mesh).sound());
@@ -433,8 +434,8 @@ TEST_CASE("Vertices two single-precision steps apart are one, four steps apart a
     return text.str();
   };
   const double step = std::ldexp(1.0, -22);  // spacing of single precision between 2 and 4
-  CHECK(diagnose(import_mesh(write("near.obj", mesh_with_gap(2 * step)), 1.0).mesh).closed());
-  CHECK_FALSE(diagnose(import_mesh(write("far.obj", mesh_with_gap(4 * step)), 1.0).mesh).closed());
+  CHECK(diagnose(import_mesh(mesh_file("near.obj", mesh_with_gap(2 * step)), 1.0).mesh).closed());
+  CHECK_FALSE(diagnose(import_mesh(mesh_file("far.obj", mesh_with_gap(4 * step)), 1.0).mesh).closed());
 }
 
 TEST_CASE("Polygons that are not convex are cut inside themselves") {

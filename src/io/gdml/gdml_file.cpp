@@ -8,8 +8,6 @@ namespace scintray::gdml {
 
 namespace {
 
-constexpr std::size_t kDeepestNesting = 500;
-
 std::vector<std::size_t> starts_of_lines(const std::string& text) {
   std::vector<std::size_t> starts{0};
   for (std::size_t i = 0; i < text.size(); ++i)
