@@ -172,7 +172,7 @@ class MaterialImporter {
     medium.toml += "decay = [";
     for (std::size_t i = 0; i < parts.size(); ++i)
       medium.toml +=
-          fmt::format("{}{{ time = \"{:.9g} ns\", rise = \"{:.9g} ns\", fraction = {:.17g} }}",
+          fmt::format("{}{{ time = \"{:.9g} ns\", rise = \"{:.9g} ns\", fraction = {:.12g} }}",
                       i == 0 ? "" : ", ", parts[i].decay_ns, parts[i].rise_ns, parts[i].share / shares);
     medium.toml += "]\n";
   }
