@@ -15,8 +15,9 @@
 //
 // Every shape is traced with a seed of its own and compared with the box twice: all fates by a chi-square of
 // two samples, p > 6.3e-5, and the mean number of interactions within 4 standard errors. Each comparison
-// fails by chance once in 15,800; all that this file makes (2 for each of 2 surfaces and 8 shapes), once in
-// 490 choices of the seeds. The seeds are fixed, so it either always passes or always fails.
+// fails by chance once in 15,800; one of the 28 that this file makes (2 for each of 2 surfaces and 7 ways to
+// write the crystal) once in 560 choices of the seeds. The seeds are fixed, so it either always passes or
+// always fails.
 
 using namespace scintray;
 using namespace scintray::test;
