@@ -18,8 +18,14 @@ scintray_dependency(HDF5 COMPONENTS C)
 scintray_dependency(ZLIB)
 scintray_dependency(libzip 1.7)
 scintray_dependency(pugixml 1.13)
+scintray_dependency(muparser 2.3)
 scintray_dependency(PNG)
 scintray_dependency(Boost 1.74)
+
+# Reads STEP. The build does without it where it is missing, unless told to insist with SCINTRAY_STEP=ON.
+if(SCINTRAY_STEP)
+  scintray_dependency(OpenCASCADE)  # its version file accepts no version but its own exact one
+endif()
 
 # embree's own version file accepts no other major number than its own; 3 and 4 both serve.
 if(EMBREE_VERSION VERSION_LESS 3.13)

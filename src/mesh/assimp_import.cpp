@@ -73,13 +73,19 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
   return std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0 ? std::string() : name.C_Str();
 }
 
-std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
+/// Empty for what the file leaves unnamed.
+std::string object_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
   const std::string material = material_name(scene, mesh);
   std::string object = mesh.mName.C_Str();
   // For the second and later materials of an OBJ object, assimp names the mesh after the material.
   if (object.empty() || object == material) object = node.mName.C_Str();
   // Assimp's own names for what the file leaves unnamed.
   if (object.starts_with("<") || object == "defaultobject") object.clear();
+  return object;
+}
+
+std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
+  const std::string material = material_name(scene, mesh), object = object_name(scene, mesh, node);
   if (object.empty()) return material.empty() ? "default" : material;
   return material.empty() ? object : object + ":" + material;
 }
@@ -99,6 +105,7 @@ class SceneReader {
 
   RawMesh read() {
     visit(*scene_.mRootNode, AssimpMatrix());
+    raw_.fill_body();
     for (unsigned m = 0; m < scene_.mNumMeshes; ++m) {
       if (!used_.contains(m)) {
         raw_.notes.push_back("object \"" + std::string(scene_.mMeshes[m]->mName.C_Str()) +
@@ -115,9 +122,19 @@ class SceneReader {
       if (node.mMeshes[i] >= scene_.mNumMeshes)
         reject_file(path_, "a node refers to an object that does not exist");
       used_.insert(node.mMeshes[i]);
-      append(*scene_.mMeshes[node.mMeshes[i]], node, transform);
+      const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+      begin_body(node, object_name(scene_, mesh, node));
+      append(mesh, node, transform);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], transform);
+  }
+
+  /// The materials of one object are meshes of their own, one after the other.
+  void begin_body(const aiNode& node, const std::string& name) {
+    if (latest_node_ == &node && latest_name_ == name) return;
+    raw_.begin_body(name);
+    latest_node_ = &node;
+    latest_name_ = name;
   }
 
   void append(const aiMesh& source, const aiNode& node, const AssimpMatrix& transform) {
@@ -137,7 +154,7 @@ class SceneReader {
     }
     const bool mirrored = transform.Determinant() < 0.0;
     const bool has_faces = source.mNumFaces > 0 && (source.mPrimitiveTypes & kSurfaces) != 0;
-    const std::uint32_t group = has_faces ? raw_.group_index(group_name(scene_, source, node)) : 0;
+    const std::uint32_t group = has_faces ? mesh.group_index(group_name(scene_, source, node)) : 0;
     std::vector<std::uint32_t> corners;
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
       const aiFace& face = source.mFaces[f];
@@ -164,6 +181,8 @@ class SceneReader {
   const std::filesystem::path& path_;
   RawMesh raw_;
   std::set<unsigned> used_;
+  const aiNode* latest_node_ = nullptr;
+  std::string latest_name_;
 };
 
 }  // namespace

@@ -104,11 +104,30 @@ bool group_matches(const std::string& group, const std::string& wanted) {
          (group.ends_with(wanted) && group[group.size() - n - 1] == ':');
 }
 
-void apply_group(const TriMesh& mesh, const std::string& wanted, std::vector<char>& mask) {
+bool has_tag(const FaceTags& tags, const std::string& key, const std::string& value) {
+  const auto found = tags.find(key);
+  return found != tags.end() && found->second == value;
+}
+
+template <typename Condition>
+void keep_groups(const TriMesh& mesh, std::vector<char>& mask, Condition condition) {
   std::vector<char> matches(mesh.groups.size());
-  for (std::size_t g = 0; g < matches.size(); ++g) matches[g] = group_matches(mesh.groups[g], wanted);
+  for (std::size_t g = 0; g < matches.size(); ++g) matches[g] = condition(g);
   keep_where(mask, [&](std::size_t t) {
     return t < mesh.group.size() && mesh.group[t] < matches.size() && matches[mesh.group[t]];
+  });
+}
+
+void apply_group(const TriMesh& mesh, const std::string& wanted, std::vector<char>& mask) {
+  keep_groups(mesh, mask, [&](std::size_t g) {
+    return group_matches(mesh.groups[g], wanted) || has_tag(mesh.tags_of(g), "face", wanted);
+  });
+}
+
+void apply_tags(const TriMesh& mesh, const FaceTags& wanted, std::vector<char>& mask) {
+  keep_groups(mesh, mask, [&](std::size_t g) {
+    return std::all_of(wanted.begin(), wanted.end(),
+                       [&](const auto& tag) { return has_tag(mesh.tags_of(g), tag.first, tag.second); });
   });
 }
 
@@ -192,6 +211,7 @@ std::vector<char> select_triangles(const TriMesh& mesh, const FaceSelector& sele
   if (selector.normal) apply_normal(mesh, *selector.normal, selector.normal_tolerance_rad, mask);
   if (selector.box) apply_box(mesh, *selector.box, mask);
   if (selector.group) apply_group(mesh, *selector.group, mask);
+  if (!selector.tags.empty()) apply_tags(mesh, selector.tags, mask);
   if (selector.flat_region && !mask.empty()) {
     apply_flat_region(mesh, *selector.flat_region, selector.flat_tolerance_rad, mask);
   }

@@ -23,8 +23,11 @@ struct FaceSelector {
   std::optional<Vec3> flat_region;
   double flat_tolerance_rad = 0.1 * kDegree;
   /// Group name: glTF material, OBJ group or material, side of a primitive. For a group named
-  /// "object:material" either half alone matches too.
+  /// "object:material" either half alone matches too; the number of a CAD face ("face12") matches whatever
+  /// the face is called.
   std::optional<std::string> group;
+  /// Tags of the group that must have these values: glTF extras, "color" of a CAD face.
+  FaceTags tags;
   /// The one triangle nearest this point (the lowest index among equally near ones).
   std::optional<Vec3> nearest;
 };

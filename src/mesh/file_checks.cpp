@@ -93,6 +93,8 @@ void check_off(const std::filesystem::path& path, const std::string& content) {
   check_count(path, "faces", face_count, 2, content);       // "0\n"
 }
 
+}  // namespace
+
 std::size_t xml_depth(std::string_view text) {
   std::size_t depth = 0, deepest = 0;
   for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {
@@ -108,6 +110,8 @@ std::size_t xml_depth(std::string_view text) {
   }
   return deepest;
 }
+
+namespace {
 
 void check_collada(const std::filesystem::path& path, const std::string& content) {
   if (xml_depth(content) > kDeepestNesting) {

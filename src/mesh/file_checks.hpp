@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace scintray {
 
@@ -25,6 +26,9 @@ void check_claimed_sizes(const std::filesystem::path& path, const std::string& e
 
 /// What a sound file of nested JSON values or XML elements does not come near.
 inline constexpr std::size_t kDeepestNesting = 500;
+
+/// Greatest depth of elements of an XML text, as far as its angle brackets tell.
+std::size_t xml_depth(std::string_view text);
 
 /// Greatest depth of brackets of a JSON text, strings left out.
 std::size_t json_depth(const std::string& text);

@@ -80,19 +80,38 @@ Eigen::Affine3d node_transform(const tinygltf::Node& node) {
   return transform;
 }
 
+/// Adds the scalar members of `extras` (glTF 2.0 specification, section 3.3), over those of the same name;
+/// objects and arrays in them are passed over.
+void add_tags(const tinygltf::Value& extras, FaceTags& tags) {
+  if (!extras.IsObject()) return;
+  for (const std::string& key : extras.Keys()) {
+    const tinygltf::Value& value = extras.Get(key);
+    if (value.IsString()) tags[key] = value.Get<std::string>();
+    if (value.IsBool()) tags[key] = value.Get<bool>() ? "true" : "false";
+    if (value.IsNumber()) tags[key] = tag_text(value.GetNumberAsDouble());
+  }
+}
+
 class ModelReader {
  public:
   ModelReader(const tinygltf::Model& model, const std::filesystem::path& path) : model_(model), path_(path) {}
 
   RawMesh read() {
     refuse_hidden_geometry();
-    raw_.unit_from_file = std::string("m");
-    for (const int root : root_nodes()) visit(root, Eigen::Affine3d::Identity(), 0);
+    raw_.unit = {"m", 1000.0, false, 1000.0};
+    for (const int root : root_nodes()) visit(root, {Eigen::Affine3d::Identity(), {}}, 0);
+    raw_.fill_body();
     add_notes();
     return std::move(raw_);
   }
 
  private:
+  /// What a node hands down to its children and its mesh.
+  struct Inherited {
+    Eigen::Affine3d transform;
+    FaceTags tags;
+  };
+
   void refuse_hidden_geometry() const {
     for (const std::string& extension : model_.extensionsRequired) {
       const bool hides = extension == "KHR_draco_mesh_compression" ||
@@ -121,7 +140,7 @@ class ModelReader {
     return roots;
   }
 
-  void visit(int index, const Eigen::Affine3d& parent, std::size_t depth) {
+  void visit(int index, const Inherited& parent, std::size_t depth) {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) {
       reject_file(path_, "node " + std::to_string(index) + " does not exist in the glTF file");
     }
@@ -132,23 +151,25 @@ class ModelReader {
     }
     if (depth > kDeepestNesting) reject_file(path_, "nodes are nested more than 500 deep");
     const auto& node = model_.nodes[static_cast<std::size_t>(index)];
-    const Eigen::Affine3d transform = parent * node_transform(node);
+    Inherited own{parent.transform * node_transform(node), parent.tags};
+    add_tags(node.extras, own.tags);
     if (node.skin >= 0) ++skins_;
-    if (node.mesh >= 0) append_mesh(node.mesh, transform);
-    for (const int child : node.children) visit(child, transform, depth + 1);
+    if (node.mesh >= 0) append_mesh(node, own);
+    for (const int child : node.children) visit(child, own, depth + 1);
   }
 
-  void append_mesh(int index, const Eigen::Affine3d& transform) {
-    if (static_cast<std::size_t>(index) >= model_.meshes.size()) {
-      reject_file(path_, "mesh " + std::to_string(index) + " does not exist in the glTF file");
+  void append_mesh(const tinygltf::Node& node, Inherited own) {
+    if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
+      reject_file(path_, "mesh " + std::to_string(node.mesh) + " does not exist in the glTF file");
     }
-    used_meshes_.insert(index);
-    for (const auto& primitive : model_.meshes[static_cast<std::size_t>(index)].primitives) {
-      append_primitive(primitive, transform);
-    }
+    used_meshes_.insert(node.mesh);
+    const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+    raw_.begin_body(node.name.empty() ? mesh.name : node.name);
+    add_tags(mesh.extras, own.tags);
+    for (const auto& primitive : mesh.primitives) append_primitive(primitive, own);
   }
 
-  void append_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform) {
+  void append_primitive(const tinygltf::Primitive& primitive, const Inherited& inherited) {
     const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (mode < TINYGLTF_MODE_TRIANGLES || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
       ++raw_.points_and_lines;
@@ -171,9 +192,14 @@ class ModelReader {
       reject_file(path_, "the mesh has more than 2^31 vertices or triangles", "split it in several files");
     }
     first_vertex_ = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const Vec3& p : positions) mesh.vertices.push_back(transform * p);
-    group_ = raw_.group_index(material_name(primitive.material));
-    mirrored_ = transform.linear().determinant() < 0.0;
+    for (const Vec3& p : positions) mesh.vertices.push_back(inherited.transform * p);
+    FaceTags tags = inherited.tags;
+    const std::string material = material_name(primitive.material);
+    if (primitive.material >= 0)
+      add_tags(model_.materials[static_cast<std::size_t>(primitive.material)].extras, tags);
+    add_tags(primitive.extras, tags);
+    group_ = mesh.group_index(material, tags);
+    mirrored_ = inherited.transform.linear().determinant() < 0.0;
     append_triangles(mode, indices);
   }
 

@@ -2,18 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/assimp_import.hpp"
+#include "scintray/mesh/body_choice.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/file_checks.hpp"
+#include "scintray/mesh/file_unit.hpp"
 #include "scintray/mesh/gltf_import.hpp"
 #include "scintray/mesh/ply_import.hpp"
+#include "scintray/mesh/step_import.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
 namespace {
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 std::string list_of_extensions() {
   std::string list;
@@ -21,24 +31,18 @@ std::string list_of_extensions() {
   return list;
 }
 
-RawMesh read_raw(const std::filesystem::path& path, const std::string& extension) {
+RawMesh read_raw(const std::filesystem::path& path, const std::string& extension,
+                 const Tessellation& tessellation) {
   const std::string content = read_mesh_file(path);
   check_claimed_sizes(path, extension, content);
   if (extension == ".gltf") return import_gltf(path, content, false);
   if (extension == ".glb") return import_gltf(path, content, true);
   if (extension == ".ply") return import_ply(path, content);
-  return import_through_assimp(path);
-}
-
-double resolve_unit(const std::filesystem::path& path, double mm_per_unit,
-                    const std::string& unit_from_file) {
-  if (!std::isfinite(mm_per_unit) || mm_per_unit < 0.0) {
-    reject_file(path, "the mesh's unit is not a positive length", "give for example unit = \"mm\"");
-  }
-  if (mm_per_unit > 0.0) return mm_per_unit;
-  if (unit_from_file == "m") return 1000.0;
-  reject_file(path, "the file does not say in which unit its coordinates are",
-              "say it beside the mesh, for example unit = \"mm\" (or \"um\", \"cm\", \"m\", \"inch\")");
+  if (is_step(extension)) return import_step(path, content, tessellation);
+  RawMesh raw = import_through_assimp(path);
+  if (extension == ".3mf") raw.unit = read_3mf_unit(path, content);
+  if (extension == ".dae") raw.unit = read_collada_unit(path, content);
+  return raw;
 }
 
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {
@@ -59,12 +63,25 @@ void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {
 }  // namespace
 
 const std::vector<std::string>& mesh_extensions() {
-  static const std::vector<std::string> extensions = {".stl", ".obj", ".ply",  ".off",
-                                                      ".3mf", ".dae", ".gltf", ".glb"};
+  static const std::vector<std::string> extensions = {".stl", ".obj",  ".ply", ".off",  ".3mf",
+                                                      ".dae", ".gltf", ".glb", ".step", ".stp"};
   return extensions;
 }
 
+bool is_step(const std::string& extension) { return extension == ".step" || extension == ".stp"; }
+
+bool states_its_unit(const std::string& extension) {
+  return extension == ".gltf" || extension == ".glb" || extension == ".3mf" || extension == ".dae" ||
+         is_step(extension);
+}
+
 MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
+  ImportOptions options;
+  options.mm_per_unit = mm_per_unit;
+  return import_mesh(path, options);
+}
+
+MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string extension = lower_extension(path);
   const auto& known = mesh_extensions();
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
@@ -73,9 +90,22 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
                     list_of_extensions(),
                 "export the mesh in one of these formats");
   }
-  RawMesh raw = read_raw(path, extension);
-  const double scale = resolve_unit(path, mm_per_unit, raw.unit_from_file);
-  MeshImport result{std::move(raw.mesh), raw.unit_from_file, std::move(raw.notes), 0};
+  if (!std::isfinite(options.scale) || options.scale <= 0.0)
+    reject_file(path, "the mesh's scale is not a positive number", "give a factor above 0");
+  Tessellation tessellation = options.tessellation;
+  tessellation.deviation_mm /= options.scale;
+  RawMesh raw = read_raw(path, extension, tessellation);
+  std::vector<std::string> unit_notes;
+  const double scale = options.scale * resolve_unit(path, options.mm_per_unit, raw.unit, unit_notes);
+  raw.notes.insert(raw.notes.begin(), unit_notes.begin(), unit_notes.end());
+  choose_body(path, raw, options.body);
+  if (raw.deviation_mm > 0.0) {
+    raw.notes.push_back("curved CAD faces cut in triangles within " +
+                        number_text(raw.deviation_mm * options.scale) + " mm" +
+                        " of them (asked for: " + number_text(options.tessellation.deviation_mm) +
+                        " mm and " + number_text(options.tessellation.angle_rad / kDegree) + " deg)");
+  }
+  MeshImport result{std::move(raw.mesh), raw.unit.name, std::move(raw.notes), 0, std::move(raw.bodies)};
   TriMesh& mesh = result.mesh;
   if (raw.points_and_lines > 0) {
     result.notes.push_back(std::to_string(raw.points_and_lines) +
@@ -88,9 +118,6 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
   if (mesh.triangles.empty()) {
     reject_file(path, "the file holds no triangles",
                 "a part needs a closed surface of triangles or polygons");
-  }
-  if (mm_per_unit > 0.0 && raw.unit_from_file == "m" && mm_per_unit != 1000.0) {
-    result.notes.push_back("the unit given replaces the metre that glTF prescribes");
   }
   for (Vec3& vertex : mesh.vertices) vertex *= scale;
   check_vertices(path, mesh);

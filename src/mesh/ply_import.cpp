@@ -170,7 +170,7 @@ class PlyReader {
         polygon.push_back(static_cast<std::uint32_t>(corner));
       }
       start = corners_end_[f];
-      if (!raw_.add_polygon(polygon, raw_.group_index("default"), false)) {
+      if (!raw_.add_polygon(polygon, raw_.mesh.group_index("default"), false)) {
         reject_member(*faces_, f, "has more corners than can be read");
       }
     }

@@ -118,6 +118,7 @@ TriMesh subdivide_faces(const TriMesh& mesh, int n) {
   TriMesh fine;
   fine.vertices = mesh.vertices;
   fine.groups = mesh.groups;
+  fine.group_tags = mesh.group_tags;
   const auto steps = static_cast<std::uint32_t>(n);
   // First new vertex of each cut edge, counted from its lower-numbered end.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cut_edges;
@@ -189,11 +190,8 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
   const auto offset = static_cast<std::uint32_t>(a.vertices.size());
   both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());
   std::vector<std::uint32_t> group_of_b;
-  for (const std::string& name : b.groups) {
-    const auto found = std::find(both.groups.begin(), both.groups.end(), name);
-    group_of_b.push_back(static_cast<std::uint32_t>(found - both.groups.begin()));
-    if (found == both.groups.end()) both.groups.push_back(name);
-  }
+  for (std::size_t g = 0; g < b.groups.size(); ++g)
+    group_of_b.push_back(both.group_index(b.groups[g], b.tags_of(g)));
   for (const auto& [i, j, k] : b.triangles) both.triangles.push_back({i + offset, j + offset, k + offset});
   for (const std::uint32_t group : b.group) both.group.push_back(group_of_b[group]);
   return both;

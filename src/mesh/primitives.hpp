@@ -39,7 +39,8 @@ TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform);
 /// Turns every triangle round, in place.
 void reverse_orientation(TriMesh& mesh);
 
-/// Both meshes in one; vertices are not welded, groups with the same name become one.
+/// Both meshes in one; vertices are not welded, groups with the same name and
+/// tags become one.
 TriMesh joined(const TriMesh& a, const TriMesh& b);
 
 }  // namespace scintray

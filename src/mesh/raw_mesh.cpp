@@ -1,10 +1,24 @@
 #include "scintray/mesh/raw_mesh.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "scintray/mesh/polygon.hpp"
 
 namespace scintray {
+
+void RawMesh::begin_body(const std::string& name) {
+  fill_body();
+  const std::string base = name.empty() ? "body" : name;
+  std::string unique = base;
+  for (int number = 2; std::find(bodies.begin(), bodies.end(), unique) != bodies.end(); ++number)
+    unique = base + " " + std::to_string(number);
+  bodies.push_back(unique);
+}
+
+void RawMesh::fill_body() {
+  if (!bodies.empty()) body_of.resize(mesh.triangles.size(), static_cast<std::uint32_t>(bodies.size() - 1));
+}
 
 bool RawMesh::add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group_of_polygon,
                           bool mirrored) {

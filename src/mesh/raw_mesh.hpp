@@ -1,7 +1,6 @@
 #pragma once
 /// What a file format's reader hands over.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,26 +10,38 @@
 
 namespace scintray {
 
+/// The unit of length of a mesh file.
+struct FileUnit {
+  std::string name;      ///< as "inch"; empty when neither the file nor its format says
+  double mm = 0.0;       ///< length of the unit; 0 when unknown
+  bool written = false;  ///< the file itself says it; otherwise its format prescribes it
+  double read_mm = 0.0;  ///< what one unit of the coordinates, as the library gave them, is
+};
+
 /// Triangles as the file has them, in file units; vertices not welded, indices checked.
 struct RawMesh {
   TriMesh mesh;
-  std::string unit_from_file;
+  FileUnit unit;
   std::vector<std::string> notes;
+
+  /// Objects, nodes or solids of the file, names unique, and for each triangle which it belongs to. A
+  /// format without such a structure leaves both empty.
+  std::vector<std::string> bodies;
+  std::vector<std::uint32_t> body_of;
 
   std::size_t points_and_lines = 0;   ///< faces with fewer than three corners, left out
   std::size_t crossing_polygons = 0;  ///< polygons that cross themselves, cut as well as may be
+  double deviation_mm = 0.0;          ///< largest distance found between triangles and a curved CAD face
+
+  /// Begins a body: triangles added from now on, and those left without one, belong to it. A name that is
+  /// taken gets a number; an empty one becomes "body".
+  void begin_body(const std::string& name);
+  /// Gives the triangles added since the last call to the latest body.
+  void fill_body();
 
   /// Adds a polygon over vertices of `mesh`, cut in triangles, with its corners in reverse order when
   /// `mirrored`. Returns false when it has more than kMostCorners corners.
   bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group, bool mirrored);
-
-  /// Index of the group, added when it is new.
-  std::uint32_t group_index(const std::string& name) {
-    const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
-    const auto index = static_cast<std::uint32_t>(found - mesh.groups.begin());
-    if (found == mesh.groups.end()) mesh.groups.push_back(name);
-    return index;
-  }
 };
 
 /// Largest number of vertices or triangles of one mesh; their indices are 32 bits wide.

@@ -1,5 +1,7 @@
 #include "scintray/mesh/trimesh.hpp"
 
+#include <charconv>
+
 namespace scintray {
 
 Vec3 TriMesh::area_vector(std::size_t triangle) const {
@@ -22,6 +24,27 @@ double TriMesh::volume() const {
     sum += (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6.0;
   }
   return sum;
+}
+
+std::string tag_text(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+const FaceTags& TriMesh::tags_of(std::size_t group_number) const {
+  static const FaceTags none;
+  return group_number < group_tags.size() ? group_tags[group_number] : none;
+}
+
+std::uint32_t TriMesh::group_index(const std::string& name, const FaceTags& tags) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g] == name && tags_of(g) == tags) return static_cast<std::uint32_t>(g);
+  groups.push_back(name);
+  if (!tags.empty() || !group_tags.empty()) {
+    group_tags.resize(groups.size());
+    group_tags.back() = tags;
+  }
+  return static_cast<std::uint32_t>(groups.size() - 1);
 }
 
 }  // namespace scintray

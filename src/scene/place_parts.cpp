@@ -51,13 +51,24 @@ FaceSelector selector_of(const FaceSelectorSpec& spec) {
   selector.flat_region = spec.flat_region;
   selector.nearest = spec.nearest;
   if (!spec.group.empty()) selector.group = spec.group.name;
+  selector.tags = spec.tags;
   return selector;
 }
 
+/// Groups of the mesh, and what the file says of them.
 std::string group_list(const TriMesh& mesh) {
+  constexpr std::size_t kMost = 30;
+  std::vector<std::string> names;
+  const auto add = [&names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const std::string& group : mesh.groups) add(group);
+  for (const FaceTags& tags : mesh.group_tags)
+    for (const auto& [key, value] : tags)
+      if (key != "face") add(key + " = \"" + value + "\"");
   std::string list;
-  for (const std::string& group : mesh.groups) list += (list.empty() ? "" : ", ") + group;
-  return list;
+  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) list += (list.empty() ? "" : ", ") + names[i];
+  return list + (names.size() > kMost ? " and more" : "");
 }
 
 /// Where a triangle is, for messages.
@@ -105,9 +116,10 @@ class FaceTagger {
       }
     }
     if (!any)
-      problems_.add(
-          spec.select.where, "rule \"" + spec.name + "\" matches no face of part \"" + placed_.name + "\"",
-          "normals and boxes are those of the placed part; its groups are: " + group_list(placed_.mesh));
+      problems_.add(spec.select.where,
+                    "rule \"" + spec.name + "\" matches no face of part \"" + placed_.name + "\"",
+                    "normals and boxes are those of the placed part; its groups and tags are: " +
+                        group_list(placed_.mesh));
   }
 
   void add_rest() {

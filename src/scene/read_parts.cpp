@@ -10,6 +10,8 @@ namespace scintray {
 
 namespace {
 
+using Kind = TomlNode::Kind;
+
 const std::vector<std::string> kSides{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 RotationSpec read_rotation(const TomlTable& table) {
@@ -52,6 +54,44 @@ std::string name_list(const std::vector<std::string>& names) {
   return list;
 }
 
+/// A scalar as the value of a tag.
+std::optional<std::string> tag_value(const TomlNode& node) {
+  if (node.kind == Kind::string) return node.text;
+  if (node.kind == Kind::boolean) return node.boolean ? "true" : "false";
+  if (node.kind == Kind::integer || node.kind == Kind::number) return tag_text(node.number);
+  return std::nullopt;
+}
+
+/// color = "#rrggbb" and extras = { KEY = VALUE }.
+FaceTags read_tags(const TomlTable& select) {
+  FaceTags tags;
+  if (select.has("color")) {
+    std::string& color = tags["color"] = select.string("color");
+    std::transform(color.begin(), color.end(), color.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    select.expect("color",
+                  color.size() == 7 && color[0] == '#' &&
+                      color.find_first_not_of("0123456789abcdef", 1) == std::string::npos,
+                  "\"" + color + "\" is not a colour", "write red, green and blue as \"#ff8000\"");
+  }
+  if (!select.has("extras")) return tags;
+  const TomlNodePtr extras = select.take("extras");
+  if (extras->kind != Kind::table || extras->items.empty()) {
+    select.report("extras", "\"extras\" is not a table of keys and values",
+                  "write extras = { finish = \"rough\" }");
+    return tags;
+  }
+  for (const TomlNode& member : extras->items) {
+    const std::optional<std::string> value = tag_value(member);
+    if (value)
+      tags[member.key] = *value;
+    else
+      select.report("extras", "the extra \"" + member.key + "\" is not text, a number, true or false",
+                    "only such extras of a glTF file can be asked for");
+  }
+  return tags;
+}
+
 FaceSelectorSpec read_selector(const TomlTable& face) {
   const TomlTable table = face.table("select");
   FaceSelectorSpec select;
@@ -67,9 +107,12 @@ FaceSelectorSpec read_selector(const TomlTable& face) {
   select.nearest = table.optional_quantity3("nearest", Dimension::length);
   const auto group = table.one_of({"group", "gltf_material"}, false);
   if (group) select.group = read_name(table, *group, true);
+  select.tags = read_tags(table);
   if (face.good("select") && table.keys().empty())
-    face.report("select", "an empty selection would match every face",
-                "give normal, box, flat_region, nearest or group; for every face set the part's own surface");
+    face.report(
+        "select", "an empty selection would match every face",
+        "give normal, box, flat_region, nearest, group, color or extras; for every face set the part's own "
+        "surface");
   return select;
 }
 

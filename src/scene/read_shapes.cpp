@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scintray/scene/read_mesh.hpp"
+
 namespace scintray {
 
 namespace {
@@ -162,35 +164,6 @@ void read_chamfer(const TomlTable& part, ShapeSpec& shape) {
               "give a length above 0 and below half of the shortest edge");
 }
 
-/// Mesh formats that state their unit (glTF 2.0 specification, section 3.4: metres).
-bool states_its_unit(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".gltf" || extension == ".glb";
-}
-
-MeshFileSpec read_mesh(const TomlTable& table) {
-  MeshFileSpec mesh;
-  mesh.where = table.where("mesh");
-  mesh.path = table.existing_file("mesh");
-  const std::optional<std::string> unit = table.optional_string("unit");
-  if (unit) {
-    try {
-      mesh.unit_mm = unit_factor(*unit, Dimension::length);
-    } catch (const InputError& error) {
-      for (const Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
-    }
-  } else if (!table.has("unit")) {
-    table.expect("mesh", states_its_unit(mesh.path),
-                 "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
-                 "add the unit it was exported in, as unit = \"mm\"");
-  }
-  mesh.scale = table.number("scale", 1.0);
-  table.expect("scale", mesh.scale > 0.0, "a scale that is not positive", "give a factor above 0");
-  return mesh;
-}
-
 }  // namespace
 
 bool is_array(const TomlTable& table, const std::string& key) {
@@ -201,7 +174,7 @@ bool is_array(const TomlTable& table, const std::string& key) {
 ShapeSpec read_shape(const TomlTable& part) {
   const std::optional<std::string> kind =
       part.one_of({"mesh", "box", "cylinder", "prism", "tapered", "winston", "sphere"}, true);
-  for (const char* key : {"unit", "scale"}) part.has(key);
+  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
   ShapeSpec shape = BoxSpec{};
   if (kind == "mesh") shape = read_mesh(part);
   if (kind == "box") shape = read_box(part);

@@ -8,11 +8,9 @@ namespace scintray {
 namespace {
 
 ShapeMesh make(const MeshFileSpec& file) {
-  MeshImport imported = import_mesh(file.path, file.unit_mm.value_or(0.0));
-  ShapeMesh shape{std::move(imported.mesh), std::move(imported.notes)};
-  if (file.scale != 1.0)
-    for (Vec3& vertex : shape.mesh.vertices) vertex *= file.scale;
-  return shape;
+  MeshImport imported =
+      import_mesh(file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation});
+  return {std::move(imported.mesh), std::move(imported.notes)};
 }
 
 ShapeMesh make(const BoxSpec& box) {

@@ -10,6 +10,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/tessellation.hpp"
 
 namespace scintray {
 
@@ -26,6 +27,8 @@ struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
   std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
   double scale = 1.0;
+  std::string body;           ///< name or number of the one body of the file; empty: all together
+  Tessellation tessellation;  ///< of a CAD file's curved faces
   FileLocation where;
 };
 

@@ -13,6 +13,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/tally_spec.hpp"
@@ -69,6 +70,7 @@ struct FaceSelectorSpec {
   std::optional<Vec3> nearest;      ///< point, mm: the one triangle nearest to it
   NameRef group;                    ///< glTF material or OBJ group of the mesh file; side
                                     ///< "-z" of a box, "side" of a cylinder
+  FaceTags tags;                    ///< glTF extras, "color" of a CAD face
   FileLocation where;
 };
 

@@ -38,7 +38,7 @@ void check_says(const std::string& text, const std::string& words) {
 TEST_CASE("Messages about mesh files name the file, the fault and the way out") {
   check_says(message("/nowhere/crystal.stl"), "mesh file not found");
   check_says(message("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
-  check_says(message("crystal.step"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb");
+  check_says(message("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
   check_says(message(write("empty.obj", "")), "the mesh file is empty");
   check_says(message(write("none.stl", "solid a\nendsolid a\n")), "no triangles");
   check_says(message(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 0.0), "unit = \"mm\"");

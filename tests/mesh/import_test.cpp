@@ -13,6 +13,7 @@
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/polygon.hpp"
 #include "support/shared.hpp"
+#include "support/zipped.hpp"
 
 using namespace scintray;
 
@@ -55,6 +56,57 @@ void check_box(const MeshImport& read, double mm_per_unit) {
   CHECK(read.mesh.volume() == doctest::Approx(6.0 * std::pow(mm_per_unit, 3)).epsilon(1e-6));
   CHECK(read.mesh.group.size() == 12);
   CHECK(diagnose(read.mesh).sound());
+}
+
+/// The box, moved by 10 along x, with this content of <asset>.
+std::string collada_text(const std::string& asset) {
+  std::string floats, faces;
+  for (int c = 0; c < 8; ++c) {
+    floats += std::to_string(c & 1) + " " + std::to_string((c >> 1 & 1) * 2) + " " +
+              std::to_string((c >> 2 & 1) * 3) + " ";
+  }
+  for (const auto& q : kQuads) {
+    for (const int k : {0, 1, 2, 0, 2, 3}) faces += std::to_string(q[k]) + " ";
+  }
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset>)" +
+         asset + R"(</asset><library_geometries><geometry id="g" name="crystal"><mesh>
+<source id="p"><float_array id="a" count="24">)" +
+         floats + R"(</float_array><technique_common>
+<accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+         faces + R"(</p></triangles>
+</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">
+<translate>10 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
+}
+
+/// A 3MF archive of the box with these attributes of <model> and this <build>.
+std::string three_mf(const std::string& attributes, const std::string& build = "<item objectid=\"1\"/>") {
+  std::string vertices, triangles;
+  for (int c = 0; c < 8; ++c)
+    vertices += "<vertex x=\"" + std::to_string(c & 1) + "\" y=\"" + std::to_string((c >> 1 & 1) * 2) +
+                "\" z=\"" + std::to_string((c >> 2 & 1) * 3) + "\"/>";
+  for (const auto& q : kQuads)
+    for (const int k : {1, 2})
+      triangles += "<triangle v1=\"" + std::to_string(q[0]) + "\" v2=\"" + std::to_string(q[k]) + "\" v3=\"" +
+                   std::to_string(q[k + 1]) + "\"/>";
+  const std::string model = "<?xml version=\"1.0\"?><model" + attributes +
+                            " xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
+                            "<object id=\"1\" type=\"model\" name=\"crystal\"><mesh><vertices>" +
+                            vertices + "</vertices><triangles>" + triangles +
+                            "</triangles></mesh></object></resources><build>" + build + "</build></model>";
+  const std::string relationships =
+      "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship "
+      "Target=\"/3D/3dmodel.model\" Id=\"r\" "
+      "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
+  return test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}}, true);
+}
+
+void check_refused(const std::filesystem::path& path, double mm_per_unit, const std::string& words) {
+  CHECK_THROWS_WITH_AS(import_mesh(path, mm_per_unit), doctest::Contains(words.c_str()), InputError);
 }
 
 std::string base64(const std::string& bytes) {
@@ -181,33 +233,89 @@ TEST_CASE("Binary PLY of either byte order, data that look like white space incl
   }
 }
 
-TEST_CASE("COLLADA keeps its axes and applies node transforms") {
-  std::string floats, faces;
-  for (int c = 0; c < 8; ++c) {
-    floats += std::to_string(c & 1) + " " + std::to_string((c >> 1 & 1) * 2) + " " +
-              std::to_string((c >> 2 & 1) * 3) + " ";
-  }
-  for (const auto& q : kQuads) {
-    for (const int k : {0, 1, 2, 0, 2, 3}) faces += std::to_string(q[k]) + " ";
-  }
-  const std::string text =
-      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g" name="crystal"><mesh>
-<source id="p"><float_array id="a" count="24">)" +
-      floats + R"(</float_array><technique_common>
-<accessor source="#a" count="8" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-<param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<triangles count="12"><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
-      faces + R"(</p></triangles>
-</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">
-<translate>10 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-  const MeshImport read = import_mesh(mesh_file("box.dae", text), 1.0);
+TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres unless it says otherwise") {
+  const std::filesystem::path path = mesh_file("box.dae", collada_text("<up_axis>Z_UP</up_axis>"));
+  const MeshImport read = import_mesh(path, 1.0);
   check_box(read, 1.0);
   const auto bounds = diagnose(read.mesh).bounds;
   CHECK((bounds.min() - Vec3(10, 0, 0)).norm() < 1e-5);
   CHECK((bounds.max() - Vec3(11, 2, 3)).norm() < 1e-5);
+  REQUIRE_FALSE(read.notes.empty());
+  CHECK(read.notes[0] == "the unit given, 1 mm, replaces what the format prescribes, meter (1000 mm)");
+  check_box(import_mesh(path, 0.0), 1000.0);
+}
+
+TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
+  const std::string inch = R"(<unit name="inch" meter="0.0254"/>)";
+  const MeshImport read = import_mesh(mesh_file("inch.dae", collada_text(inch)), 0.0);
+  check_box(read, 25.4);
+  CHECK(read.unit_from_file == "inch");
+  CHECK(diagnose(read.mesh).bounds.min().x() == doctest::Approx(254.0));
+  check_box(import_mesh(mesh_file("inch.dae", collada_text(inch)), 25.4), 25.4);
+  check_refused(mesh_file("inch.dae", collada_text(inch)), 1.0, "says that it is in inch (25.4 mm)");
+  check_refused(mesh_file("bad.dae", collada_text(R"(<unit name="inch" meter="none"/>)")), 0.0,
+                "gives its unit as \"none\" metres");
+  check_refused(mesh_file("bad.dae", collada_text(R"(<unit meter="-1"/>)")), 0.0, "above 0");
+}
+
+TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
+  const std::pair<const char*, double> units[] = {{"", 1.0},
+                                                  {" unit=\"micron\"", 1e-3},
+                                                  {" unit=\"millimeter\"", 1.0},
+                                                  {" unit=\"centimeter\"", 10.0},
+                                                  {" unit=\"inch\"", 25.4},
+                                                  {" unit=\"foot\"", 304.8},
+                                                  {" unit=\"meter\"", 1000.0}};
+  for (const auto& [unit, mm] : units) {
+    CAPTURE(unit);
+    check_box(import_mesh(mesh_file("box.3mf", three_mf(unit)), 0.0), mm);
+  }
+  check_refused(mesh_file("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "says that it is in inch (25.4 mm)");
+  check_refused(mesh_file("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
+}
+
+TEST_CASE("3MF objects are bodies, with the transforms of their items") {
+  const std::filesystem::path path =
+      mesh_file("two.3mf", three_mf(" unit=\"inch\"",
+                                    "<item objectid=\"1\"/>"
+                                    "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 0 0\"/>"));
+  const MeshImport all = import_mesh(path, 0.0);
+  CHECK(all.mesh.volume() == doctest::Approx(12.0 * std::pow(25.4, 3)).epsilon(1e-5));
+  REQUIRE(all.bodies.size() == 2);
+  ImportOptions options;
+  options.body = "2";
+  const MeshImport second = import_mesh(path, options);
+  check_box(second, 25.4);
+  CHECK(diagnose(second.mesh).bounds.min().x() == doctest::Approx(254.0));
+}
+
+TEST_CASE("An OBJ object is a body, whatever its materials") {
+  const std::string faces = quad_lines("f ", 1);
+  const std::size_t last = faces.rfind("f ");
+  const std::string text = corner_lines("v ") + "o a\nusemtl x\n" + faces + "o b\nusemtl x\n" +
+                           faces.substr(0, last) + "usemtl y\n" + faces.substr(last);
+  const std::filesystem::path path = mesh_file("bodies.obj", text);
+  CHECK(import_mesh(path, 1.0).bodies == std::vector<std::string>{"a", "b"});
+  ImportOptions options;
+  options.mm_per_unit = 2.0;
+  options.body = "b";
+  const MeshImport b = import_mesh(path, options);
+  check_box(b, 2.0);
+  CHECK(b.mesh.groups == std::vector<std::string>{"b:x", "b:y"});
+  options.body = "c";
+  CHECK_THROWS_WITH_AS(import_mesh(path, options), doctest::Contains("its bodies are \"a\", \"b\""),
+                       InputError);
+}
+
+TEST_CASE("A format without bodies has none to choose") {
+  ImportOptions options;
+  options.mm_per_unit = 1.0;
+  options.body = "crystal";
+  const std::string text = "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0);
+  const MeshImport plain = import_mesh(mesh_file("plain.off", text), 1.0);
+  CHECK(plain.bodies.size() <= 1);
+  CHECK_THROWS_WITH_AS(import_mesh(mesh_file("plain.off", text), options), doctest::Contains("\"crystal\""),
+                       InputError);
 }
 
 TEST_CASE("OBJ groups are object and material, and either half selects") {
@@ -248,6 +356,43 @@ TEST_CASE("glTF is in metres, moves with its nodes, and its materials are groups
   for (std::size_t t = 0; t < mask.size(); ++t) {
     if (mask[t]) CHECK(read.mesh.area_vector(t).normalized().z() == doctest::Approx(1.0));
   }
+}
+
+TEST_CASE("glTF extras are tags of groups: of node, mesh, material and primitive, the later ones winning") {
+  std::string text =
+      gltf_text(embedded(), R"({"name":"crystal","mesh":0,"extras":{"finish":"rough","layer":3,)"
+                            R"("coated":true,"list":[1],"scale":0.5}})");
+  const auto insert = [&text](const std::string& before, const std::string& extras) {
+    text.insert(text.find(before) + before.size(), extras);
+  };
+  insert(R"("name":"polished")", R"(,"extras":{"finish":"smooth","paint":"no"})");
+  insert(R"("indices":2,"material":1)", R"(,"extras":{"paint":"white"})");
+  const TriMesh mesh = import_mesh(mesh_file("extras.gltf", text), 0.0).mesh;
+  CHECK(mesh.groups == std::vector<std::string>{"ground", "polished"});
+  CHECK(mesh.tags_of(0) ==
+        FaceTags{{"finish", "rough"}, {"layer", "3"}, {"coated", "true"}, {"scale", "0.5"}});
+  CHECK(mesh.tags_of(1).at("finish") == "smooth");
+  CHECK(mesh.tags_of(1).at("paint") == "white");
+  FaceSelector selector;
+  selector.tags = {{"layer", "3"}, {"finish", "rough"}};
+  const auto mask = select_triangles(mesh, selector);
+  CHECK(std::count(mask.begin(), mask.end(), 1) == 10);
+  selector.tags["paint"] = "white";
+  const auto none = select_triangles(mesh, selector);
+  CHECK(std::count(none.begin(), none.end(), 1) == 0);
+}
+
+TEST_CASE("A glTF node is a body") {
+  const std::string nodes = R"({"name":"a","mesh":0},{"name":"b","mesh":0,"translation":[5,0,0]})";
+  std::string text = gltf_text(embedded(), nodes);
+  text.replace(text.find("[0]}]"), 3, "[0,1]");
+  const std::filesystem::path path = mesh_file("nodes.gltf", text);
+  CHECK(import_mesh(path, 0.0).bodies == std::vector<std::string>{"a", "b"});
+  ImportOptions options;
+  options.body = "b";
+  const MeshImport b = import_mesh(path, options);
+  check_box(b, 1000.0);
+  CHECK(diagnose(b.mesh).bounds.min().x() == doctest::Approx(5000.0));
 }
 
 // Fails when the loader comes from libdraco's copy of tinygltf instead of libtinygltf

@@ -52,6 +52,7 @@ std::vector<std::string> documented_keys() {
 SceneFile documented_scene() {
   const std::filesystem::path folder = scratch_folder("documented_scene");
   std::ofstream(folder / "crystal.stl") << "solid\nendsolid\n";
+  std::ofstream(folder / "detector.step") << "ISO-10303-21;\n";
   return SceneFile::from_text(documented_example(), (folder / "scene.toml").string());
 }
 
@@ -92,6 +93,15 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(rod.placement.rotate[1].angle_rad == doctest::Approx(45.0 * kDegree));
   CHECK(rod.placement.translate == Vec3(-8, 0, 3));
   CHECK(rod.medium.name == kOpaqueMedium);
+
+  const auto step = std::find_if(scene.parts.begin(), scene.parts.end(),
+                                 [](const PartSpec& part) { return part.name.name == "step"; });
+  REQUIRE(step != scene.parts.end());
+  const auto& cad = std::get<MeshFileSpec>(step->shape);
+  CHECK_FALSE(cad.unit_mm.has_value());
+  CHECK(cad.body == "light guide");
+  CHECK(cad.tessellation.angle_rad == doctest::Approx(5.0 * kDegree));
+  CHECK(step->faces.at(0).select.tags == FaceTags{{"color", "#ff8000"}});
 
   REQUIRE_FALSE(scene.contacts.empty());  // those of builders follow
   CHECK(scene.contacts[0].between[1].name == "pmt_fill");

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/zipped.hpp"
+
 namespace scintray::test {
 
 inline constexpr std::uint32_t kMadeUpColumns = 5, kMadeUpRows = 3;
@@ -73,9 +75,6 @@ struct MadeUpX3p {
 };
 /// Pitch 2 x 1 um, heights in um.
 std::string x3p_file(const MadeUpX3p& made = {});
-
-/// A zip archive of (name, content), without compression unless `packed`.
-std::string zip_file(const std::vector<std::pair<std::string, std::string>>& entries, bool packed = false);
 
 std::string gzip_file(std::string_view content);
 

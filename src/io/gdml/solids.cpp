@@ -1,0 +1,116 @@
+#include "scintray/io/gdml/solids.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "scintray/io/gdml/simple_solids.hpp"
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/primitives.hpp"
+
+namespace scintray::gdml {
+
+namespace {
+
+std::optional<BooleanOperation> operation_of(Node solid) {
+  const std::string kind = solid.name();
+  if (kind == "union") return BooleanOperation::join;
+  if (kind == "subtraction") return BooleanOperation::subtract;
+  if (kind == "intersection") return BooleanOperation::intersect;
+  return std::nullopt;
+}
+
+/// As Geant4 places the solids of a boolean: turned by the rotation as it is, then moved.
+Eigen::Affine3d placement(const Vec3& position, const Vec3& angles_rad) {
+  return Eigen::Translation3d(position) * Eigen::Affine3d(rotation_matrix(angles_rad));
+}
+
+}  // namespace
+
+Eigen::Matrix3d rotation_matrix(const Vec3& angles_rad) {
+  return (Eigen::AngleAxisd(angles_rad.z(), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(angles_rad.y(), Vec3::UnitY()) * Eigen::AngleAxisd(angles_rad.x(), Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
+Solids::Solids(const GdmlFile& file, const Definitions& definitions, const Tessellation& tessellation)
+    : file_(file), definitions_(definitions), tessellation_(tessellation) {
+  definitions_.for_each_child(file_.section("solids"), [this](Node node) {
+    const std::string name = definitions_.name(file_.required(node, "name"), node);
+    auto& known = std::string(node.name()) == "opticalsurface" ? surfaces_ : solids_;
+    if (!known.emplace(name, LoopedNode{node, definitions_.loop_variables()}).second)
+      file_.reject(node, "the name \"" + name + "\" is already taken", "give every solid a name of its own");
+  });
+}
+
+Node Solids::optical_surface(const std::string& name) const {
+  const auto found = surfaces_.find(name);
+  return found == surfaces_.end() ? Node() : found->second.node;
+}
+
+Node Solids::element(const std::string& name, Node where) const { return find(name, where).node; }
+
+const LoopedNode& Solids::find(const std::string& name, Node where) const {
+  const auto found = solids_.find(name);
+  if (found == solids_.end())
+    file_.reject(where, "no solid is called \"" + name + "\"", "define it in <solids>");
+  return found->second;
+}
+
+const TriMesh& Solids::mesh(const std::string& name, Node where) {
+  if (const auto done = made_.find(name); done != made_.end()) return done->second;
+  const auto& [solid, variables] = find(name, where);
+  const LoopScope scope(definitions_, variables);
+  if (std::find(in_the_making_.begin(), in_the_making_.end(), name) != in_the_making_.end())
+    file_.reject(solid, "solid \"" + name + "\" is made of itself");
+  constexpr std::size_t kDeepest = 500;
+  if (in_the_making_.size() >= kDeepest) file_.reject(solid, "booleans are nested more than 500 deep");
+  in_the_making_.push_back(name);
+  TriMesh mesh;
+  try {
+    mesh = make(solid);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (!problem.where.file.empty()) continue;
+      problem.where = file_.where(solid);
+      problem.what = "solid \"" + name + "\" (" + solid.name() + "): " + problem.what;
+    }
+    throw InputError(std::move(problems));
+  }
+  in_the_making_.pop_back();
+  return made_.emplace(name, std::move(mesh)).first->second;
+}
+
+TriMesh Solids::make(Node solid) {
+  if (operation_of(solid)) return make_boolean(solid);
+  std::optional<TriMesh> mesh = make_simple_solid(solid, definitions_, tessellation_);
+  if (!mesh)
+    throw InputError(Problem{{},
+                             "solids of this kind cannot be made",
+                             "write it as a tessellated solid, or leave out the volumes that use it with "
+                             "--skip-unsupported"});
+  if (const std::vector<Problem> problems = mesh_problems(diagnose(*mesh), solid.attribute("name").value());
+      !problems.empty())
+    throw InputError(problems);
+  return std::move(*mesh);
+}
+
+TriMesh Solids::make_boolean(Node solid) {
+  const auto operand = [&](const char* tag) {
+    const Node reference = solid.child(tag);
+    if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
+    return mesh(definitions_.name(file_.required(reference, "ref"), reference), reference);
+  };
+  const TriMesh first =
+      transformed(operand("first"), placement(definitions_.position(solid, "firstposition"),
+                                              definitions_.rotation(solid, "firstrotation")));
+  const TriMesh second =
+      transformed(operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
+  TriMesh result = boolean(first, second, *operation_of(solid));
+  if (result.triangles.empty())
+    throw InputError(Problem{{}, "nothing is left of the boolean", "check where its two solids lie"});
+  return result;
+}
+
+}  // namespace scintray::gdml

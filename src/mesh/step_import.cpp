@@ -1,0 +1,319 @@
+#include "scintray/mesh/step_import.hpp"
+
+#include <BRepBndLib.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Geom_Surface.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <Standard_Failure.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include "scintray/mesh/face_selection.hpp"
+#include "scintray/mesh/file_checks.hpp"
+
+namespace scintray {
+namespace {
+
+/// Open CASCADE's settings and messages are one per process, so imports take turns. Silences it: libraries
+/// do not print.
+class OpenCascadeSession {
+ public:
+  OpenCascadeSession() : lock_(mutex()), printers_(Message::DefaultMessenger()->Printers()) {
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+  }
+  OpenCascadeSession(const OpenCascadeSession&) = delete;
+  OpenCascadeSession& operator=(const OpenCascadeSession&) = delete;
+  ~OpenCascadeSession() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  Message_SequenceOfPrinters printers_;
+};
+
+std::string label_name(const TDF_Label& label) {
+  Handle(TDataStd_Name) name;
+  if (label.IsNull() || !label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
+  const TCollection_ExtendedString& text = name->Get();
+  std::string bytes(static_cast<std::size_t>(text.LengthOfCString()), '\0');
+  Standard_PCharacter start = bytes.data();
+  text.ToUTF8CString(start);
+  return bytes;
+}
+
+/// What CAD programs write for faces without a name.
+bool is_no_name(const std::string& name) { return name.empty() || name == "NONE"; }
+
+Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+
+class ShapeReader {
+ public:
+  ShapeReader(const Handle(TDocStd_Document) & document, const std::filesystem::path& path,
+              const Tessellation& tessellation)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+        colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
+        path_(path),
+        tessellation_(tessellation) {}
+
+  RawMesh read() {
+    TDF_LabelSequence roots;
+    shapes_->GetFreeShapes(roots);
+    for (int i = 1; i <= roots.Length(); ++i) visit(roots.Value(i), TopLoc_Location(), 0);
+    raw_.fill_body();
+    if (loose_faces_ > 0)
+      raw_.notes.push_back(std::to_string(loose_faces_) + " CAD faces left out: they belong to no solid");
+    if (uncut_faces_ > 0)
+      reject_file(path_,
+                  std::to_string(uncut_faces_) + " of " + std::to_string(faces_) +
+                      " CAD faces could not be cut in triangles",
+                  "repair the shape in the CAD program, or export a mesh from it");
+    return std::move(raw_);
+  }
+
+ private:
+  /// Products may refer to each other; the standard allows no loops, files do as they like.
+  void visit(const TDF_Label& label, const TopLoc_Location& placement, std::size_t depth) {
+    if (depth > kDeepestNesting) reject_file(path_, "assemblies are nested more than 500 deep");
+    TDF_Label product = label;
+    TopLoc_Location place = placement;
+    if (XCAFDoc_ShapeTool::IsReference(label)) {
+      place = placement * XCAFDoc_ShapeTool::GetLocation(label);
+      XCAFDoc_ShapeTool::GetReferredShape(label, product);
+    }
+    if (!XCAFDoc_ShapeTool::IsAssembly(product)) {
+      read_product(product, place);
+      return;
+    }
+    TDF_LabelSequence components;
+    XCAFDoc_ShapeTool::GetComponents(product, components);
+    for (int i = 1; i <= components.Length(); ++i) visit(components.Value(i), place, depth + 1);
+  }
+
+  void read_product(const TDF_Label& product, const TopLoc_Location& place) {
+    const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(product);
+    if (shape.IsNull()) return;
+    cut(shape);
+    const std::string name = label_name(product);
+    bool solids = false;
+    for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) {
+      solids = true;
+      read_body(product, solid.Current(), name, place);
+    }
+    if (!solids) {
+      read_body(product, shape, name, place);
+      return;
+    }
+    for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SOLID); face.More(); face.Next()) ++loose_faces_;
+  }
+
+  void cut(const TopoDS_Shape& shape) const {
+    constexpr double kFinest = 1e-6;
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box);
+    const double size_mm = box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+    if (tessellation_.deviation_mm < kFinest * size_mm) {
+      std::ostringstream text;
+      text << "a tessellation within " << tessellation_.deviation_mm << " mm of a shape of " << size_mm
+           << " mm is finer than a millionth of it";
+      reject_file(path_, text.str(), "give the tessellation a larger deviation");
+    }
+    IMeshTools_Parameters settings;
+    settings.Deflection = settings.DeflectionInterior = tessellation_.deviation_mm;
+    settings.Angle = settings.AngleInterior = tessellation_.angle_rad;
+    // A tenth of the deviation when it is not set, at which small circles stay coarser than the angle.
+    settings.MinSize = Precision::Confusion();
+    BRepMesh_IncrementalMesh(shape, settings);
+  }
+
+  void read_body(const TDF_Label& product, const TopoDS_Shape& body, const std::string& name,
+                 const TopLoc_Location& place) {
+    raw_.begin_body(name);
+    std::optional<std::string> colour = colour_of(product, body);
+    if (!colour) colour = label_colour(product);
+    for (TopExp_Explorer face(body, TopAbs_FACE); face.More(); face.Next())
+      read_face(product, TopoDS::Face(face.Current()), colour, place);
+  }
+
+  std::optional<std::string> label_colour(const TDF_Label& label) const {
+    Quantity_Color colour;
+    for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {
+      if (label.IsNull() || !colours_->GetColor(label, type, colour)) continue;
+      std::string hex = Quantity_Color::ColorToHex(colour).ToCString();
+      std::transform(hex.begin(), hex.end(), hex.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return hex;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::string> colour_of(const TDF_Label& product, const TopoDS_Shape& part) const {
+    TDF_Label label;
+    if (!shapes_->FindSubShape(product, part, label)) return std::nullopt;
+    return label_colour(label);
+  }
+
+  void read_face(const TDF_Label& product, const TopoDS_Face& face,
+                 const std::optional<std::string>& colour_of_body, const TopLoc_Location& place) {
+    const std::string number = "face" + std::to_string(++faces_);
+    TopLoc_Location own_place;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, own_place);
+    if (triangles.IsNull()) {
+      ++uncut_faces_;
+      return;
+    }
+    TDF_Label label;
+    shapes_->FindSubShape(product, face, label);
+    const std::string name = label_name(label);
+    const std::optional<std::string> own_colour = label_colour(label);
+    FaceTags tags{{"face", number}};
+    if (own_colour || colour_of_body) tags["color"] = own_colour ? *own_colour : *colour_of_body;
+    raw_.mesh.groups.push_back(!is_no_name(name) ? name : own_colour.value_or(number));
+    raw_.mesh.group_tags.push_back(std::move(tags));
+
+    measure(BRep_Tool::Surface(face, own_place), *triangles);
+    append(*triangles, (place * own_place).Transformation(), face.Orientation() == TopAbs_REVERSED);
+  }
+
+  void append(const Poly_Triangulation& triangles, const gp_Trsf& transform, bool reversed) {
+    TriMesh& mesh = raw_.mesh;
+    if (mesh.vertices.size() + static_cast<std::size_t>(triangles.NbNodes()) > kMostElements ||
+        mesh.triangles.size() + static_cast<std::size_t>(triangles.NbTriangles()) > kMostElements)
+      reject_file(path_, "the mesh has more than 2^31 vertices or triangles",
+                  "give the tessellation a larger deviation");
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 1; i <= triangles.NbNodes(); ++i)
+      mesh.vertices.push_back(to_vec(triangles.Node(i).Transformed(transform)));
+    const bool turned = reversed != transform.IsNegative();
+    for (int i = 1; i <= triangles.NbTriangles(); ++i) {
+      int a = 0, b = 0, c = 0;
+      triangles.Triangle(i).Get(a, b, c);
+      if (turned) std::swap(b, c);
+      const auto vertex = [first](int node) { return first + static_cast<std::uint32_t>(node - 1); };
+      mesh.triangles.push_back({vertex(a), vertex(b), vertex(c)});
+      mesh.group.push_back(static_cast<std::uint32_t>(mesh.groups.size() - 1));
+    }
+  }
+
+  /// How far the middles of triangles and of their edges are from the surface at the same parameters.
+  void measure(const Handle(Geom_Surface) & surface, const Poly_Triangulation& triangles) {
+    if (surface.IsNull() || !triangles.HasUVNodes() ||
+        GeomAdaptor_Surface(surface).GetType() == GeomAbs_Plane)
+      return;
+    TriMesh one;
+    one.triangles = {{0, 1, 2}};
+    for (int i = 1; i <= triangles.NbTriangles(); ++i) {
+      std::array<int, 3> node{};
+      triangles.Triangle(i).Get(node[0], node[1], node[2]);
+      one.vertices.clear();
+      std::array<gp_XY, 3> uv;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        one.vertices.push_back(to_vec(triangles.Node(node[corner])));
+        uv[corner] = triangles.UVNode(node[corner]).XY();
+      }
+      const auto measure_at = [&](const gp_XY& at) {
+        const Vec3 point = to_vec(surface->Value(at.X(), at.Y()));
+        raw_.deviation_mm = std::max(raw_.deviation_mm, distance_to_triangle(one, 0, point));
+      };
+      measure_at((uv[0] + uv[1] + uv[2]) / 3.0);
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        measure_at((uv[corner] + uv[(corner + 1) % 3]) / 2.0);
+    }
+  }
+
+  Handle(XCAFDoc_ShapeTool) shapes_;
+  Handle(XCAFDoc_ColorTool) colours_;
+  const std::filesystem::path& path_;
+  Tessellation tessellation_;
+  RawMesh raw_;
+  std::size_t faces_ = 0, loose_faces_ = 0, uncut_faces_ = 0;
+};
+
+/// The unit of length of the first representation that has one.
+FileUnit read_unit(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  const Handle(Interface_InterfaceModel) model = reader.Model();
+  for (int i = 1; i <= model->NbEntities() && !lengths.IsEmpty(); ++i) {
+    Handle(StepRepr_GlobalUnitAssignedContext) units =
+        Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(model->Value(i));
+    if (const auto both = Handle(
+            StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(model->Value(i));
+        !both.IsNull())
+      units = both->GlobalUnitAssignedContext();
+    if (const auto all = Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(
+            model->Value(i));
+        !all.IsNull())
+      units = all->GlobalUnitAssignedContext();
+    STEPConstruct_UnitContext factors;
+    if (units.IsNull() || factors.ComputeFactors(units) != 0 || !factors.LengthDone()) continue;
+    return {lengths.Value(1).ToCString(), factors.LengthFactor(), true, 1.0};
+  }
+  return {"mm", 1.0, false, 1.0};
+}
+
+}  // namespace
+
+RawMesh import_step(const std::filesystem::path& path, const std::string& content,
+                    const Tessellation& tessellation) {
+  const OpenCascadeSession session;
+  const auto cannot_read = [&path](const std::string& reason) {
+    reject_file(path, "cannot read the STEP file: " + reason,
+                "expected ISO 10303-21 (AP203, AP214 or AP242); export it again");
+  };
+  try {
+    STEPCAFControl_Reader reader;
+    // Names that CAD programs give to single faces.
+    Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+    std::istringstream stream(content);
+    if (reader.ChangeReader().ReadStream(path.filename().c_str(), stream) != IFSelect_RetDone)
+      cannot_read("it is not in the form of such a file");
+    const Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+    FileUnit unit = read_unit(reader.ChangeReader());
+    Handle(TDocStd_Document) target = document;
+    if (!reader.Transfer(target)) cannot_read("it holds no shape");
+    RawMesh raw = ShapeReader(document, path, tessellation).read();
+    raw.unit = std::move(unit);
+    return raw;
+  } catch (const Standard_Failure& failure) {
+    cannot_read(std::string("Open CASCADE says ") + failure.DynamicType()->Name() + " " +
+                failure.GetMessageString());
+  }
+  return {};
+}
+
+}  // namespace scintray

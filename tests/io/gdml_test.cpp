@@ -1,0 +1,418 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "io/gdml_texts.hpp"
+#include "scintray/io/gdml/gdml_scene.hpp"
+#include "scintray/io/gdml/solids.hpp"
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene/read_scene.hpp"
+#include "support/shared.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+SceneDraft draft(const GdmlText& text, gdml::GdmlImport options = {}) {
+  options.mesh_folder = "meshes";
+  return gdml::draft_of_gdml(text.text(), "test.gdml", options);
+}
+
+std::string complaint(const GdmlText& text) {
+  return complaint_of([&] { draft(text); });
+}
+
+void check_says(const std::string& text, const std::string& words) {
+  CAPTURE(text);
+  CHECK(contains(text, words));
+}
+
+/// The scene of a draft, written and read back as a user would.
+SceneSpec written(const SceneDraft& scene) {
+  static int number = 0;
+  const auto file = scratch_folder("gdml_" + std::to_string(++number)) / "scene.toml";
+  write_scene_draft(scene, file);
+  return SceneFile::load(file).spec(0);
+}
+
+BuiltScene built(const SceneDraft& scene) { return SceneBuilder().build(written(scene)); }
+
+/// The mesh of the solid "it".
+TriMesh solid(const std::string& text, const Tessellation& tessellation = {}) {
+  const gdml::GdmlFile file(gdml_solid(text).text(), "test.gdml");
+  const gdml::Definitions definitions(file);
+  gdml::Solids solids(file, definitions, tessellation);
+  return solids.mesh("it", {});
+}
+
+/// Relative error that the default tessellation makes in the volume of a round solid of some mm.
+constexpr double kRound = 0.004;
+
+}  // namespace
+
+TEST_CASE("GDML: every solid that is made is closed, outward, and has the volume of its formula") {
+  struct Case {
+    const char* text;
+    double volume, tolerance;
+  };
+  const double flat = 1e-9;
+  const Case cases[] = {
+      {R"(<box name="it" lunit="cm" x="1" y="2" z="3"/>)", 6000.0, flat},
+      {R"(<tube name="it" rmin="3" rmax="5" z="10" startphi="0" deltaphi="360" aunit="deg"/>)", kPi * 16 * 10,
+       kRound},
+      {R"(<tube name="it" rmax="5" z="10" startphi="30" deltaphi="90" aunit="deg"/>)", kPi * 25 / 4 * 10,
+       kRound},
+      {R"(<cone name="it" rmin1="1" rmax1="4" rmin2="2" rmax2="6" z="9" deltaphi="twopi"/>)",
+       kPi * 9 / 3 * (16 + 36 + 24 - 1 - 4 - 2), kRound},
+      {R"(<cone name="it" rmax1="3" rmax2="0" z="4" deltaphi="twopi"/>)", kPi * 9 * 4 / 3, kRound},
+      {R"(<trd name="it" x1="10" x2="10" y1="10" y2="20" z="30"/>)", 30 * 10 * 15, flat},
+      {R"(<trap name="it" z="8" theta="10" phi="20" y1="3" x1="4" x2="5" alpha1="15" y2="3" x3="4" x4="5"
+          alpha2="15" aunit="deg"/>)",
+       8 * 3 * 4.5, flat},
+      {R"(<para name="it" x="2" y="3" z="4" alpha="10" theta="20" phi="30" aunit="deg"/>)", 24, flat},
+      {R"(<arb8 name="it" dz="5" v1x="-2" v1y="-2" v2x="-2" v2y="2" v3x="2" v3y="2" v4x="2" v4y="-2"
+          v5x="-1" v5y="-1" v6x="-1" v6y="1" v7x="1" v7y="1" v8x="1" v8y="-1"/>)",
+       10.0 / 3.0 * (16 + 4 + 8), flat},
+      {R"(<xtru name="it"><twoDimVertex x="0" y="0"/><twoDimVertex x="3" y="0"/><twoDimVertex x="0" y="4"/>
+          <section zOrder="1" zPosition="5" xOffset="2" yOffset="0" scalingFactor="2"/>
+          <section zOrder="0" zPosition="0" xOffset="0" yOffset="0" scalingFactor="1"/></xtru>)",
+       5.0 / 3.0 * (6 + 24 + 12), flat},
+      {R"(<polycone name="it" deltaphi="360" aunit="deg"><zplane z="0" rmin="1" rmax="5"/>
+          <zplane z="6" rmin="1" rmax="5"/><zplane z="6" rmin="1" rmax="3"/><zplane z="9" rmin="1" rmax="3"/></polycone>)",
+       kPi * (24 * 6 + 8 * 3), kRound},
+      {R"(<genericPolycone name="it" deltaphi="360" aunit="deg"><rzpoint r="0" z="0"/><rzpoint r="5" z="2"/>
+          <rzpoint r="0" z="4"/></genericPolycone>)",
+       kPi * 25 * 4 / 3, kRound},
+      // A prism over a square of side 4: the radius is that of its flats.
+      {R"(<polyhedra name="it" numsides="4" deltaphi="360" aunit="deg"><zplane z="0" rmax="2"/>
+          <zplane z="7" rmax="2"/></polyhedra>)",
+       16 * 7, flat},
+      {R"(<genericPolyhedra name="it" numsides="4" deltaphi="360" aunit="deg"><rzpoint r="0" z="0"/>
+          <rzpoint r="2" z="0"/><rzpoint r="0" z="3"/></genericPolyhedra>)",
+       16, flat},
+      {R"(<sphere name="it" rmax="5" deltaphi="twopi" deltatheta="pi"/>)", 4.0 / 3.0 * kPi * 125, kRound},
+      {R"(<sphere name="it" rmin="3" rmax="5" deltaphi="twopi" deltatheta="pi"/>)", 4.0 / 3.0 * kPi * 98,
+       kRound},
+      {R"(<sphere name="it" rmin="3" rmax="5" startphi="0" deltaphi="90" starttheta="0" deltatheta="90" aunit="deg"/>)",
+       4.0 / 3.0 * kPi * 98 / 8, kRound},
+      {R"(<orb name="it" r="2" lunit="cm"/>)", 4.0 / 3.0 * kPi * 8000, kRound},
+      {R"(<torus name="it" rmax="1" rtor="5" deltaphi="twopi"/>)", 2 * kPi * kPi * 5, kRound},
+      {R"(<torus name="it" rmin="0.5" rmax="1" rtor="5" deltaphi="twopi"/>)", 2 * kPi * kPi * 5 * 0.75,
+       0.006},
+      {R"(<torus name="it" rmax="1" rtor="5" startphi="1" deltaphi="pi"/>)", kPi * kPi * 5, kRound},
+      {R"(<ellipsoid name="it" ax="2" by="3" cz="4"/>)", 4.0 / 3.0 * kPi * 24, kRound},
+      {R"(<ellipsoid name="it" ax="2" by="3" cz="4" zcut1="-4" zcut2="0.000001"/>)", 2.0 / 3.0 * kPi * 24,
+       kRound},
+      {R"(<eltube name="it" dx="2" dy="3" dz="4"/>)", kPi * 6 * 8, kRound},
+      {R"(<elcone name="it" dx="0.5" dy="0.25" zmax="10" zcut="4"/>)",
+       kPi * 0.125 / 3 * (14.0 * 14 * 14 - 6.0 * 6 * 6), kRound},
+      {R"(<paraboloid name="it" rlo="1" rhi="3" dz="5"/>)", kPi * 10 * 5, kRound},
+      {R"(<hype name="it" rmin="1" rmax="3" inst="0" outst="0.5" z="10"/>)",
+       kPi * (8 * 10 + std::pow(std::tan(0.5), 2) * 1000.0 / 12.0), kRound},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    const MeshDiagnosis diagnosis = diagnose(solid(c.text));
+    CHECK(diagnosis.sound());
+    CHECK(diagnosis.volume_mm3 == doctest::Approx(c.volume).epsilon(c.tolerance));
+  }
+}
+
+TEST_CASE("GDML: tessellated solids and tetrahedra take their corners from <define>, in any rotation") {
+  GdmlText text = gdml_solid(R"(<tessellated name="it"><triangular vertex1="a" vertex2="b" vertex3="d"/>
+<triangular vertex1="b" vertex2="c" vertex3="d"/><triangular vertex1="a" vertex2="c" vertex3="d"/>
+<triangular vertex1="a" vertex2="b" vertex3="c"/></tessellated>)");
+  text.define = R"(<position name="a"/><position name="b" x="1" unit="cm"/><position name="c" y="20"/>
+<position name="d" z="30"/>)";
+  const SceneDraft tessellated = draft(text);
+  REQUIRE(tessellated.meshes.size() == 1);
+  CHECK(diagnose(tessellated.meshes.begin()->second).sound());
+  CHECK(tessellated.meshes.begin()->second.volume() == doctest::Approx(1000.0));
+  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="d"/>)";
+  CHECK(draft(text).meshes.begin()->second.volume() == doctest::Approx(1000.0));
+  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="e"/>)";
+  check_says(complaint(text), "no position is called \"e\"");
+}
+
+TEST_CASE("GDML: booleans turn and move their solids as Geant4 does") {
+  const std::string boxes = R"(<box name="a" x="4" y="4" z="4"/><box name="b" x="2" y="2" z="10"/>)";
+  const auto volume = [&](const std::string& boolean) { return solid(boxes + boolean).volume(); };
+  CHECK(volume(R"(<subtraction name="it"><first ref="a"/><second ref="b"/></subtraction>)") ==
+        doctest::Approx(48.0));
+  CHECK(volume(R"(<intersection name="it"><first ref="a"/><second ref="b"/></intersection>)") ==
+        doctest::Approx(16.0));
+  CHECK(volume(R"(<union name="it"><first ref="a"/><second ref="b"/></union>)") == doctest::Approx(88.0));
+  CHECK(volume(R"(<union name="it"><first ref="a"/><second ref="a"/><position x="2"/></union>)") ==
+        doctest::Approx(96.0));
+  // Turned by +90 deg about z, a box beside the axis goes from +x to +y: the rotation is taken as it is.
+  const TriMesh turned = solid(
+      R"(<box name="a" x="4" y="4" z="4"/><box name="c" x="6" y="1" z="1"/><box name="m" x="1" y="1" z="1"/>
+<union name="arm"><first ref="c"/><second ref="m"/><position x="3.4"/></union>
+<union name="it"><first ref="a"/><second ref="arm"/><rotation z="90" unit="deg"/></union>)");
+  CHECK(diagnose(turned).bounds.max().y() == doctest::Approx(3.9));
+  CHECK(diagnose(turned).bounds.min().y() == doctest::Approx(-3.0));
+  // A boolean of a boolean, with the first solid moved.
+  CHECK(volume(R"(<union name="u"><first ref="a"/><second ref="b"/></union>
+<subtraction name="it"><first ref="u"/><second ref="a"/><firstposition z="1"/></subtraction>)") ==
+        doctest::Approx(88.0 - 64.0 + 12.0));
+}
+
+TEST_CASE("GDML: a physical volume is turned by the inverse of its rotation, then moved") {
+  GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");
+  text.structure += gdml_volume("marker", "it", "Lead");
+  text.daughters = gdml_placed("p", "body", R"(<position x="100" unit="mm"/><rotation z="30" unit="deg"/>)");
+  const BuiltScene scene = built(draft(text));
+  REQUIRE(scene.parts.size() == 1);
+  // Turned by -30 deg: the far end in +x lies at -y.
+  const SceneSpec spec = written(draft(text));
+  REQUIRE(spec.parts[0].placement.rotate.size() == 1);
+  const RotationSpec& turn = spec.parts[0].placement.rotate[0];
+  CHECK(turn.axis.z() * turn.angle_rad == doctest::Approx(-30.0 * kDegree));
+  CHECK(spec.parts[0].placement.translate.isApprox(Vec3(100, 0, 0)));
+}
+
+TEST_CASE("GDML: nested and repeated volumes, assemblies, replicas, loops and mirrored copies are placed") {
+  GdmlText text;
+  text.define = "<variable name=\"i\" value=\"0\"/>";
+  text.solids = R"(<box name="small" x="2" y="2" z="2"/><box name="tray" x="40" y="10" z="10"/>
+<tube name="wedge" rmax="2" z="2" startphi="0" deltaphi="1.2"/><box name="row" x="12" y="3" z="3"/>)";
+  text.structure =
+      gdml_volume("crystal", "small") + gdml_volume("wedge_v", "wedge") + R"(<assembly name="pair">)" +
+      gdml_placed("left", "crystal", R"(<position x="-5"/>)") +
+      gdml_placed("right", "crystal", R"(<position x="5"/>)") + "</assembly>\n" +
+      gdml_volume("tray_v", "tray", "Vacuum",
+                  gdml_placed("pair_phys", "pair", R"(<position y="3"/>)") +
+                      R"(<loop for="i" from="0" to="2" step="1">)" +
+                      gdml_placed("looped[i]", "crystal", R"(<position x="3*i-3" y="-3"/>)") + "</loop>") +
+      gdml_volume("row_v", "row", "Vacuum",
+                  R"(<replicavol number="4"><volumeref ref="crystal"/><replicate_along_axis>
+<direction x="1"/><width value="3" unit="mm"/><offset value="0" unit="mm"/></replicate_along_axis></replicavol>)");
+  text.daughters = gdml_placed("t1", "tray_v", R"(<position z="20"/>)") +
+                   gdml_placed("t2", "tray_v", R"(<position z="-20"/><rotation z="90" unit="deg"/>)") +
+                   gdml_placed("r", "row_v", R"(<position z="60"/>)") +
+                   gdml_placed("w", "wedge_v", R"(<position y="50"/>)") +
+                   gdml_placed("m", "wedge_v", R"(<position y="-50"/><scale x="1" y="1" z="-1"/>)");
+  const SceneDraft scene = draft(text);
+  CHECK(scene.missing.empty());
+  CHECK(scene.meshes.size() == 2);  // the wedge and its mirror image
+  const SceneSpec spec = written(scene);
+  CHECK(spec.parts.size() == 2 * (1 + 2 + 3) + 1 + 4 + 2);
+  std::vector<std::string> names;
+  for (const PartSpec& part : spec.parts) names.push_back(part.name.name);
+  CHECK(std::count(names.begin(), names.end(), "left") == 1);
+  CHECK(std::count(names.begin(), names.end(), "left_2") == 1);
+  CHECK(std::count(names.begin(), names.end(), "looped_1") == 1);
+  const auto looped = std::find_if(spec.parts.begin(), spec.parts.end(),
+                                   [](const PartSpec& part) { return part.name.name == "looped_2"; });
+  CHECK(looped->placement.translate.isApprox(Vec3(3, -3, 20)));
+  // In the tray that is turned by -90 deg, (3, -3) goes to (-3, -3).
+  const auto turned = std::find_if(spec.parts.begin(), spec.parts.end(),
+                                   [](const PartSpec& part) { return part.name.name == "looped_2_2"; });
+  CHECK(turned->placement.translate.isApprox(Vec3(-3, -3, -20)));
+  CHECK(built(scene).parts.size() == spec.parts.size());
+}
+
+TEST_CASE(
+    "GDML: materials become media; energies become wavelengths, per-energy spectra per-wavelength ones") {
+  GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");
+  text.define = R"(<matrix name="ABS" coldim="2" values="2.5*eV 50*cm 3*eV 20*cm"/>
+<matrix name="FLAT" coldim="2" values="2.5*eV 1 3*eV 1"/><constant name="YIELD" value="8000/MeV"/>
+<matrix name="T1" coldim="1" values="40*ns"/><matrix name="T2" coldim="1" values="200*ns"/>
+<matrix name="Y1" coldim="1" values="3"/><matrix name="Y2" coldim="1" values="1"/>)";
+  text.materials = R"(<material name="LSO0x7f12"><property name="RINDEX" ref="N15"/>
+<property name="ABSLENGTH" ref="ABS"/><property name="RAYLEIGH" ref="ABS"/>
+<property name="SCINTILLATIONYIELD" ref="YIELD"/><property name="SCINTILLATIONCOMPONENT1" ref="FLAT"/>
+<property name="SCINTILLATIONCOMPONENT2" ref="FLAT"/><property name="SCINTILLATIONTIMECONSTANT1" ref="T1"/>
+<property name="SCINTILLATIONTIMECONSTANT2" ref="T2"/><property name="SCINTILLATIONYIELD1" ref="Y1"/>
+<property name="SCINTILLATIONYIELD2" ref="Y2"/><property name="BIRKSCONSTANT" ref="T1"/><D value="7.4"/></material>
+)";
+  text.structure = gdml_volume("body", "it", "LSO0x7f12");
+  const SceneDraft scene = draft(text);
+  CHECK(scene.missing.empty());
+  check_says(scene.toml, "no counterpart here: BIRKSCONSTANT");
+  const SceneSpec spec = written(scene);
+  Library library = Library::shipped();
+  add_definitions(library, spec);
+  const Medium medium = library.medium("LSO0x7f12", {});
+  const double nm = 1239.841984 / 3.0;
+  CHECK(medium.index(nm) == doctest::Approx(1.5).epsilon(0.001));
+  CHECK(medium.absorption_per_mm(nm) == doctest::Approx(1.0 / 200.0));
+  // Beyond its table Geant4 goes on with the last value.
+  CHECK(medium.absorption_per_mm(1239.841984 / 2.1) == doctest::Approx(1.0 / 500.0));
+  CHECK(medium.scattering == ScatteringKind::rayleigh);
+  CHECK(medium.yield_per_keV == doctest::Approx(8.0));
+  CHECK(medium.density_g_per_cm3 == doctest::Approx(7.4));
+  REQUIRE(medium.decay.size() == 2);
+  CHECK(medium.decay[0].fraction == doctest::Approx(0.75));
+  CHECK(medium.decay[1].decay_ns == doctest::Approx(200.0));
+  // Flat per energy falls as 1 / wavelength^2.
+  CHECK(medium.emission(1239.841984 / 3.0) / medium.emission(1239.841984 / 2.5) ==
+        doctest::Approx(9.0 / 6.25));
+  CHECK(std::get<RegionSpec>(spec.source.origin).part.name == "body_phys");
+  CHECK_FALSE(spec.source.wavelength_nm.has_value());
+  CHECK_NOTHROW(built(scene));
+}
+
+TEST_CASE("GDML: a material without RINDEX is opaque, unless the user gives it a medium") {
+  GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");
+  text.structure = gdml_volume("body", "it", "Lead");
+  const SceneDraft opaque = draft(text);
+  check_says(opaque.toml, "medium = \"opaque\"  # material Lead has no RINDEX");
+  REQUIRE(opaque.missing.size() == 1);
+  check_says(opaque.missing[0], "[source]");
+  gdml::GdmlImport options;
+  options.media["Lead"] = "BGO";
+  const SceneDraft given = draft(text, options);
+  CHECK(given.missing.empty());
+  CHECK(written(given).parts[0].medium.name == "BGO");
+  options.media["Led"] = "BGO";
+  check_says(complaint_of([&] { draft(text, options); }), "does not have");
+}
+
+TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contacts") {
+  GdmlText text;
+  text.define = R"(<matrix name="R95" coldim="2" values="2*eV 0.95 4*eV 0.95"/>
+<matrix name="LOBE" coldim="2" values="2*eV 0.7 4*eV 0.7"/><matrix name="GAP" coldim="2" values="2*eV 1.1 4*eV 1.1"/>)";
+  text.solids = R"(<box name="it" x="10" y="10" z="10"/>
+<opticalsurface name="rough" model="unified" finish="ground" type="dielectric_dielectric" value="0.2">
+<property name="SPECULARLOBECONSTANT" ref="LOBE"/></opticalsurface>
+<opticalsurface name="wrapped" model="1" finish="5" type="1" value="0"><property name="RINDEX" ref="GAP"/>
+<property name="REFLECTIVITY" ref="R95"/></opticalsurface>
+<opticalsurface name="mirror" model="glisur" finish="polished" type="dielectric_metal" value="1">
+<property name="REFLECTIVITY" ref="R95"/></opticalsurface>
+<opticalsurface name="white" model="unified" finish="ground" type="dielectric_metal" value="0.1">
+<property name="REFLECTIVITY" ref="R95"/></opticalsurface>
+<opticalsurface name="davis" model="3" finish="30" type="3" value="0"/>)";
+  text.structure = gdml_volume("a", "it") + gdml_volume("b", "it") + gdml_volume("c", "it") +
+                   gdml_volume("d", "it") +
+                   R"(<skinsurface name="s1" surfaceproperty="rough"><volumeref ref="a"/></skinsurface>
+<skinsurface name="s2" surfaceproperty="wrapped"><volumeref ref="b"/></skinsurface>
+<skinsurface name="s3" surfaceproperty="white"><volumeref ref="c"/></skinsurface>
+<bordersurface name="s4" surfaceproperty="mirror"><physvolref ref="pa"/><physvolref ref="pd"/></bordersurface>)";
+  text.daughters = gdml_placed("pa", "a") + gdml_placed("pb", "b", R"(<position z="30"/>)") +
+                   gdml_placed("pc", "c", R"(<position z="60"/>)") +
+                   gdml_placed("pd", "d", R"(<position x="10"/>)");
+  const SceneDraft scene = draft(text);
+  check_says(scene.toml, "between = [\"pa\", \"pd\"]");
+  const SceneSpec spec = written(scene);
+  CHECK(spec.parts[0].surface.name == "rough");
+  CHECK(spec.parts[3].surface.name == "geant4_polished");
+  const TomlNodePtr rough = spec.surfaces.at("rough");
+  CHECK(rough->find("base")->text == "geant4_ground");
+  CHECK(rough->find("unified")->find("lobe")->number == doctest::Approx(0.7));
+  CHECK(rough->find("unified")->find("sigma_alpha")->text == "0.2 rad");
+  CHECK(spec.surfaces.at("wrapped")->find("base")->text == "geant4_groundbackpainted");
+  CHECK(spec.surfaces.at("wrapped")->find("gap")->number == doctest::Approx(1.1));
+  CHECK(spec.surfaces.at("mirror")->find("base")->text == "geant4_polishedfrontpainted");
+  CHECK(spec.surfaces.at("white")->find("base")->text == "geant4_groundfrontpainted");
+  CHECK_NOTHROW(built(scene));
+
+  text.structure += R"(<skinsurface name="s5" surfaceproperty="davis"><volumeref ref="d"/></skinsurface>)";
+  const SceneDraft table = draft(text);
+  REQUIRE(table.missing.size() == 1);
+  check_says(table.missing[0], "--surface davis=LIBRARY_SURFACE");
+  gdml::GdmlImport options;
+  options.surfaces["davis"] = "polished";
+  CHECK(written(draft(text, options)).parts[3].surface.name == "polished");
+}
+
+TEST_CASE("GDML: what cannot be done is refused with its name and line") {
+  const auto of = [](const std::string& solid_text) { return complaint(gdml_solid(solid_text)); };
+  check_says(of(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)"),
+             "test.gdml:15:2: error: solid \"it\" (twistedbox): solids of this kind cannot be made");
+  check_says(of(R"(<box name="it" x="3" y="3"/>)"), "\"z\" is missing or not above 0");
+  check_says(of(R"(<box name="it" x="3*(" y="3" z="3"/>)"), "cannot evaluate \"3*(\"");
+  check_says(of(R"(<box name="it" x="LENGTH" y="3" z="3"/>)"), "cannot evaluate \"LENGTH\"");
+  check_says(of(R"(<box name="it" lunit="ell" x="3" y="3" z="3"/>)"), "cannot evaluate \"ell\"");
+  check_says(of(R"(<union name="it"><first ref="it"/><second ref="world_box"/></union>)"), "made of itself");
+  check_says(of(R"(<union name="it"><first ref="gone"/><second ref="world_box"/></union>)"),
+             "no solid is called \"gone\"");
+  check_says(of(R"(<tube name="it" rmin="5" rmax="4" z="1" deltaphi="6"/>)"),
+             "rmin is not between 0 and rmax");
+  check_says(of(R"(<box name="world_box" x="3" y="3" z="3"/>)"), "already taken");
+  check_says(of(R"(<intersection name="it"><first ref="world_box"/><second ref="world_box"/>
+<position x="5" unit="m"/></intersection>)"),
+             "nothing is left of the boolean");
+
+  GdmlText text = gdml_solid(R"(<box name="it" x="3" y="3" z="3"/>)");
+  text.structure += R"(<volume name="loop"><materialref ref="Glass"/><solidref ref="it"/>)" +
+                    gdml_placed("p", "loop") + "</volume>";
+  text.daughters += gdml_placed("q", "loop");
+  check_says(complaint(text), "placed inside itself");
+  text.daughters = gdml_placed("q", "gone");
+  check_says(complaint(text), "no volume is called \"gone\"");
+  text.daughters = R"(<physvol name="f"><file name="other.gdml"/></physvol>)";
+  check_says(complaint(text), "in another file, \"other.gdml\"");
+  text.daughters.clear();
+  text.define = R"(<loop for="i" from="0" to="1e9" step="1"><constant name="c" value="1"/></loop>)";
+  check_says(complaint(text), "over a million steps");
+  text.define = R"(<matrix name="m" coldim="2" values="1 2 3"/>)";
+  check_says(complaint(text), "do not fill 2 columns");
+
+  const auto whole = [](const std::string& content) {
+    return complaint_of([&] { gdml::draft_of_gdml(content, "test.gdml", {}); });
+  };
+  check_says(whole("<gdml><solids>"), "not well-formed");
+  check_says(whole("hello"), "test.gdml");
+  check_says(whole("<gdml/>"), "no <solids>");
+  check_says(whole("<!DOCTYPE gdml [<!ENTITY m SYSTEM \"m.xml\">]><gdml/>"), "xmllint --noent");
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  check_says(whole(deep), "nested more than 500 deep");
+}
+
+TEST_CASE("GDML: volumes with solids that cannot be made are left out on demand, with a note") {
+  GdmlText text = gdml_solid(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)");
+  text.solids += R"(<box name="other" x="3" y="3" z="3"/>)";
+  text.structure += gdml_volume("kept", "other");
+  text.daughters += gdml_placed("kept_phys", "kept");
+  gdml::GdmlImport options;
+  options.skip_unsupported = true;
+  const SceneDraft scene = draft(text, options);
+  REQUIRE(scene.notes.size() == 1);
+  check_says(scene.notes[0], "volume body: solid \"it\" (twistedbox)");
+  CHECK(written(scene).parts.size() == 1);
+}
+
+TEST_CASE("Geant4's own GDML files become scenes that are built, or say what is missing") {
+  struct Case {
+    const char* name;
+    gdml::GdmlImport options;
+    std::size_t parts;
+  };
+  std::vector<Case> cases(5);
+  cases[0] = {"tess.gdml", {}, 2};
+  cases[0].options.media["AirinTest"] = "air";
+  cases[1] = {"opticalsurfaces.gdml", {}, 2};
+  cases[2] = {"solids.gdml", {}, 22};
+  cases[2].options.media = {{"Water", "glass"}, {"Air", "air"}};
+  cases[2].options.skip_unsupported = true;
+  cases[2].options.tessellation = {0.5, 15.0 * kDegree};
+  cases[3] = {"NoviceExample.gdml", {}, 3};
+  cases[3].options.surfaces["WaterSurface"] = "geant4_polished";
+  cases[4] = {"homogeneous_pbwo_crystalcal.gdml", {}, 1};
+  cases[4].options.media = {{"PbWO4", "glass"}, {"AIR", "air"}};
+  for (Case& c : cases) {
+    CAPTURE(c.name);
+    const auto path = shared_file(std::string("data/meshes/geant4_gdml/") + c.name);
+    if (!path) return;
+    c.options.mesh_folder = "meshes";
+    const SceneDraft scene = gdml::draft_of_gdml(read_text(*path), path->string(), c.options);
+    CHECK(scene.missing.empty());
+    CHECK(built(scene).parts.size() == c.parts);
+  }
+  const auto solids = shared_file("data/meshes/geant4_gdml/solids.gdml");
+  if (!solids) return;
+  check_says(complaint_of([&] { gdml::draft_of_gdml(read_text(*solids), "solids.gdml", {}); }),
+             "solid \"ttwistedbox\" (twistedbox)");
+}

@@ -1,0 +1,225 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/face_selection.hpp"
+#include "scintray/mesh/import.hpp"
+#include "support/shared.hpp"
+#include "support/step_shapes.hpp"
+
+// STEP files are written here through Open CASCADE's writer and read back through its reader: what is
+// tested is what becomes of them in ScintRay.
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+std::filesystem::path scratch(const std::string& name) {
+  static const auto folder = scratch_folder("mesh_step");
+  return folder / name;
+}
+
+MeshImport written_and_read(const std::vector<StepBody>& bodies, const ImportOptions& options = {},
+                            const std::string& unit = "MM") {
+  const auto path = scratch("shape.step");
+  write_step(path, bodies, unit);
+  return import_mesh(path, options);
+}
+
+StepBody crystal() {
+  StepBody body{"crystal", StepSolid::box, {2.0, 3.0, 20.0}, {-1.0, -1.5, 0.0}, {}, {}, ""};
+  body.face_names = {{1, "exit window"}, {2, "NONE"}};
+  body.face_colours = {{1, "#0000ff"}, {3, "#ff8000"}, {4, "#ff8000"}};
+  return body;
+}
+
+std::size_t selected(const TriMesh& mesh, const FaceSelector& selector) {
+  const auto mask = select_triangles(mesh, selector);
+  return static_cast<std::size_t>(std::count(mask.begin(), mask.end(), 1));
+}
+
+FaceSelector by_group(const std::string& group) {
+  FaceSelector selector;
+  selector.group = group;
+  return selector;
+}
+
+FaceSelector by_tag(const std::string& key, const std::string& value) {
+  FaceSelector selector;
+  selector.tags[key] = value;
+  return selector;
+}
+
+/// Largest distance of a chord of the side of a cylinder about the z axis from its circle.
+double sagitta_of_side(const TriMesh& mesh, double radius_mm) {
+  double largest = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (std::abs(mesh.area_vector(t).normalized().z()) > 0.5) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+      const Vec3 middle = 0.5 * (mesh.vertices[from] + mesh.vertices[to]);
+      largest = std::max(largest, radius_mm - middle.head<2>().norm());
+    }
+  }
+  return largest;
+}
+
+std::string message(const std::filesystem::path& path, const ImportOptions& options = {}) {
+  try {
+    import_mesh(path, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void check_says(const std::string& text, const std::string& words) {
+  CAPTURE(text);
+  CHECK(text.find(words) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("STEP: a box has 12 triangles, its volume and no deviation to report") {
+  const MeshImport read = written_and_read({crystal()});
+  CHECK(read.mesh.triangles.size() == 12);
+  CHECK(read.mesh.vertices.size() == 8);
+  CHECK(read.mesh.volume() == doctest::Approx(120.0).epsilon(1e-12));
+  CHECK(diagnose(read.mesh).sound());
+  CHECK(read.unit_from_file == "millimetre");
+  CHECK(read.notes.empty());
+  CHECK(read.bodies == std::vector<std::string>{"crystal"});
+}
+
+TEST_CASE("STEP: a face is called after its name, else its colour, else its number, and keeps all as tags") {
+  const TriMesh mesh = written_and_read({crystal()}).mesh;
+  CHECK(mesh.groups.size() == 6);
+  CHECK(selected(mesh, by_group("exit window")) == 2);
+  CHECK(selected(mesh, by_group("#ff8000")) == 4);
+  CHECK(selected(mesh, by_tag("color", "#ff8000")) == 4);
+  CHECK(selected(mesh, by_tag("color", "#0000ff")) == 2);
+  CHECK(selected(mesh, by_group("face2")) == 2);
+  CHECK(selected(mesh, by_group("NONE")) == 0);
+  CHECK(selected(mesh, by_group("face1")) == 2);  // its number also holds for a face with a name
+  CHECK(selected(mesh, by_tag("face", "face3")) == 2);
+  FaceSelector both = by_tag("color", "#ff8000");
+  both.group = "face4";
+  CHECK(selected(mesh, both) == 2);
+}
+
+TEST_CASE("STEP: a colour of the whole solid is the colour of its faces, not their name") {
+  StepBody body = crystal();
+  body.face_names.clear();
+  body.face_colours = {{1, "#0000ff"}};
+  body.colour = "#c0c0c0";
+  const TriMesh mesh = written_and_read({body}).mesh;
+  CHECK(selected(mesh, by_tag("color", "#c0c0c0")) == 10);
+  CHECK(selected(mesh, by_group("#c0c0c0")) == 0);
+  CHECK(selected(mesh, by_group("#0000ff")) == 2);
+}
+
+TEST_CASE("STEP: curved faces keep the tolerance that is asked for, and the note says what was reached") {
+  const StepBody rod{"rod", StepSolid::cylinder, {5.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
+  for (const double deviation : {0.1, 0.01, 0.001}) {
+    CAPTURE(deviation);
+    ImportOptions options;
+    options.tessellation = {deviation, 20.0 * kDegree};
+    const MeshImport read = written_and_read({rod}, options);
+    CHECK(diagnose(read.mesh).sound());
+    const double reached = sagitta_of_side(read.mesh, 5.0);
+    CHECK(reached > 0.0);
+    CHECK(reached < deviation);
+    REQUIRE(read.notes.size() == 1);
+    check_says(read.notes[0], "curved CAD faces cut in triangles within");
+    check_says(read.notes[0], "20 deg");
+    double noted = 0.0;
+    std::istringstream(read.notes[0].substr(read.notes[0].find("within ") + 7)) >> noted;
+    CHECK(noted == doctest::Approx(reached).epsilon(0.01));
+  }
+}
+
+TEST_CASE("STEP: the angle bounds a small circle that the deviation would leave coarse") {
+  const StepBody fibre{"fibre", StepSolid::cylinder, {0.01, 0.0, 1.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
+  const MeshImport read = written_and_read({fibre});
+  // 5 deg a segment: the reported deviation is r (1 - cos 2.5 deg) or less.
+  CHECK(sagitta_of_side(read.mesh, 0.01) <= 0.01 * (1.0 - std::cos(2.5 * kDegree)) * (1.0 + 1e-9));
+  CHECK(read.mesh.volume() == doctest::Approx(kPi * 1e-4).epsilon(0.002));
+}
+
+TEST_CASE("STEP: meshes of curved and drilled solids are closed, with poles and seams welded") {
+  for (const StepSolid solid : {StepSolid::cylinder, StepSolid::sphere, StepSolid::drilled_box}) {
+    const MeshImport read = written_and_read({{"part", solid, {7.0, 6.0, 5.0}, {1.0, 2.0, 3.0}, {}, {}, ""}});
+    const MeshDiagnosis diagnosis = diagnose(read.mesh);
+    CHECK(diagnosis.sound());
+    CHECK(diagnosis.bodies == 1);
+    const double volume = solid == StepSolid::cylinder ? kPi * 49.0 * 5.0
+                          : solid == StepSolid::sphere ? 4.0 / 3.0 * kPi * 343.0
+                                                       : 7.0 * 6.0 * 5.0 - kPi * 2.25 * 5.0;
+    CHECK(diagnosis.volume_mm3 == doctest::Approx(volume).epsilon(0.005));
+  }
+}
+
+TEST_CASE("STEP: the unit is the file's, inches too, and another one is refused") {
+  const StepBody body{"crystal", StepSolid::box, {1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
+  const MeshImport read = written_and_read({body}, {}, "INCH");
+  CHECK(read.mesh.volume() == doctest::Approx(6.0 * 25.4 * 25.4 * 25.4).epsilon(1e-9));
+  CHECK(read.unit_from_file == "INCH");
+  ImportOptions same, other, scaled;
+  same.mm_per_unit = 25.4;
+  other.mm_per_unit = 1.0;
+  scaled.scale = 0.5;
+  CHECK(import_mesh(scratch("shape.step"), same).mesh.volume() == doctest::Approx(read.mesh.volume()));
+  CHECK(import_mesh(scratch("shape.step"), scaled).mesh.volume() ==
+        doctest::Approx(read.mesh.volume() / 8.0));
+  check_says(message(scratch("shape.step"), other), "the file says that it is in INCH (25.4 mm)");
+  write_step(scratch("metres.step"), {body}, "M");
+  CHECK(import_mesh(scratch("metres.step"), 1000.0).mesh.volume() == doctest::Approx(6e9).epsilon(1e-9));
+}
+
+TEST_CASE("STEP: one solid of several is chosen by name or number, and no choice is noted") {
+  StepBody a = crystal(), b = crystal(), c = crystal();
+  b.at[0] = 5.0;
+  c.at[0] = 10.0;
+  c.name = "light guide";
+  const MeshImport all = written_and_read({a, b, c});
+  CHECK(all.bodies == std::vector<std::string>{"crystal", "crystal 2", "light guide"});
+  CHECK(all.mesh.volume() == doctest::Approx(360.0));
+  REQUIRE(all.notes.size() == 1);
+  check_says(all.notes[0], "3 bodies, all taken together as one part: \"crystal\", \"crystal 2\"");
+  ImportOptions options;
+  for (const char* chosen : {"crystal 2", "2"}) {
+    options.body = chosen;
+    const MeshImport one = import_mesh(scratch("shape.step"), options);
+    CHECK(one.mesh.volume() == doctest::Approx(120.0));
+    CHECK(diagnose(one.mesh).bounds.min().x() == doctest::Approx(5.0));
+    CHECK(one.mesh.groups.size() == 6);
+    CHECK(one.notes.empty());
+  }
+  options.body = "cristal";
+  check_says(message(scratch("shape.step"), options), "did you mean \"crystal\"?");
+  options.body = "4";
+  check_says(message(scratch("shape.step"), options), "the file has no body \"4\"");
+}
+
+TEST_CASE("STEP: what is no shape is refused with the file's name and a way out") {
+  const auto write = [](const std::string& name, const std::string& text) {
+    std::ofstream(scratch(name), std::ios::binary) << text;
+    return scratch(name);
+  };
+  check_says(message(write("empty.step", "")), "the mesh file is empty");
+  check_says(message(write("text.stp", "hello")), "cannot read the STEP file");
+  check_says(message(write("none.step",
+                           "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),"
+                           "'','','');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\nENDSEC;\n"
+                           "END-ISO-10303-21;\n")),
+             "none.step");
+  ImportOptions options;
+  options.tessellation.deviation_mm = 1e-9;
+  write_step(scratch("fine.step"), {crystal()});
+  check_says(message(scratch("fine.step"), options), "finer than a millionth");
+}
