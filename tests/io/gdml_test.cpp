@@ -245,7 +245,8 @@ TEST_CASE(
   add_definitions(library, spec);
   const Medium medium = library.medium("LSO0x7f12", {});
   const double nm = 1239.841984 / 3.0;
-  CHECK(medium.index(nm) == doctest::Approx(1.5).epsilon(1e-5));
+  // Straight over energy; the points between are 2 % apart, which leaves a quarter of that of their step.
+  CHECK(std::abs(medium.index(nm) - 1.5) < 0.02 / 4.0 * (0.2 / 34.0));
   CHECK(medium.absorption_per_mm(nm) == doctest::Approx(1.0 / 200.0));
   // Beyond its table Geant4 goes on with the last value.
   CHECK(medium.absorption_per_mm(1239.841984 / 2.1) == doctest::Approx(1.0 / 500.0));
@@ -355,7 +356,7 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   check_says(complaint(text), "in another file, \"other.gdml\"");
   text.daughters.clear();
   text.define = R"(<loop for="i" from="0" to="1e9" step="1"><constant name="c" value="1"/></loop>)";
-  check_says(complaint(text), "over a million steps");
+  check_says(complaint(text), "over 200000 steps");
   text.define = R"(<matrix name="m" coldim="2" values="1 2 3"/>)";
   check_says(complaint(text), "do not fill 2 columns");
 
