@@ -7,6 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/weld.hpp"
 
 namespace scintray {
 namespace {
@@ -100,7 +101,12 @@ TriMesh boolean(const TriMesh& a, const TriMesh& b, BooleanOperation operation) 
         "the two bodies of a boolean touch in an edge or a corner only, so that their result has no closed "
         "surface",
         "let them overlap, or leave a gap between them");
-  return from_cgal(result, std::move(names));
+  TriMesh mesh = from_cgal(result, std::move(names));
+  // Where faces lie on each other, or an edge meets a face at its border, slivers are left.
+  const double length_mm = rounding_length(mesh);
+  weld_vertices(mesh, length_mm);
+  remove_degenerate(mesh, length_mm);
+  return mesh;
 }
 
 }  // namespace scintray

@@ -19,8 +19,11 @@ struct Entry {
   std::vector<std::string> (*seeds)();  ///< sound files to begin with
   /// Most bytes that may be asked for at once, per byte of input.
   std::size_t bytes_per_byte;
+  /// Room for what does not grow with the file: maps of units, a chunk of an unpacker.
+  std::size_t always_allowed = std::size_t{1} << 20;
 };
 
+/// Height maps and surface tables.
 std::span<const Entry> entries();
 
 }  // namespace scintray::fuzz

@@ -6,12 +6,14 @@
 #include <fstream>
 
 #include "entries.hpp"
+#include "geometry_entries.hpp"
 
 namespace {
 
 const scintray::fuzz::Entry& entry() {
-  for (const scintray::fuzz::Entry& candidate : scintray::fuzz::entries())
-    if (std::strcmp(candidate.name, SCINTRAY_FUZZ_ENTRY) == 0) return candidate;
+  for (const auto& entries : {scintray::fuzz::entries(), scintray::fuzz::geometry_entries()})
+    for (const scintray::fuzz::Entry& candidate : entries)
+      if (std::strcmp(candidate.name, SCINTRAY_FUZZ_ENTRY) == 0) return candidate;
   std::abort();
 }
 

@@ -245,7 +245,8 @@ TEST_CASE(
   add_definitions(library, spec);
   const Medium medium = library.medium("LSO0x7f12", {});
   const double nm = 1239.841984 / 3.0;
-  CHECK(medium.index(nm) == doctest::Approx(1.5).epsilon(0.001));
+  // Straight over energy; the points between are 2 % apart, which leaves a quarter of that of their step.
+  CHECK(std::abs(medium.index(nm) - 1.5) < 0.02 / 4.0 * (0.2 / 34.0));
   CHECK(medium.absorption_per_mm(nm) == doctest::Approx(1.0 / 200.0));
   // Beyond its table Geant4 goes on with the last value.
   CHECK(medium.absorption_per_mm(1239.841984 / 2.1) == doctest::Approx(1.0 / 500.0));
@@ -329,7 +330,7 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
 TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   const auto of = [](const std::string& solid_text) { return complaint(gdml_solid(solid_text)); };
   check_says(of(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)"),
-             "test.gdml:15:2: error: solid \"it\" (twistedbox): solids of this kind cannot be made");
+             "test.gdml:14:2: error: solid \"it\" (twistedbox): solids of this kind cannot be made");
   check_says(of(R"(<box name="it" x="3" y="3"/>)"), "\"z\" is missing or not above 0");
   check_says(of(R"(<box name="it" x="3*(" y="3" z="3"/>)"), "cannot evaluate \"3*(\"");
   check_says(of(R"(<box name="it" x="LENGTH" y="3" z="3"/>)"), "cannot evaluate \"LENGTH\"");
@@ -355,7 +356,7 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   check_says(complaint(text), "in another file, \"other.gdml\"");
   text.daughters.clear();
   text.define = R"(<loop for="i" from="0" to="1e9" step="1"><constant name="c" value="1"/></loop>)";
-  check_says(complaint(text), "over a million steps");
+  check_says(complaint(text), "over 200000 steps");
   text.define = R"(<matrix name="m" coldim="2" values="1 2 3"/>)";
   check_says(complaint(text), "do not fill 2 columns");
 

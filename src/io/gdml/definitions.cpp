@@ -11,7 +11,7 @@ namespace scintray::gdml {
 namespace {
 
 /// Iterations of all loops of a file together.
-constexpr std::size_t kMostIterations = 1'000'000;
+constexpr std::size_t kMostIterations = 200'000;
 constexpr std::size_t kMostMatrixNumbers = 10'000'000;
 
 /// Geant4's units (Book For Application Developers, section "System of units"): mm, ns, MeV, rad and their
@@ -273,7 +273,7 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
     for (double value = from; value <= to + 1e-9 * step; value += step) {
       if (++evaluator_->iterations > kMostIterations)
-        file_.reject(child, "the loops of the file make over a million steps together");
+        file_.reject(child, "the loops of the file make over 200000 steps together");
       evaluator_->set(variable, value);
       evaluator_->loop_variables[variable] = value;
       for_each_child(child, action);

@@ -38,6 +38,21 @@ double interpolated(const EnergyTable& table, double energy_eV) {
   return y[i - 1] + (y[i] - y[i - 1]) * (energy_eV - x[i - 1]) / (x[i] - x[i - 1]);
 }
 
+/// The same table with points between its own. Geant4 goes straight from point to point over energy, a curve
+/// here over wavelength. Half way between two points the energy is their arithmetic mean for one and the
+/// harmonic mean for the other: between energies 2 % apart the values differ by 0.5 % of their step.
+std::vector<double> refined(const std::vector<double>& energy_eV) {
+  constexpr double kStep = 0.02;
+  std::vector<double> fine;
+  for (std::size_t i = 0; i + 1 < energy_eV.size(); ++i) {
+    const double low = energy_eV[i], high = energy_eV[i + 1];
+    const double pieces = std::max(1.0, std::ceil(std::log(high / low) / kStep));
+    for (double piece = 0.0; piece < pieces; ++piece) fine.push_back(low + (high - low) * piece / pieces);
+  }
+  fine.push_back(energy_eV.back());
+  return fine;
+}
+
 double integral(const EnergyTable& table) {
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < table.value.size(); ++i)
@@ -159,7 +174,7 @@ class MaterialImporter {
     std::set<double> energies;
     for (const Component& part : parts)
       energies.insert(part.spectrum.energy_eV.begin(), part.spectrum.energy_eV.end());
-    for (const double energy : energies) {
+    for (const double energy : refined({energies.begin(), energies.end()})) {
       double density = 0.0;
       for (const Component& part : parts)
         density += part.share / shares * interpolated(part.spectrum, energy) / integral(part.spectrum);
@@ -225,10 +240,10 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
   };
   if (table.value.size() == 1) return quantity(table.value.front());
   constexpr double kRounding = 1e-6;
-  std::vector<double> nm, value;
-  for (std::size_t i = table.value.size(); i-- > 0;) {
-    nm.push_back(kHc_eV_nm / table.energy_eV[i]);
-    value.push_back(table.value[i]);
+  std::vector<double> nm, value, energies = refined(table.energy_eV);
+  for (auto energy = energies.rbegin(); energy != energies.rend(); ++energy) {
+    nm.push_back(kHc_eV_nm / *energy);
+    value.push_back(interpolated(table, *energy));
   }
   if (low_nm > 0.0 && low_nm < nm.front() * (1.0 - kRounding)) {
     nm.insert(nm.begin(), low_nm);

@@ -19,13 +19,14 @@ struct ImportedMedium {
   std::vector<std::string> notes;  ///< what was not carried over
 };
 
-/// Every <material>, in file order. Tables of energies become tables of wavelengths; outside its table Geant4
-/// goes on with the value at the end, so tables are carried on flat over the range of all tables of the file.
-/// Absorption from ABSLENGTH, Rayleigh scattering from RAYLEIGH (none where they are left out), scintillation
-/// from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3 and their constants, or their names before Geant4 11.
-/// Emission: Geant4 samples the components per energy, S(E); here one spectrum per wavelength,
-/// sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c).
-/// Throws InputError for tables that are not in energy order or are not of two columns.
+/// Every <material>, in file order. Tables of energies become tables of wavelengths, with points between
+/// theirs where they are coarse, since what is straight over energy is not over wavelength; outside its table
+/// Geant4 goes on with the value at the end, so tables are carried on flat over the range of all tables of
+/// the file. Absorption from ABSLENGTH, Rayleigh scattering from RAYLEIGH (none where they are left out),
+/// scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3 and their constants, or their names
+/// before Geant4 11. Emission: Geant4 samples the components per energy, S(E); here one spectrum per
+/// wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c). Throws InputError for
+/// tables that are not in energy order or are not of two columns.
 std::vector<ImportedMedium> import_materials(const GdmlFile& file, const Definitions& definitions);
 
 /// A table of an optical property: photon energies (eV) upwards, and the property.

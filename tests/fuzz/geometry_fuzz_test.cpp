@@ -1,0 +1,43 @@
+/// The readers of geometry against files damaged at random, from a fixed seed.
+
+#include <doctest/doctest.h>
+
+#include "geometry_entries.hpp"
+#include "mutate.hpp"
+#include "scintray/core/philox.hpp"
+#include "watched_run.hpp"
+
+using namespace scintray;
+using namespace scintray::fuzz;
+
+TEST_CASE("geometry: the seeds are sound") {
+  for (const Entry& entry : geometry_entries()) {
+    CAPTURE(entry.name);
+    for (const std::string& seed : entry.seeds()) CHECK(watched_run(entry, seed));
+  }
+}
+
+TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within bounded memory") {
+  constexpr int kTrials = 1000;
+  std::uint64_t stream = 0;
+  for (const Entry& entry : geometry_entries()) {
+    CAPTURE(entry.name);
+    const std::vector<std::string> seeds = entry.seeds();
+    Rng rng(20261123, StreamKind::other, ++stream);
+    int read = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const std::string& seed = seeds[static_cast<std::size_t>(trial) % seeds.size()];
+      read += watched_run(entry, mutated(seed, seeds, rng)) ? 1 : 0;
+    }
+    // Damage that is always, or never, noticed would leave one of the two outcomes untried.
+    CHECK(read > kTrials / 100);
+    CHECK(read < kTrials - kTrials / 100);
+  }
+}
+
+TEST_CASE("geometry: files cut short end in a mesh or an input error") {
+  for (const Entry& entry : geometry_entries())
+    for (const std::string& seed : entry.seeds())
+      for (std::size_t size = 0; size < seed.size(); size += 1 + seed.size() / 100)
+        watched_run(entry, seed.substr(0, size));
+}
