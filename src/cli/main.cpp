@@ -8,6 +8,7 @@
 #include "scintray/cli/failures.hpp"
 #include "scintray/cli/goniometer_command.hpp"
 #include "scintray/cli/map_command.hpp"
+#include "scintray/cli/repair_command.hpp"
 #include "scintray/cli/replay_command.hpp"
 #include "scintray/cli/report_command.hpp"
 #include "scintray/cli/run_command.hpp"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   scintray::cli::add_run_command(app);
   scintray::cli::add_check_command(app);
+  scintray::cli::add_repair_command(app);
   scintray::cli::add_report_command(app);
   scintray::cli::add_map_command(app);
   scintray::cli::add_table_command(app);

@@ -11,6 +11,7 @@
 #include <array>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/weld.hpp"
 
 namespace scintray {
 namespace {
@@ -75,10 +76,13 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const Tr
 }
 
 std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh) {
-  auto points = points_of(mesh);
+  // CGAL reads the neighbours of every vertex, and crashes on one without any.
+  TriMesh used = mesh;
+  drop_unused_vertices(used);
+  auto points = points_of(used);
   std::vector<std::vector<std::size_t>> polygons;
-  polygons.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) polygons.push_back({a, b, c});
+  polygons.reserve(used.triangles.size());
+  for (const auto& [a, b, c] : used.triangles) polygons.push_back({a, b, c});
   pmp::orient_polygon_soup(points, polygons);  // splits vertices in which several bodies touch
   if (!pmp::is_polygon_soup_a_polygon_mesh(polygons)) {
     throw InternalError("a closed, consistently oriented mesh is no polygon mesh for CGAL");

@@ -1,13 +1,9 @@
 #include "scintray/mesh/stl_writer.hpp"
 
-#include <array>
 #include <bit>
-#include <cstring>
-#include <fstream>
 #include <string>
-#include <system_error>
 
-#include "scintray/core/error.hpp"
+#include "scintray/core/whole_file.hpp"
 
 namespace scintray {
 namespace {
@@ -35,26 +31,7 @@ void write_stl(const std::filesystem::path& path, const TriMesh& mesh) {
     for (const std::uint32_t vertex : mesh.triangles[t]) append_vector(bytes, mesh.vertices[vertex]);
     bytes.append(2, '\0');
   }
-
-  auto temporary = path;
-  temporary += ".part";
-  std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(temporary, error);
-      throw SystemError("cannot write " + temporary.string() +
-                        ": check that the folder exists and has space");
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    const std::string reason = error.message();
-    std::filesystem::remove(temporary, error);
-    throw SystemError("cannot write " + path.string() + ": " + reason);
-  }
+  write_whole_file(path, bytes);
 }
 
 }  // namespace scintray

@@ -23,4 +23,10 @@ struct TriMesh {
   double volume() const;                         ///< mm3, positive when oriented outwards
 };
 
+/// Middle of a triangle, mm.
+Vec3 centre_of(const TriMesh& mesh, std::size_t triangle);
+
+/// Takes out the triangles, with their groups, where `wanted` is zero; the rest keep their order.
+void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted);
+
 }  // namespace scintray

@@ -170,6 +170,8 @@ class DegeneratePass {
   std::vector<std::size_t> cut_edge_;  ///< first corner of the edge that is cut
 };
 
+}  // namespace
+
 void drop_unused_vertices(TriMesh& mesh) {
   std::vector<std::uint32_t> index(mesh.vertices.size(), kNone);
   for (const auto& triangle : mesh.triangles) {
@@ -186,8 +188,6 @@ void drop_unused_vertices(TriMesh& mesh) {
     for (std::uint32_t& v : triangle) v = index[v];
   }
 }
-
-}  // namespace
 
 std::size_t weld_vertices(TriMesh& mesh, double length_mm) {
   const std::size_t before = mesh.vertices.size();

@@ -12,6 +12,9 @@ namespace scintray {
 /// Returns how many vertices went.
 std::size_t weld_vertices(TriMesh& mesh, double length_mm);
 
+/// Takes out vertices that no triangle uses.
+void drop_unused_vertices(TriMesh& mesh);
+
 struct DegenerateRemoval {
   std::size_t removed = 0;  ///< triangles without area that went
   std::size_t cut = 0;      ///< neighbours that were cut at the middle vertex of one

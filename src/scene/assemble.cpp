@@ -41,13 +41,18 @@ class InterfaceMaker {
       const ContactSpec& contact = assembly_.contacts[i];
       problems_.add(
           contact.where,
-          "parts \"" + contact.between[0].name + "\" and \"" + contact.between[1].name +
+          "\"" + side_name(contact, 0) + "\" and \"" + side_name(contact, 1) +
               "\" of this contact do not touch",
           "check their positions (scintray check lists every interface), or raise run.contact_tolerance");
     }
   }
 
  private:
+  static std::string side_name(const ContactSpec& contact, std::size_t side) {
+    const std::string& face = contact.faces[side];
+    return contact.between[side].name + (face.empty() ? "" : ":" + face);
+  }
+
   Interface make(const InterfaceTriangle& t) {
     Interface result;
     result.back = static_cast<std::uint32_t>(t.back + 1);
@@ -88,7 +93,7 @@ class InterfaceMaker {
 
   void make_contact(const InterfaceTriangle& t, Interface& result) {
     const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
-    const ContactSpec* contact = find_contact(t.back, t.front);
+    const ContactSpec* contact = find_contact(t);
     const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
     if (kind == ContactKind::dry) {
       result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
@@ -121,17 +126,32 @@ class InterfaceMaker {
       result.front_surface = surface(name, medium(t.front), medium(t.back));
   }
 
-  const ContactSpec* find_contact(std::int32_t a, std::int32_t b) {
+  /// Does the contact's side name this face of this part?
+  bool names(const ContactSpec& contact, std::size_t side, std::int32_t of_part, std::int32_t of_face) const {
+    const std::string& part_name = part(of_part).geometry.name;
+    if (contact.between[side].name != part_name) return false;
+    return contact.faces[side].empty() || part_name + ":" + contact.faces[side] == face(of_face).name;
+  }
+
+  /// The contact that speaks of these two faces; of several the one that names more faces.
+  const ContactSpec* find_contact(const InterfaceTriangle& t) {
+    const ContactSpec* best = nullptr;
+    const auto faces_named = [](const ContactSpec& c) { return !c.faces[0].empty() + !c.faces[1].empty(); };
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
-      const auto& [first, second] = assembly_.contacts[i].between;
-      const std::string &name_a = part(a).geometry.name, &name_b = part(b).geometry.name;
-      if ((first.name == name_a && second.name == name_b) ||
-          (first.name == name_b && second.name == name_a)) {
-        contact_used_[i] = true;
-        return &assembly_.contacts[i];
-      }
+      const ContactSpec& contact = assembly_.contacts[i];
+      const bool as_named =
+          names(contact, 0, t.back, t.back_face) && names(contact, 1, t.front, t.front_face);
+      const bool swapped = names(contact, 0, t.front, t.front_face) && names(contact, 1, t.back, t.back_face);
+      if (!as_named && !swapped) continue;
+      contact_used_[i] = true;
+      if (best != nullptr && faces_named(*best) == faces_named(contact))
+        problems_.add(contact.where,
+                      "this contact and the one at " + best->where.text() + " both describe how \"" +
+                          face(t.back_face).name + "\" meets \"" + face(t.front_face).name + "\"",
+                      "add a [[contact]] that names both faces, or name fewer");
+      if (best == nullptr || faces_named(contact) > faces_named(*best)) best = &contact;
     }
-    return nullptr;
+    return best;
   }
 
   /// A surface for two media, made once per triple.

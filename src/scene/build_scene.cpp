@@ -7,6 +7,8 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/scene/assemble.hpp"
+#include "scintray/scene/conform_parts.hpp"
+#include "scintray/scene/cut_parts.hpp"
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
@@ -277,7 +279,9 @@ SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move
 
 BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;
-  const std::vector<PlacedMesh> placed = place_parts(spec, problems);
+  std::vector<PlacedMesh> placed = place_parts(spec, problems);
+  if (problems.empty()) cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
+  if (problems.empty()) conform_contacts(placed, spec.contacts, spec.run.contact_tolerance_mm, problems);
   const Library library = library_for(spec);
   BuiltScene built;
   AssemblyMaker maker(spec, library, surface_maker_, problems);

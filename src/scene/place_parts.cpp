@@ -89,10 +89,15 @@ std::string group_list(const TriMesh& mesh) {
   return list;
 }
 
+/// Where a triangle is, for pictures.
+std::vector<std::array<double, 3>> mark_at(const TriMesh& mesh, std::size_t triangle) {
+  const Vec3 centre = centre_of(mesh, triangle);
+  return {{centre.x(), centre.y(), centre.z()}};
+}
+
 /// Where a triangle is, for messages.
 std::string place_of(const TriMesh& mesh, std::size_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const Vec3 centre = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
+  const Vec3 centre = centre_of(mesh, triangle);
   char text[96];
   std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) mm", centre.x(), centre.y(), centre.z());
   return text;
@@ -130,7 +135,8 @@ class FaceTagger {
         problems_.add(spec.select.where,
                       "rules \"" + part_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
                           placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
-                      "narrow one of them with a second criterion, such as box or normal");
+                      "narrow one of them with a second criterion, such as box or normal",
+                      mark_at(placed_.mesh, t));
       }
     }
     if (!any)
@@ -147,7 +153,8 @@ class FaceTagger {
                     "part \"" + placed_.name +
                         "\" has faces without a surface: no rule matches the triangle at " +
                         place_of(placed_.mesh, static_cast<std::size_t>(first)),
-                    "give the part a surface = \"...\" for all faces that no rule matches");
+                    "give the part a surface = \"...\" for all faces that no rule matches",
+                    mark_at(placed_.mesh, static_cast<std::size_t>(first)));
     }
     placed_.faces.push_back({kOtherFace, part_.surface, {}});
   }
@@ -183,6 +190,8 @@ class PartPlacer {
     result.where = part.where;
     result.medium = part.medium;
     result.sensor = part.sensor;
+    result.surface = part.surface;
+    result.priority = part.priority;
     LoadedShape shape = std::visit([](const auto& s) { return load(s); }, part.shape);
     result.notes = std::move(shape.notes);
     if (orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
@@ -195,6 +204,10 @@ class PartPlacer {
     if (part.placement.touch) fill = touch(part, result.mesh);
     move(result.mesh, part.placement.translate);
     result.diagnosis = diagnose(result.mesh);
+    if (result.diagnosis.bodies > 1)
+      result.notes.push_back(std::to_string(result.diagnosis.bodies) +
+                             " separate surfaces in one mesh: bodies or cavities that share the medium and "
+                             "the rules of this part");
     const std::vector<Problem> unsound = mesh_problems(result.diagnosis, result.name);
     for (Problem problem : unsound) {
       if (problem.where.file.empty()) problem.where = shape_location(part.shape);
@@ -230,6 +243,7 @@ class PartPlacer {
     fill.name = part.name.name + "_fill";
     fill.where = touch.fill.where;
     fill.medium = touch.fill;
+    fill.priority = part.priority;
     fill.mesh = make_box(box->min(), box->max());
     move(fill.mesh, part.placement.translate);
     fill.faces = {{kOtherFace, {}, {}}};

@@ -208,6 +208,9 @@ PartSpec read_part(const TomlTable& table, const std::vector<std::string>& earli
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
+  part.priority = static_cast<int>(table.integer("priority", 0));
+  table.expect("priority", std::abs(table.integer("priority", 0)) <= kHighestPriority,
+               "a priority beyond " + std::to_string(kHighestPriority), "give a smaller number");
   part.faces = read_faces(table);
   return part;
 }

@@ -25,8 +25,11 @@ std::vector<std::string> part_names(const std::vector<PartSpec>& parts);
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts);
 
+/// What "bonded" and "dry" stand for.
+ContactKind contact_kind(const std::string& word);
+
 /// [[contact]].
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts);
+std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<PartSpec>& parts);
 
 /// [source].
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);

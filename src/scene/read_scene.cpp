@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "scintray/scene/face_path.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -11,10 +12,6 @@ namespace scintray {
 namespace {
 
 using Kind = TomlNode::Kind;
-
-ContactKind contact_kind(const std::string& word) {
-  return word == "dry" ? ContactKind::dry : ContactKind::bonded;
-}
 
 InlineTables read_definitions(const TomlTable& scene, const std::string& key) {
   InlineTables definitions;
@@ -32,36 +29,6 @@ InlineTables read_definitions(const TomlTable& scene, const std::string& key) {
       definitions.emplace(name, node);
   }
   return definitions;
-}
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-/// "part:face" as two names with their places.
-void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts, ExitAngleTallySpec& tally) {
-  const std::string face = table.string("face");
-  const auto colon = face.find(':');
-  table.expect("face", colon != std::string::npos && colon > 0 && colon + 1 < face.size(),
-               "\"" + face + "\" is not the name of a face", "write \"part:face\", as \"crystal:exit\"");
-  if (!table.good("face")) return;
-  tally.part = {face.substr(0, colon), table.where("face")};
-  tally.face = {face.substr(colon + 1), table.where("face")};
-  const std::vector<std::string> known = part_names(parts);
-  expect_part(table, "face", tally.part, known);
-  if (!table.good("face")) return;
-  std::vector<std::string> faces;
-  for (const PartSpec& part : parts)
-    if (part.name.name == tally.part.name)
-      for (const FaceRuleSpec& rule : part.faces) faces.push_back(rule.name);
-  faces.emplace_back(kOtherFaces);
-  const std::string near = nearest_word(tally.face.name, faces);
-  table.expect("face", std::find(faces.begin(), faces.end(), tally.face.name) != faces.end(),
-               "the part \"" + tally.part.name + "\" has no face \"" + tally.face.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its faces are " + join(faces) +
-                   "; name more of them with [[part.face]]");
 }
 
 /// Reports several sweeps' and points' common problems once.
@@ -89,7 +56,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.contacts_default = contact_kind(root.choice("contacts_default", {"bonded", "dry"}, "bonded"));
   scene.parts = read_parts(root);
   const std::vector<std::string> names = part_names(scene.parts);
-  scene.contacts = read_contacts(root, names);
+  scene.contacts = read_contacts(root, scene.parts);
   scene.source = read_source(root, names);
   scene.run = read_run(root);
   scene.exit_angles = read_tallies(root, scene.parts);
@@ -103,34 +70,6 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
 
 }  // namespace
 
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts) {
-  std::vector<ContactSpec> contacts;
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const TomlTable& table : scene.tables("contact")) {
-    ContactSpec contact;
-    contact.where = table.where();
-    const std::vector<std::string> names = table.strings("between", 2);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      contact.between[i] = {names[i], table.where("between")};
-      expect_part(table, "between", contact.between[i], parts);
-    }
-    contact.kind = contact_kind(table.choice("kind", {"bonded", "dry"}));
-    contact.surface = read_name(table, "surface", false);
-    table.expect("surface", contact.kind == ContactKind::bonded,
-                 "a dry contact has no surface of its own: each part keeps the one of its face",
-                 "remove surface, or write kind = \"bonded\"");
-    if (table.good("between")) {
-      const auto& [a, b] = std::minmax(names[0], names[1]);
-      table.expect("between", a != b, "a contact of the part \"" + a + "\" with itself", "name two parts");
-      table.expect("between", pairs.insert({a, b}).second,
-                   "the contact between \"" + a + "\" and \"" + b + "\" is described twice",
-                   "keep one [[contact]]");
-    }
-    contacts.push_back(std::move(contact));
-  }
-  return contacts;
-}
-
 std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts) {
   std::vector<ExitAngleTallySpec> tallies;
   std::set<std::string> names;
@@ -142,7 +81,10 @@ std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::
       table.skip();
       continue;
     }
-    read_face_path(table, parts, tally);
+    if (const auto path = read_face_path(table, "face", table.string("face"), parts)) {
+      tally.part = path->part;
+      tally.face = path->face;
+    }
     tally.name = table.string("name", tally.part.name + ":" + tally.face.name);
     if (table.good("face") && !names.insert(tally.name).second)
       table.report("name", "there are two tallies named \"" + tally.name + "\"",

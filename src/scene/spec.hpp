@@ -31,6 +31,12 @@ inline constexpr const char* kOpaqueMedium = "opaque";
 /// Name of the face made of a part's triangles that no rule matches; no rule may have it.
 inline constexpr const char* kOtherFaces = "other";
 
+/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
+inline constexpr const char* kCutFaces = "cut:";
+
+/// Bound of part priorities, both ways.
+inline constexpr int kHighestPriority = 1000;
+
 /// What the name of a part and this make is the name of the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
 
@@ -116,9 +122,10 @@ struct PartSpec {
   NameRef name;
   ShapeSpec shape;
   PlacementSpec placement;
-  NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
-  NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
-  NameRef sensor;   ///< the whole part is a sensor
+  NameRef medium;    ///< kOpaqueMedium allowed; empty only for a part that is a sensor
+  NameRef surface;   ///< of every face that no rule matches; empty: rules must cover every face
+  NameRef sensor;    ///< the whole part is a sensor
+  int priority = 0;  ///< of two parts that overlap the one with the higher priority keeps the space
   std::vector<FaceRuleSpec> faces;
   FileLocation where;
 };
@@ -131,8 +138,12 @@ enum class ContactKind {
 
 struct ContactSpec {
   std::array<NameRef, 2> between;
+  std::array<std::string, 2> faces;  ///< of the two parts; empty: every face
   ContactKind kind = ContactKind::bonded;
   NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
+  /// Faces this near to each other, curved ones too, are made one (conform_parts.hpp); nothing: only
+  /// those within the scene's contact tolerance.
+  std::optional<double> tolerance_mm;
   FileLocation where;
 };
 

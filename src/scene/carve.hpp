@@ -1,0 +1,30 @@
+#pragma once
+/// Taking one placed part's space from another's.
+
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/scene/contacts.hpp"
+#include "scintray/scene/place_parts.hpp"
+
+namespace scintray {
+
+/// Rotation into axes along the largest faces of the parts (contact::natural_axes): there, faces that lie
+/// in one plane by intention have equal coordinates once these are rounded.
+Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts);
+
+/// `part` less `tool`. Both are rounded to 2^-30 mm in `axes` about the middle of `part`, so that nearly
+/// equal planes become equal ones; vertices of either that survive get their own places back. Nothing
+/// when CGAL refuses, an empty mesh when nothing is left.
+std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
+                                   double tolerance_mm);
+
+/// diagnose() about the middle of the mesh, so that a part far from the origin is not judged by the
+/// rounding of its distance; places are the mesh's own.
+MeshDiagnosis diagnose_in_place(const TriMesh& mesh);
+
+/// Where the parts' boxes, grown by `reach_mm`, meet.
+bool near_each_other(const PlacedMesh& a, const PlacedMesh& b, double reach_mm);
+
+/// Geometry for the queries of contacts; faces are those of the part.
+PlacedPart geometry_of(const PlacedMesh& part);
+
+}  // namespace scintray

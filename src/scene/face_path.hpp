@@ -1,0 +1,22 @@
+#pragma once
+/// "part:face" in a scene file.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/scene/spec.hpp"
+
+namespace scintray {
+
+/// A part and one of its faces.
+struct FacePath {
+  NameRef part, face;
+};
+
+/// Takes `text`, the value or an element of `key`, apart at its first colon. What is wrong is reported at
+/// the key: no colon, a part that is not there, a face that the part does not have.
+std::optional<FacePath> read_face_path(const TomlTable& table, const std::string& key,
+                                       const std::string& text, const std::vector<PartSpec>& parts);
+
+}  // namespace scintray
