@@ -291,6 +291,7 @@ BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   check_sensors(spec, placed, built.scene, problems, built.warnings);
   problems.throw_if_any();
   for (const PlacedMesh& part : placed) built.parts.push_back({part.name, part.diagnosis, part.notes});
+  built.placed = std::move(placed);
   return built;
 }
 

@@ -1,0 +1,102 @@
+#include "physics/traced.hpp"
+#include "scintray/core/error.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+// One pair of parts that meets at several faces, each in its own way.
+
+namespace {
+
+/// A crystal in the corner of an L made of one mesh is a pair that touches on two faces: here a block with
+/// a step, cut by priority, so that the crystal touches it from below and from the side.
+std::string in_a_corner(const std::string& contacts) {
+  return R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "corner"
+box = { low = ["0 mm", "0 mm", "0 mm"], high = ["4 mm", "4 mm", "4 mm"] }
+medium = "n15"
+surface = "flat"
+[[part]]
+name = "crystal"
+box = { low = ["2 mm", "0 mm", "2 mm"], high = ["6 mm", "4 mm", "6 mm"] }
+medium = "lso"
+surface = "flat"
+priority = 1
+[[part.face]]
+select = { normal = [-1, 0, 0] }
+[[part.face]]
+select = { normal = [0, 0, -1] }
+)" + contacts +
+         R"(
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 3000
+)";
+}
+
+const Interface* between(const Scene& scene, const std::string& face) {
+  for (const Interface& interface : scene.interfaces)
+    for (const std::int32_t id : {interface.back_face, interface.front_face})
+      if (interface.back_face != kNone && interface.front_face != kNone &&
+          scene.faces[static_cast<std::size_t>(id)].name == face)
+        return &interface;
+  return nullptr;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    SceneBuilder().build(scene_spec(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Dry on one face and bonded on the next face of the same pair") {
+  const Traced traced = trace(in_a_corner(R"(
+[[contact]]
+between = ["crystal:-x", "corner"]
+kind = "dry"
+[[contact]]
+between = ["corner", "crystal:-z"]
+kind = "bonded"
+)"));
+  const Interface *side = between(traced.built.scene, "crystal:-x"),
+                  *below = between(traced.built.scene, "crystal:-z");
+  REQUIRE(side != nullptr);
+  REQUIRE(below != nullptr);
+  CHECK(side->gap_medium != kNone);
+  CHECK(below->gap_medium == kNone);
+}
+
+TEST_CASE("A contact of one face goes before that of the whole part") {
+  const Scene scene = SceneBuilder()
+                          .build(scene_spec(in_a_corner(R"(
+[[contact]]
+between = ["crystal", "corner"]
+kind = "dry"
+[[contact]]
+between = ["crystal:-z", "corner:cut:crystal"]
+kind = "bonded"
+)")))
+                          .scene;
+  CHECK(between(scene, "crystal:-x")->gap_medium != kNone);
+  CHECK(between(scene, "crystal:-z")->gap_medium == kNone);
+}
+
+TEST_CASE("Contacts that contradict, name no face, or never meet are refused in words") {
+  CHECK(
+      refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-z\", \"corner\"]\nkind = \"dry\"\n[[contact]]\n"
+                          "between = [\"crystal\", \"corner:cut:crystal\"]\nkind = \"bonded\"\n"))
+          .find("both describe how") != std::string::npos);
+  CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-y\", \"corner\"]\nkind = \"dry\"\n"))
+            .find("the part \"crystal\" has no face \"-y\"\n  hint: did you mean") != std::string::npos);
+  CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:other\", \"corner\"]\nkind = \"dry\"\n"))
+            .find("\"crystal:other\" and \"corner\" of this contact do not touch") != std::string::npos);
+}

@@ -1,0 +1,60 @@
+#include <cstdlib>
+
+#include "physics/traced.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+// scenes/torture.toml: slivers, grazing rays, gaps of 1e-4 mm, ten metres from the origin, sensors along
+// partial faces. SCINTRAY_TORTURE_STEPS=1e9 makes it as long as one likes.
+
+namespace {
+
+double wanted_steps() {
+  const char* given = std::getenv("SCINTRAY_TORTURE_STEPS");
+  return given == nullptr ? 5e5 : std::atof(given);
+}
+
+}  // namespace
+
+TEST_CASE("No photon is lost in the torture scene") {
+  const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
+  const BuiltScene built = SceneBuilder().build(spec);
+  const PhotonSource source(spec.source, built.scene);
+  const TallyPlan plan(built.scene, spec.exit_angles, false);
+  RunSettings settings;
+  settings.max_interactions = spec.run.max_interactions;
+  double steps = 0.0;
+  std::uint64_t photons = 0, resolved = 0;
+  for (settings.seed = 1; steps < wanted_steps(); ++settings.seed) {
+    const PointResult result = run_point(built.scene, source, plan, settings);
+    REQUIRE(result.lost == 0);
+    REQUIRE(result.photons == source.photons());
+    steps += static_cast<double>(result.segments);
+    photons += result.photons;
+    resolved += result.resolved_misses;
+  }
+  MESSAGE("torture: " << steps << " steps of " << photons << " photons, 0 lost, " << resolved
+                      << " ray queries settled by the exact search");
+}
+
+TEST_CASE("Every flight of the torture scene lies in the region that its photon is in") {
+  const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
+  const BuiltScene built = SceneBuilder().build(spec);
+  const PhotonSource source(spec.source, built.scene);
+  constexpr double kShort_mm = 0.01;  // shorter flights say nothing about sides
+  std::size_t flights = 0, astray = 0;
+  for (std::uint64_t photon = 0; photon < 300; ++photon) {
+    std::optional<Photon> before;
+    replay(built.scene, source, {}, 0, photon, [&](const Photon& now, const Step&) {
+      if (before && (now.position - before->position).norm() > kShort_mm) {
+        ++flights;
+        astray += !built.scene.region_contains(before->region, 0.5 * (before->position + now.position));
+      }
+      before = now;
+    });
+  }
+  CHECK(flights > 3000);
+  CHECK(astray == 0);
+}
