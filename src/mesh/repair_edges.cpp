@@ -47,7 +47,7 @@ std::vector<std::uint32_t> pieces_of(const TriMesh& mesh, const std::vector<Edge
   return piece;
 }
 
-/// The angle of a triangle about the edge low -> high, counter-clockwise, in [0, 2 pi).
+/// The angle of a triangle about its edge low -> high, counter-clockwise, in [0, 2 pi).
 double angle_about(const TriMesh& mesh, const EdgeUse& use, const Frame& frame) {
   const auto& corners = mesh.triangles[use.triangle];
   const auto third = std::find_if(corners.begin(), corners.end(),
@@ -55,6 +55,40 @@ double angle_about(const TriMesh& mesh, const EdgeUse& use, const Frame& frame) 
   const Vec3 to = mesh.vertices[*third] - mesh.vertices[use.low];
   const double angle = std::atan2(to.dot(frame.y), to.dot(frame.x));
   return angle < 0.0 ? angle + kTwoPi : angle;
+}
+
+/// Uses of one edge, counter-clockwise about it. Of those at the same angle, walls that two bodies share,
+/// the ones that run along the edge come first: they end a body where the others begin one.
+std::vector<EdgeUse> in_turn(const TriMesh& mesh, const std::vector<EdgeUse>& uses) {
+  constexpr double kSameAngle_rad = 1e-6;
+  const EdgeUse& any = uses.front();
+  const Frame frame = Frame::about((mesh.vertices[any.high] - mesh.vertices[any.low]).normalized());
+  struct Placed {
+    double angle;
+    EdgeUse use;
+  };
+  std::vector<Placed> order;
+  for (const EdgeUse& use : uses) order.push_back({angle_about(mesh, use, frame), use});
+  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
+    return std::pair(a.angle, a.use.triangle) < std::pair(b.angle, b.use.triangle);
+  });
+  // Begin where nothing is, so that no two at the same angle stand at both ends.
+  std::size_t start = 0;
+  double widest = order.front().angle + kTwoPi - order.back().angle;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const double gap = order[i].angle - order[i - 1].angle;
+    if (gap <= widest) continue;
+    widest = gap;
+    start = i;
+  }
+  std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(start), order.end());
+  for (auto begin = order.begin(), end = begin; begin != order.end(); begin = end) {
+    while (end != order.end() && std::abs(end->angle - begin->angle) <= kSameAngle_rad) ++end;
+    std::stable_partition(begin, end, [](const Placed& p) { return p.use.forward; });
+  }
+  std::vector<EdgeUse> result;
+  for (const Placed& p : order) result.push_back(p.use);
+  return result;
 }
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -72,15 +106,12 @@ std::optional<Pairs> pair_up(const TriMesh& mesh, const EdgeUse* first, const Ed
     else
       rest.insert(rest.end(), of_piece.begin(), of_piece.end());
   }
-  const Frame frame = Frame::about((mesh.vertices[first->high] - mesh.vertices[first->low]).normalized());
-  std::sort(rest.begin(), rest.end(), [&](const EdgeUse& a, const EdgeUse& b) {
-    return std::pair(angle_about(mesh, a, frame), a.triangle) <
-           std::pair(angle_about(mesh, b, frame), b.triangle);
-  });
   // A triangle that runs along the edge has the solid behind it clockwise, one that runs against it
   // counter-clockwise: a wedge of the solid lies between one of the latter and the next of the former.
+  if (rest.empty()) return pairs;
   if (rest.size() % 2 != 0) return std::nullopt;
-  const std::size_t start = rest.empty() || !rest[0].forward ? 0 : 1;
+  rest = in_turn(mesh, rest);
+  const std::size_t start = rest[0].forward ? 1 : 0;
   for (std::size_t i = 0; i < rest.size(); i += 2) {
     const EdgeUse &a = rest[(start + i) % rest.size()], &b = rest[(start + i + 1) % rest.size()];
     if (a.forward || !b.forward) return std::nullopt;
@@ -187,12 +218,17 @@ Defects part_touching_bodies(TriMesh& mesh) {
     for (const auto& [s, t] : together)
       for (const std::uint32_t v : {first->low, first->high}) corners.join(corner(s, v), corner(t, v));
   });
-  // The first set of corners at a vertex keeps it.
+  // The first set of corners at a vertex keeps it. Where there are open edges, holes may meet in a vertex.
+  std::vector<char> open(mesh.vertices.size(), 0);
+  for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    if (last - first == 1) open[first->low] = open[first->high] = 1;
+  });
   std::map<std::size_t, std::uint32_t> vertex_of;
   std::vector<char> taken(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& v = mesh.triangles[t][k];
+      if (v < open.size() && open[v]) continue;
       const auto [known, is_new] = vertex_of.try_emplace(corners.find(3 * t + k), v);
       if (is_new && taken[v]) {
         known->second = static_cast<std::uint32_t>(mesh.vertices.size());

@@ -57,26 +57,6 @@ std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, con
   return result;
 }
 
-MeshDiagnosis diagnose_in_place(const TriMesh& mesh) {
-  const Vec3 origin = bounds_of(mesh).center();
-  TriMesh moved = mesh;
-  for (Vec3& vertex : moved.vertices) vertex -= origin;
-  MeshDiagnosis diagnosis = diagnose(moved);
-  diagnosis.bounds.translate(origin);
-  for (Defects* defects : {&diagnosis.open_edges, &diagnosis.nonmanifold_edges, &diagnosis.flipped_edges,
-                           &diagnosis.degenerate_triangles, &diagnosis.duplicate_triangles,
-                           &diagnosis.self_intersections, &diagnosis.inverted_bodies})
-    for (Vec3& place : defects->examples) place += origin;
-  return diagnosis;
-}
-
-bool near_each_other(const PlacedMesh& a, const PlacedMesh& b, double reach_mm) {
-  const Eigen::AlignedBox3d &of_a = a.diagnosis.bounds, &of_b = b.diagnosis.bounds;
-  return ((of_a.min().array() - reach_mm <= of_b.max().array()) &&
-          (of_b.min().array() - reach_mm <= of_a.max().array()))
-      .all();
-}
-
 PlacedPart geometry_of(const PlacedMesh& part) {
   return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of};
 }

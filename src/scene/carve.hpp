@@ -17,13 +17,6 @@ Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts);
 std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
                                    double tolerance_mm);
 
-/// diagnose() about the middle of the mesh, so that a part far from the origin is not judged by the
-/// rounding of its distance; places are the mesh's own.
-MeshDiagnosis diagnose_in_place(const TriMesh& mesh);
-
-/// Where the parts' boxes, grown by `reach_mm`, meet.
-bool near_each_other(const PlacedMesh& a, const PlacedMesh& b, double reach_mm);
-
 /// Geometry for the queries of contacts; faces are those of the part.
 PlacedPart geometry_of(const PlacedMesh& part);
 

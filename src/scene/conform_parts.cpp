@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/scene/carve.hpp"
 #include "scintray/scene/contact_geometry.hpp"
 
@@ -81,10 +82,12 @@ std::vector<Facing> facing(const Body& body, const Body& other, double tolerance
 }
 
 /// Moves vertices so that the planes of marked triangles go outwards by `by` and those of their neighbours
-/// stay (least squares; nearly parallel planes count as one).
+/// stay (least squares, weighted by area so that slivers, whose normals are rounding, have no say; nearly
+/// parallel planes count as one).
 TriMesh pushed(const PlacedMesh& part, const Body& body, const std::vector<char>& marked, double by) {
   constexpr double kRankThreshold = 1e-3;
   TriMesh mesh = part.mesh;
+  const auto mesh_area = [&](std::uint32_t t) { return part.mesh.area_vector(t).norm(); };
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
@@ -93,9 +96,13 @@ TriMesh pushed(const PlacedMesh& part, const Body& body, const std::vector<char>
       continue;
     Eigen::MatrixX3d planes(around[v].size(), 3);
     Eigen::VectorXd shifts(around[v].size());
+    double largest = 0.0;
+    for (const std::uint32_t t : around[v]) largest = std::max(largest, mesh_area(t));
     for (std::size_t k = 0; k < around[v].size(); ++k) {
-      planes.row(static_cast<Eigen::Index>(k)) = body.normal[around[v][k]];
-      shifts(static_cast<Eigen::Index>(k)) = marked[around[v][k]] ? by : 0.0;
+      const std::uint32_t t = around[v][k];
+      const double weight = std::sqrt(mesh_area(t) / largest);
+      planes.row(static_cast<Eigen::Index>(k)) = weight * body.normal[t];
+      shifts(static_cast<Eigen::Index>(k)) = marked[t] ? weight * by : 0.0;
     }
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> solver;
     solver.setThreshold(kRankThreshold);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/scene/carve.hpp"
 #include "scintray/scene/contact_nesting.hpp"
 

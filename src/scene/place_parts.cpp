@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/import.hpp"
 #include "scintray/mesh/primitives.hpp"
@@ -203,7 +204,7 @@ class PartPlacer {
     std::optional<PlacedMesh> fill;
     if (part.placement.touch) fill = touch(part, result.mesh);
     move(result.mesh, part.placement.translate);
-    result.diagnosis = diagnose(result.mesh);
+    result.diagnosis = diagnose_in_place(result.mesh);
     if (result.diagnosis.bodies > 1)
       result.notes.push_back(std::to_string(result.diagnosis.bodies) +
                              " separate surfaces in one mesh: bodies or cavities that share the medium and "
@@ -248,7 +249,7 @@ class PartPlacer {
     move(fill.mesh, part.placement.translate);
     fill.faces = {{kOtherFace, {}, {}}};
     fill.face_of.assign(fill.mesh.triangles.size(), 0);
-    fill.diagnosis = diagnose(fill.mesh);
+    fill.diagnosis = diagnose_in_place(fill.mesh);
     return fill;
   }
 

@@ -96,10 +96,10 @@ medium = "n15"
 surface = "flat"
 priority = 1
 )";
-  const Scene scene = SceneBuilder().build(scene_spec(third + plate_and_rod("", "priority = 2\n"))).scene;
+  const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("", "priority = 2\n" + third))).scene;
   // post 2 x 4 x 8 less the rod's 1 x 2 x 6; plate less the rod and what is left of the post in it.
-  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
-  CHECK(scene.parts[1].volume_mm3 == doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
+  CHECK(scene.parts[2].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
+  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
 }
 
 TEST_CASE("A part wholly inside another is nested, whatever the priorities") {
