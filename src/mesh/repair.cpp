@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/cgal_checks.hpp"
 #include "scintray/mesh/edges.hpp"
+#include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/repair_edges.hpp"
 #include "scintray/mesh/repair_holes.hpp"
 #include "scintray/mesh/untangle.hpp"
@@ -15,15 +17,6 @@
 
 namespace scintray {
 namespace {
-
-/// The triangles of one body as a mesh of its own, on the same vertices.
-TriMesh body_of(const TriMesh& mesh, const std::vector<std::uint32_t>& label, std::uint32_t body) {
-  TriMesh result = mesh;
-  std::vector<char> wanted(label.size());
-  for (std::size_t t = 0; t < label.size(); ++t) wanted[t] = label[t] == body;
-  keep_triangles(result, wanted);
-  return result;
-}
 
 void append(TriMesh& mesh, const TriMesh& other) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -45,13 +38,10 @@ class Repairer {
     if (result_.before.sound() && settings_.weld_mm == 0.0) return std::move(result_);
     weld();
     remove_flat();
-    note("duplicate triangles removed", remove_duplicates(mesh()));
-    note("triangles of fins and inner walls removed", remove_fins(mesh()));
-    orient("edges whose triangles disagreed, mended by turning triangles round");
-    note("edges of several bodies parted", part_touching_bodies(mesh()));
+    clear_edges();
     fill();
-    unite_crossing_bodies();
-    replace_crossings();
+    clear_edges();  // covers of holes beside each other can meet
+    settle_crossings();
     remove_flat();
     orient("");
     weld_vertices(mesh(), rounding_length(mesh()));  // drops vertices that nothing uses
@@ -62,7 +52,22 @@ class Repairer {
  private:
   TriMesh& mesh() { return result_.mesh; }
   void note(const std::string& what, const Defects& where) {
-    if (where.count > 0) result_.steps.push_back({what, where});
+    if (where.count == 0) return;
+    const auto known = std::find_if(result_.steps.begin(), result_.steps.end(),
+                                    [&](const RepairStep& step) { return step.what == what; });
+    if (known == result_.steps.end()) {
+      result_.steps.push_back({what, where});
+      return;
+    }
+    for (const Vec3& place : where.examples) known->where.add(place);
+    known->where.count += where.count - where.examples.size();
+  }
+
+  void clear_edges() {
+    note("duplicate triangles removed", remove_duplicates(mesh()));
+    note("triangles of fins and inner walls removed", remove_fins(mesh()));
+    orient("edges whose triangles disagreed, mended by turning triangles round");
+    note("edges of several bodies parted", part_touching_bodies(mesh()));
   }
 
   void weld() {
@@ -87,7 +92,7 @@ class Repairer {
     if (where.count > 0)
       note(what, where);
     else
-      note("bodies turned inside out, as all their normals pointed inwards", inverted());
+      note("meshes that were inside out turned", inverted());
   }
 
   Defects inverted() const {
@@ -101,10 +106,6 @@ class Repairer {
                                                          : 0.25 * result_.before.bounds.diagonal().norm();
     const HoleFilling filling = fill_holes(mesh(), limit);
     note("holes filled", filling.filled);
-    const auto refuse = [&](std::size_t count, const std::string& one, const std::string& many) {
-      if (count == 0) return;
-      result_.refused.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
-    };
     std::ostringstream sizes;
     sizes << " larger than the limit of " << limit << " mm (the largest is " << filling.largest_mm
           << " mm across)";
@@ -114,47 +115,116 @@ class Repairer {
            "open sheets enclose nothing: what lies behind them cannot be known");
   }
 
-  /// Two bodies that cross or touch become one, as long as there are such two that CGAL can unite.
-  void unite_crossing_bodies() {
-    Defects united;
-    std::set<std::pair<std::size_t, std::size_t>> refused;  // by numbers of triangles: labels change
-    for (;;) {
-      const auto crossings = self_intersections(mesh());
-      if (crossings.empty()) break;
-      std::size_t bodies = 0;
-      const auto label = connected_bodies(mesh(), bodies);
-      bool changed = false;
-      for (const auto& [s, t] : crossings) {
-        if (label[s] == label[t]) continue;
-        const TriMesh a = body_of(mesh(), label, label[s]), b = body_of(mesh(), label, label[t]);
-        if (refused.count(std::minmax(a.triangles.size(), b.triangles.size())) > 0) continue;
-        const auto whole = unite(a, b);
-        if (!whole) {
-          refused.insert(std::minmax(a.triangles.size(), b.triangles.size()));
-          continue;
-        }
-        united.add(centre_of(mesh(), s));
-        std::vector<char> wanted(label.size());
-        for (std::size_t i = 0; i < label.size(); ++i)
-          wanted[i] = label[i] != label[s] && label[i] != label[t];
-        keep_triangles(mesh(), wanted);
-        append(mesh(), *whole);
-        changed = true;
-        break;
-      }
-      if (!changed) break;
+  /// Bodies of one mesh, and which of them cross or touch.
+  struct Bodies {
+    std::vector<TriMesh> body;
+    std::vector<Defects> tangled;  ///< pairs of triangles of one body that cross
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3>
+        meeting;  ///< where each pair of bodies first does
+  };
+
+  Bodies take_apart(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings) {
+    Bodies bodies;
+    std::size_t count = 0;
+    const auto label = connected_bodies(mesh(), count);
+    for (std::uint32_t b = 0; b < count; ++b) {
+      bodies.body.push_back(mesh());
+      std::vector<char> wanted;
+      for (const std::uint32_t l : label) wanted.push_back(l == b);
+      keep_triangles(bodies.body.back(), wanted);
+      drop_unused_vertices(bodies.body.back());
     }
-    note("pairs of bodies that cross or touch united", united);
-    if (!refused.empty())
-      result_.refused.push_back(
-          "bodies that cross or touch could not be united: one of them is open or crosses itself, or they "
-          "touch along edges only");
+    bodies.tangled.resize(count);
+    for (const auto& [s, t] : crossings) {
+      const Vec3 place = centre_of(mesh(), s);
+      if (label[s] == label[t])
+        bodies.tangled[label[s]].add(place);
+      else
+        bodies.meeting.try_emplace(std::minmax(label[s], label[t]), place);
+    }
+    return bodies;
   }
 
-  static std::optional<TriMesh> unite(const TriMesh& a, const TriMesh& b) {
+  /// Takes crossings out of single bodies, then makes one of bodies that cross or touch.
+  void settle_crossings() {
+    const auto crossings = self_intersections(mesh());
+    if (crossings.empty()) return;
+    Bodies bodies = take_apart(crossings);
+    turn_outwards(bodies);
+    untangle(bodies);
+    unite(bodies);
+    TriMesh whole;
+    whole.groups = mesh().groups;
+    for (const TriMesh& body : bodies.body) append(whole, body);
+    mesh() = std::move(whole);
+  }
+
+  /// A body that lies in no other one's box is no cavity: its normals have to point outwards.
+  void turn_outwards(Bodies& bodies) {
+    Defects turned;
+    std::vector<Eigen::AlignedBox3d> box;
+    for (const TriMesh& body : bodies.body) box.push_back(diagnose(body).bounds);
+    for (std::size_t b = 0; b < box.size(); ++b) {
+      const bool inner = std::any_of(box.begin(), box.end(), [&](const Eigen::AlignedBox3d& other) {
+        return &other != &box[b] && other.contains(box[b]);
+      });
+      if (inner || bodies.body[b].volume() >= 0.0 || !diagnose(bodies.body[b]).closed()) continue;
+      reverse_orientation(bodies.body[b]);
+      turned.add(box[b].center());
+    }
+    note("bodies that were inside out turned", turned);
+  }
+
+  void untangle(Bodies& bodies) {
+    Defects replaced;
+    std::size_t refused = 0;
+    for (std::size_t b = 0; b < bodies.body.size(); ++b) {
+      const Defects& tangled = bodies.tangled[b];
+      if (tangled.count == 0) continue;
+      auto better = diagnose(bodies.body[b]).closed() ? untangled(bodies.body[b]) : std::nullopt;
+      if (!better || !diagnose(*better).sound()) {
+        ++refused;
+        continue;
+      }
+      bodies.body[b] = std::move(*better);
+      for (std::size_t i = 0; i < tangled.count; ++i)
+        replaced.add(tangled.examples[std::min(i, tangled.examples.size() - 1)]);
+    }
+    note("pairs of crossing triangles replaced, with some around them", replaced);
+    refuse(refused, "body crosses itself in a way that CGAL cannot mend",
+           "bodies cross themselves in a way that CGAL cannot mend");
+  }
+
+  void unite(Bodies& bodies) {
+    std::vector<std::uint32_t> part_of(bodies.body.size());
+    std::iota(part_of.begin(), part_of.end(), 0U);
+    const auto find = [&](std::uint32_t b) {
+      while (part_of[b] != b) b = part_of[b];
+      return b;
+    };
+    Defects united;
+    std::size_t refused = 0;
+    for (const auto& [pair, place] : bodies.meeting) {
+      const std::uint32_t a = find(pair.first), b = find(pair.second);
+      if (a == b) continue;
+      if (auto one = united_body(bodies.body[a], bodies.body[b])) {
+        bodies.body[a] = std::move(*one);
+        bodies.body[b] = {};
+        part_of[b] = a;
+        united.add(place);
+      } else {
+        ++refused;
+      }
+    }
+    note("pairs of bodies that cross or touch united", united);
+    const std::string why = " not be united: one is open or crosses itself, or they touch along edges only";
+    refuse(refused, "pair of bodies that cross or touch could" + why,
+           "pairs of bodies that cross or touch could" + why);
+  }
+
+  static std::optional<TriMesh> united_body(const TriMesh& a, const TriMesh& b) {
     if (!diagnose(a).sound() || !diagnose(b).sound()) return std::nullopt;
-    const double clean = std::max(rounding_length(a), rounding_length(b));
-    auto whole = boolean(a, b, BooleanOperation::unite, clean);
+    auto whole = boolean(a, b, BooleanOperation::unite, std::max(rounding_length(a), rounding_length(b)));
     if (!whole) return std::nullopt;
     for (std::size_t t = 0; t < whole->origin.size(); ++t) {
       const TriangleOrigin& origin = whole->origin[t];
@@ -163,15 +233,8 @@ class Repairer {
     return std::move(whole->mesh);
   }
 
-  void replace_crossings() {
-    const MeshDiagnosis now = diagnose(mesh());
-    if (now.self_intersections.count == 0 || !now.closed() || now.flipped_edges.count > 0) return;
-    if (auto better = untangled(mesh()); better && diagnose(*better).sound()) {
-      mesh() = std::move(*better);
-      note("pairs of crossing triangles replaced, with some around them", now.self_intersections);
-    } else {
-      result_.refused.push_back("the triangles that cross could not be replaced (CGAL refuses)");
-    }
+  void refuse(std::size_t count, const std::string& one, const std::string& many) {
+    if (count > 0) result_.refused.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
   }
 
   RepairSettings settings_;

@@ -132,12 +132,15 @@ std::string scale_bar(double per_mm, double left, double top) {
          text_at(left + length * per_mm + 8, top + 4, compact(length) + " mm");
 }
 
-std::string ring(double x, double y, const std::string& label) {
+std::string ring(double x, double y) {
   return fmt::format(
-             "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"6\" fill=\"#d00000\" fill-opacity=\"0.35\" "
-             "stroke=\"#d00000\" stroke-width=\"1.6\"/>",
-             x, y) +
-         text_at(x + 8, y - 5, label,
+      "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"#d00000\" fill-opacity=\"0.35\" stroke=\"#d00000\" "
+      "stroke-width=\"1.6\"/>",
+      x, y);
+}
+
+std::string label(double x, double y, const std::string& words) {
+  return text_at(x, y, words,
                  " fill=\"#b00000\" font-weight=\"700\" stroke=\"#fff\" stroke-width=\"3\" "
                  "paint-order=\"stroke\"");
 }
@@ -159,12 +162,18 @@ std::string rings(const ViewPainter& painter, const std::vector<PictureMark>& ma
       if (spot.numbers.empty() || spot.numbers.back() != m + 1) spot.numbers.push_back(m + 1);
     }
   std::string svg;
-  for (const Spot& spot : spots) svg += ring(spot.x, spot.y, fmt::format("{}", fmt::join(spot.numbers, ",")));
+  for (const Spot& spot : spots)
+    svg +=
+        ring(spot.x, spot.y) + label(spot.x + 8, spot.y - 5, fmt::format("{}", fmt::join(spot.numbers, ",")));
   return svg;
 }
 
+/// At most so many bytes, cut between characters of UTF-8.
 std::string shortened(const std::string& text) {
-  return text.size() <= kTextLength ? text : text.substr(0, kTextLength - 3) + "...";
+  if (text.size() <= kTextLength) return text;
+  std::size_t end = kTextLength - 3;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
 }
 
 Eigen::AlignedBox3d bounds_of(const std::vector<PicturePart>& parts, const std::vector<PictureMark>& marks) {
@@ -220,8 +229,8 @@ std::string scene_svg(const std::vector<PicturePart>& parts, const std::vector<P
   y += kLine;
   for (std::size_t m = 0; m < marks.size(); ++m) {
     y += kLine;
-    body +=
-        ring(kMargin + 6, y - 4, std::to_string(m + 1)) + text_at(kMargin + 34, y, shortened(marks[m].text));
+    body += ring(kMargin + 6, y - 4) + label(kMargin + 18, y, std::to_string(m + 1)) +
+            text_at(kMargin + 44, y, shortened(marks[m].text));
   }
   const double width = left, height = y + kMargin;
   return fmt::format(

@@ -7,6 +7,19 @@
 
 namespace scintray {
 
+namespace {
+
+/// A point that most likely lies between the triangles: over the middle of the smaller one, half way.
+Vec3 place_between(const contact::Body& a, std::uint32_t ta, const contact::Body& b, std::uint32_t tb,
+                   double gap) {
+  const bool a_is_smaller = a.area_vector(ta).norm() < b.area_vector(tb).norm();
+  const contact::Body& body = a_is_smaller ? a : b;
+  const std::uint32_t t = a_is_smaller ? ta : tb;
+  return (body.corner(t, 0) + body.corner(t, 1) + body.corner(t, 2)) / 3.0 + 0.5 * gap * body.normal[t];
+}
+
+}  // namespace
+
 std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
                                       double share) {
   if (parts.empty()) return {};
@@ -33,9 +46,14 @@ std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, doub
       if (contact::overlap(a, ta, b, tb, plane).width() <= tolerance_mm) continue;
       touching |= height <= tolerance_mm;
       gap.gap_mm = height;
-      gap.place = middle - 0.5 * height * plane.normal;
+      gap.place = place_between(a, ta, b, tb, height);
     }
-    if (!touching && std::isfinite(gap.gap_mm)) gaps.push_back(std::move(gap));
+    const auto filled_by = [&](const contact::Body& other) {
+      return &other != &a && &other != &b && other.side_of(gap.place, 0.0) == contact::Side::inside;
+    };
+    if (touching || !std::isfinite(gap.gap_mm) || std::any_of(bodies.begin(), bodies.end(), filled_by))
+      continue;
+    gaps.push_back(std::move(gap));
   }
   return gaps;
 }

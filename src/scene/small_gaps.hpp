@@ -20,6 +20,7 @@ inline constexpr double kSmallGapShare = 1e-3;
 
 /// Pairs of parts with nearly parallel faces that overlap, seen along their normals, across a gap wider
 /// than `tolerance_mm` (nearer ones touch) and narrower than `share` of the diagonal of the smaller part.
+/// Gaps that a third part fills are none.
 std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
                                       double share = kSmallGapShare);
 
