@@ -41,6 +41,7 @@ std::vector<Problem> gap_warnings(const std::vector<PlacedMesh>& parts, double t
 
 void check_scene(const CheckOptions& options) {
   const std::filesystem::path& path = options.scene;
+  if (!options.picture.empty()) expect_picture_name(options.picture);
   const SceneFile file = SceneFile::load(path);
   ProgressLine line(true);
   SurfaceMaker::Hooks hooks;

@@ -65,20 +65,24 @@ std::vector<PlacedMesh> placed_for_picture(const SceneSpec& spec) {
   return place_parts(spec, told_elsewhere);
 }
 
-void draw_scene(const std::filesystem::path& path, const std::vector<PlacedMesh>& parts,
-                const std::vector<Problem>& problems) {
+void expect_picture_name(const std::filesystem::path& path) {
   const std::string ending = lower_extension(path);
-  const auto marks = marks_of(problems);
-  if (ending == ".glb") {
-    write_scene_glb(path, parts, marks);
-  } else if (ending == ".svg") {
-    std::vector<report::PicturePart> shown;
-    for (const PlacedMesh& part : parts) shown.push_back({part.name, medium_of(part), &part.mesh});
-    write_whole_file(path, report::scene_svg(shown, marks));
-  } else {
+  if (ending != ".glb" && ending != ".svg")
     throw InputError({{},
                       "a picture cannot be written as \"" + path.string() + "\"",
                       "choose a name that ends in .glb or .svg"});
+}
+
+void draw_scene(const std::filesystem::path& path, const std::vector<PlacedMesh>& parts,
+                const std::vector<Problem>& problems) {
+  expect_picture_name(path);
+  const auto marks = marks_of(problems);
+  if (lower_extension(path) == ".glb") {
+    write_scene_glb(path, parts, marks);
+  } else {
+    std::vector<report::PicturePart> shown;
+    for (const PlacedMesh& part : parts) shown.push_back({part.name, medium_of(part), &part.mesh});
+    write_whole_file(path, report::scene_svg(shown, marks));
   }
   std::cout << fmt::format("picture: {} ({} parts, {} marked problems)\n", path.string(), parts.size(),
                            marks.size());
