@@ -45,7 +45,7 @@ sensor = "perfect"
 type = "photons"
 region = { part = "crystal27" }
 wavelength = "420 nm"
-photons = 40_000
+photons = 15_000
 [run]
 seed = )" +
          (conforming ? "2" : "1") + "\n";

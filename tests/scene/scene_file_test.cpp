@@ -93,8 +93,15 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(rod.placement.translate == Vec3(-8, 0, 3));
   CHECK(rod.medium.name == kOpaqueMedium);
 
-  REQUIRE(scene.contacts.size() == 1);
+  CHECK(scene.parts[2].priority == 1);
+  REQUIRE(scene.contacts.size() == 2);
   CHECK(scene.contacts[0].between[1].name == "pmt_fill");
+  CHECK(scene.contacts[0].faces[1].empty());
+  CHECK(scene.contacts[0].tolerance_mm.value_or(0.0) == doctest::Approx(0.02));
+  CHECK(scene.contacts[1].between[0].name == "crystal");
+  CHECK(scene.contacts[1].faces[0] == "exit");
+  CHECK(scene.contacts[1].faces[1] == "other");
+  CHECK_FALSE(scene.contacts[1].tolerance_mm.has_value());
   const auto& region = std::get<RegionSpec>(scene.source.origin);
   REQUIRE(region.slab_z_mm.has_value());
   CHECK((*region.slab_z_mm)[0] == doctest::Approx(9.25));
