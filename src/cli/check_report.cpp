@@ -146,12 +146,12 @@ class Printer {
     double area = 0.0;
   };
 
-  /// Which parts touch, whatever their faces.
+  /// Which parts touch, nested ones included, whatever their faces.
   void print_contacts() const {
     Alike<Pair> pairs;
     for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
       const Interface& interface = scene_.interfaces[i];
-      if (interface.back_face == kNone || interface.front_face == kNone) continue;
+      if (interface.back == kAmbientRegion || interface.front == kAmbientRegion) continue;
       Pair one{scene_.regions[interface.back].name, scene_.regions[interface.front].name, 0, 0, 0.0};
       if (shown(one.b) < shown(one.a)) std::swap(one.a, one.b);
       Pair& pair = pairs.add(shown(one.a) + '\n' + shown(one.b), one).first;

@@ -62,6 +62,8 @@ class InterfaceMaker {
     bind_sensors(t, result);
     if (t.back_face != kNoFace && t.front_face != kNoFace)
       make_contact(t, result);
+    else if (t.back_face != kNoFace && t.front != kAmbient)
+      make_nested(t, result);
     else if (t.back_face != kNoFace)
       result.back_surface = surface(face(t.back_face).surface, medium(t.back), medium(t.front));
     else
@@ -91,14 +93,29 @@ class InterfaceMaker {
     bind(t.back, t.front, t.front_face, result.back_sensor, result.back_sensor_part);
   }
 
+  void make_dry(const InterfaceTriangle& t, const std::string& back, const std::string& front,
+                Interface& result) {
+    result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
+    result.back_surface = surface(back, medium(t.back), assembly_.ambient);
+    result.front_surface = surface(front, medium(t.front), assembly_.ambient);
+  }
+
+  /// Where a part lies in another, its own finish counts unless a contact says otherwise.
+  void make_nested(const InterfaceTriangle& t, Interface& result) {
+    const ContactSpec* contact = find_contact(t);
+    const std::string& own = face(t.back_face).surface;
+    if (contact && contact->kind == ContactKind::dry)
+      make_dry(t, own, part(t.front).surface, result);
+    else
+      set_surface(t, result, true, contact && !contact->surface.empty() ? contact->surface.name : own);
+  }
+
   void make_contact(const InterfaceTriangle& t, Interface& result) {
     const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
     const ContactSpec* contact = find_contact(t);
     const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
     if (kind == ContactKind::dry) {
-      result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
-      result.back_surface = surface(back.surface, medium(t.back), assembly_.ambient);
-      result.front_surface = surface(front.surface, medium(t.front), assembly_.ambient);
+      make_dry(t, back.surface, front.surface, result);
       return;
     }
     if (contact && !contact->surface.empty()) {
@@ -130,7 +147,8 @@ class InterfaceMaker {
   bool names(const ContactSpec& contact, std::size_t side, std::int32_t of_part, std::int32_t of_face) const {
     const std::string& part_name = part(of_part).geometry.name;
     if (contact.between[side].name != part_name) return false;
-    return contact.faces[side].empty() || part_name + ":" + contact.faces[side] == face(of_face).name;
+    return contact.faces[side].empty() ||
+           (of_face != kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
   }
 
   /// The contact that speaks of these two faces; of several the one that names more faces.
@@ -147,7 +165,9 @@ class InterfaceMaker {
       if (best != nullptr && faces_named(*best) == faces_named(contact))
         problems_.add(contact.where,
                       "this contact and the one at " + best->where.text() + " both describe how \"" +
-                          face(t.back_face).name + "\" meets \"" + face(t.front_face).name + "\"",
+                          face(t.back_face).name + "\" meets \"" +
+                          (t.front_face == kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
+                          "\"",
                       "add a [[contact]] that names both faces, or name fewer");
       if (best == nullptr || faces_named(contact) > faces_named(*best)) best = &contact;
     }

@@ -161,6 +161,8 @@ class AssemblyMaker {
                       ? window_medium(assembly_.sensors[static_cast<std::size_t>(part.sensor)])
                       : medium_index(placed.medium);
     part.rotation = placed.rotation;
+    part.surface = placed.surface.name;
+    if (!placed.surface.empty()) find_surface(placed.surface);
     part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}};
     const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
     for (const PlacedFace& face : placed.faces) {

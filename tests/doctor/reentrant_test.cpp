@@ -130,6 +130,11 @@ TEST_CASE("Crystals glued in rows: pads between neighbours, dry on one side, one
     CHECK(area_between(built, fmt::format("glue{}", i), fmt::format("crystal{}", i + 1)) ==
           doctest::Approx(18.0));
   }
+  for (const Interface& interface : built.interfaces) {
+    const std::string &back = built.regions[interface.back].name,
+                      &front = built.regions[interface.front].name;
+    CHECK((interface.gap_medium != kNone) == (back == "crystal0" && front == "frame"));
+  }
   CHECK(area_between(built, "crystal1", "frame") == doctest::Approx(2.0 * 18.0 + 4.0));
   check_flights(traced, text);
 }
