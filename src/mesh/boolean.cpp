@@ -10,7 +10,7 @@
 #include <memory>
 #include <tuple>
 
-#include "scintray/mesh/weld.hpp"
+#include "scintray/mesh/cgal_surface.hpp"
 
 namespace scintray {
 namespace {
@@ -40,39 +40,13 @@ class NumberVisitor : public pmp::Corefinement::Default_visitor<Surface> {
 };
 
 /// Fills `surface` with the mesh; its faces are numbered from `first_number` on.
-bool fill(TriMesh mesh, std::uint32_t first_number, Surface& surface, FaceNumbers& numbers) {
-  drop_unused_vertices(mesh);  // CGAL crashes on a vertex without neighbours
-  std::vector<Kernel::Point_3> points;
-  points.reserve(mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) points.emplace_back(v.x(), v.y(), v.z());
-  std::vector<std::vector<std::size_t>> polygons;
-  polygons.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) polygons.push_back({a, b, c});
-  pmp::orient_polygon_soup(points, polygons);  // splits vertices in which several bodies touch
-  if (!pmp::is_polygon_soup_a_polygon_mesh(polygons)) return false;
-  pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
+bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, FaceNumbers& numbers) {
+  Soup<Kernel::Point_3> soup(mesh);
+  pmp::orient_polygon_soup(soup.points, soup.polygons);  // splits vertices in which several bodies touch
+  if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons)) return false;
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);
   for (const Face face : surface.faces()) numbers[face] = first_number + static_cast<std::uint32_t>(face);
   return pmp::does_bound_a_volume(surface);
-}
-
-/// The surface as a mesh whose groups are the faces' numbers.
-TriMesh mesh_of(const Surface& surface, const FaceNumbers& numbers) {
-  TriMesh mesh;
-  std::vector<std::uint32_t> index(surface.number_of_vertices() + surface.number_of_removed_vertices());
-  for (const auto vertex : surface.vertices()) {
-    index[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
-    const auto& p = surface.point(vertex);
-    mesh.vertices.emplace_back(p.x(), p.y(), p.z());
-  }
-  for (const Face face : surface.faces()) {
-    std::array<std::uint32_t, 3> triangle{};
-    std::size_t k = 0;
-    for (const auto vertex : surface.vertices_around_face(surface.halfedge(face)))
-      triangle[k++] = index[vertex];
-    mesh.triangles.push_back(triangle);
-    mesh.group.push_back(numbers[face]);
-  }
-  return mesh;
 }
 
 }  // namespace

@@ -120,6 +120,18 @@ std::optional<Pairs> pair_up(const TriMesh& mesh, const EdgeUse* first, const Ed
   return pairs;
 }
 
+/// Takes triangles out and returns where they were.
+Defects take_out(TriMesh& mesh, const std::vector<char>& unwanted) {
+  Defects removed;
+  std::vector<char> wanted;
+  for (std::size_t t = 0; t < unwanted.size(); ++t) {
+    wanted.push_back(!unwanted[t]);
+    if (unwanted[t]) removed.add(centre_of(mesh, t));
+  }
+  keep_triangles(mesh, wanted);
+  return removed;
+}
+
 }  // namespace
 
 Defects remove_duplicates(TriMesh& mesh) {
@@ -131,20 +143,15 @@ Defects remove_duplicates(TriMesh& mesh) {
   }
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> uses;
   for (const EdgeUse& use : sorted_edge_uses(mesh)) ++uses[{use.low, use.high}];
-  std::vector<char> wanted(mesh.triangles.size(), 1);
-  Defects removed;
+  std::vector<char> unwanted(mesh.triangles.size(), 0);
   for (const auto& [c, same] : by_corners) {
     if (same.size() < 2) continue;
     int odd = 0;  // edges to which others than these bring an odd number of triangles
     for (const auto& edge : {std::pair(c[0], c[1]), std::pair(c[1], c[2]), std::pair(c[0], c[2])})
       odd += static_cast<int>((uses.at(edge) - same.size()) % 2);
-    for (std::size_t i = odd >= 2 ? 1 : 0; i < same.size(); ++i) {
-      wanted[same[i]] = 0;
-      removed.add(centre_of(mesh, same[i]));
-    }
+    for (std::size_t i = odd >= 2 ? 1 : 0; i < same.size(); ++i) unwanted[same[i]] = 1;
   }
-  keep_triangles(mesh, wanted);
-  return removed;
+  return take_out(mesh, unwanted);
 }
 
 Defects remove_fins(TriMesh& mesh) {
@@ -182,15 +189,9 @@ Defects remove_fins(TriMesh& mesh) {
     gone[p] = 1;
     for (const std::size_t e : edges_of[p]) edges[e].erase(p);
   }
-  std::vector<char> wanted(piece.size(), 1);
-  Defects removed;
-  for (std::size_t t = 0; t < piece.size(); ++t) {
-    if (!gone[piece[t]]) continue;
-    wanted[t] = 0;
-    removed.add(centre_of(mesh, t));
-  }
-  keep_triangles(mesh, wanted);
-  return removed;
+  std::vector<char> unwanted;
+  for (const std::uint32_t p : piece) unwanted.push_back(gone[p]);
+  return take_out(mesh, unwanted);
 }
 
 Defects part_touching_bodies(TriMesh& mesh) {

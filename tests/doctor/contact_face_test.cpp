@@ -1,5 +1,4 @@
-#include "physics/traced.hpp"
-#include "scintray/core/error.hpp"
+#include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -11,31 +10,12 @@ namespace {
 /// A crystal in the corner of an L made of one mesh is a pair that touches on two faces: here a block with
 /// a step, cut by priority, so that the crystal touches it from below and from the side.
 std::string in_a_corner(const std::string& contacts) {
-  return R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "corner"
-box = { low = ["0 mm", "0 mm", "0 mm"], high = ["4 mm", "4 mm", "4 mm"] }
-medium = "n15"
-surface = "flat"
-[[part]]
-name = "crystal"
-box = { low = ["2 mm", "0 mm", "2 mm"], high = ["6 mm", "4 mm", "6 mm"] }
-medium = "lso"
-surface = "flat"
-priority = 1
-[[part.face]]
-select = { normal = [-1, 0, 0] }
-[[part.face]]
-select = { normal = [0, 0, -1] }
-)" + contacts +
-         R"(
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-photons = 3000
-)";
+  const std::string rules =
+      "priority = 1\n[[part.face]]\nselect = { normal = [-1, 0, 0] }\n"
+      "[[part.face]]\nselect = { normal = [0, 0, -1] }\n";
+  return lit_scene(part_text("corner", corners({0, 0, 0}, {4, 4, 4}), "n15") +
+                       part_text("crystal", corners({2, 0, 2}, {6, 4, 6}), "lso") + rules + contacts,
+                   "crystal", 3000);
 }
 
 const Interface* between(const Scene& scene, const std::string& face) {
@@ -45,15 +25,6 @@ const Interface* between(const Scene& scene, const std::string& face) {
           scene.faces[static_cast<std::size_t>(id)].name == face)
         return &interface;
   return nullptr;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    SceneBuilder().build(scene_spec(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace

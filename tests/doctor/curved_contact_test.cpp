@@ -1,5 +1,4 @@
-#include "physics/traced.hpp"
-#include "scintray/core/error.hpp"
+#include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/stl_writer.hpp"
@@ -29,57 +28,24 @@ std::string bored_block() {
   return path.string();
 }
 
+/// A bonded contact with a tolerance of its own.
+std::string within(const std::string& a, const std::string& b, const std::string& tolerance) {
+  return fmt::format("[[contact]]\nbetween = [\"{}\", \"{}\"]\nkind = \"bonded\"\ntolerance = \"{}\"\n", a, b,
+                     tolerance);
+}
+
 /// A rod of 48 sides from z = low, `height` long, in the bored block; `turn` is added to both parts.
 std::string rod_in_bore(double low, double height, const std::string& tolerance,
                         const std::string& turn = "") {
-  return fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "rod"
-cylinder = {{ radius = "5 mm", height = "{} mm", segments = 48 }}
-medium = "lso"
-surface = "flat"
-{}
-[[part]]
-name = "holder"
-mesh = "{}"
-unit = "mm"
-medium = "n15"
-surface = "flat"
-{}
-[[contact]]
-between = ["rod", "holder"]
-kind = "bonded"
-tolerance = "{}"
-[source]
-type = "photons"
-region = {{ part = "rod" }}
-wavelength = "420 nm"
-photons = 2000
-)",
-                     height,
-                     turn.empty() ? fmt::format("translate = [\"0 mm\", \"0 mm\", \"{} mm\"]", low) : turn,
-                     bored_block(), turn, tolerance);
+  const std::string put =
+      turn.empty() ? fmt::format("translate = [\"0 mm\", \"0 mm\", \"{} mm\"]\n", low) : turn + "\n";
+  const std::string rod =
+      fmt::format("cylinder = {{ radius = \"5 mm\", height = \"{} mm\", segments = 48 }}\n", height);
+  return lit_scene(part_text("rod", rod + put, "lso") +
+                       part_text("holder", from_file(bored_block()) + turn + "\n", "n15") +
+                       within("rod", "holder", tolerance),
+                   "rod", 2000);
 }
-
-double contact_area(const Scene& scene) {
-  double area = 0.0;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-    if (scene.interfaces[i].back_face != kNone && scene.interfaces[i].front_face != kNone)
-      area += scene.interface_area_mm2[i];
-  return area;
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    SceneBuilder().build(scene_spec(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool has(const std::string& text, const std::string& piece) { return text.find(piece) != std::string::npos; }
 
 }  // namespace
 
@@ -92,7 +58,8 @@ TEST_CASE(
     const Scene& scene = traced.built.scene;
     CHECK(scene.parts[0].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
     CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
-    CHECK(contact_area(scene) == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
+    CHECK(area_between(scene, "rod", "holder") ==
+          doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
     REQUIRE(traced.built.parts[1].notes.size() == 1);
     CHECK(has(traced.built.parts[1].notes[0], "took the shape of \"rod\""));
   }
@@ -102,14 +69,14 @@ TEST_CASE("A rod that sticks out of the bore on both sides") {
   const Traced traced = trace(rod_in_bore(-2.0, 14.0, "20 um"));
   const Scene& scene = traced.built.scene;
   CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
-  CHECK(contact_area(scene) == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
+  CHECK(area_between(scene, "rod", "holder") == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
 }
 
 TEST_CASE("A rod that ends within the bore takes the bore's sides") {
   const Traced traced = trace(rod_in_bore(2.0, 6.0, "20 um"));
   const Scene& scene = traced.built.scene;
   CHECK(scene.parts[0].volume_mm3 == doctest::Approx(6.0 * polygon_area(64)).epsilon(1e-6));
-  CHECK(contact_area(scene) == doctest::Approx(6.0 * polygon_perimeter(64)).epsilon(1e-6));
+  CHECK(area_between(scene, "rod", "holder") == doctest::Approx(6.0 * polygon_perimeter(64)).epsilon(1e-6));
 }
 
 TEST_CASE("A ball in a hollow of other triangles") {
@@ -122,35 +89,15 @@ TEST_CASE("A ball in a hollow of other triangles") {
   const TriMesh ball = transformed(make_sphere(kRadius, 13),
                                    Eigen::Affine3d(Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized())));
   write_stl(ball_path, ball);
-  const Traced traced = trace(fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "ball"
-mesh = "{}"
-unit = "mm"
-medium = "lso"
-surface = "flat"
-[[part]]
-name = "block"
-mesh = "{}"
-unit = "mm"
-medium = "n15"
-surface = "flat"
-[[contact]]
-between = ["ball", "block"]
-kind = "bonded"
-tolerance = "60 um"
-[source]
-type = "photons"
-region = {{ part = "ball" }}
-wavelength = "420 nm"
-photons = 2000
-)",
-                                          ball_path.string(), path.string()));
+  const Traced traced = trace(lit_scene(part_text("ball", from_file(ball_path.string()), "lso") +
+                                            part_text("block", from_file(path.string()), "n15") +
+                                            within("ball", "block", "60 um"),
+                                        "ball", 2000));
   const Scene& scene = traced.built.scene;
   CHECK(scene.parts[0].volume_mm3 == doctest::Approx(ball.volume()).epsilon(1e-6));
   // The cap of a sphere below z = -1: 2 pi r (r - 1), less what a tessellation lacks.
-  CHECK(contact_area(scene) == doctest::Approx(kTwoPi * kRadius * (kRadius - 1.0)).epsilon(0.02));
+  CHECK(area_between(scene, "ball", "block") ==
+        doctest::Approx(kTwoPi * kRadius * (kRadius - 1.0)).epsilon(0.02));
 }
 
 TEST_CASE("What cannot be closed is said: faces that end within each other, tolerances too small, no faces") {

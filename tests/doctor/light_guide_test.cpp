@@ -1,4 +1,4 @@
-#include "physics/traced.hpp"
+#include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -15,11 +15,7 @@ std::string array(bool conforming) {
   std::string scene = "ambient = \"vacuum_n1\"\n";
   const auto box = [&](const std::string& name, const char* medium, double x0, double x1, double y0,
                        double y1, double z0, double z1) {
-    scene += fmt::format(
-        "[[part]]\nname = \"{}\"\nmedium = \"{}\"\nsurface = \"flat\"\n"
-        "box = {{ low = [\"{:.6g} mm\", \"{:.6g} mm\", \"{:.6g} mm\"], high = [\"{:.6g} mm\", \"{:.6g} mm\", "
-        "\"{:.6g} mm\"] }}\n",
-        name, medium, x0, y0, z0, x1, y1, z1);
+    scene += part_text(name, corners({x0, y0, z0}, {x1, y1, z1}), medium);
   };
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < 8; ++j)

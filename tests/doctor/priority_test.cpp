@@ -1,5 +1,4 @@
-#include "physics/traced.hpp"
-#include "scintray/core/error.hpp"
+#include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -10,28 +9,9 @@ namespace {
 
 /// A plate 10 x 10 x 4 mm and a rod of 2 x 2 mm through it, with keys of their own, and a source in the rod.
 std::string plate_and_rod(const std::string& plate, const std::string& rod) {
-  return R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "plate"
-box = { low = ["-5 mm", "-5 mm", "0 mm"], high = ["5 mm", "5 mm", "4 mm"] }
-medium = "n15"
-surface = "flat"
-)" + plate +
-         R"(
-[[part]]
-name = "rod"
-box = { low = ["-1 mm", "-1 mm", "-3 mm"], high = ["1 mm", "1 mm", "7 mm"] }
-medium = "lso"
-surface = "flat"
-)" + rod +
-         R"(
-[source]
-type = "photons"
-region = { part = "rod" }
-wavelength = "420 nm"
-photons = 3000
-)";
+  return lit_scene(part_text("plate", corners({-5, -5, 0}, {5, 5, 4}) + plate, "n15") +
+                       part_text("rod", corners({-1, -1, -3}, {1, 1, 7}), "lso") + rod,
+                   "rod", 3000);
 }
 
 double area_of(const Scene& scene, const std::string& face) {
@@ -39,17 +19,6 @@ double area_of(const Scene& scene, const std::string& face) {
     if (info.name == face) return info.area_mm2;
   return -1.0;
 }
-
-std::string refusal(const std::string& text) {
-  try {
-    SceneBuilder().build(scene_spec(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool has(const std::string& text, const std::string& piece) { return text.find(piece) != std::string::npos; }
 
 }  // namespace
 
@@ -88,14 +57,7 @@ TEST_CASE("Equal priorities stay an error that names both parts and the volume")
 }
 
 TEST_CASE("Three parts: each is cut by all above it") {
-  const std::string third = R"(
-[[part]]
-name = "post"
-box = { low = ["0 mm", "-2 mm", "1 mm"], high = ["2 mm", "2 mm", "9 mm"] }
-medium = "n15"
-surface = "flat"
-priority = 1
-)";
+  const std::string third = part_text("post", corners({0, -2, 1}, {2, 2, 9}) + "priority = 1\n", "n15");
   const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("", "priority = 2\n" + third))).scene;
   // post 2 x 4 x 8 less the rod's 1 x 2 x 6; plate less the rod and what is left of the post in it.
   CHECK(scene.parts[2].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
@@ -103,25 +65,10 @@ priority = 1
 }
 
 TEST_CASE("A part wholly inside another is nested, whatever the priorities") {
-  const std::string nested = R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "resin"
-box = ["9 mm", "9 mm", "9 mm"]
-medium = "n15"
-surface = "flat"
-priority = 5
-[[part]]
-name = "crystal"
-box = { low = ["-1 mm", "-1 mm", "1 mm"], high = ["1 mm", "1 mm", "3 mm"] }
-medium = "lso"
-surface = "flat"
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-photons = 1000
-)";
+  const std::string nested =
+      lit_scene(part_text("resin", corners({-4, -4, 0}, {4, 4, 9}) + "priority = 5\n", "n15") +
+                    part_text("crystal", corners({-1, -1, 1}, {1, 1, 3}), "lso"),
+                "crystal", 1000);
   const Traced traced = trace(nested);
   CHECK(traced.built.parts[0].notes.empty());
   CHECK(traced.built.parts[1].notes.empty());

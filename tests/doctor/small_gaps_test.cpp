@@ -1,6 +1,6 @@
 #include "scintray/scene/small_gaps.hpp"
 
-#include "physics/traced.hpp"
+#include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -8,26 +8,13 @@ using namespace scintray::test;
 namespace {
 
 std::vector<SmallGap> gaps(const std::string& gap) {
-  const std::string text = R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "20 mm"]
-medium = "lso"
-surface = "flat"
-[[part]]
-name = "plate"
-box = ["8 mm", "8 mm", "1 mm"]
-place = { touch = "crystal", side = "+z", gap = ")" +
-                           gap + R"(" }
-medium = "n15"
-surface = "flat"
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-photons = 10
-)";
+  const std::string text = lit_scene(part_text("crystal", "box = [\"2 mm\", \"2 mm\", \"20 mm\"]\n", "lso") +
+                                         part_text("plate",
+                                                   "box = [\"8 mm\", \"8 mm\", \"1 mm\"]\n"
+                                                   "place = { touch = \"crystal\", side = \"+z\", gap = \"" +
+                                                       gap + "\" }\n",
+                                                   "n15"),
+                                     "crystal", 10);
   return find_small_gaps(SceneBuilder().build(scene_spec(text)).placed, 1e-4);
 }
 

@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "physics/traced.hpp"
+#include "doctor/doctor_scenes.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -59,19 +59,5 @@ TEST_CASE("Beams that graze the crystal's long faces lose nothing") {
 TEST_CASE("Every flight of the torture scene lies in the region that its photon is in") {
   const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
   const BuiltScene built = SceneBuilder().build(spec);
-  const PhotonSource source(spec.source, built.scene);
-  constexpr double kShort_mm = 0.01;  // shorter flights say nothing about sides
-  std::size_t flights = 0, astray = 0;
-  for (std::uint64_t photon = 0; photon < 300; ++photon) {
-    std::optional<Photon> before;
-    replay(built.scene, source, {}, 0, photon, [&](const Photon& now, const Step&) {
-      if (before && (now.position - before->position).norm() > kShort_mm) {
-        ++flights;
-        astray += !built.scene.region_contains(before->region, 0.5 * (before->position + now.position));
-      }
-      before = now;
-    });
-  }
-  CHECK(flights > 3000);
-  CHECK(astray == 0);
+  check_flights(built.scene, spec.source, 300);
 }
