@@ -24,14 +24,15 @@ enum class Facing {
 };
 
 /// Points of a triangle: a regular grid of 6 steps a side, its corners included.
-std::vector<Vec3> samples_of(const Body& body, std::uint32_t t) {
+std::vector<Vec3> samples_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   constexpr int kSteps = 6;
   std::vector<Vec3> points;
   for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; i + j <= kSteps; ++j)
-      points.push_back(
-          (i * body.corner(t, 0) + j * body.corner(t, 1) + (kSteps - i - j) * body.corner(t, 2)) / kSteps);
+    for (int j = 0; i + j <= kSteps; ++j) points.push_back((i * a + j * b + (kSteps - i - j) * c) / kSteps);
   return points;
+}
+std::vector<Vec3> samples_of(const Body& body, std::uint32_t t) {
+  return samples_of(body.corner(t, 0), body.corner(t, 1), body.corner(t, 2));
 }
 
 /// The triangle of `body` nearest to a point, of those within `reach` whose normal has at least (at most,
@@ -142,21 +143,30 @@ class Conformer {
     const auto cut = carve(grown, tool, axes, flat_);
     if (!cut) return "the result would be no proper solid";
     std::vector<std::uint32_t> face_of;
+    double moved = 0.0;
     for (std::uint32_t t = 0; t < cut->origin.size(); ++t) {
       const TriangleOrigin& origin = cut->origin[t];
       if (!origin.of_second && contact[origin.triangle])
         return "\"" + keeper_.name + "\" is too thin there for this tolerance";
-      face_of.push_back(taker_.face_of[origin.of_second ? replaced_by(cut->mesh, t) : origin.triangle]);
+      std::uint32_t own = origin.triangle;
+      if (origin.of_second) {
+        const Nearest replaced = replaced_by(cut->mesh, t);
+        if (!replaced.found()) return "its face would move by more than twice the tolerance";
+        moved = std::max(moved, replaced.distance);
+        own = replaced.triangle;
+      }
+      face_of.push_back(taker_.face_of[own]);
     }
     const MeshDiagnosis diagnosis = diagnose_in_place(cut->mesh);
     const auto unsound = mesh_problems(diagnosis, taker_.name);
     if (!unsound.empty()) return "afterwards " + unsound.front().what;
     taker_.notes.push_back(fmt::format(
-        "took the shape of \"{}\" where they touch within {:.4g} mm: {} triangles in place of {}, volume "
-        "{:.8g} instead of {:.8g} mm3",
+        "took the shape of \"{}\" where they touch within {:.4g} mm: {} triangles in place of {}, moved by "
+        "up to "
+        "{:.2g} mm, volume {:.8g} instead of {:.8g} mm3",
         keeper_.name, tolerance_,
         std::count_if(cut->origin.begin(), cut->origin.end(), [](const auto& o) { return o.of_second; }),
-        count(Facing::covered), diagnosis.volume_mm3, taker_.diagnosis.volume_mm3));
+        count(Facing::covered), moved, diagnosis.volume_mm3, taker_.diagnosis.volume_mm3));
     taker_.mesh = cut->mesh;
     taker_.face_of = std::move(face_of);
     taker_.diagnosis = diagnosis;
@@ -176,21 +186,21 @@ class Conformer {
     return flush;
   }
 
-  /// The taker's own facing triangle that a new one stands for.
-  std::uint32_t replaced_by(const TriMesh& mesh, std::uint32_t t) const {
-    const Vec3 middle = centre_of(mesh, t);
-    std::uint32_t best = 0;
-    double least = HUGE_VAL;
-    for (std::uint32_t u = 0; u < facing_.size(); ++u) {
-      if (facing_[u] != Facing::covered) continue;
-      const double d = contact::distance(middle, taker_body_.corner(u, 0), taker_body_.corner(u, 1),
-                                         taker_body_.corner(u, 2));
-      if (d < least) {
-        least = d;
-        best = u;
-      }
+  /// The taker's own triangle that a new one stands for, and how far the new one strays from the taker's
+  /// surface.
+  Nearest replaced_by(const TriMesh& mesh, std::uint32_t t) const {
+    const Vec3 normal = mesh.area_vector(t).normalized();
+    const auto beside = [&](const Vec3& point) {
+      return nearest(taker_body_, point, normal, false, 2.0 * tolerance_);
+    };
+    Nearest replaced = beside(centre_of(mesh, t));
+    const auto& [a, b, c] = mesh.triangles[t];
+    for (const Vec3& point : samples_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c])) {
+      const Nearest here = beside(point);
+      if (!here.found()) return {};
+      replaced.distance = std::max(replaced.distance, here.distance);
     }
-    return best;
+    return replaced;
   }
 
   const PlacedMesh& keeper_;

@@ -12,8 +12,9 @@ namespace scintray {
 /// Two tessellations of one curved surface leave slivers, now gap, now overlap. One part takes all of
 /// them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
 /// neighbouring faces, and the other part is then cut out of it, pushed outwards itself where it ends
-/// flush. So the contact is the other part's own triangles, and nothing moves by more than the tolerance.
-/// The first part named in `between` keeps its shape, unless only it is covered by the second.
+/// flush. So the contact is the other part's own triangles, and nothing moves by more than the tolerance, or
+/// twice that at a sharp rim. The first part named in `between` keeps its shape, unless only it is covered by
+/// the second.
 ///
 /// What was done is in the notes of the part that changed. Adds to `problems`: contacts without facing
 /// triangles; contacts in which on either side a triangle lies partly within the tolerance and partly
