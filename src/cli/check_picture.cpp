@@ -84,7 +84,7 @@ void draw_scene(const std::filesystem::path& path, const std::vector<PlacedMesh>
     for (const PlacedMesh& part : parts) shown.push_back({part.name, medium_of(part), &part.mesh});
     write_whole_file(path, report::scene_svg(shown, marks));
   }
-  std::cout << fmt::format("picture: {} ({} parts, {} marked problems)\n", path.string(), parts.size(),
+  std::cout << fmt::format("picture: {} (parts: {}, marked problems: {})\n", path.string(), parts.size(),
                            marks.size());
 }
 

@@ -72,7 +72,7 @@ bool repair_file(const std::filesystem::path& in, double mm_per_unit, const std:
   const RepairedMesh repaired = repair_mesh(std::move(imported.mesh), settings);
   print_state("found", repaired.before);
   for (const RepairStep& step : repaired.steps)
-    std::cout << fmt::format("  done: {} {}{}\n", step.where.count, step.what, places(step.where));
+    std::cout << fmt::format("  done: {}: {}{}\n", step.what, step.where.count, places(step.where));
   if (repaired.steps.empty()) std::cout << "  done: nothing\n";
   for (const std::string& reason : repaired.refused) std::cout << "  not done: " << reason << "\n";
 

@@ -90,7 +90,7 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
     CHECK(has(ended.output, "which medium lies behind it cannot be known"));
     CHECK(has(ended.output, "part \"bare\" has faces without a surface"));
     CHECK(has(ended.output, "rules \"+z\" and \"top\" of part \"bare\" both match the triangle at"));
-    CHECK(has(ended.output, "2 parts, 3 marked problems"));
+    CHECK(has(ended.output, "parts: 2, marked problems: 3"));
     CHECK(std::filesystem::file_size(folder / picture) > 1000);
   }
   const std::string svg = content(folder / "bad.svg");
@@ -117,7 +117,7 @@ TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
   CHECK(ended.exit_code == 0);
   CHECK(has(ended.output, "found: 11 triangles, 1 body, 22 mm2, "));
   CHECK(has(ended.output, "3 open edges"));
-  CHECK(has(ended.output, "done: 1 holes filled, at ("));
+  CHECK(has(ended.output, "done: holes filled: 1, at ("));
   CHECK(has(ended.output, "written to closed.stl: 12 triangles, 1 body, 24 mm2, 8 mm3; sound"));
   const Ended glb = run_program(
       {"repair", "open.stl", "--unit", "mm", "--largest-hole", "3 mm", "-o", "closed.glb"}, folder);
