@@ -65,7 +65,7 @@ void check_scene(const CheckOptions& options) {
         shown ? gap_warnings(built.placed, spec.run.contact_tolerance_mm) : std::vector<Problem>();
     if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
     const PhotonSource source(spec.source, built.scene);
-    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    const TallyPlan plan(built.scene, spec);
     line.clear();
     if (!shown) continue;
     if (file.points() > 1) {
@@ -80,8 +80,11 @@ void check_scene(const CheckOptions& options) {
         spec.contacts_default == ContactKind::bonded ? "bonded" : "dry",
         spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_scene(built, options.all);
+    const std::vector<std::uint32_t> origins = source.regions();
     std::cout << "\nsource: " << source.photons() << " photons from \""
-              << built.scene.regions[source.region()].name << "\"\n";
+              << built.scene.regions[origins.front()].name << "\"";
+    if (origins.size() > 1) std::cout << " and " << origins.size() - 1 << " more parts";
+    std::cout << "\n";
     for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
     print_warnings(gaps, options.all);
   }

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t kRays = 1'000'000;
 
-struct Options {
+struct GoniometerOptions {
   BenchOptions bench;
   std::string surface, outside = "air", side = "inside", half_width = "5 deg", measured, page, csv, cells;
   std::vector<std::string> angles;
@@ -96,7 +96,7 @@ void write(const std::string& path, const std::string& content) {
   std::cout << "written      " << path << "\n";
 }
 
-void run(const Options& options) {
+void run_goniometer(const GoniometerOptions& options) {
   GoniometerSettings settings;
   settings.side = options.side == "inside" ? Side::inside : Side::outside;
   settings.rays = options.bench.rays;
@@ -142,7 +142,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_goniometer_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GoniometerOptions>();
   CLI::App* command = app.add_subcommand(
       "goniometer", "Shoot a beam at a surface of the library and show where its light goes");
   command->add_option("SURFACE", options->surface, "Surface of the library, or of the scene")->required();
@@ -165,7 +165,7 @@ void add_goniometer_command(CLI::App& app) {
   command->add_option("-o,--output", options->page, "HTML page to write");
   command->add_option("--csv", options->csv, "CSV file for the in-plane profiles");
   command->add_option("--cells", options->cells, "CSV file for the counts over the hemisphere");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_goniometer(*options); });
 }
 
 }  // namespace scintray::cli

@@ -16,11 +16,11 @@ namespace scintray::cli {
 
 namespace {
 
-constexpr std::uint64_t kRays = 200'000;
+constexpr std::uint64_t kComparedRays = 200'000;
 /// Of the directions: their bins hold a few in ten thousand of the rays.
 constexpr std::uint64_t kDirectionFactor = 10;
 
-struct Options {
+struct CompareOptions {
   BenchOptions bench;
   std::vector<std::string> surfaces, outside{"air"};
   std::string angle = "45 deg", slopes, reflectance, directions;
@@ -36,7 +36,8 @@ std::vector<double> incidences() {
 }
 
 /// The surfaces between the inside medium and one outside medium.
-std::vector<BenchSurface> make_all(const Options& options, const std::string& outside, bool on_the_spot) {
+std::vector<BenchSurface> make_all(const CompareOptions& options, const std::string& outside,
+                                   bool on_the_spot) {
   ProgressLine line(true);
   SurfaceMaker maker = watched_maker(line);
   const Library library = library_of(options.bench);
@@ -67,7 +68,7 @@ class Columns {
   std::vector<std::size_t> widths_;
 };
 
-GoniometerSettings settings_of(const Options& options) {
+GoniometerSettings settings_of(const CompareOptions& options) {
   GoniometerSettings settings;
   settings.rays = options.bench.rays;
   settings.seed = options.bench.seed;
@@ -80,7 +81,7 @@ void write(const std::string& path, const report::Plot& plot) {
   std::cout << "written      " << path << "\n";
 }
 
-void slopes(const Options& options) {
+void slopes(const CompareOptions& options) {
   const std::vector<BenchSurface> all = make_all(options, options.outside.front(), true);
   const Columns columns("mean slope met from inside (deg) against incidence", options.surfaces);
   report::Plot plot = report::incidence_plot("Mean slope met against incidence", "mean slope met (deg)");
@@ -101,7 +102,7 @@ void slopes(const Options& options) {
 }
 
 /// Prints reflectances into one medium, and adds them to the plot.
-void reflectance_into(const Options& options, const std::string& outside, report::Plot& plot) {
+void reflectance_into(const CompareOptions& options, const std::string& outside, report::Plot& plot) {
   const std::vector<BenchSurface> all = make_all(options, outside, options.on_the_spot);
   const IndexPair index = all.front().index;
   const std::vector<double> angles = incidences();
@@ -128,13 +129,13 @@ void reflectance_into(const Options& options, const std::string& outside, report
   }
 }
 
-void reflectance(const Options& options) {
+void reflectance(const CompareOptions& options) {
   report::Plot plot = report::incidence_plot("Reflectance against incidence", "reflectance");
   for (const std::string& outside : options.outside) reflectance_into(options, outside, plot);
   write(options.reflectance, plot);
 }
 
-void directions(const Options& options) {
+void directions(const CompareOptions& options) {
   const std::vector<BenchSurface> all = make_all(options, options.outside.front(), options.on_the_spot);
   GoniometerSettings settings = settings_of(options);
   settings.rays *= kDirectionFactor;
@@ -164,7 +165,7 @@ void directions(const Options& options) {
   write(options.directions, plot);
 }
 
-void run(const Options& options) {
+void run_compare(const CompareOptions& options) {
   const InterruptGuard guard;
   const BenchPlace place = place_of(options.bench, "", "");
   std::cout << fmt::format("inside       {}, {:g} nm, light from inside, seed {}\n", place.inside,
@@ -177,11 +178,11 @@ void run(const Options& options) {
 }  // namespace
 
 void add_table_compare_command(CLI::App& table) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
       table.add_subcommand("compare", "Draw surfaces of the library in one plot, as SVG files");
   command->add_option("SURFACE", options->surfaces, "Surfaces of the library, or of the scene")->required();
-  add_bench_options(*command, options->bench, kRays);
+  add_bench_options(*command, options->bench, kComparedRays);
   command
       ->add_option("--outside", options->outside,
                    "Medium outside; of several, the first is that of slopes and directions")
@@ -200,7 +201,7 @@ void add_table_compare_command(CLI::App& table) {
   command->callback([=] {
     if (slope_file->empty() && reflectance_file->empty() && direction_file->empty())
       throw CLI::RequiredError("one at least of --slopes, --reflectance, --directions");
-    run(*options);
+    run_compare(*options);
   });
 }
 

@@ -15,13 +15,13 @@ namespace scintray::cli {
 
 namespace {
 
-constexpr std::uint64_t kRays = 50'000;
+constexpr std::uint64_t kListedRays = 50'000;
 /// The profile needs more: its bins hold a few in ten thousand of the rays.
 constexpr std::uint64_t kProfileFactor = 10;
 constexpr double kStep_deg = 2.5, kProfile_deg = 45.0;
 constexpr double kStated_deg[] = {0.0, 45.0, 80.0};
 
-struct Options {
+struct ListOptions {
   BenchOptions bench;
   std::string outside = "air", page;
 };
@@ -49,7 +49,7 @@ report::SurfaceReadings read_surface(BenchSurface bench, const BenchOptions& opt
 }
 
 report::SurfaceEntry make_entry(const std::string& name, const Library& library, SurfaceMaker& maker,
-                                const Options& options) {
+                                const ListOptions& options) {
   report::SurfaceEntry entry;
   entry.name = name;
   entry.outline = library.outline(name);
@@ -98,7 +98,7 @@ void print_entry(const report::SurfaceEntry& entry) {
   std::cout << "\n";
 }
 
-void run(const Options& options) {
+void run_list(const ListOptions& options) {
   const InterruptGuard guard;
   ProgressLine line(true);
   SurfaceMaker maker = watched_maker(line);
@@ -123,13 +123,13 @@ void run(const Options& options) {
 }  // namespace
 
 void add_table_list_command(CLI::App& table) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListOptions>();
   CLI::App* command =
       table.add_subcommand("list", "Print every surface of the library, and show them side by side");
-  add_bench_options(*command, options->bench, kRays);
+  add_bench_options(*command, options->bench, kListedRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
   command->add_option("--page", options->page, "HTML page to write");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_list(*options); });
 }
 
 }  // namespace scintray::cli

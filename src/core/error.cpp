@@ -84,4 +84,16 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return best;
 }
 
+InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
+                        const std::vector<std::string>& names) {
+  constexpr std::size_t kMostNamed = 30;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+    list += (list.empty() ? "" : ", ") + names[i];
+  if (names.size() > kMostNamed) list += " and " + std::to_string(names.size() - kMostNamed) + " more";
+  const std::string near = nearest_word(wanted, names);
+  return InputError({where, "no " + kind + " is called \"" + wanted + "\"",
+                     (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("there are: " + list)});
+}
+
 }  // namespace scintray

@@ -82,4 +82,9 @@ class Problems {
 /// (distance above a third of the word's length, at least 2). For "did you mean" hints.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
+/// "no face is called "x"" with the nearest name there is, and the first of them.
+/// @param kind what the names are of: "face", "part"
+InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
+                        const std::vector<std::string>& names);
+
 }  // namespace scintray

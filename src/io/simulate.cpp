@@ -102,7 +102,7 @@ Survey survey_points(const SceneFile& file, const SimulationOptions& options, Sc
     const SceneSpec spec = with_options(file.spec(point), options);
     const BuiltScene built = builder.build(spec);
     const PhotonSource source(spec.source, built.scene);
-    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    const TallyPlan plan(built.scene, spec);
     survey.names.add(built.scene);
     survey.photons.push_back(source.photons());
     for (const std::string& warning : built.warnings)
@@ -153,7 +153,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
     const SceneSpec spec = with_options(file.spec(point), options);
     const BuiltScene built = builder.build(spec);
     const PhotonSource source(spec.source, built.scene);
-    const TallyPlan plan(built.scene, spec.exit_angles, spec.run.photon_list);
+    const TallyPlan plan(built.scene, spec);
     const Renumbering renumbering(built.scene, survey.names);
 
     RunHooks hooks;

@@ -13,8 +13,6 @@
 namespace scintray {
 namespace {
 
-constexpr std::size_t kDeepestNesting = 500;
-
 std::uint32_t little_endian(std::string_view bytes, std::size_t offset, std::size_t size) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < size; ++i) {

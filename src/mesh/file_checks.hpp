@@ -23,6 +23,9 @@ std::string read_mesh_file(const std::filesystem::path& path);
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
                          const std::string& content);
 
+/// What a sound file of nested JSON values or XML elements does not come near.
+inline constexpr std::size_t kDeepestNesting = 500;
+
 /// Greatest depth of brackets of a JSON text, strings left out.
 std::size_t json_depth(const std::string& text);
 

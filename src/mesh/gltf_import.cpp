@@ -13,8 +13,6 @@
 namespace scintray {
 namespace {
 
-constexpr std::size_t kDeepestNesting = 500;
-
 /// Pictures do not matter here: they are accepted unread.
 bool skip_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                 void*) {

@@ -13,7 +13,7 @@ namespace scintray::report {
 
 namespace {
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kGoniometerStyle = R"css(
 .pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 22rem)); gap: 1.5rem; }
 svg.hemisphere { display: block; width: 100%; height: auto; font: 13px system-ui, sans-serif; }
 svg.hemisphere .beyond { fill: var(--paper); }
@@ -145,7 +145,7 @@ std::string goniometer_page(const BenchSurface& bench, const std::vector<Goniome
   const GoniometerSettings& settings = readings.front().settings;
   std::string body = "<h2>Where the light goes</h2>\n" + share_table(readings);
   for (const GoniometerReading& reading : readings) body += reading_section(bench, reading, overlay);
-  return html_page("Goniometer: " + bench.place.surface, bench_text(bench, settings.side), kStyle,
+  return html_page("Goniometer: " + bench.place.surface, bench_text(bench, settings.side), kGoniometerStyle,
                    body + notes(bench, settings));
 }
 

@@ -9,8 +9,10 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/report/format.hpp"
+#include "scintray/report/grid_map.hpp"
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/svg_plot.hpp"
+#include "scintray/report/tally_section.hpp"
 
 namespace scintray {
 
@@ -18,7 +20,7 @@ namespace {
 
 using namespace report;
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kReportStyle = R"css(
 :root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; --panel:#f6f8fa;
   --alarm:#8a1c00; --alarm-paper:#fdeee9;
   --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#7a8790; --f5:#b35a8c; }
@@ -94,12 +96,14 @@ std::string html_report(const RunResult& run) {
   const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  page += "<title>" + title + "</title>\n<style>" + kStyle + svg_plot_style() + "</style>\n</head>\n<body>\n";
+  page += "<title>" + title + "</title>\n<style>" + kReportStyle + svg_plot_style() + grid_map_style() +
+          "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
           escape_html(run.header.scene_file) + "</p>\n";
   page += partial_banner(run) + answer(run);
   if (!run.points.empty())
-    page += fate_section(run) + sensor_section(run) + angle_section(run) + path_section(run);
+    page +=
+        fate_section(run) + sensor_section(run) + angle_section(run) + tally_section(run) + path_section(run);
   page += condition_section(run);
   page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return page + "</body>\n</html>\n";

@@ -16,7 +16,7 @@ namespace scintray::report {
 
 namespace {
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kMapStyle = R"css(
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1.5rem; }
 img.heights { display: block; width: 100%; image-rendering: pixelated; }
 .scale { display: flex; align-items: center; gap: .6rem; margin-top: .4rem; color: var(--soft);
@@ -100,7 +100,7 @@ std::string map_page(const std::string& title, const HeightMap& before, const He
   page += "<h2>Numbers</h2>\n" + number_table(before, after);
   page += "<h2>Steps</h2>\n<ol>\n";
   for (const std::string& step : after.steps) page += "<li>" + escape_html(step) + "</li>\n";
-  return html_page(title, "Height map before and after preparation", kStyle, page + "</ol>\n");
+  return html_page(title, "Height map before and after preparation", kMapStyle, page + "</ol>\n");
 }
 
 void write_map_page(const std::filesystem::path& path, const std::string& title, const HeightMap& before,

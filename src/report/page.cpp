@@ -11,7 +11,7 @@ namespace scintray::report {
 
 namespace {
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kPageStyle = R"css(
 :root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }
 @media (prefers-color-scheme: dark) {
 :root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }
@@ -35,7 +35,7 @@ std::string html_page(const std::string& title, const std::string& under, const 
                       const std::string& body) {
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-          escape_html(title) + "</title>\n<style>" + kStyle + style + svg_plot_style() +
+          escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
           "</style>\n</head>\n<body>\n";
   page += "<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) + " · ScintRay " +
           escape_html(version()) + "</p>\n";

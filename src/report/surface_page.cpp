@@ -8,7 +8,7 @@ namespace scintray::report {
 
 namespace {
 
-constexpr const char* kStyle = R"css(
+constexpr const char* kSurfaceStyle = R"css(
 body { max-width: 80rem; }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(34rem, 1fr)); gap: 1.75rem; margin-top: 2rem; }
 .card { border: 1px solid var(--rule); border-radius: 6px; padding: .9rem 1rem; break-inside: avoid; }
@@ -88,7 +88,7 @@ std::string surface_page(const std::vector<SurfaceEntry>& entries, const std::st
   for (const bool made : {true, false})  // those that show something first
     for (const SurfaceEntry& entry : entries)
       if (entry.readings.has_value() == made) body += card(entry);
-  return html_page("Surfaces of the library", under, kStyle, body + "</div>\n");
+  return html_page("Surfaces of the library", under, kSurfaceStyle, body + "</div>\n");
 }
 
 }  // namespace scintray::report

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/regions.hpp"
 
 namespace scintray {
@@ -102,7 +104,7 @@ class InterfaceMaker {
 
   /// Where a part lies in another, its own finish counts unless a contact says otherwise.
   void make_nested(const InterfaceTriangle& t, Interface& result) {
-    const ContactSpec* contact = find_contact(t);
+    const ContactSpec* contact = find_contact(t).first;
     const std::string& own = face(t.back_face).surface;
     if (contact && contact->kind == ContactKind::dry)
       make_dry(t, own, part(t.front).surface, result);
@@ -112,14 +114,13 @@ class InterfaceMaker {
 
   void make_contact(const InterfaceTriangle& t, Interface& result) {
     const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
-    const ContactSpec* contact = find_contact(t);
+    const auto [contact, back_is_first] = find_contact(t);
     const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
     if (kind == ContactKind::dry) {
       make_dry(t, back.surface, front.surface, result);
       return;
     }
     if (contact && !contact->surface.empty()) {
-      const bool back_is_first = part(t.back).geometry.name == contact->between[0].name;
       set_surface(t, result, back_is_first, contact->surface.name);
     } else if (front.surface.empty() || back.surface == front.surface) {
       set_surface(t, result, true, back.surface);
@@ -143,35 +144,54 @@ class InterfaceMaker {
       result.front_surface = surface(name, medium(t.front), medium(t.back));
   }
 
-  /// Does the contact's side name this face of this part?
+  /// Does the contact's side name this face of this part? Inside another part there is no face.
   bool names(const ContactSpec& contact, std::size_t side, std::int32_t of_part, std::int32_t of_face) const {
     const std::string& part_name = part(of_part).geometry.name;
-    if (contact.between[side].name != part_name) return false;
+    if (!matches_pattern(contact.between[side].name, part_name)) return false;
     return contact.faces[side].empty() ||
            (of_face != kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
   }
 
-  /// The contact that speaks of these two faces; of several the one that names more faces.
-  const ContactSpec* find_contact(const InterfaceTriangle& t) {
-    const ContactSpec* best = nullptr;
-    const auto faces_named = [](const ContactSpec& c) { return !c.faces[0].empty() + !c.faces[1].empty(); };
+  /// How much a contact says of a pair; of several that match, the one that says most holds: more faces
+  /// before fewer, and then more letters of both names before fewer.
+  static std::pair<int, std::size_t> weight(const ContactSpec& contact) {
+    return {!contact.faces[0].empty() + !contact.faces[1].empty(),
+            literal_length(contact.between[0].name) + literal_length(contact.between[1].name)};
+  }
+
+  /// The contact that speaks of these two faces, and whether its first name stands for the back.
+  std::pair<const ContactSpec*, bool> find_contact(const InterfaceTriangle& t) {
+    std::optional<std::size_t> best;
+    bool back_is_first = true;
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
       const ContactSpec& contact = assembly_.contacts[i];
-      const bool as_named =
+      const bool straight =
           names(contact, 0, t.back, t.back_face) && names(contact, 1, t.front, t.front_face);
-      const bool swapped = names(contact, 0, t.front, t.front_face) && names(contact, 1, t.back, t.back_face);
-      if (!as_named && !swapped) continue;
+      if (!straight && !(names(contact, 0, t.front, t.front_face) && names(contact, 1, t.back, t.back_face)))
+        continue;
       contact_used_[i] = true;
-      if (best != nullptr && faces_named(*best) == faces_named(contact))
-        problems_.add(contact.where,
-                      "this contact and the one at " + best->where.text() + " both describe how \"" +
-                          face(t.back_face).name + "\" meets \"" +
-                          (t.front_face == kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
-                          "\"",
-                      "add a [[contact]] that names both faces, or name fewer");
-      if (best == nullptr || faces_named(contact) > faces_named(*best)) best = &contact;
+      if (best && weight(contact) < weight(assembly_.contacts[*best])) continue;
+      if (best && weight(contact) == weight(assembly_.contacts[*best]))
+        report_tie(assembly_.contacts[*best], contact, t);
+      best = i;
+      back_is_first = straight;
     }
-    return best;
+    if (!best) return {nullptr, true};
+    return {&assembly_.contacts[*best], back_is_first};
+  }
+
+  void report_tie(const ContactSpec& one, const ContactSpec& other, const InterfaceTriangle& t) {
+    if (one.kind == other.kind && one.surface.name == other.surface.name) return;
+    const auto pattern = [](const ContactSpec& c) {
+      return "\"" + side_name(c, 0) + "\" - \"" + side_name(c, 1) + "\"";
+    };
+    if (!ties_.insert(pattern(one) + pattern(other)).second) return;
+    problems_.add(other.where,
+                  "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" +
+                      face(t.back_face).name + "\" - \"" +
+                      (t.front_face == kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
+                      "\", and differ",
+                  "name this pair in a [[contact]] of its own, or spell out more of one of them");
   }
 
   /// A surface for two media, made once per triple.
@@ -200,6 +220,7 @@ class InterfaceMaker {
   Scene& scene_;
   Problems& problems_;
   std::vector<bool> contact_used_;
+  std::set<std::string> ties_;  ///< told of
   std::map<InterfaceKey, std::uint32_t> known_;
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
 };
@@ -208,9 +229,19 @@ double triangle_area(const InterfaceTriangle& t) {
   return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
 }
 
+/// Gives every face the vertices that its triangles use.
+void collect_corners(const PlacedPart& geometry, Scene& scene) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
+    for (const std::uint32_t vertex : geometry.triangles[t])
+      if (seen.emplace(geometry.face[t], vertex).second)
+        scene.faces[geometry.face[t]].corners.push_back(geometry.vertices[vertex]);
+}
+
 void describe_parts(const Assembly& assembly, Scene& scene) {
   for (const AssemblyFace& face : assembly.faces)
-    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0});
+    scene.faces.push_back(
+        {face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const PlacedPart& geometry = assembly.parts[i].geometry;
     PartInfo info;
@@ -224,10 +255,13 @@ void describe_parts(const Assembly& assembly, Scene& scene) {
       info.volume_mm3 += (va - origin).dot((vb - origin).cross(vc - origin)) / 6.0;
       for (const Vec3& v : {va, vb, vc}) info.bounds.extend(v);
       FaceInfo& face = scene.faces[geometry.face[t]];
-      face.area_mm2 += 0.5 * (vb - va).cross(vc - va).norm();
+      const Vec3 area = 0.5 * (vb - va).cross(vc - va);
+      face.area_mm2 += area.norm();
+      face.area_vector_mm2 += area;
       ++face.triangles;
     }
     scene.parts.push_back(info);
+    collect_corners(geometry, scene);
   }
 }
 

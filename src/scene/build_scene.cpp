@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/conform_parts.hpp"
 #include "scintray/scene/cut_parts.hpp"
@@ -193,7 +194,7 @@ class AssemblyMaker {
     for (const ContactSpec& contact : spec_.contacts) {
       if (!contact.surface.empty()) find_surface(contact.surface);
       for (const NameRef& part : contact.between) {
-        if (std::find(names.begin(), names.end(), part.name) != names.end()) continue;
+        if (!matching(part.name, names).empty()) continue;
         const std::string near = nearest_word(part.name, names);
         problems_.add(part.where, "no part is called \"" + part.name + "\"",
                       near.empty() ? "name two [[part]]s of this scene" : "did you mean \"" + near + "\"?");

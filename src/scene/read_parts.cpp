@@ -1,4 +1,5 @@
 #include "scintray/scene/read_parts.hpp"
+#include "scintray/core/pattern.hpp"
 
 #include <algorithm>
 
@@ -285,6 +286,13 @@ void expect_part(const TomlTable& table, const std::string& key, const NameRef& 
   table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
                "there is no part \"" + name.name + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + list);
+}
+
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
+                  const std::vector<std::string>& parts) {
+  if (std::none_of(parts.begin(), parts.end(),
+                   [&](const std::string& part) { return matches_pattern(pattern.name, part); }))
+    expect_part(table, key, pattern, parts);
 }
 
 }  // namespace scintray

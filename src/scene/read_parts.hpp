@@ -28,8 +28,13 @@ void expect_part(const TomlTable& table, const std::string& key, const NameRef& 
 /// What "bonded" and "dry" stand for.
 ContactKind contact_kind(const std::string& word);
 
+/// The same for a name that may have wildcards and then must be that of one part at least.
+void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
+                  const std::vector<std::string>& parts);
+
 /// [[contact]].
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<PartSpec>& parts);
+std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& part_names,
+                                       const std::vector<PartSpec>& parts);
 
 /// [source].
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);
@@ -37,7 +42,7 @@ SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& p
 /// [run].
 RunSpec read_run(const TomlTable& scene);
 
-/// [[tally]].
-std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts);
+/// [[tally]]: fills scene.exit_angles and scene.tallies, names checked against scene.parts.
+void read_tallies(const TomlTable& table, SceneSpec& scene);
 
 }  // namespace scintray

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "scintray/scene/face_path.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -56,10 +55,10 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.contacts_default = contact_kind(root.choice("contacts_default", {"bonded", "dry"}, "bonded"));
   scene.parts = read_parts(root);
   const std::vector<std::string> names = part_names(scene.parts);
-  scene.contacts = read_contacts(root, scene.parts);
+  scene.contacts = read_contacts(root, names, scene.parts);
   scene.source = read_source(root, names);
   scene.run = read_run(root);
-  scene.exit_angles = read_tallies(root, scene.parts);
+  read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
   scene.sensors = read_definitions(root, "sensors");
@@ -69,35 +68,6 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
 }
 
 }  // namespace
-
-std::vector<ExitAngleTallySpec> read_tallies(const TomlTable& scene, const std::vector<PartSpec>& parts) {
-  std::vector<ExitAngleTallySpec> tallies;
-  std::set<std::string> names;
-  for (const TomlTable& table : scene.tables("tally")) {
-    ExitAngleTallySpec tally;
-    tally.where = table.where();
-    table.choice("type", {"exit_angle"});
-    if (table.has("type") && !table.good("type")) {
-      table.skip();
-      continue;
-    }
-    if (const auto path = read_face_path(table, "face", table.string("face"), parts)) {
-      tally.part = path->part;
-      tally.face = path->face;
-    }
-    tally.name = table.string("name", tally.part.name + ":" + tally.face.name);
-    if (table.good("face") && !names.insert(tally.name).second)
-      table.report("name", "there are two tallies named \"" + tally.name + "\"",
-                   "give each a name of its own");
-    tally.detected_only = table.boolean("detected_only", false);
-    const std::int64_t bins = table.integer("bins", tally.bins);
-    table.expect("bins", bins >= 1 && bins <= 9000, "the number of bins is not in 1 to 9000",
-                 "give the number of equal bins over 0 to 90 deg");
-    tally.bins = static_cast<int>(bins);
-    tallies.push_back(std::move(tally));
-  }
-  return tallies;
-}
 
 SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems) {
   const TomlTable root(document, problems);

@@ -15,7 +15,7 @@ RegionSpec read_region(const TomlTable& table, const std::vector<std::string>& p
   RegionSpec region;
   region.where = table.where();
   region.part = read_name(table, "part", true);
-  expect_part(table, "part", region.part, parts);
+  expect_parts(table, "part", region.part, parts);
   const std::vector<double> slab = table.quantities("slab_z", Dimension::length, 2, false);
   if (!slab.empty()) {
     region.slab_z_mm = {slab[0], slab[1]};

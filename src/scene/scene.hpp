@@ -104,6 +104,8 @@ struct FaceInfo {
   double area_mm2 = 0.0;          ///< as drawn
   double contact_area_mm2 = 0.0;  ///< of it, in contact with another part
   std::size_t triangles = 0;
+  Vec3 area_vector_mm2 = Vec3::Zero();  ///< sum of outward normal times area: as long as the area when flat
+  std::vector<Vec3> corners;            ///< of its triangles, each once
 };
 
 struct Scene {

@@ -14,16 +14,10 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/tally_spec.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
-
-/// A name that refers to something, and where it was written. Empty: not given.
-struct NameRef {
-  std::string name;
-  FileLocation where;
-  bool empty() const { return name.empty(); }
-};
 
 /// The medium that absorbs whatever enters it.
 inline constexpr const char* kOpaqueMedium = "opaque";
@@ -149,7 +143,7 @@ struct ContactSpec {
 
 /// Points of a part (or of an explicit point) from which light starts.
 struct RegionSpec {
-  NameRef part;
+  NameRef part;                                    ///< may have wildcards: any of these parts, by volume
   std::optional<std::array<double, 2>> slab_z_mm;  ///< world z, low then high
   std::optional<BoxSpec> box;                      ///< world
   FileLocation where;
@@ -192,16 +186,6 @@ struct RunSpec {
   FileLocation where;
 };
 
-/// Histogram of crossing angles at a face.
-struct ExitAngleTallySpec {
-  std::string name;
-  NameRef part;  ///< face = "part:face"
-  NameRef face;
-  bool detected_only = false;
-  int bins = 18;  ///< over 0 to 90 deg
-  FileLocation where;
-};
-
 /// A definition written in the scene file, in the form of a library file: the library parses it.
 using InlineTables = std::map<std::string, TomlNodePtr>;
 
@@ -215,6 +199,7 @@ struct SceneSpec {
   SourceSpec source;
   RunSpec run;
   std::vector<ExitAngleTallySpec> exit_angles;
+  std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
   InlineTables surfaces;         ///< [surfaces.NAME]
   InlineTables sensors;          ///< [sensors.NAME]

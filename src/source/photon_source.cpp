@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
 
 namespace scintray {
@@ -12,15 +13,10 @@ namespace {
 /// Draws outside the part in a row after which its region counts as empty.
 constexpr int kMostDraws = 1'000'000;
 
-std::uint32_t find_part(const NameRef& name, const Scene& scene) {
+std::vector<std::string> names_of(const std::vector<PartInfo>& parts) {
   std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-    if (scene.parts[i].name == name.name) return i;
-    names.push_back(scene.parts[i].name);
-  }
-  const std::string near = nearest_word(name.name, names);
-  throw InputError({name.where, "no part is called \"" + name.name + "\"",
-                    near.empty() ? "name a [[part]] of this scene" : "did you mean \"" + near + "\"?"});
+  for (const PartInfo& part : parts) names.push_back(part.name);
+  return names;
 }
 
 /// A time after excitation: the rise and the decay are two exponential steps, so their sum has the
@@ -46,63 +42,111 @@ PhotonSource::PhotonSource(const SourceSpec& spec, const Scene& scene)
       photons_(spec.photons),
       photons_per_event_(spec.photons_per_event) {
   if (const auto* region = std::get_if<RegionSpec>(&spec.origin)) {
-    const PartInfo& part = scene.parts[find_part(region->part, scene)];
-    region_ = part.region;
-    bounds_ = part.bounds;
-    Vec3 low = bounds_.min(), high = bounds_.max();
-    if (region->slab_z_mm) {
-      low.z() = std::max(low.z(), (*region->slab_z_mm)[0]);
-      high.z() = std::min(high.z(), (*region->slab_z_mm)[1]);
+    std::size_t found = 0;
+    const PartInfo* last = nullptr;
+    for (const PartInfo& part : scene.parts) {
+      if (!matches_pattern(region->part.name, part.name)) continue;
+      ++found;
+      last = &part;
+      add_origin(*region, part);
     }
-    if (region->box) {
-      low = low.cwiseMax(region->box->low);
-      high = high.cwiseMin(region->box->high);
-    }
-    bounds_ = Eigen::AlignedBox3d(low, high);
-    if ((low.array() > high.array()).any())
-      throw InputError({region->where, "the source region lies outside part \"" + part.name + "\"",
-                        "the part extends from z = " + std::to_string(part.bounds.min().z()) + " mm to " +
-                            std::to_string(part.bounds.max().z()) + " mm"});
+    if (found == 0) throw unknown_name(region->part.where, "part", region->part.name, names_of(scene.parts));
+    if (origins_.empty())
+      throw InputError({region->where, "the source region lies outside part \"" + region->part.name + "\"",
+                        "\"" + last->name + "\" extends from z = " + std::to_string(last->bounds.min().z()) +
+                            " mm to " + std::to_string(last->bounds.max().z()) + " mm"});
   } else {
     const Vec3& point = std::get<Vec3>(spec.origin);
     point_ = true;
-    bounds_ = Eigen::AlignedBox3d(point, point);
-    region_ = scene.locate(point);
+    origins_.push_back({scene.locate(point), Eigen::AlignedBox3d(point, point)});
   }
-  const SceneMedium& medium = scene.media[scene.regions[region_].medium];
-  if (medium.is_opaque())
-    throw InputError({spec.origin_where, "the source lies in an opaque part",
-                      "put it into a medium that transmits light"});
+  double volume = 0.0;
+  for (Origin& origin : origins_) origin.most = volume += origin.box.volume();
+  for (Origin& origin : origins_) origin.most /= std::max(volume, 1e-300);
+  check_medium(spec, scene);
+  const Medium& medium = scene.media[scene.regions[origins_.front().region].medium].medium();
   if (spec.wavelength_nm)
     wavelength_nm_ = *spec.wavelength_nm;
   else
-    emission_.emplace(medium.medium().emission);
+    emission_.emplace(medium.emission);
   if (spec.time_ns) {
     time_ns_ = *spec.time_ns;
   } else {
-    decay_ = medium.medium().decay;
+    decay_ = medium.decay;
     if (decay_.empty())
-      throw InputError({spec.time_where, "medium \"" + medium.medium().name + "\" has no scintillation decay",
+      throw InputError({spec.time_where, "medium \"" + medium.name + "\" has no scintillation decay",
                         "give time = \"0 ns\", or a decay in the medium's file"});
   }
   if (!point_) {  // shows now, not in the run, that positions can be found
     Rng rng(0, StreamKind::other, 0);
-    sample_position(scene, rng);
+    Photon photon;
+    sample_place(scene, rng, photon);
   }
 }
 
-Vec3 PhotonSource::sample_position(const Scene& scene, Rng& rng) const {
-  if (point_) return bounds_.min();
-  const Vec3 size = bounds_.sizes();
-  for (int draw = 0; draw < kMostDraws; ++draw) {
-    const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
-    const Vec3 point = bounds_.min() + size.cwiseProduct(Vec3(x, y, z));
-    if (scene.region_contains(region_, point)) return point;
+void PhotonSource::add_origin(const RegionSpec& spec, const PartInfo& part) {
+  Vec3 low = part.bounds.min(), high = part.bounds.max();
+  if (spec.slab_z_mm) {
+    low.z() = std::max(low.z(), (*spec.slab_z_mm)[0]);
+    high.z() = std::min(high.z(), (*spec.slab_z_mm)[1]);
   }
-  throw InputError(
-      Problem{{},
-              "no point of the source region lies inside \"" + scene.regions[region_].name + "\"",
-              "check slab_z or box against the part's position (scintray check prints it)"});
+  if (spec.box) {
+    low = low.cwiseMax(spec.box->low);
+    high = high.cwiseMin(spec.box->high);
+  }
+  if ((low.array() <= high.array()).all()) origins_.push_back({part.region, Eigen::AlignedBox3d(low, high)});
+}
+
+void PhotonSource::check_medium(const SourceSpec& spec, const Scene& scene) {
+  const std::uint32_t first = scene.regions[origins_.front().region].medium;
+  for (const Origin& origin : origins_) {
+    const Region& region = scene.regions[origin.region];
+    if (scene.media[region.medium].is_opaque())
+      throw InputError({spec.origin_where, "the source lies in an opaque part",
+                        "put it into a medium that transmits light"});
+    if (region.medium != first)
+      throw InputError({spec.origin_where,
+                        "the parts of the source have different media: \"" +
+                            scene.regions[origins_.front().region].name + "\" is " +
+                            scene.media[first].medium().name + " and \"" + region.name + "\" is " +
+                            scene.media[region.medium].medium().name,
+                        "name parts of one medium; light of others is a run of its own"});
+  }
+}
+
+std::vector<std::uint32_t> PhotonSource::regions() const {
+  std::vector<std::uint32_t> regions;
+  for (const Origin& origin : origins_) regions.push_back(origin.region);
+  return regions;
+}
+
+const PhotonSource::Origin& PhotonSource::sample_origin(Rng& rng) const {
+  if (origins_.size() == 1) return origins_.front();
+  const double u = rng.uniform();
+  const auto at = std::upper_bound(origins_.begin(), origins_.end(), u,
+                                   [](double share, const Origin& origin) { return share < origin.most; });
+  return at == origins_.end() ? origins_.back() : *at;
+}
+
+/// A box is chosen by its volume and a point in it; points outside the box's region are dropped, so
+/// what is kept is uniform over the union of the regions.
+void PhotonSource::sample_place(const Scene& scene, Rng& rng, Photon& photon) const {
+  if (point_) {
+    photon.position = origins_.front().box.min();
+    photon.region = origins_.front().region;
+    return;
+  }
+  for (int draw = 0; draw < kMostDraws; ++draw) {
+    const Origin& origin = sample_origin(rng);
+    const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+    photon.position = origin.box.min() + origin.box.sizes().cwiseProduct(Vec3(x, y, z));
+    photon.region = origin.region;
+    if (scene.region_contains(photon.region, photon.position)) return;
+  }
+  throw InputError(Problem{
+      {},
+      "no point of the source region lies inside \"" + scene.regions[origins_.front().region].name + "\"",
+      "check slab_z or box against the part's position (scintray check prints it)"});
 }
 
 Vec3 PhotonSource::sample_direction(Rng& rng) const {
@@ -126,14 +170,13 @@ Vec3 PhotonSource::sample_direction(Rng& rng) const {
 
 Photon PhotonSource::emit(const Scene& scene, Rng& rng) const {
   Photon photon;
-  photon.position = sample_position(scene, rng);
+  sample_place(scene, rng, photon);
   photon.ray.direction = sample_direction(rng);
   photon.ray.polarisation =
       unpolarised_ ? Vec3(Vec3::Zero()) : sample_polarisation(photon.ray.direction, rng);
   photon.wavelength_nm = emission_ ? emission_->sample(rng.uniform()) : wavelength_nm_;
   photon.time_ns = decay_.empty() ? time_ns_ : sample_decay(decay_, rng);
-  photon.region = region_;
-  photon.optics = scene.media[scene.regions[region_].medium].at(photon.wavelength_nm);
+  photon.optics = scene.media[scene.regions[photon.region].medium].at(photon.wavelength_nm);
   photon.optical_depth = sample_exponential(rng);
   return photon;
 }

@@ -101,18 +101,18 @@ class TableCheck {
 
   void directions(const DirectionQuantiles& q, const std::string& name) {
     if (q.empty() && q.azimuth.empty()) return;
-    constexpr std::size_t kRow = kAzimuthBins + 1;
-    if (q.polar.size() != kPolarBins + 1 || q.azimuth.size() != kPolarBins * kRow) {
+    constexpr std::size_t kRowEnds = kAzimuthBins + 1;
+    if (q.polar.size() != kPolarBins + 1 || q.azimuth.size() != kPolarBins * kRowEnds) {
       fault(name + " has " + std::to_string(q.polar.size()) + " polar and " +
             std::to_string(q.azimuth.size()) + " azimuth edges; expected " + std::to_string(kPolarBins + 1) +
-            " and " + std::to_string(kPolarBins * kRow));
+            " and " + std::to_string(kPolarBins * kRowEnds));
       return;
     }
     if (!increasing(q.polar, 0.0, 0.5 * kPi))
       fault(name + ": polar edges do not increase within 0 to 90 deg");
     const double low = kind_ == AzimuthKind::folded ? 0.0 : -kPi;
     for (int row = 0; row < kPolarBins; ++row)
-      if (!increasing(std::span(q.azimuth).subspan(row * kRow, kRow), low, kPi)) {
+      if (!increasing(std::span(q.azimuth).subspan(row * kRowEnds, kRowEnds), low, kPi)) {
         fault(name + ": azimuth edges of polar bin " + std::to_string(row) + " do not increase within " +
               (low < 0.0 ? "-180" : "0") + " to 180 deg");
         return;

@@ -14,59 +14,8 @@ int angle_bin(double cosine, int bins) {
   return std::min(bins - 1, static_cast<int>(angle / (0.5 * kPi) * bins));
 }
 
-std::uint32_t find_face(const ExitAngleTallySpec& spec, const Scene& scene) {
-  const std::string wanted = spec.part.name + ":" + spec.face.name;
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
-    if (scene.faces[i].name == wanted) return i;
-    names.push_back(scene.faces[i].name);
-  }
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  const std::string near = nearest_word(wanted, names);
-  throw InputError({spec.face.where.file.empty() ? spec.where : spec.face.where,
-                    "no face is called \"" + wanted + "\"",
-                    (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the faces are: " + list)});
-}
-
-}  // namespace
-
-TallyPlan::TallyPlan(const Scene& scene, const std::vector<ExitAngleTallySpec>& specs, bool list)
-    : photon_list(list) {
-  const std::size_t ways = 2 * scene.interfaces.size();
-  exit_angles_at.resize(ways);
-  sensor_faces.assign(ways, kNoSensor);
-  for (const ExitAngleTallySpec& spec : specs)
-    exit_angles.push_back({spec.name, find_face(spec, scene), spec.detected_only, spec.bins});
-
-  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
-    const Interface& interface = scene.interfaces[i];
-    for (const bool from_back : {false, true}) {
-      const std::size_t way = 2 * i + (from_back ? 1 : 0);
-      const std::int32_t left_face = from_back ? interface.back_face : interface.front_face;
-      for (std::uint32_t tally = 0; tally < exit_angles.size(); ++tally)
-        if (left_face == static_cast<std::int32_t>(exit_angles[tally].face))
-          exit_angles_at[way].push_back(tally);
-
-      const std::int32_t sensor = from_back ? interface.front_sensor : interface.back_sensor;
-      if (sensor == kNone) continue;
-      const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-      const std::int32_t own = from_back ? interface.front_face : interface.back_face;
-      const std::int32_t face = own != kNone ? own : left_face;
-      const auto same = [&](const SensorFaceCount& known) {
-        return known.part == part && static_cast<std::int32_t>(known.face) == face;
-      };
-      auto known = std::find_if(sensor_face_names.begin(), sensor_face_names.end(), same);
-      if (known == sensor_face_names.end()) {
-        sensor_face_names.push_back({part, static_cast<std::uint32_t>(face), 0, 0});
-        known = sensor_face_names.end() - 1;
-      }
-      sensor_faces[way] = static_cast<std::uint32_t>(known - sensor_face_names.begin());
-    }
-  }
-}
-
-PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
+/// What a block counts itself; contributions to counts go to the total one by one.
+PointResult empty_block(const Scene& scene, const TallyPlan& plan) {
   PointResult result;
   result.absorbed_in_medium.assign(scene.media.size(), 0);
   result.absorbed_at_surface.assign(scene.surfaces.size(), 0);
@@ -80,15 +29,49 @@ PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
   return result;
 }
 
-BlockTally::BlockTally(const Scene& scene, const TallyPlan& plan)
-    : plan_(plan),
-      scene_(scene),
-      result_(empty_result(scene, plan)),
-      last_crossing_(plan.exit_angles.size()) {}
+void merge(PointResult& total, const PointResult& block) {
+  const auto add = [](auto& into, const auto& from) {
+    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
+  };
+  total.photons += block.photons;
+  add(total.fates, block.fates);
+  add(total.absorbed_in_medium, block.absorbed_in_medium);
+  add(total.absorbed_at_surface, block.absorbed_at_surface);
+  for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
+    total.sensor_faces[i].detected += block.sensor_faces[i].detected;
+    total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
+  }
+  for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
+    add(total.exit_angles[i].inside, block.exit_angles[i].inside);
+    add(total.exit_angles[i].outside, block.exit_angles[i].outside);
+  }
+  total.interactions.merge(block.interactions);
+  total.detected_path_mm.merge(block.detected_path_mm);
+  total.detected_time_ns.merge(block.detected_time_ns);
+  total.detected_interactions.merge(block.detected_interactions);
+  add(total.detected_path_histogram, block.detected_path_histogram);
+  total.scatterings += block.scatterings;
+  total.segments += block.segments;
+  total.resolved_misses += block.resolved_misses;
+}
 
-void BlockTally::start(std::uint64_t event, std::uint64_t photon) {
+}  // namespace
+
+PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
+  PointResult result = empty_block(scene, plan);
+  for (const CountRequest& count : plan.counts) result.tallies.push_back(count.empty);
+  return result;
+}
+
+BlockTally::BlockTally(const Scene& scene, const TallyPlan& plan)
+    : plan_(plan), scene_(scene), result_(empty_block(scene, plan)), last_crossing_(plan.exit_angles.size()) {
+  if (!plan.counts.empty()) scorer_.emplace(scene, plan);
+}
+
+void BlockTally::start(const Photon& emitted, std::uint64_t event, std::uint64_t photon) {
   event_ = event;
   photon_ = photon;
+  if (scorer_) scorer_->start(emitted);
   std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
 }
 
@@ -109,13 +92,15 @@ void BlockTally::note_crossing(const Step& step) {
   }
 }
 
-void BlockTally::record(const Photon&, const Step& step) {
+void BlockTally::record(const Photon& photon, const Step& step) {
   count_step(step);
+  if (scorer_) scorer_->step(photon, step);
   if (step.kind == StepKind::crossed) note_crossing(step);
 }
 
 void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point) {
   count_step(step);
+  if (scorer_) scorer_->step(photon, step);
   switch (step.kind) {
     case StepKind::absorbed_in_medium:
       ++result_.absorbed_in_medium[step.where];
@@ -167,39 +152,21 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
   finish(photon, Fate::detected);
 }
 
-void BlockTally::cut(const Photon& photon, Fate fate) { finish(photon, fate); }
+void BlockTally::cut(const Photon& photon, Fate fate) {
+  if (scorer_) scorer_->cut(photon);
+  finish(photon, fate);
+}
+
+void BlockTally::add_to(PointResult& total) const {
+  merge(total, result_);
+  if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
+}
 
 void BlockTally::finish(const Photon& photon, Fate fate) {
   ++result_.photons;
   ++result_.fates[static_cast<std::size_t>(fate)];
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
-}
-
-void merge(PointResult& total, const PointResult& block) {
-  const auto add = [](auto& into, const auto& from) {
-    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
-  };
-  total.photons += block.photons;
-  add(total.fates, block.fates);
-  add(total.absorbed_in_medium, block.absorbed_in_medium);
-  add(total.absorbed_at_surface, block.absorbed_at_surface);
-  for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
-    total.sensor_faces[i].detected += block.sensor_faces[i].detected;
-    total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
-  }
-  for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
-    add(total.exit_angles[i].inside, block.exit_angles[i].inside);
-    add(total.exit_angles[i].outside, block.exit_angles[i].outside);
-  }
-  total.interactions.merge(block.interactions);
-  total.detected_path_mm.merge(block.detected_path_mm);
-  total.detected_time_ns.merge(block.detected_time_ns);
-  total.detected_interactions.merge(block.detected_interactions);
-  add(total.detected_path_histogram, block.detected_path_histogram);
-  total.scatterings += block.scatterings;
-  total.segments += block.segments;
-  total.resolved_misses += block.resolved_misses;
 }
 
 }  // namespace scintray

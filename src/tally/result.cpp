@@ -1,6 +1,7 @@
 #include "scintray/tally/result.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scintray/core/error.hpp"
 
@@ -24,6 +25,27 @@ const char* fate_name(Fate fate) {
       return "cut_time";
   }
   throw InternalError("fate " + std::to_string(static_cast<int>(fate)) + " has no name");
+}
+
+std::size_t TallyResult::bins() const {
+  std::size_t bins = 1;
+  for (const TallyAxis& axis : axes) bins *= axis.bins();
+  return bins;
+}
+
+Estimate TallyResult::at(std::size_t bin, std::uint64_t photons) const {
+  if (photons == 0) return {};
+  const double n = static_cast<double>(photons);
+  // Sum of n independent scores: n times their variance, which is at least that of one count.
+  const double variance = std::max(sum_of_squares[bin] - sum[bin] * sum[bin] / n, 0.0);
+  const bool counts = score == "photons" && sum[bin] == 0.0;
+  return {sum[bin], counts ? 1.0 : std::sqrt(variance)};
+}
+
+Estimate TallyResult::per_photon(std::size_t bin, std::uint64_t photons) const {
+  const Estimate total = at(bin, photons);
+  const double n = std::max(1.0, static_cast<double>(photons));
+  return {total.value / n, total.error / n};
 }
 
 double PointResult::cut_bias_bound() const {

@@ -42,6 +42,38 @@ struct ExitAngleTally {
   std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
 };
 
+/// An axis of a tally: bins of a number between edges, or names.
+struct TallyAxis {
+  std::string variable;            ///< "time", "position", "part", ...
+  std::string unit;                ///< of the edges; "1" for plain numbers, empty for names
+  std::vector<double> edges;       ///< bins + 1, rising; of a number
+  std::vector<std::string> names;  ///< one a bin; of names
+  std::array<double, 3> along{};   ///< of a position, start or direction: what it is measured along
+
+  std::size_t bins() const { return names.empty() ? edges.size() - 1 : names.size(); }
+};
+
+/// Sums over the photons of a point, on a grid of axes (row-major, the last axis fastest).
+struct TallyResult {
+  std::string name;
+  std::string type;   ///< "count", "crosstalk", "irradiance", ...
+  std::string score;  ///< "photons", or the number that is summed
+  std::string unit;   ///< of the score, "1" for photons
+  std::vector<TallyAxis> axes;
+  std::vector<double> sum;             ///< per bin
+  std::vector<double> sum_of_squares;  ///< per bin, of what each photon gave it
+  double outside = 0.0;                ///< score that fell beyond the axes
+  /// Refractive index, at the middle of the wavelengths in use, of the medium in which its directions at
+  /// faces are; 0 when it has none or they are in several.
+  double index = 0.0;
+
+  std::size_t bins() const;
+  /// Score of a bin with its standard error, from `photons` independent photons.
+  Estimate at(std::size_t bin, std::uint64_t photons) const;
+  /// The same divided by the photons.
+  Estimate per_photon(std::size_t bin, std::uint64_t photons) const;
+};
+
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
@@ -53,6 +85,7 @@ struct PointResult {
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<ExitAngleTally> exit_angles;
+  std::vector<TallyResult> tallies;
   Moments interactions;      ///< boundary interactions per photon
   Moments detected_path_mm;  ///< path length of detected photons
   Moments detected_time_ns;  ///< time from emission, plus emission time, of detected photons

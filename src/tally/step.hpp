@@ -23,12 +23,14 @@ inline bool is_end(StepKind kind) { return kind >= StepKind::detected; }
 
 struct Step {
   StepKind kind = StepKind::escaped;
-  bool from_back = false;       ///< at a boundary: came from the interface's back region
-  bool resolved = false;        ///< the exact search settled the ray query
-  std::uint32_t interface = 0;  ///< at a boundary
-  std::uint32_t where = 0;      ///< absorbed: medium or surface; detected, unconverted: sensor's part
-  double cos_before = 0.0;      ///< at a boundary: |cosine| to its normal, before
-  double cos_after = 0.0;       ///< ... and after
+  bool from_back = false;                ///< at a boundary: came from the interface's back region
+  bool resolved = false;                 ///< the exact search settled the ray query
+  std::uint32_t region = 0;              ///< in which the step was made
+  std::uint32_t interface = 0;           ///< at a boundary
+  std::uint32_t triangle = kNoTriangle;  ///< of the region's boundary; kNoTriangle: not at a boundary
+  std::uint32_t where = 0;  ///< absorbed: medium or surface; detected, unconverted: sensor's part
+  double cos_before = 0.0;  ///< at a boundary: |cosine| to its normal, before
+  double cos_after = 0.0;   ///< ... and after
 };
 
 }  // namespace scintray

@@ -28,7 +28,7 @@ void trace_photon(const Scene& scene, const PhotonSource& source, const RunSetti
                   std::uint64_t event, std::uint64_t number, BlockTally& tally) {
   Rng rng = photon_stream(settings, event, number);
   Photon photon = source.emit(scene, rng);
-  tally.start(event, number);
+  tally.start(photon, event, number);
   for (;;) {
     const Step taken = step(scene, photon, rng);
     if (is_end(taken.kind)) return tally.end(photon, taken, settings.point);
@@ -82,7 +82,7 @@ PointResult run_point(const Scene& scene, const PhotonSource& source, const Tall
     return std::shared_ptr<BlockTally>(trace_block(scene, source, plan, settings, block));
   };
   const auto collect = [&](const std::shared_ptr<BlockTally>& block) {
-    merge(total, block->result());
+    block->add_to(total);
     traced = std::min(source.photons(), traced + kBlockPhotons);
     if (hooks.detected && !block->photons().empty()) hooks.detected(block->photons());
     if (hooks.progress) hooks.progress(traced);

@@ -97,6 +97,7 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
 
   Step result;
   result.interface = link.interface;
+  result.triangle = triangle;
   result.from_back = link.from_back;
   result.cos_before = std::abs(photon.ray.direction.dot(outward));
   const double here = photon.optics.index;
@@ -145,7 +146,8 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
 }  // namespace
 
 Step step(const Scene& scene, Photon& photon, Rng& rng) {
-  const Region& region = scene.regions[photon.region];
+  const std::uint32_t from = photon.region;
+  const Region& region = scene.regions[from];
   const Exit exit = region.accelerator->find_exit(region.point_to_local(photon.position),
                                                   region.direction_to_local(photon.ray.direction));
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
@@ -162,6 +164,7 @@ Step step(const Scene& scene, Photon& photon, Rng& rng) {
     advance(photon, exit.distance_mm);
     result = meet_boundary(scene, region, exit.triangle, photon, rng);
   }
+  result.region = from;
   result.resolved = exit.resolved;
   return result;
 }

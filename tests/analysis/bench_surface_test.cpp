@@ -4,25 +4,16 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
 std::string refusal(const BenchPlace& place) {
   SurfaceMaker maker;
-  try {
-    make_bench_surface(Library::shipped(), maker, place);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Problem& problem : error.problems()) text += problem.text() + "\n";
-    return text;
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return complaint_of([&] { make_bench_surface(Library::shipped(), maker, place); });
 }
 
 }  // namespace

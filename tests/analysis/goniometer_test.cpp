@@ -4,8 +4,10 @@
 #include <tbb/task_arena.h>
 
 #include "scintray/core/error.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
@@ -38,14 +40,7 @@ Surface painted(double reflectance) {
 }
 
 std::string refusal(const GoniometerSettings& settings) {
-  try {
-    read_goniometer(Surface{}, kIndex, settings);
-  } catch (const InputError& error) {
-    std::string text;
-    for (const Problem& problem : error.problems()) text += problem.text() + "\n";
-    return text;
-  }
-  return "";
+  return complaint_of([&] { read_goniometer(Surface{}, kIndex, settings); });
 }
 
 bool same(const Lobe& a, const Lobe& b) {

@@ -7,6 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -20,18 +21,7 @@ std::filesystem::path file_of(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    read_measured_profile(file_of(text));
-  } catch (const InputError& error) {
-    std::string all;
-    for (const Problem& problem : error.problems()) all += problem.text() + "\n";
-    return all;
-  }
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return complaint_of([&] { read_measured_profile(file_of(text)); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
+#include "support/words.hpp"
 
 namespace scintray::test {
 
@@ -32,20 +33,6 @@ struct MarkedText {
     }
   }
 };
-
-/// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.
-inline std::vector<Problem> problems_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.problems();
-  }
-  return {};
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Checks that exactly one problem was found, with these words in its message and hint, at the mark.
 inline void check_one_problem(const MarkedText& input, const std::vector<Problem>& found,

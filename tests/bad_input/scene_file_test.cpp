@@ -109,7 +109,7 @@ TEST_CASE("words outside their choice name the nearest") {
                 "did you mean \"bonded\"?");
   check_mistake("side = \"-z\"", "side = @@\"z\"", "\"-x\", \"+x\"", "did you mean");
   check_mistake("type = \"photons\"", "type = @@\"gamma_events\"", "one of \"photons\" is expected", "words");
-  check_mistake("type = \"exit_angle\"", "type = @@\"angle\"", "one of \"exit_angle\" is expected", "words");
+  check_mistake("type = \"exit_angle\"", "type = @@\"angle\"", "one of \"exit_angle\", \"count\"", "words");
   check_mistake("wavelength = \"420 nm\"", "wavelength = \"420 nm\"\ndirection = @@\"up\"", "not a direction",
                 "[0, 0, 1]");
 }

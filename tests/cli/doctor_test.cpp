@@ -4,6 +4,7 @@
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/stl_writer.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -11,8 +12,6 @@ using namespace scintray::test;
 // `scintray check` and `scintray repair` as a user runs them.
 
 namespace {
-
-bool has(const std::string& text, const std::string& piece) { return text.find(piece) != std::string::npos; }
 
 std::string content(const std::filesystem::path& path) {
   std::ifstream stream(path);
@@ -61,11 +60,11 @@ TEST_CASE("check says that 64 crystals touch their guide, in one line, and with 
   write(folder / "array.toml", array_scene());
   const Ended brief = run_program({"check", "array.toml"}, folder);
   CHECK(brief.exit_code == 0);
-  CHECK(has(brief.output, "crystal[*] | guide: 64 interfaces (64 bonded), 256 mm2"));
-  CHECK(has(brief.output, "crystal[*] x 64"));
+  CHECK(contains(brief.output, "crystal[*] | guide: 64 interfaces (64 bonded), 256 mm2"));
+  CHECK(contains(brief.output, "crystal[*] x 64"));
   CHECK(std::count(brief.output.begin(), brief.output.end(), '\n') < 40);
   const Ended all = run_program({"check", "array.toml", "--all"}, folder);
-  CHECK(has(all.output, "crystal[7,3] | guide: 1 interface (1 bonded), 4 mm2"));
+  CHECK(contains(all.output, "crystal[7,3] | guide: 1 interface (1 bonded), 4 mm2"));
   CHECK(std::count(all.output.begin(), all.output.end(), '\n') > 64 * 5);
 }
 
@@ -86,15 +85,15 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
     CAPTURE(picture);
     const Ended ended = run_program({"check", "bad.toml", "--picture", picture}, folder);
     CHECK(ended.exit_code == 1);
-    CHECK(has(ended.output, "part \"crystal\" has 3 open edges"));
-    CHECK(has(ended.output, "which medium lies behind it cannot be known"));
-    CHECK(has(ended.output, "part \"bare\" has faces without a surface"));
-    CHECK(has(ended.output, "rules \"+z\" and \"top\" of part \"bare\" both match the triangle at"));
-    CHECK(has(ended.output, "parts: 2, marked problems: 3"));
+    CHECK(contains(ended.output, "part \"crystal\" has 3 open edges"));
+    CHECK(contains(ended.output, "which medium lies behind it cannot be known"));
+    CHECK(contains(ended.output, "part \"bare\" has faces without a surface"));
+    CHECK(contains(ended.output, "rules \"+z\" and \"top\" of part \"bare\" both match the triangle at"));
+    CHECK(contains(ended.output, "parts: 2, marked problems: 3"));
     CHECK(std::filesystem::file_size(folder / picture) > 1000);
   }
   const std::string svg = content(folder / "bad.svg");
-  CHECK(has(svg, "part &quot;crystal&quot; has 3 open edges"));
+  CHECK(contains(svg, "part &quot;crystal&quot; has 3 open edges"));
   // Each of the three views has a ring for every place: 3 open edges, 1 bare face, 1 face of two rules,
   // some on one spot; and the legend one for each problem.
   std::size_t rings = 0;
@@ -106,7 +105,7 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
 
   const Ended other = run_program({"check", "bad.toml", "--picture", "bad.jpeg"}, folder);
   CHECK(other.exit_code == 1);
-  CHECK(has(other.output, "choose a name that ends in .glb or .svg"));
+  CHECK(contains(other.output, "choose a name that ends in .glb or .svg"));
 }
 
 TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
@@ -115,10 +114,10 @@ TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
   const Ended ended = run_program(
       {"repair", "open.stl", "--unit", "mm", "--largest-hole", "3 mm", "-o", "closed.stl"}, folder);
   CHECK(ended.exit_code == 0);
-  CHECK(has(ended.output, "found: 11 triangles, 1 body, 22 mm2, "));
-  CHECK(has(ended.output, "3 open edges"));
-  CHECK(has(ended.output, "done: holes filled: 1, at ("));
-  CHECK(has(ended.output, "written to closed.stl: 12 triangles, 1 body, 24 mm2, 8 mm3; sound"));
+  CHECK(contains(ended.output, "found: 11 triangles, 1 body, 22 mm2, "));
+  CHECK(contains(ended.output, "3 open edges"));
+  CHECK(contains(ended.output, "done: holes filled: 1, at ("));
+  CHECK(contains(ended.output, "written to closed.stl: 12 triangles, 1 body, 24 mm2, 8 mm3; sound"));
   const Ended glb = run_program(
       {"repair", "open.stl", "--unit", "mm", "--largest-hole", "3 mm", "-o", "closed.glb"}, folder);
   CHECK(glb.exit_code == 0);
@@ -131,12 +130,13 @@ TEST_CASE("repair writes what it has, says what is left, and returns 1, when it 
   const Ended ended =
       run_program({"repair", "open.stl", "--unit", "mm", "--largest-hole", "1 mm", "-o", "same.stl"}, folder);
   CHECK(ended.exit_code == 1);
-  CHECK(has(ended.output, "not done: 1 hole stays open: larger than the limit of 1 mm"));
-  CHECK(has(ended.output, "left: part \"open.stl\" has 3 open edges"));
+  CHECK(contains(ended.output, "not done: 1 hole stays open: larger than the limit of 1 mm"));
+  CHECK(contains(ended.output, "left: part \"open.stl\" has 3 open edges"));
   CHECK(std::filesystem::exists(folder / "same.stl"));
-  CHECK(has(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output, "does not say in which unit"));
-  CHECK(has(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
-            "ends in .stl or, to keep groups, in .glb"));
+  CHECK(contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output,
+                 "does not say in which unit"));
+  CHECK(contains(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
+                 "ends in .stl or, to keep groups, in .glb"));
 }
 
 TEST_CASE("repair of a scene mends every mesh and writes a scene that names them") {
@@ -155,14 +155,14 @@ TEST_CASE("repair of a scene mends every mesh and writes a scene that names them
   const Ended ended =
       run_program({"repair", "scene.toml", "--largest-hole", "100 mm", "-o", "mended"}, folder);
   CHECK(ended.exit_code == 0);
-  CHECK(has(ended.output, "names 1 mended mesh"));
+  CHECK(contains(ended.output, "names 1 mended mesh"));
   const std::string text = content(folder / "mended/scene.toml");
-  CHECK(has(text, "mesh = \"open_mended.stl\"  # broken\nunit = \"mm\"\n"));
+  CHECK(contains(text, "mesh = \"open_mended.stl\"  # broken\nunit = \"mm\"\n"));
   const Ended checked = run_program({"check", "mended/scene.toml"}, folder);
   CHECK(checked.exit_code == 0);
-  CHECK(has(checked.output, "131097"));  // 8 cubic inches in mm3
-  CHECK(has(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
-            "the output folder is that of the scene itself"));
+  CHECK(contains(checked.output, "131097"));  // 8 cubic inches in mm3
+  CHECK(contains(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
+                 "the output folder is that of the scene itself"));
 }
 
 TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mistakes") {
@@ -177,7 +177,7 @@ TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mi
             kSource);
   const Ended ended = run_program({"check", "scene.toml", "--picture", "gaps.svg"}, folder);
   CHECK(ended.exit_code == 0);
-  CHECK(has(ended.output, "note: 2 separate surfaces in one mesh"));
-  CHECK(has(ended.output, "warning: parts \"two\" and \"plate\" are 0.001 mm apart at ("));
-  CHECK(has(content(folder / "gaps.svg"), "are 0.001 mm apart"));
+  CHECK(contains(ended.output, "note: 2 separate surfaces in one mesh"));
+  CHECK(contains(ended.output, "warning: parts \"two\" and \"plate\" are 0.001 mm apart at ("));
+  CHECK(contains(content(folder / "gaps.svg"), "are 0.001 mm apart"));
 }

@@ -2,17 +2,10 @@
 #include "io/tabulated.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
-
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
 
 TEST_CASE("a table is exported in every format, and the Davis pair imported again") {
   const auto folder = scratch_folder("cli_exchange");

@@ -7,15 +7,12 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A tilted wave with a spike, as an instrument might leave it.
 std::filesystem::path folder_with_map(const std::string& name) {

@@ -2,6 +2,7 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/io/results.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -48,10 +49,6 @@ std::filesystem::path folder_with(const std::string& name, const std::string& te
   const auto folder = scratch_folder("run_" + name);
   std::ofstream(folder / "scene.toml") << text;
   return folder;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -16,8 +16,10 @@
 
 #include "scintray/core/error.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 // A disk that fills up, for the child processes of the test below: taking more disk space than
 // allowed fails, and so does every write to where no space was taken before.
@@ -66,10 +68,6 @@ std::string message_of(const Call& call) {
     return error.what();
   }
   return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::size_t files_in(const std::filesystem::path& folder) {

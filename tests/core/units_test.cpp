@@ -6,8 +6,10 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 using doctest::Approx;
 
 namespace {
@@ -19,10 +21,6 @@ Problem problem_of(const std::string& text, Dimension dimension) {
     return error.problems().at(0);
   }
   return {};
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -57,28 +55,28 @@ TEST_CASE("Every unit that a dimension lists is understood in it") {
 
 TEST_CASE("A bare number where a dimension is expected says which units to add") {
   const Problem problem = problem_of("2", Dimension::length);
-  CHECK(mentions(problem.what, "\"2\" has no unit"));
-  CHECK(mentions(problem.what, "length"));
-  CHECK(mentions(problem.hint, "mm"));
+  CHECK(contains(problem.what, "\"2\" has no unit"));
+  CHECK(contains(problem.what, "length"));
+  CHECK(contains(problem.hint, "mm"));
 }
 
 TEST_CASE("A unit of another dimension is refused with the units that would do") {
   const Problem problem = problem_of("3 ns", Dimension::length);
-  CHECK(mentions(problem.what, "\"ns\" is not a unit of length"));
-  CHECK(mentions(problem.hint, "mm"));
-  CHECK_FALSE(mentions(problem.hint, "ns"));
+  CHECK(contains(problem.what, "\"ns\" is not a unit of length"));
+  CHECK(contains(problem.hint, "mm"));
+  CHECK_FALSE(contains(problem.hint, "ns"));
 }
 
 TEST_CASE("What is not a finite number is refused with an example in the usual unit") {
   for (const char* text : {"", "mm", "two mm", "nan mm", "inf mm", "1e999 mm", "--2 mm"}) {
     CAPTURE(text);
     const Problem problem = problem_of(text, Dimension::length);
-    CHECK(mentions(problem.what, "finite number"));
-    CHECK(mentions(problem.hint, "\"2 mm\""));
+    CHECK(contains(problem.what, "finite number"));
+    CHECK(contains(problem.hint, "\"2 mm\""));
   }
 }
 
 TEST_CASE("A photon energy must be positive to be a wavelength") {
-  CHECK(mentions(problem_of("0 eV", Dimension::wavelength).hint, "positive"));
-  CHECK(mentions(problem_of("-1 eV", Dimension::wavelength).hint, "positive"));
+  CHECK(contains(problem_of("0 eV", Dimension::wavelength).hint, "positive"));
+  CHECK(contains(problem_of("-1 eV", Dimension::wavelength).hint, "positive"));
 }

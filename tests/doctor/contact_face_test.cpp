@@ -61,11 +61,29 @@ kind = "bonded"
   CHECK(between(scene, "crystal:-z")->gap_medium == kNone);
 }
 
+TEST_CASE("A contact of many parts, by a pattern, gives way to that of one") {
+  std::string parts = part_text("guide", corners({0, 0, 4}, {9, 4, 5}), "n15");
+  for (int i = 0; i < 3; ++i)
+    parts += part_text(fmt::format("crystal[{}]", i), corners({3.0 * i, 0, 0}, {3.0 * i + 2.0, 4, 4}), "lso");
+  const Scene scene =
+      SceneBuilder()
+          .build(scene_spec(lit_scene(
+              parts + "[[contact]]\nbetween = [\"crystal[*]:other\", \"guide\"]\nkind = \"dry\"\n"
+                      "[[contact]]\nbetween = [\"guide:other\", \"crystal[1]:other\"]\nkind = \"bonded\"\n",
+              "guide", 10)))
+          .scene;
+  for (int i = 0; i < 3; ++i) {
+    const Interface* interface = between(scene, fmt::format("crystal[{}]:other", i));
+    REQUIRE(interface != nullptr);
+    CHECK((interface->gap_medium != kNone) == (i != 1));
+  }
+}
+
 TEST_CASE("Contacts that contradict, name no face, or never meet are refused in words") {
   CHECK(
       refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-z\", \"corner\"]\nkind = \"dry\"\n[[contact]]\n"
                           "between = [\"crystal\", \"corner:cut:crystal\"]\nkind = \"bonded\"\n"))
-          .find("both describe how") != std::string::npos);
+          .find("are equally close to") != std::string::npos);
   CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-y\", \"corner\"]\nkind = \"dry\"\n"))
             .find("the part \"crystal\" has no face \"-y\"\n  hint: did you mean") != std::string::npos);
   CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:other\", \"corner\"]\nkind = \"dry\"\n"))

@@ -2,7 +2,7 @@
 /// Scenes of the doctor's tests, and what is asked of them.
 
 #include "physics/traced.hpp"
-#include "scintray/core/error.hpp"
+#include "support/words.hpp"
 
 namespace scintray::test {
 
@@ -32,16 +32,7 @@ inline std::string lit_scene(const std::string& parts, const std::string& start,
 
 /// What building the scene complains of; empty when it does not.
 inline std::string refusal(const std::string& text) {
-  try {
-    SceneBuilder().build(scene_spec(text));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-inline bool has(const std::string& text, const std::string& piece) {
-  return text.find(piece) != std::string::npos;
+  return complaint_of([&] { SceneBuilder().build(scene_spec(text)); });
 }
 
 /// Area of all interfaces between two regions, mm2.

@@ -32,7 +32,7 @@ TEST_CASE("The part with the higher priority keeps the space, and the cut is a f
     CHECK(scene.parts[1].volume_mm3 == doctest::Approx(40.0).epsilon(1e-9));
     CHECK(area_of(scene, "plate:cut:rod") == doctest::Approx(4.0 * 2.0 * 4.0).epsilon(1e-9));
     CHECK(traced.built.parts[0].notes.size() == 1);
-    CHECK(has(traced.built.parts[0].notes[0], "cut by \"rod\""));
+    CHECK(contains(traced.built.parts[0].notes[0], "cut by \"rod\""));
     double contact = 0.0;
     for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
       if (scene.interfaces[i].back == 1 && scene.interfaces[i].front == 2)
@@ -51,8 +51,8 @@ TEST_CASE("The other way round the plate cuts the rod in two") {
 TEST_CASE("Equal priorities stay an error that names both parts and the volume") {
   for (const char* priority : {"", "priority = 3\n"}) {
     const std::string text = refusal(plate_and_rod(priority, priority));
-    CHECK(has(text, "parts 'plate' and 'rod' overlap by 16 mm3"));
-    CHECK(has(text, "give the one that is to keep the space a higher priority"));
+    CHECK(contains(text, "parts 'plate' and 'rod' overlap by 16 mm3"));
+    CHECK(contains(text, "give the one that is to keep the space a higher priority"));
   }
 }
 
@@ -81,6 +81,6 @@ TEST_CASE("A cut that needs a surface, and one that grazes, are refused in words
       bare.find(surface), surface.size(),
       "medium = \"n15\"\n[[part.face]]\nname = \"all\"\nselect = { box = { low = [\"-9 mm\", \"-9 mm\", "
       "\"-9 mm\"], high = [\"9 mm\", \"9 mm\", \"9 mm\"] } }\nsurface = \"flat\"\n");
-  CHECK(has(refusal(bare), "the faces born in the cut have no surface"));
-  CHECK(has(refusal(plate_and_rod("priority = 1001\n", "")), "a priority beyond 1000"));
+  CHECK(contains(refusal(bare), "the faces born in the cut have no surface"));
+  CHECK(contains(refusal(plate_and_rod("priority = 1001\n", "")), "a priority beyond 1000"));
 }

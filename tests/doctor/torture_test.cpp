@@ -22,7 +22,7 @@ TEST_CASE("No photon is lost in the torture scene") {
   const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
   const BuiltScene built = SceneBuilder().build(spec);
   const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, spec.exit_angles, false);
+  const TallyPlan plan(built.scene, spec);
   RunSettings settings;
   settings.max_interactions = spec.run.max_interactions;
   double steps = 0.0;
@@ -49,8 +49,7 @@ TEST_CASE("Beams that graze the crystal's long faces lose nothing") {
     spec.source.direction.kind = DirectionKind::beam;
     spec.source.direction.axis = (turn * Vec3(tilt, 0.3 * tilt, 1.0)).normalized();
     const PhotonSource source(spec.source, built.scene);
-    const PointResult result =
-        run_point(built.scene, source, TallyPlan(built.scene, {}, false), RunSettings());
+    const PointResult result = run_point(built.scene, source, TallyPlan(built.scene, spec), RunSettings());
     CHECK(result.lost == 0);
     CHECK(result.photons == source.photons());
   }

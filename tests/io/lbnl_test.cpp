@@ -36,7 +36,7 @@ double lobe(double incidence, double theta_deg, double phi_deg) {
   return std::exp(-0.5 * (std::pow((theta_deg + 0.7 * incidence) / 15.0, 2) + std::pow(phi_deg / 12.0, 2)));
 }
 
-ImportSettings lso_to_air(double reflectance = 1.0) {
+ImportSettings lbnl_import(double reflectance = 1.0) {
   ImportSettings settings;
   settings.index = {1.82, 1.0};
   settings.reflectance = reflectance;
@@ -89,7 +89,7 @@ std::string text_of(const std::vector<float>& values) {
 
 TEST_CASE("light leaves an imported LBNL table as Geant4 samples it") {
   const std::vector<float> values = made_up(lobe);
-  const SurfaceTable table = lbnl_table(values, lso_to_air(), "made up");
+  const SurfaceTable table = lbnl_table(values, lbnl_import(), "made up");
   for (const double degrees : {5.3, 30.0, 44.7, 70.2}) {
     CAPTURE(degrees);
     // Directions lie on a grid of 4 by 5 deg that the table's distributions smooth, so means and widths are
@@ -122,7 +122,7 @@ TEST_CASE("one bright cell comes back where Geant4 sends it: theta below 0 is fo
   for (const double theta : {-58.0, -2.0, 30.0}) {
     const SurfaceTable table =
         lbnl_table(made_up([&](double, double t, double p) { return t == theta && p == 0.0 ? 1.0 : 0.0; }),
-                   lso_to_air(), "made up");
+                   lbnl_import(), "made up");
     Rng rng(62, StreamKind::other, 0);
     Ray ray{{0.6, 0.0, 0.8}, Vec3::Zero()};
     table.scatter(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, rng);
@@ -136,7 +136,7 @@ TEST_CASE("the last theta and the last phi are never drawn, and -90 deg means an
   const auto weight = [](double, double t, double p) {
     return t == 86.0 || p == 90.0 || t == -90.0 || p == -90.0 || (t == -30.0 && p == 0.0) ? 1.0 : 0.0;
   };
-  const SurfaceTable table = lbnl_table(made_up(weight), lso_to_air(), "made up");
+  const SurfaceTable table = lbnl_table(made_up(weight), lbnl_import(), "made up");
   Rng rng(63, StreamKind::other, 0);
   for (int k = 0; k < 100; ++k) {
     Ray ray{{0.6, 0.0, 0.8}, Vec3::Zero()};
@@ -151,7 +151,7 @@ TEST_CASE("incidences are rounded to the nearest degree") {
                                           const double side = std::fmod(incidence, 2.0) > 0.5 ? -30.0 : 30.0;
                                           return t == side && p == 0.0 ? 1.0 : 0.0;
                                         }),
-                                        lso_to_air(), "made up");
+                                        lbnl_import(), "made up");
   const auto forward = [&](double degrees) {
     Rng rng(64, StreamKind::other, 0);
     Ray ray{{std::sin(degrees * kDegree), 0.0, std::cos(degrees * kDegree)}, Vec3::Zero()};
@@ -188,26 +188,26 @@ TEST_CASE("the bare finishes, which Geant4 names and nobody measured, are explai
   const auto folder = scratch_folder("lbnl_bare");
   for (const char* name : {"polishedair.z", "EtchedAir.dat", "ground_air.z", "Ground.z"}) {
     try {
-      read_lbnl(folder / name, lso_to_air());
+      read_lbnl(folder / name, lbnl_import());
       FAIL("read");
     } catch (const InputError& error) {
       CHECK(error.problems().front().what.find("no data exist") != std::string::npos);
     }
   }
-  CHECK_THROWS_WITH_AS(read_lbnl(folder / "GroundTeflon.z", lso_to_air()),
+  CHECK_THROWS_WITH_AS(read_lbnl(folder / "GroundTeflon.z", lbnl_import()),
                        doctest::Contains("no such file, or not one that can be read"), InputError);
 }
 
 TEST_CASE("a reflectance has to be given, and what it takes is absorbed") {
   const std::vector<float> values = made_up(lobe);
   for (const double wrong : {0.0, -0.5, 1.1, std::nan("")})
-    CHECK_THROWS_AS(lbnl_table(values, lso_to_air(wrong), "made up"), InputError);
+    CHECK_THROWS_AS(lbnl_table(values, lbnl_import(wrong), "made up"), InputError);
   // A third of the tries end at the horizon, and each try is another chance to be absorbed.
   const std::vector<float> thirds = made_up([](double, double t, double p) {
     if (p != 0.0) return 0.0;
     return t == -90.0 ? 0.5 : t == -30.0 || t == 30.0 ? 0.5 : 0.0;
   });
-  const SurfaceTable table = lbnl_table(thirds, lso_to_air(0.9), "made up");
+  const SurfaceTable table = lbnl_table(thirds, lbnl_import(0.9), "made up");
   CHECK(table.opaque());
   std::uint64_t ours = 0, theirs = 0;
   constexpr std::uint64_t kRays = 40'000;
@@ -225,7 +225,7 @@ TEST_CASE("a reflectance has to be given, and what it takes is absorbed") {
 TEST_CASE("an LBNL table is read from a file") {
   const auto path = scratch_folder("lbnl_file") / "GroundTeflon.dat";
   std::ofstream(path) << text_of(made_up(lobe));
-  const SurfaceTable table = read_lbnl(path, lso_to_air());
+  const SurfaceTable table = read_lbnl(path, lbnl_import());
   CHECK(table.reflectance(Side::inside, 0.5) == 1.0);
   CHECK(table.provenance().map.find("GroundTeflon.dat") != std::string::npos);
   CHECK(table.provenance().preparation.find("mirror") != std::string::npos);

@@ -12,8 +12,10 @@
 #include "scintray/core/h5.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
@@ -24,10 +26,6 @@ std::string message_of(const std::function<void()>& call) {
     return error.what();
   }
   return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::string text_of(const std::filesystem::path& path) {

@@ -18,7 +18,7 @@ using namespace scintray;
 
 namespace {
 
-std::filesystem::path write(const std::string& name, const std::string& text) {
+std::filesystem::path mesh_file(const std::string& name, const std::string& text) {
   static const auto folder = test::scratch_folder("mesh_import");
   const auto path = folder / name;
   std::ofstream(path, std::ios::binary) << text;
@@ -124,15 +124,15 @@ std::string glb(std::string json, const std::string& binary) {
 }  // namespace
 
 TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
-  const MeshImport obj = import_mesh(write("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
+  const MeshImport obj = import_mesh(mesh_file("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
   check_box(obj, 1.0);
   CHECK(obj.mesh.groups == std::vector<std::string>{"default"});
-  check_box(import_mesh(write("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
+  check_box(import_mesh(mesh_file("box.off", "OFF\n8 6 12\n" + corner_lines("") + quad_lines("4 ", 0)), 10.0),
             10.0);
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
-  check_box(import_mesh(write("BOX.PLY", header + corner_lines("") + quad_lines("4 ", 0)), 0.001), 0.001);
+  check_box(import_mesh(mesh_file("BOX.PLY", header + corner_lines("") + quad_lines("4 ", 0)), 0.001), 0.001);
 
   std::string stl = "solid crystal\n";
   for (const auto& quad : kQuads) {
@@ -146,7 +146,7 @@ TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
       stl += "endloop\nendfacet\n";
     }
   }
-  check_box(import_mesh(write("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("box.stl", stl + "endsolid crystal\n"), 1.0), 1.0);
 }
 
 TEST_CASE("Binary PLY of either byte order, data that look like white space included") {
@@ -172,7 +172,7 @@ TEST_CASE("Binary PLY of either byte order, data that look like white space incl
       put(text, static_cast<std::uint32_t>((corner >> 2 & 1) * 3 - 3), 4);  // -3 and 0
     }
     put(text, 0x20, 1);
-    const MeshImport read = import_mesh(write("binary.ply", text), 1.0);
+    const MeshImport read = import_mesh(mesh_file("binary.ply", text), 1.0);
     check_box(read, 1.0);
     const auto bounds = diagnose(read.mesh).bounds;
     CHECK(bounds.min() == Vec3(0.1, 0.0, -3.0));  // exactly: double precision is kept
@@ -203,7 +203,7 @@ TEST_CASE("COLLADA keeps its axes and applies node transforms") {
 </mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">
 <translate>10 0 0</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
-  const MeshImport read = import_mesh(write("box.dae", text), 1.0);
+  const MeshImport read = import_mesh(mesh_file("box.dae", text), 1.0);
   check_box(read, 1.0);
   const auto bounds = diagnose(read.mesh).bounds;
   CHECK((bounds.min() - Vec3(10, 0, 0)).norm() < 1e-5);
@@ -215,7 +215,7 @@ TEST_CASE("OBJ groups are object and material, and either half selects") {
   const std::string faces = quad_lines("f ", 1);
   const std::size_t last = faces.rfind("f ");
   text += faces.substr(0, last) + "usemtl polished\n" + faces.substr(last);
-  const MeshImport read = import_mesh(write("groups.obj", text), 1.0);
+  const MeshImport read = import_mesh(mesh_file("groups.obj", text), 1.0);
   CHECK(read.mesh.groups == std::vector<std::string>{"crystal:ground", "crystal:polished"});
   const auto count = [&read](const std::string& group) {
     FaceSelector selector;
@@ -233,7 +233,7 @@ TEST_CASE("glTF is in metres, moves with its nodes, and its materials are groups
   // Turned by 90 degrees about z: (x, y, z) -> (-y, x, z); then scaled before, moved after.
   const std::string node =
       R"({"mesh":0,"translation":[10,0,0],"rotation":[0,0,0.70710678,0.70710678],"scale":[2,1,1]})";
-  const MeshImport read = import_mesh(write("box.gltf", gltf_text(embedded(), node)), 0.0);
+  const MeshImport read = import_mesh(mesh_file("box.gltf", gltf_text(embedded(), node)), 0.0);
   CHECK(read.unit_from_file == "m");
   CHECK(read.mesh.volume() == doctest::Approx(12e9).epsilon(1e-6));
   CHECK(diagnose(read.mesh).sound());
@@ -253,17 +253,18 @@ TEST_CASE("glTF is in metres, moves with its nodes, and its materials are groups
 // Fails when the loader comes from libdraco's copy of tinygltf instead of libtinygltf
 // (src/mesh/CMakeLists.txt).
 TEST_CASE("glTF buffers may lie beside the file") {
-  write("box.bin", gltf_buffer());
-  check_box(import_mesh(write("external.gltf", gltf_text(R"(,"uri":"box.bin")", R"({"mesh":0})")), 1.0), 1.0);
+  mesh_file("box.bin", gltf_buffer());
+  check_box(import_mesh(mesh_file("external.gltf", gltf_text(R"(,"uri":"box.bin")", R"({"mesh":0})")), 1.0),
+            1.0);
 }
 
 TEST_CASE("glTF buffers may lie in a glb; a given unit replaces the metre") {
-  check_box(import_mesh(write("box.glb", glb(gltf_text("", R"({"mesh":0})"), gltf_buffer())), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("box.glb", glb(gltf_text("", R"({"mesh":0})"), gltf_buffer())), 1.0), 1.0);
 }
 
 TEST_CASE("A mirroring glTF node keeps the box outward") {
   const std::string node = R"({"mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]})";
-  check_box(import_mesh(write("mirror.gltf", gltf_text(embedded(), node)), 1.0), 1.0);
+  check_box(import_mesh(mesh_file("mirror.gltf", gltf_text(embedded(), node)), 1.0), 1.0);
 }
 
 TEST_CASE("A triangle without area is kept out and its neighbour cut, so that the box stays closed") {
@@ -271,7 +272,7 @@ TEST_CASE("A triangle without area is kept out and its neighbour cut, so that th
   const std::string text = corner_lines("v ") + "v 0.5 0 0\n" +
                            "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 5 6 8 7\n"
                            "f 1 3 4 2 9\nf 1 9 2\n";
-  const MeshImport read = import_mesh(write("sliver.obj", text), 1.0);
+  const MeshImport read = import_mesh(mesh_file("sliver.obj", text), 1.0);
   CHECK(read.degenerate_triangles >= 1);
   CHECK(read.mesh.volume() == doctest::Approx(6.0).epsilon(1e-6));
   CHECK(diagnose(read.mesh).sound());
@@ -288,8 +289,8 @@ TEST_CASE("Vertices two single-precision steps apart are one, four steps apart a
     return text.str();
   };
   const double step = std::ldexp(1.0, -22);  // spacing of single precision between 2 and 4
-  CHECK(diagnose(import_mesh(write("near.obj", mesh_with_gap(2 * step)), 1.0).mesh).closed());
-  CHECK_FALSE(diagnose(import_mesh(write("far.obj", mesh_with_gap(4 * step)), 1.0).mesh).closed());
+  CHECK(diagnose(import_mesh(mesh_file("near.obj", mesh_with_gap(2 * step)), 1.0).mesh).closed());
+  CHECK_FALSE(diagnose(import_mesh(mesh_file("far.obj", mesh_with_gap(4 * step)), 1.0).mesh).closed());
 }
 
 TEST_CASE("Polygons that are not convex are cut inside themselves") {

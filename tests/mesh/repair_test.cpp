@@ -6,8 +6,10 @@
 
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/weld.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using test::contains;
 
 namespace {
 
@@ -18,8 +20,6 @@ std::string done(const RepairedMesh& repaired) {
     text += std::to_string(step.where.count) + " " + step.what + "\n";
   return text;
 }
-
-bool has(const std::string& text, const std::string& piece) { return text.find(piece) != std::string::npos; }
 
 TriMesh unit_box(const Vec3& low = Vec3::Zero()) { return make_box(low, low + Vec3::Ones()); }
 
@@ -62,7 +62,7 @@ TEST_CASE("Holes are filled up to the stated size, with their neighbours' group"
   const RepairedMesh left = repair_mesh(box, small);
   CHECK(left.after.open_edges.count == 3);
   REQUIRE(left.refused.size() == 1);
-  CHECK(has(left.refused[0], "1 hole stays open: larger than the limit of 0.1 mm"));
+  CHECK(contains(left.refused[0], "1 hole stays open: larger than the limit of 0.1 mm"));
 }
 
 TEST_CASE("A large hole over several faces is filled when the limit allows it") {
@@ -86,7 +86,7 @@ TEST_CASE("Flipped triangles and bodies inside out are turned") {
   TriMesh inside_out = unit_box();
   reverse_orientation(inside_out);
   const RepairedMesh turned = repair_mesh(inside_out);
-  CHECK(has(done(turned), "turned"));
+  CHECK(contains(done(turned), "turned"));
   CHECK(turned.after.volume_mm3 == doctest::Approx(1.0));
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("A fin and a wall inside are taken out") {
     if (two.area_vector(t).x() < -0.1) wanted[t] = 0;
   keep_triangles(two, wanted);
   const RepairedMesh one = repair_mesh(two);
-  CHECK(has(done(one), "2 triangles of fins and inner walls removed"));
+  CHECK(contains(done(one), "2 triangles of fins and inner walls removed"));
   CHECK(one.after.sound());
   CHECK(one.after.volume_mm3 == doctest::Approx(2.0));
 }
@@ -173,12 +173,12 @@ TEST_CASE("What cannot be mended is said: sheets, and bodies that touch along an
   const RepairedMesh open = repair_mesh(sheet, settings);
   CHECK(open.after.open_edges.count == 4);
   REQUIRE(open.refused.size() == 1);
-  CHECK(has(open.refused[0], "1 open sheet encloses nothing: what lies behind it cannot be known"));
+  CHECK(contains(open.refused[0], "1 open sheet encloses nothing: what lies behind it cannot be known"));
 
   const RepairedMesh hinge = repair_mesh(welded(joined(unit_box(), unit_box({1, 1, 0}))));
   CHECK_FALSE(hinge.after.sound());
   REQUIRE(!hinge.refused.empty());
-  CHECK(has(hinge.refused[0], "touch along edges only"));
+  CHECK(contains(hinge.refused[0], "touch along edges only"));
 }
 
 TEST_CASE("A mesh with vertices that nothing uses is diagnosed like one without") {

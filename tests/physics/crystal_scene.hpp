@@ -14,10 +14,10 @@ inline std::string slab(double z_mm, double half_mm = 0.75) {
 
 struct CrystalScene {
   std::string medium, surface;  ///< of the crystal; its exit end is smooth
-  std::string where;            ///< slab(z), or nothing for the whole crystal
+  std::string where = {};       ///< slab(z), or nothing for the whole crystal
   std::uint64_t photons = 0;
-  std::string contact;  ///< keys of the detector's place after its side: nothing for direct contact
-  std::string source;   ///< further lines of [source]
+  std::string contact = {};  ///< keys of the detector's place after its side: nothing for direct contact
+  std::string source = {};   ///< further lines of [source]
   double width_mm = 2.0;
 };
 

@@ -7,6 +7,7 @@
 #include "scintray/analysis/bench_surface.hpp"
 #include "scintray/analysis/goniometer.hpp"
 #include "scintray/surface/fresnel.hpp"
+#include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
@@ -14,8 +15,6 @@ using namespace scintray::test;
 
 namespace {
 
-/// Two-sided, a true claim fails once in 15,800 comparisons; the seeds are fixed.
-constexpr double kSigmas = 4.0;
 constexpr double kStep_deg = 2.5;
 /// Slopes of 1.25 deg on average blur the critical angle of polished faces: within this distance of it they
 /// are not compared with Fresnel.

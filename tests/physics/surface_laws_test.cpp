@@ -47,20 +47,22 @@ std::shared_ptr<const SurfaceTable> ground_table() {
   return table;
 }
 
-struct Counts {
+struct BothWays {
   std::uint64_t reflected = 0, transmitted = 0, absorbed = 0;
   std::vector<std::uint64_t> reflected_bins, transmitted_bins;  ///< even in sin^2 theta
 };
 
-constexpr int kBins = 20;
+constexpr int kLawBins = 20;
 
-int bin_of(double cosine) { return std::min(kBins - 1, static_cast<int>((1.0 - cosine * cosine) * kBins)); }
+int bin_of(double cosine) {
+  return std::min(kLawBins - 1, static_cast<int>((1.0 - cosine * cosine) * kLawBins));
+}
 
 /// Lambertian light on a surface from one side.
-Counts illuminate(const Surface& surface, Side side, std::uint64_t rays, std::uint64_t seed) {
-  Counts counts;
-  counts.reflected_bins.assign(kBins, 0);
-  counts.transmitted_bins.assign(kBins, 0);
+BothWays illuminate(const Surface& surface, Side side, std::uint64_t rays, std::uint64_t seed) {
+  BothWays counts;
+  counts.reflected_bins.assign(kLawBins, 0);
+  counts.transmitted_bins.assign(kLawBins, 0);
   const Vec3 into = side == Side::inside ? kNormal : Vec3(-kNormal);
   for (std::uint64_t i = 0; i < rays; ++i) {
     Rng rng(seed, StreamKind::other, i);
@@ -107,12 +109,12 @@ ChiSquare equilibrium(const Surface& surface, std::uint64_t inside_rays) {
   const double ratio = std::pow(kIndex.outside / kIndex.inside, 2);
   const auto outside_rays =
       static_cast<std::uint64_t>(std::llround(static_cast<double>(inside_rays) * ratio));
-  const Counts from_inside = illuminate(surface, Side::inside, inside_rays, 21);
-  const Counts from_outside = illuminate(surface, Side::outside, outside_rays, 22);
-  std::vector<std::uint64_t> leaving(kBins);
+  const BothWays from_inside = illuminate(surface, Side::inside, inside_rays, 21);
+  const BothWays from_outside = illuminate(surface, Side::outside, outside_rays, 22);
+  std::vector<std::uint64_t> leaving(kLawBins);
   for (std::size_t i = 0; i < leaving.size(); ++i)
     leaving[i] = from_inside.reflected_bins[i] + from_outside.transmitted_bins[i];
-  const std::vector<double> expected(kBins, static_cast<double>(inside_rays) / kBins);
+  const std::vector<double> expected(kLawBins, static_cast<double>(inside_rays) / kLawBins);
   return chi_square_test(leaving, expected);
 }
 
@@ -139,7 +141,7 @@ TEST_CASE("Law of every surface: energy, reflected + transmitted + absorbed = ar
   for (const Named& named : surfaces) {
     CAPTURE(named.name);
     for (const Side side : {Side::inside, Side::outside}) {
-      const Counts counts = illuminate(named.surface, side, kRays, 31);
+      const BothWays counts = illuminate(named.surface, side, kRays, 31);
       CHECK(counts.reflected + counts.transmitted + counts.absorbed == kRays);
       if (named.surface.reflector) {
         CHECK(counts.transmitted == 0);
@@ -156,8 +158,8 @@ TEST_CASE(
   constexpr std::uint64_t kRays = 400'000;
   std::vector<Named> surfaces = lossless_surfaces();
   for (const Named& named : surfaces) {
-    const Counts in = illuminate(named.surface, Side::inside, kRays, 41);
-    const Counts out = illuminate(named.surface, Side::outside, kRays, 42);
+    const BothWays in = illuminate(named.surface, Side::inside, kRays, 41);
+    const BothWays out = illuminate(named.surface, Side::outside, kRays, 42);
     const Estimate t12 = binomial_estimate(in.transmitted, kRays),
                    t21 = binomial_estimate(out.transmitted, kRays);
     const double n1 = kIndex.inside * kIndex.inside, n2 = kIndex.outside * kIndex.outside;

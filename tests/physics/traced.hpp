@@ -9,13 +9,10 @@
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
 #include "scintray/trace/run.hpp"
+#include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 namespace scintray::test {
-
-/// Limit of agreement in combined standard errors. Two-sided, a true law fails it once in 15,800
-/// comparisons; the seeds are fixed, so a test either always passes or always fails.
-inline constexpr double kSigmas = 4.0;
 
 /// Media, surfaces and sensors that the scenes of the tests share: indices without dispersion.
 inline const std::string kLibrary = R"(
@@ -80,7 +77,7 @@ inline Traced trace(const std::string& text, int threads = 0) {
   SceneBuilder builder(hooks);
   Traced traced{builder.build(spec), {}};
   const PhotonSource source(spec.source, traced.built.scene);
-  const TallyPlan plan(traced.built.scene, spec.exit_angles, false);
+  const TallyPlan plan(traced.built.scene, spec);
   RunSettings settings;
   settings.seed = spec.run.seed;
   settings.max_interactions = spec.run.max_interactions;

@@ -14,14 +14,12 @@
 #include "scintray/report/text_summary.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// "" when every tag of the page closes in order and every & starts an entity; else what is wrong.
 std::string markup_fault(const std::string& page) {

@@ -10,6 +10,8 @@
 
 namespace scintray::test {
 
+inline constexpr double kTolerance = 1e-4;  ///< mm, of the contacts of these tests
+
 /// A box from `low` to `high`; each face is cut in `cuts` x `cuts` rectangles, each in two triangles along
 /// one diagonal or, when `other_diagonal`, the other. Faces -x +x -y +y -z +z have ids first_face + 0..5.
 PlacedPart box(const std::string& name, const Vec3& low, const Vec3& high, std::uint32_t first_face = 0,

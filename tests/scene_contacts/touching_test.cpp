@@ -9,8 +9,6 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr double kTolerance = 1e-4;  // mm
-
 /// Area of a back-front pair in this order, with these face ids.
 double area_of(const std::vector<InterfaceTriangle>& interfaces, std::int32_t back, std::int32_t front,
                std::int32_t back_face, std::int32_t front_face) {

@@ -3,12 +3,13 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/surface/fresnel.hpp"
+#include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
-constexpr double kSigmas = 4.0;
 const Vec3 kNormal = Vec3(0.36, -0.48, 0.8);  // skew on purpose
 
 Ray incident(double angle, double polarisation_angle) {

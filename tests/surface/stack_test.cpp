@@ -2,12 +2,13 @@
 
 #include "scintray/core/statistics.hpp"
 #include "scintray/surface/surface.hpp"
+#include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
-constexpr double kSigmas = 4.0;
 constexpr std::uint64_t kRays = 200'000;
 
 Estimate absorbed_share(const Surface& surface, double angle, Side side) {

@@ -6,12 +6,12 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/surface/unified.hpp"
+#include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
-
-constexpr double kSigmas = 4.0;
 
 /// Mean facet angle met at normal incidence, from the direction of mirror reflections at a facet that
 /// reflects all light (a huge index step makes the reflectance nearly 1 there).

@@ -9,20 +9,16 @@
 #include <iostream>
 #include <sstream>
 
+#include "map_files.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/readers/gwyddion_program.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
-
-std::filesystem::path written(const std::string& name, const std::string& content) {
-  static const auto folder = test::scratch_folder("gwyddion");
-  std::ofstream(folder / name, std::ios::binary) << content;
-  return folder / name;
-}
 
 /// False, and a line that marks the test as skipped, where the program is not installed.
 bool gwyddion_is_here() {
@@ -31,15 +27,6 @@ bool gwyddion_is_here() {
     if (std::filesystem::exists(std::filesystem::path(folder) / "gwyddion")) return true;
   std::cout << "[skipped] the program gwyddion is not installed\n";
   return false;
-}
-
-std::string complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
-  try {
-    read_height_map(path, options);
-  } catch (const InputError& error) {
-    return error.problems().front().text();
-  }
-  return "no complaint";
 }
 
 /// A format of Gwyddion's that we do not read: a header of 2048 bytes, then whole numbers.

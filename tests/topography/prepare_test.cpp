@@ -1,4 +1,5 @@
 #include "scintray/topography/prepare.hpp"
+#include "support/words.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +15,7 @@
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
@@ -32,21 +34,6 @@ double regression(const std::vector<double>& line, int at, double half_width) {
   }
   const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
   return (design.transpose() * weighted).ldlt().solve(weighted.transpose() * heights)[0];
-}
-
-template <class Call>
-std::string complaint(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.problems().front().text();
-  }
-  return "no complaint";
-}
-
-bool says(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -101,17 +88,17 @@ TEST_CASE("levelling fits the points that are there, and says when they do not s
   for (const double height : map.heights_um)
     if (!std::isnan(height)) CHECK(std::abs(height) < 1e-10);
 
-  CHECK(says(complaint([&] { level_polynomial(map, 9); }), "expected 0 to 8"));
+  CHECK(contains(complaint_of([&] { level_polynomial(map, 9); }), "expected 0 to 8"));
   HeightMap line = test::map_of(30, 20, 1.0, curve);
   for (std::uint32_t j = 0; j < 20; ++j)
     for (std::uint32_t i = 0; i < 30; ++i)
       if (j != 4) line.at(i, j) = kNothing;
-  CHECK(says(complaint([&] { level_plane(line); }), "do not settle"));
+  CHECK(contains(complaint_of([&] { level_plane(line); }), "do not settle"));
   HeightMap three = test::map_of(3, 3, 1.0, curve);
-  CHECK(says(complaint([&] { level_polynomial(three, 3); }), "too small for degree 3"));
+  CHECK(contains(complaint_of([&] { level_polynomial(three, 3); }), "too small for degree 3"));
   HeightMap none = test::map_of(3, 3, 1.0, [](double, double) { return kNothing; });
-  CHECK(says(complaint([&] { level_plane(none); }), "every point is missing"));
-  CHECK(says(complaint([&] { subtract_mean(none); }), "every point is missing"));
+  CHECK(contains(complaint_of([&] { level_plane(none); }), "every point is missing"));
+  CHECK(contains(complaint_of([&] { subtract_mean(none); }), "every point is missing"));
 }
 
 TEST_CASE("filters leave missing points missing and take nothing from them") {
@@ -144,15 +131,15 @@ TEST_CASE("a crop keeps its points, in points or in lengths, and nothing outside
 
   for (const CropBox box :
        {CropBox{0, 0, 11, 8}, {6, 0, 5, 8}, {0, 8, 10, 2}, {0, 0, 1, 8}, {4294967295u, 0, 3, 3}})
-    CHECK(says(complaint([&] { crop(lengths, box); }), "inside the map of 10 x 8"));
+    CHECK(contains(complaint_of([&] { crop(lengths, box); }), "inside the map of 10 x 8"));
   CHECK_THROWS_AS(crop_box_um(lengths, -1.0, 0.0, 1.0, 1.0), InputError);
 }
 
 TEST_CASE("a span of LOESS that holds no line, or is wider than one, is refused with the widths that do") {
   HeightMap map = test::map_of(40, 3, 0.5, [](double x, double) { return x; });
-  CHECK(says(complaint([&] { filter_loess_lines(map, 1.0); }), "more than two pitches, 1 um"));
-  CHECK(says(complaint([&] { filter_loess_lines(map, 20.5); }), "not more than a line, 20 um"));
-  CHECK(says(complaint([&] { filter_loess_lines(map, std::nan("")); }), "LOESS width of nan"));
+  CHECK(contains(complaint_of([&] { filter_loess_lines(map, 1.0); }), "more than two pitches, 1 um"));
+  CHECK(contains(complaint_of([&] { filter_loess_lines(map, 20.5); }), "not more than a line, 20 um"));
+  CHECK(contains(complaint_of([&] { filter_loess_lines(map, std::nan("")); }), "LOESS width of nan"));
 }
 
 TEST_CASE("outliers are found beside a rough surface, and on a flat one; the surface stays") {
@@ -234,11 +221,11 @@ TEST_CASE("a large map with most of its points missing is filled within the heig
 
 TEST_CASE("a map without any height cannot be filled, and one with gaps is no surface yet") {
   HeightMap none = test::map_of(4, 4, 1.0, [](double, double) { return kNothing; });
-  CHECK(says(complaint([&] { fill_missing(none); }), "every point is missing"));
-  CHECK(says(complaint([&] { remove_outliers(none, 6.0); }), "every point is missing"));
+  CHECK(contains(complaint_of([&] { fill_missing(none); }), "every point is missing"));
+  CHECK(contains(complaint_of([&] { remove_outliers(none, 6.0); }), "every point is missing"));
   HeightMap holed = test::map_of(4, 4, 1.0, [](double x, double) { return x; });
   holed.at(1, 1) = kNothing;
-  CHECK(says(complaint([&] { make_height_field(holed); }), "fill"));
+  CHECK(contains(complaint_of([&] { make_height_field(holed); }), "fill"));
   const std::size_t steps = holed.steps.size();
   fill_missing(holed);
   fill_missing(holed);  // nothing is left to do, and nothing is said
@@ -266,6 +253,6 @@ TEST_CASE("a preparation does its steps in order, and each leaves a line") {
                                    {4, "LOESS"},
                                    {5, "Gaussian"},
                                    {6, "polynomial of degree 2"}})
-    CHECK(says(map.steps[static_cast<std::size_t>(step)], part));
+    CHECK(contains(map.steps[static_cast<std::size_t>(step)], part));
   CHECK(map_statistics(map).sz_um < 1.0);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "map_files.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/map_statistics.hpp"
@@ -13,6 +14,7 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
@@ -28,26 +30,6 @@ std::optional<HeightMap> load(const std::string& name, const ReadOptions& option
   const auto path = test::shared_file("data/topography/" + name);
   if (!path) return std::nullopt;
   return read_height_map(*path, options);
-}
-
-long missing_points(const HeightMap& map) {
-  return std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
-}
-
-/// All that is wrong, in one text.
-std::string complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
-  std::string all;
-  try {
-    read_height_map(path, options);
-  } catch (const InputError& error) {
-    for (const Problem& problem : error.problems()) all += problem.text() + "\n";
-  }
-  return all;
-}
-
-bool says(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace
@@ -84,7 +66,7 @@ TEST_CASE("published maps have their known heights after levelling") {
 TEST_CASE("the height that the sensor measured has Sq 35.22 nm; slopes and Sa agree as well") {
   auto map = load("di-3.di");
   if (!map) return;
-  CHECK(says(map->steps[0], "channel \"Height Sensor\" of 4"));
+  CHECK(contains(map->steps[0], "channel \"Height Sensor\" of 4"));
   level_plane(*map);
   const MapStatistics statistics = map_statistics(*map);
   CHECK(std::abs(statistics.sq_um * 1e3 - 35.22) <= 0.01);
@@ -114,20 +96,20 @@ TEST_CASE("the channels of published files are there by name") {
   if (!nanoscope || !igor || !picoview) return;
   ReadOptions options;
   options.channel = "Amplitude Error";
-  CHECK(says(complaint(*nanoscope, options), "\"mV\""));
+  CHECK(contains(complaint(*nanoscope, options), "\"mV\""));
   options.channel = "Heigth";
-  CHECK(says(complaint(*nanoscope, options),
-             "the channels are \"Height Sensor\", \"Amplitude Error\", \"Phase\", \"Height\""));
-  CHECK(says(complaint(*igor, options),
-             "\"HeightRetrace\", \"AmplitudeRetrace\", \"DeflectionRetrace\", "
-             "\"PhaseRetrace\", \"UserIn0Retrace\""));
-  CHECK(says(complaint(*picoview, options), "\"Friction (Trace)\", \"Friction (Retrace)\""));
+  CHECK(contains(complaint(*nanoscope, options),
+                 "the channels are \"Height Sensor\", \"Amplitude Error\", \"Phase\", \"Height\""));
+  CHECK(contains(complaint(*igor, options),
+                 "\"HeightRetrace\", \"AmplitudeRetrace\", \"DeflectionRetrace\", "
+                 "\"PhaseRetrace\", \"UserIn0Retrace\""));
+  CHECK(contains(complaint(*picoview, options), "\"Friction (Trace)\", \"Friction (Retrace)\""));
   options.channel = "heightr";
-  CHECK(says(read_height_map(*igor, options).steps[0], "\"HeightRetrace\" of 5"));
+  CHECK(contains(read_height_map(*igor, options).steps[0], "\"HeightRetrace\" of 5"));
   options.channel = "Phase";
-  CHECK(says(complaint(*igor, options), "\"PhaseRetrace\" is in \"deg\""));
+  CHECK(contains(complaint(*igor, options), "\"PhaseRetrace\" is in \"deg\""));
   options.channel = "User";
-  CHECK(says(complaint(*igor, options), "\"UserIn0Retrace\" is in \"V\""));
+  CHECK(contains(complaint(*igor, options), "\"UserIn0Retrace\" is in \"V\""));
 }
 
 TEST_CASE("a published scan with missing points keeps them, and is refused where all are needed") {
@@ -147,15 +129,15 @@ TEST_CASE("published files without units ask for them") {
     CAPTURE(name);
     const auto path = test::shared_file(std::string("data/topography/") + name);
     if (!path) return;
-    CHECK(says(complaint(*path), "--width"));
-    CHECK(says(complaint(*path), "--unit"));
+    CHECK(contains(complaint(*path), "--width"));
+    CHECK(contains(complaint(*path), "--unit"));
     ReadOptions options;
     options.width_um = 10.0;
     options.height_unit_um = 1.0;
     const HeightMap map = read_height_map(*path, options);
     CHECK(map.pitch_x_um == doctest::Approx(10.0 / map.columns));
     CHECK(map.pitch_y_um == doctest::Approx(map.pitch_x_um));
-    CHECK(says(map.steps[0], "heights in units of 1 um as told"));
+    CHECK(contains(map.steps[0], "heights in units of 1 um as told"));
   }
 }
 

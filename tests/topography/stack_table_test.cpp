@@ -8,13 +8,14 @@
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/synthesis.hpp"
+#include "support/agreement.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::test;
 
 namespace {
 
-constexpr double kSigmas = 4.0;
 constexpr IndexPair kIndex{1.82, 1.0};
 constexpr std::uint64_t kRays = 100'000;
 

@@ -64,11 +64,12 @@ TEST_CASE("Results are the same to the last bit for 1, 2 and 7 threads") {
 }
 
 TEST_CASE("A photon from the list can be followed again to the same end") {
-  const SceneSpec spec = scene_spec(kScene);
+  SceneSpec spec = scene_spec(kScene);
+  spec.run.photon_list = true;
   SceneBuilder builder;
   const BuiltScene built = builder.build(spec);
   const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, {}, true);
+  const TallyPlan plan(built.scene, spec);
   RunSettings settings;
   std::vector<DetectedPhoton> list;
   RunHooks hooks;
@@ -93,7 +94,7 @@ TEST_CASE("A stopped run keeps whole blocks and says that it is partial") {
   SceneBuilder builder;
   const BuiltScene built = builder.build(spec);
   const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, {}, false);
+  const TallyPlan plan(built.scene, spec);
   std::atomic<bool> stop{false};
   RunHooks hooks;
   hooks.stop = &stop;

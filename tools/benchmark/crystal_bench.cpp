@@ -82,7 +82,7 @@ struct Speed {
 
 Speed measure(const Prepared& p, int threads) {
   const PhotonSource source(p.spec.source, p.built.scene);
-  const TallyPlan plan(p.built.scene, {}, false);
+  const TallyPlan plan(p.built.scene, p.spec);
   RunSettings settings;
   settings.threads = threads;
   const PointResult r = run_point(p.built.scene, source, plan, settings);

@@ -16,14 +16,14 @@ namespace scintray {
 
 namespace {
 
-constexpr std::string_view kMagic = "Gwyddion Simple Field 1.0\n";
+constexpr std::string_view kGsfMagic = "Gwyddion Simple Field 1.0\n";
 
 using Fields = std::map<std::string, std::string, std::less<>>;
 
 Fields header_fields(std::string_view header, const std::string& file) {
   Fields fields;
   long line = 1;
-  for (header.remove_prefix(kMagic.size()); !header.empty();) {
+  for (header.remove_prefix(kGsfMagic.size()); !header.empty();) {
     ++line;
     const std::size_t end = std::min(header.find('\n'), header.size());
     const std::string_view text = header.substr(0, end);
@@ -63,7 +63,7 @@ std::optional<double> extent_um(const Fields& fields, const char* name, const st
 
 }  // namespace
 
-bool is_gsf(std::string_view content) { return content.starts_with(kMagic); }
+bool is_gsf(std::string_view content) { return content.starts_with(kGsfMagic); }
 
 RawMap parse_gsf(std::string_view content, const ReadRequest& request) {
   const std::string& file = request.file;
@@ -97,7 +97,7 @@ RawMap parse_gsf(std::string_view content, const ReadRequest& request) {
 void write_gsf(const std::filesystem::path& path, const HeightMap& map) {
   std::ostringstream header;
   header.precision(17);
-  header << kMagic << "XRes = " << map.columns << "\nYRes = " << map.rows
+  header << kGsfMagic << "XRes = " << map.columns << "\nYRes = " << map.rows
          << "\nXReal = " << map.columns * map.pitch_x_um * 1e-6
          << "\nYReal = " << map.rows * map.pitch_y_um * 1e-6
          << "\nXYUnits = m\nZUnits = m\nTitle = " << map.title << "\n";

@@ -18,8 +18,6 @@ namespace scintray {
 
 namespace {
 
-constexpr double kUmPerMetre = 1e6;
-
 /// One component: a text, an object's content, or the place of a number or array.
 struct Component {
   char type = 0;

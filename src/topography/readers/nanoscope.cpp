@@ -17,7 +17,7 @@ namespace scintray {
 
 namespace {
 
-constexpr std::string_view kMagic = "\\*File list", kEnd = "\\*File list end";
+constexpr std::string_view kNanoscopeMagic = "\\*File list", kEnd = "\\*File list end";
 /// From this version on, files exist that say 2 bytes a pixel and hold 4.
 constexpr double kWideSince = 0x09200000;
 /// No offset, length or number of points lies above the size of the largest file.
@@ -231,7 +231,7 @@ double step_of(const Scale& scale, std::size_t bytes, const Header& header, cons
 
 }  // namespace
 
-bool is_nanoscope(std::string_view content) { return content.starts_with(kMagic); }
+bool is_nanoscope(std::string_view content) { return content.starts_with(kNanoscopeMagic); }
 
 RawMap parse_nanoscope(std::string_view content, const ReadRequest& request) {
   const Header header(content, request.file);

@@ -15,20 +15,20 @@ namespace scintray {
 
 namespace {
 
-constexpr std::string_view kMagic = "fileType      ";
+constexpr std::string_view kPicoMagic = "fileType      ";
 constexpr std::size_t kKeyWidth = 14;
 
 using Fields = std::map<std::string, std::string>;
 
-struct Header {
+struct PicoHeader {
   Fields common;
   std::vector<Fields> buffers;
   std::string storage;   ///< "BINARY", "BINARY_32"
   std::size_t size = 0;  ///< bytes
 };
 
-Header parse_header(std::string_view content, const std::string& file) {
-  Header header;
+PicoHeader parse_header(std::string_view content, const std::string& file) {
+  PicoHeader header;
   Lines lines(content);
   while (const auto line = lines.next()) {
     const std::string key(trimmed(line->substr(0, kKeyWidth)));
@@ -61,11 +61,11 @@ double positive(const Fields& fields, const char* key, const std::string& file) 
 
 }  // namespace
 
-bool is_picoview(std::string_view content) { return content.starts_with(kMagic); }
+bool is_picoview(std::string_view content) { return content.starts_with(kPicoMagic); }
 
 RawMap parse_picoview(std::string_view content, const ReadRequest& request) {
   const std::string& file = request.file;
-  const Header header = parse_header(content, file);
+  const PicoHeader header = parse_header(content, file);
   if (const std::string type = text_of(header.common, "fileType"); type != "Image")
     throw InputError({{file, 1}, "PicoView file of type " + in_quotes(type) + "; expected an \"Image\"", ""});
   if (header.storage != "BINARY" && header.storage != "BINARY_32")
@@ -99,7 +99,6 @@ RawMap parse_picoview(std::string_view content, const ReadRequest& request) {
       std::ldexp(positive(header.buffers[chosen.index], "bufferRange", file), wide ? -31 : -15);
   for (double& value : map.values) value *= step;
   map.height_unit_um = length_unit_um(map.height_unit);
-  constexpr double kUmPerMetre = 1e6;
   map.pitch_x_um = positive(header.common, "xLength", file) * kUmPerMetre / map.columns;
   map.pitch_y_um = positive(header.common, "yLength", file) * kUmPerMetre / map.rows;
   map.pitch_ratio = *map.pitch_y_um / *map.pitch_x_um;

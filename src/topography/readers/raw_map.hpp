@@ -10,6 +10,8 @@
 
 namespace scintray {
 
+inline constexpr double kUmPerMetre = 1e6;
+
 /// Most points of a map that is read: 1 GiB of heights.
 inline constexpr std::size_t kMostPoints = std::size_t{1} << 27;
 

@@ -16,9 +16,8 @@ namespace scintray {
 namespace {
 
 constexpr std::size_t kMagicSize = 8;
-constexpr double kUmPerMetre = 1e6;
 
-struct Header {
+struct SdfHeader {
   double columns = 0, rows = 0;
   double step_x = 0, step_y = 0, step_z = 0;  ///< metres
   double compression = 0, type = 0;
@@ -49,7 +48,7 @@ std::optional<double> missing_mark(SampleType type) {
   }
 }
 
-void check(const Header& header, const std::string& file) {
+void check(const SdfHeader& header, const std::string& file) {
   const auto require = [&](bool sound, const char* name, double value) {
     if (!sound)
       throw InputError(
@@ -68,7 +67,7 @@ void check(const Header& header, const std::string& file) {
                       "save the file without compression"});
 }
 
-RawMap map_of(const Header& header, const std::string& format) {
+RawMap map_of(const SdfHeader& header, const std::string& format) {
   RawMap map;
   map.format = format;
   map.columns = static_cast<std::uint32_t>(header.columns);
@@ -89,7 +88,7 @@ void mark_missing(RawMap& map, SampleType type) {
 RawMap parse_binary(std::string_view content, const std::string& file) {
   Bytes bytes(content, file);
   bytes.skip(kMagicSize + 10 + 12 + 12);  // maker, date made, date changed
-  Header header;
+  SdfHeader header;
   header.columns = bytes.take<std::uint16_t>();
   header.rows = bytes.take<std::uint16_t>();
   header.step_x = bytes.take<double>();
@@ -110,7 +109,7 @@ RawMap parse_binary(std::string_view content, const std::string& file) {
 }
 
 /// "Name = value" lines up to a "*"; leaves `lines` behind it.
-Header text_header(Lines& lines, const std::string& file) {
+SdfHeader text_header(Lines& lines, const std::string& file) {
   std::map<std::string, std::string> fields;
   bool ended = false;
   while (const auto line = lines.next()) {
@@ -161,7 +160,7 @@ void read_numbers(Lines& lines, const std::string& file, RawMap& map) {
 RawMap parse_text(std::string_view content, const std::string& file) {
   Lines lines(content);
   lines.next();
-  const Header header = text_header(lines, file);
+  const SdfHeader header = text_header(lines, file);
   check(header, file);
   // A number and the blank behind it are two bytes; the last may go without.
   checked_points(header.columns, header.rows, content.size() - lines.place() + 1, 2, file);

@@ -15,7 +15,6 @@ namespace scintray {
 
 namespace {
 
-constexpr double kUmPerMetre = 1e6;
 constexpr std::size_t kMostXml = std::size_t{64} << 20;
 
 /// A height is number * increment + offset.

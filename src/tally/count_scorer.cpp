@@ -1,0 +1,227 @@
+#include "scintray/tally/count_scorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scintray {
+
+namespace {
+
+Occasion occasion_of(StepKind kind) {
+  switch (kind) {
+    case StepKind::scattered:
+      return Occasion::scattered;
+    case StepKind::returned:
+      return Occasion::returned;
+    case StepKind::crossed:
+      return Occasion::crossed;
+    case StepKind::detected:
+      return Occasion::detected;
+    case StepKind::unconverted:
+      return Occasion::unconverted;
+    case StepKind::absorbed_in_medium:
+      return Occasion::absorbed_in_medium;
+    case StepKind::absorbed_at_surface:
+      return Occasion::absorbed_at_surface;
+    case StepKind::escaped:
+      break;
+  }
+  return Occasion::escaped;
+}
+
+bool among(const std::vector<bool>& set, std::int32_t part) {
+  return set.empty() || set[static_cast<std::size_t>(part + 1)];
+}
+
+double azimuth(const Vec3& direction, const Vec3& normal) {
+  const auto [x, y] = face_axes(normal);
+  return std::atan2(direction.dot(y), direction.dot(x));
+}
+
+double sine_squared(const Vec3& direction, const Vec3& normal) {
+  const double cosine = direction.dot(normal);
+  return std::max(0.0, 1.0 - cosine * cosine);
+}
+
+double angle(const Vec3& direction, const Vec3& normal) {
+  return std::acos(std::min(1.0, std::abs(direction.dot(normal))));
+}
+
+}  // namespace
+
+void CountScorer::start(const Photon& photon) {
+  start_ = photon.position;
+  direction_before_ = photon.ray.direction;
+  source_part_ = scene_.regions[photon.region].part;
+  crossings_ = 0;
+  visited_.assign(plan_.follows_regions ? 1 : 0, photon.region);
+  Moment moment{Occasion::emitted, photon, source_part_};
+  happened(moment, nullptr);
+}
+
+void CountScorer::step(const Photon& photon, const Step& step) {
+  Moment moment{occasion_of(step.kind), photon, scene_.regions[photon.region].part};
+  if (photon.region != step.region) {
+    ++crossings_;
+    if (plan_.follows_regions) visited_.push_back(photon.region);
+  }
+  if (step.kind == StepKind::detected || step.kind == StepKind::unconverted)
+    moment.part = static_cast<std::int32_t>(step.where);
+  happened(moment, &step);
+  direction_before_ = photon.ray.direction;
+  if (is_end(step.kind)) end(moment.occasion);
+}
+
+void CountScorer::cut(const Photon& photon) {
+  Moment moment{Occasion::cut, photon, scene_.regions[photon.region].part};
+  happened(moment, nullptr);
+  end(Occasion::cut);
+}
+
+void CountScorer::happened(Moment& moment, const Step* step) {
+  for (const std::uint32_t number : plan_.counts_on[static_cast<std::size_t>(moment.occasion)])
+    score(number, moment);
+  if (!step || step->triangle == kNoTriangle) return;
+  const auto& at_face = plan_.counts_at[2 * std::size_t{step->interface} + (step->from_back ? 1 : 0)];
+  if (at_face.empty()) return;
+  const Region& region = scene_.regions[step->region];
+  const Vec3 outward = region.direction_to_world(region.accelerator->normal(step->triangle));
+  for (const TallyPlan::CountAtFace& count : at_face) {
+    if ((plan_.occasions_of[count.count] >> static_cast<unsigned>(moment.occasion) & 1u) == 0) continue;
+    moment.face = count.face;
+    moment.normal = count.inwards ? Vec3(-outward) : outward;
+    score(count.count, moment);
+  }
+}
+
+double CountScorer::value(TallyVariable variable, const Vec3& along, const Moment& moment) const {
+  const Photon& photon = moment.photon;
+  switch (variable) {
+    case TallyVariable::wavelength:
+      return photon.wavelength_nm;
+    case TallyVariable::time:
+      return photon.time_ns;
+    case TallyVariable::path:
+      return photon.path_mm;
+    case TallyVariable::interactions:
+      return photon.interactions;
+    case TallyVariable::scatterings:
+      return photon.scatterings;
+    case TallyVariable::crossings:
+      return crossings_;
+    case TallyVariable::position:
+      return along.dot(photon.position);
+    case TallyVariable::start:
+      return along.dot(start_);
+    case TallyVariable::direction:
+      return along.dot(photon.ray.direction);
+    case TallyVariable::angle_before:
+      return angle(direction_before_, moment.normal);
+    case TallyVariable::angle_after:
+      return angle(photon.ray.direction, moment.normal);
+    case TallyVariable::sin2_before:
+      return sine_squared(direction_before_, moment.normal);
+    case TallyVariable::sin2_after:
+      return sine_squared(photon.ray.direction, moment.normal);
+    case TallyVariable::azimuth_before:
+      return azimuth(direction_before_, moment.normal);
+    case TallyVariable::azimuth_after:
+      return azimuth(photon.ray.direction, moment.normal);
+    default:
+      throw InternalError(std::string("the number ") + tally_variable_name(variable) + " is a name");
+  }
+}
+
+bool CountScorer::accepts(const CountRequest& count, const Moment& moment) const {
+  if (!among(count.parts, moment.part) || !among(count.source_parts, source_part_)) return false;
+  return std::all_of(count.ranges.begin(), count.ranges.end(), [&](const CountRange& range) {
+    const double x = value(range.variable, range.along, moment);
+    return x >= range.low && x < range.high;
+  });
+}
+
+std::uint32_t CountScorer::bin_of(const CountRequest& count, const Moment& moment, bool& named) const {
+  std::uint32_t bin = 0;
+  bool inside = true;
+  for (const CountAxis& axis : count.axes) {
+    bin *= axis.bins;
+    if (is_category(axis.variable)) {
+      const std::size_t slot =
+          axis.variable == TallyVariable::occasion ? static_cast<std::size_t>(moment.occasion)
+          : axis.variable == TallyVariable::face   ? moment.face
+          : axis.variable == TallyVariable::part   ? static_cast<std::size_t>(moment.part + 1)
+                                                   : static_cast<std::size_t>(source_part_ + 1);
+      if (axis.bin_of[slot] == kNone) {
+        named = false;
+        return Contribution::kOutside;
+      }
+      bin += static_cast<std::uint32_t>(axis.bin_of[slot]);
+      continue;
+    }
+    double position = (value(axis.variable, axis.along, moment) - axis.low) * axis.per_bin;
+    if (axis.to_the_edge || needs_face(axis.variable))  // ends that nothing can lie beyond
+      position = std::clamp(position, 0.0, std::nextafter(static_cast<double>(axis.bins), 0.0));
+    if (position >= 0.0 && position < axis.bins)
+      bin += static_cast<std::uint32_t>(position);
+    else
+      inside = false;
+  }
+  return inside ? bin : Contribution::kOutside;
+}
+
+void CountScorer::score(std::uint32_t number, const Moment& moment) {
+  const CountRequest& count = plan_.counts[number];
+  if (!accepts(count, moment)) return;
+  bool named = true;
+  const std::uint32_t bin = bin_of(count, moment, named);
+  if (!named) return;
+  const double what = count.score ? value(*count.score, Vec3::Zero(), moment) : 1.0;
+  if (count.each != TallyEach::time) {
+    const auto known = std::find_if(pending_.begin(), pending_.end(),
+                                    [&](const Contribution& c) { return c.count == number; });
+    if (known != pending_.end()) {
+      if (count.each == TallyEach::last) *known = {number, bin, what};
+      return;
+    }
+  }
+  pending_.push_back({number, bin, what});
+}
+
+void CountScorer::end(Occasion fate) {
+  const auto keeps = [&](const Contribution& c) {
+    const CountRequest& count = plan_.counts[c.count];
+    const auto seen = [&](const std::vector<bool>& set) {
+      return std::any_of(visited_.begin(), visited_.end(), [&](std::uint32_t region) { return set[region]; });
+    };
+    if (count.fates != 0 && (count.fates >> static_cast<unsigned>(fate) & 1u) == 0) return false;
+    if (!count.visited.empty() && !seen(count.visited)) return false;
+    return count.not_visited.empty() || !seen(count.not_visited);
+  };
+  std::stable_sort(pending_.begin(), pending_.end(), [](const Contribution& a, const Contribution& b) {
+    return a.count != b.count ? a.count < b.count : a.bin < b.bin;
+  });
+  const std::size_t first = contributions_.size();
+  for (const Contribution& c : pending_) {
+    if (!keeps(c)) continue;
+    if (contributions_.size() > first && contributions_.back().count == c.count &&
+        contributions_.back().bin == c.bin)
+      contributions_.back().score += c.score;
+    else
+      contributions_.push_back(c);
+  }
+  pending_.clear();
+}
+
+void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallyResult>& total) {
+  for (const Contribution& c : contributions) {
+    TallyResult& tally = total[c.count];
+    if (c.bin == Contribution::kOutside) {
+      tally.outside += c.score;
+      continue;
+    }
+    tally.sum[c.bin] += c.score;
+    tally.sum_of_squares[c.bin] += c.score * c.score;
+  }
+}
+
+}  // namespace scintray

@@ -1,0 +1,83 @@
+#include "scintray/tally/tally_plan.hpp"
+
+#include <algorithm>
+
+namespace scintray {
+
+namespace {
+
+std::uint32_t find_face(const ExitAngleTallySpec& spec, const Scene& scene) {
+  const std::string wanted = spec.part.name + ":" + spec.face.name;
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
+    if (scene.faces[i].name == wanted) return i;
+    names.push_back(scene.faces[i].name);
+  }
+  throw unknown_name(spec.face.where.file.empty() ? spec.where : spec.face.where, "face", wanted, names);
+}
+
+}  // namespace
+
+TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec) : photon_list(spec.run.photon_list) {
+  for (const ExitAngleTallySpec& tally : spec.exit_angles)
+    exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
+  bind_ways(scene);
+  if (spec.tallies.empty()) return;
+
+  std::vector<std::vector<std::pair<std::uint32_t, FaceWay>>> counts_of_face(scene.faces.size());
+  for (const TallySpec& tally : spec.tallies) {
+    const auto number = static_cast<std::uint32_t>(counts.size());
+    counts.push_back(bind_count(tally, spec.source, scene));
+    std::uint32_t occasions = 0;
+    for (const Occasion occasion : tally.at) {
+      occasions |= 1u << static_cast<unsigned>(occasion);
+      if (tally.faces.empty()) counts_on[static_cast<std::size_t>(occasion)].push_back(number);
+    }
+    occasions_of.push_back(occasions);
+    for (const std::uint32_t face : faces_of(tally, scene))
+      counts_of_face[face].emplace_back(number, tally.way);
+    follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
+  }
+  counts_at.resize(2 * scene.interfaces.size());
+  const auto bind = [&](std::size_t way, std::int32_t face, FaceWay seen) {
+    if (face == kNone) return;
+    for (const auto& [count, wanted] : counts_of_face[static_cast<std::size_t>(face)])
+      if (wanted == seen || wanted == FaceWay::both)
+        counts_at[way].push_back({count, static_cast<std::uint32_t>(face), seen == FaceWay::in});
+  };
+  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    bind(2 * i + 1, interface.back_face, FaceWay::out);
+    bind(2 * i + 1, interface.front_face, FaceWay::in);
+    bind(2 * i, interface.front_face, FaceWay::out);
+    bind(2 * i, interface.back_face, FaceWay::in);
+  }
+}
+
+void TallyPlan::bind_ways(const Scene& scene) {
+  const std::size_t ways = 2 * scene.interfaces.size();
+  exit_angles_at.resize(ways);
+  sensor_faces.assign(ways, kNoSensor);
+  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
+    const Interface& interface = scene.interfaces[i];
+    for (const bool from_back : {false, true}) {
+      const std::size_t way = 2 * i + (from_back ? 1 : 0);
+      const std::int32_t left_face = from_back ? interface.back_face : interface.front_face;
+      for (std::uint32_t tally = 0; tally < exit_angles.size(); ++tally)
+        if (left_face == static_cast<std::int32_t>(exit_angles[tally].face))
+          exit_angles_at[way].push_back(tally);
+
+      const std::int32_t sensor = from_back ? interface.front_sensor : interface.back_sensor;
+      if (sensor == kNone) continue;
+      const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+      const std::int32_t own = from_back ? interface.front_face : interface.back_face;
+      const std::int32_t face = own != kNone ? own : left_face;
+      const std::pair key{part, static_cast<std::uint32_t>(face)};
+      const auto [known, is_new] = sensor_index_.try_emplace(key, sensor_face_names.size());
+      if (is_new) sensor_face_names.push_back({key.first, key.second, 0, 0});
+      sensor_faces[way] = static_cast<std::uint32_t>(known->second);
+    }
+  }
+}
+
+}  // namespace scintray
