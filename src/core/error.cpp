@@ -55,8 +55,9 @@ InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::m
 InputError::InputError(std::vector<Problem> problems)
     : Error(join(problems)), problems_(std::move(problems)) {}
 
-void Problems::add(FileLocation where, std::string what, std::string hint) {
-  list_.push_back({std::move(where), std::move(what), std::move(hint)});
+void Problems::add(FileLocation where, std::string what, std::string hint,
+                   std::vector<std::array<double, 3>> places_mm) {
+  list_.push_back({std::move(where), std::move(what), std::move(hint), std::move(places_mm)});
 }
 
 void Problems::add(Problem problem) { list_.push_back(std::move(problem)); }

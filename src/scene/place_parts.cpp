@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/primitives.hpp"
 
@@ -71,10 +72,15 @@ std::string group_list(const TriMesh& mesh) {
   return list + (names.size() > kMost ? " and more" : "");
 }
 
+/// Where a triangle is, for pictures.
+std::vector<std::array<double, 3>> mark_at(const TriMesh& mesh, std::size_t triangle) {
+  const Vec3 centre = centre_of(mesh, triangle);
+  return {{centre.x(), centre.y(), centre.z()}};
+}
+
 /// Where a triangle is, for messages.
 std::string place_of(const TriMesh& mesh, std::size_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const Vec3 centre = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
+  const Vec3 centre = centre_of(mesh, triangle);
   char text[96];
   std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) mm", centre.x(), centre.y(), centre.z());
   return text;
@@ -112,7 +118,8 @@ class FaceTagger {
         problems_.add(spec.select.where,
                       "rules \"" + part_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
                           placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
-                      "narrow one of them with a second criterion, such as box or normal");
+                      "narrow one of them with a second criterion, such as box or normal",
+                      mark_at(placed_.mesh, t));
       }
     }
     if (!any)
@@ -130,7 +137,8 @@ class FaceTagger {
                     "part \"" + placed_.name +
                         "\" has faces without a surface: no rule matches the triangle at " +
                         place_of(placed_.mesh, static_cast<std::size_t>(first)),
-                    "give the part a surface = \"...\" for all faces that no rule matches");
+                    "give the part a surface = \"...\" for all faces that no rule matches",
+                    mark_at(placed_.mesh, static_cast<std::size_t>(first)));
     }
     placed_.faces.push_back({kOtherFaces, part_.surface, {}});
   }
@@ -181,6 +189,8 @@ class PartPlacer {
     result.where = part.where;
     result.medium = part.medium;
     result.sensor = part.sensor;
+    result.surface = part.surface;
+    result.priority = part.priority;
     ShapeMesh shape = shape_mesh(part.shape);
     result.notes = std::move(shape.notes);
     if (orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
@@ -197,15 +207,27 @@ class PartPlacer {
     part.rotation = turn.linear() * part.rotation;
   }
 
+  /// Diagnoses a part where it stands.
+  static void examine(PlacedMesh& placed, const PartSpec& part, Problems& problems) {
+    placed.diagnosis = diagnose_in_place(placed.mesh);
+    if (placed.diagnosis.bodies > 1)
+      placed.notes.push_back(std::to_string(placed.diagnosis.bodies) +
+                             " separate surfaces in one mesh: bodies or cavities that share the medium and "
+                             "the rules of this part");
+    add_problems(mesh_problems(placed.diagnosis, placed.name), part, problems);
+  }
+
   void place_part(const PartSpec& part) {
     PlacedMesh result = loaded(part);
     const Against against = lie_against(part.name.name, part.placement, bounds_of(result.mesh));
     move(result.mesh, against.shift);
-    result.diagnosis = diagnose(result.mesh);
-    add_problems(mesh_problems(result.diagnosis, result.name), part, problems_);
+    examine(result, part, problems_);
     FaceTagger(part, result, problems_).tag();
     keep(std::move(result));
-    if (against.fill) keep(*against.fill);
+    if (!against.fill) return;
+    PlacedMesh fill = *against.fill;
+    fill.priority = part.priority;
+    keep(std::move(fill));
   }
 
   /// Parts get their faces in their own frame, take their places in the group's, and move with it.
@@ -224,8 +246,7 @@ class PartPlacer {
     const Against against = lie_against(group.name.name, group.placement, bounds);
     for (std::size_t i = 0; i < members.size() && found.empty(); ++i) {
       move(members[i].mesh, against.shift);
-      members[i].diagnosis = diagnose(members[i].mesh);
-      add_problems(mesh_problems(members[i].diagnosis, members[i].name), parts[i], found);
+      examine(members[i], parts[i], found);
     }
     for (const Problem& problem : found.list()) problems_.add(problem);
     for (PlacedMesh& member : members) keep(std::move(member));
@@ -277,7 +298,7 @@ class PartPlacer {
     fill.mesh = make_box(box.min(), box.max());
     fill.faces = {{kOtherFaces, {}, {}}};
     fill.face_of.assign(fill.mesh.triangles.size(), 0);
-    fill.diagnosis = diagnose(fill.mesh);
+    fill.diagnosis = diagnose_in_place(fill.mesh);
     return fill;
   }
 

@@ -24,6 +24,8 @@ struct PlacedMesh {
   TriMesh mesh;
   std::vector<PlacedFace> faces;
   std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
+  NameRef surface;                     ///< of faces that no rule matches; may be empty
+  int priority = 0;                    ///< see PartSpec
   NameRef medium;                      ///< empty only where the part is a sensor
   NameRef sensor;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();

@@ -179,6 +179,9 @@ void read_body(const TomlTable& table, PartSpec& part) {
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
+  part.priority = static_cast<int>(table.integer("priority", 0));
+  table.expect("priority", std::abs(table.integer("priority", 0)) <= kHighestPriority,
+               "a priority beyond " + std::to_string(kHighestPriority), "give a smaller number");
   part.faces = read_faces(table);
 }
 

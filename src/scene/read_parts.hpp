@@ -50,12 +50,16 @@ std::vector<std::string> part_names(const std::vector<PartSpec>& parts, const st
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts);
 
+/// What "bonded" and "dry" stand for.
+ContactKind contact_kind(const std::string& word);
+
 /// The same for a name that may have wildcards and then must be that of one part at least.
 void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
                   const std::vector<std::string>& parts);
 
 /// [[contact]].
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts);
+std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& part_names,
+                                       const std::vector<PartSpec>& parts);
 
 /// [source].
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);

@@ -13,10 +13,6 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
-ContactKind contact_kind(const std::string& word) {
-  return word == "dry" ? ContactKind::dry : ContactKind::bonded;
-}
-
 InlineTables read_definitions(const TomlTable& scene, const std::string& key) {
   InlineTables definitions;
   const std::optional<TomlTable> tables = scene.optional_table(key);
@@ -88,7 +84,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
       bodies.names_known ? part_names(bodies.parts, bodies.groups) : std::vector<std::string>{};
   scene.parts = std::move(bodies.parts);
   scene.groups = std::move(bodies.groups);
-  scene.contacts = read_contacts(root, names);
+  scene.contacts = read_contacts(root, names, scene.parts);
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   scene.source = read_source(root, names);
   scene.run = read_run(root);
@@ -103,35 +99,6 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
 }
 
 }  // namespace
-
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts) {
-  std::vector<ContactSpec> contacts;
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const TomlTable& table : scene.tables("contact")) {
-    ContactSpec contact;
-    contact.where = table.where();
-    const std::vector<std::string> names = table.strings("between", 2);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      contact.between[i] = {names[i], table.where("between")};
-      expect_parts(table, "between", contact.between[i], parts);
-    }
-    contact.kind = contact_kind(table.choice("kind", {"bonded", "dry"}));
-    contact.surface = read_name(table, "surface", false);
-    table.expect("surface", contact.kind == ContactKind::bonded,
-                 "a dry contact has no surface of its own: each part keeps the one of its face",
-                 "remove surface, or write kind = \"bonded\"");
-    if (table.good("between")) {
-      const auto& [a, b] = std::minmax(names[0], names[1]);
-      table.expect("between", a != b || is_pattern(a), "a contact of the part \"" + a + "\" with itself",
-                   "name two parts");
-      table.expect("between", pairs.insert({a, b}).second,
-                   "the contact between \"" + a + "\" and \"" + b + "\" is described twice",
-                   "keep one [[contact]]");
-    }
-    contacts.push_back(std::move(contact));
-  }
-  return contacts;
-}
 
 SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems) {
   const TomlTable root(document, problems);

@@ -27,6 +27,12 @@ inline constexpr const char* kOpaqueMedium = "opaque";
 /// Name of the face made of a part's triangles that no rule matches; no rule may have it.
 inline constexpr const char* kOtherFaces = "other";
 
+/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
+inline constexpr const char* kCutFaces = "cut:";
+
+/// Bound of part priorities, both ways.
+inline constexpr int kHighestPriority = 1000;
+
 /// What the name of a part and this make is the name of the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
 
@@ -88,9 +94,10 @@ struct PartSpec {
   NameRef name;
   ShapeSpec shape;
   PlacementSpec placement;
-  NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
-  NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
-  NameRef sensor;   ///< the whole part is a sensor
+  NameRef medium;    ///< kOpaqueMedium allowed; empty only for a part that is a sensor
+  NameRef surface;   ///< of every face that no rule matches; empty: rules must cover every face
+  NameRef sensor;    ///< the whole part is a sensor
+  int priority = 0;  ///< of two parts that overlap the one with the higher priority keeps the space
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   FileLocation where;
@@ -112,11 +119,15 @@ enum class ContactKind {
 };
 
 struct ContactSpec {
-  std::array<NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
+  std::array<NameRef, 2> between;    ///< names, or patterns with "*" (core/pattern.hpp)
+  std::array<std::string, 2> faces;  ///< of the two parts; empty: every face
   ContactKind kind = ContactKind::bonded;
   NameRef surface;          ///< of the shared interface; empty: the surfaces of the two faces decide
   bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
   bool by_builder = false;  ///< made with a builder's parts: yields to what the file says, may find no pair
+  /// Faces this near to each other, curved ones too, are made one (conform_parts.hpp); nothing: only
+  /// those within the scene's contact tolerance.
+  std::optional<double> tolerance_mm;
   FileLocation where;
 };
 

@@ -131,7 +131,7 @@ std::vector<std::string> three_mf_seeds() {
   const std::string relationships =
       "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return {test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}})};
+  return {test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}})};
 }
 
 std::vector<std::string> collada_seeds() {

@@ -103,8 +103,15 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(cad.tessellation.angle_rad == doctest::Approx(5.0 * kDegree));
   CHECK(step->faces.at(0).select.tags == FaceTags{{"color", "#ff8000"}});
 
-  REQUIRE_FALSE(scene.contacts.empty());  // those of builders follow
+  CHECK(scene.parts[2].priority == 1);
+  REQUIRE(scene.contacts.size() >= 2);  // those of builders follow
   CHECK(scene.contacts[0].between[1].name == "pmt_fill");
+  CHECK(scene.contacts[0].faces[1].empty());
+  CHECK(scene.contacts[0].tolerance_mm.value_or(0.0) == doctest::Approx(0.02));
+  CHECK(scene.contacts[1].between[0].name == "crystal");
+  CHECK(scene.contacts[1].faces[0] == "exit");
+  CHECK(scene.contacts[1].faces[1] == "other");
+  CHECK_FALSE(scene.contacts[1].tolerance_mm.has_value());
   const auto& region = std::get<RegionSpec>(scene.source.origin);
   REQUIRE(region.slab_z_mm.has_value());
   CHECK((*region.slab_z_mm)[0] == doctest::Approx(9.25));
