@@ -7,6 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/shape_error.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
@@ -16,10 +17,6 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Face = SurfaceMesh::Face_index;
-
-[[noreturn]] void reject(const std::string& what, const std::string& hint) {
-  throw InputError(Problem{{}, what, hint});
-}
 
 using GroupOfFace = SurfaceMesh::Property_map<Face, std::uint32_t>;
 
@@ -49,7 +46,7 @@ SurfaceMesh to_cgal(const TriMesh& mesh, TriMesh& names, const std::string& whic
     const Face face = result.add_face(SurfaceMesh::Vertex_index(a), SurfaceMesh::Vertex_index(b),
                                       SurfaceMesh::Vertex_index(c));
     if (face == SurfaceMesh::null_face())
-      reject(which + " touches itself in an edge or a corner", "separate its parts a little");
+      reject_shape(which + " touches itself in an edge or a corner", "separate its parts a little");
     group[face] = names.group_index(mesh.groups[mesh.group[t]], mesh.tags_of(mesh.group[t]));
   }
   return result;
@@ -94,10 +91,10 @@ TriMesh boolean(const TriMesh& a, const TriMesh& b, BooleanOperation operation) 
         break;
     }
   } catch (const pmp::Corefinement::Self_intersection_exception&) {
-    reject("a body of a boolean crosses itself", "repair it before");
+    reject_shape("a body of a boolean crosses itself", "repair it before");
   }
   if (!closed)
-    reject(
+    reject_shape(
         "the two bodies of a boolean touch in an edge or a corner only, so that their result has no closed "
         "surface",
         "let them overlap, or leave a gap between them");

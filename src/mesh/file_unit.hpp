@@ -9,11 +9,6 @@
 
 namespace scintray {
 
-/// The `unit` attribute of the model in a 3MF archive (3MF Core Specification 1.3, section 3.4: millimeter
-/// when it is left out). Throws InputError when the archive or its model cannot be read or the unit is not
-/// one of the specification's.
-FileUnit read_3mf_unit(const std::filesystem::path& path, const std::string& content);
-
 /// <asset><unit meter="..." name="..."/> of a COLLADA file (COLLADA 1.5 specification, section 5, "unit": one
 /// metre when it is left out); assimp has turned the coordinates into metres. Throws InputError for XML that
 /// cannot be read or a length that is not positive.

@@ -14,6 +14,7 @@
 #include "scintray/mesh/gltf_import.hpp"
 #include "scintray/mesh/ply_import.hpp"
 #include "scintray/mesh/step_import.hpp"
+#include "scintray/mesh/three_mf_import.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
@@ -38,10 +39,12 @@ RawMesh read_raw(const std::filesystem::path& path, const std::string& extension
   if (extension == ".gltf") return import_gltf(path, content, false);
   if (extension == ".glb") return import_gltf(path, content, true);
   if (extension == ".ply") return import_ply(path, content);
+  if (extension == ".3mf") return import_3mf(path, content);
   if (is_step(extension)) return import_step(path, content, tessellation);
+  FileUnit unit;
+  if (extension == ".dae") unit = read_collada_unit(path, content);
   RawMesh raw = import_through_assimp(path);
-  if (extension == ".3mf") raw.unit = read_3mf_unit(path, content);
-  if (extension == ".dae") raw.unit = read_collada_unit(path, content);
+  raw.unit = std::move(unit);
   return raw;
 }
 

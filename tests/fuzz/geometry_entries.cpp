@@ -122,16 +122,28 @@ std::vector<std::string> ply_seeds() {
       lines("", kCorners) + lines("3 ", kFaces)};
 }
 
-std::vector<std::string> three_mf_seeds() {
-  const std::string model =
+std::vector<std::string> three_mf_model_seeds() {
+  return {
       "<model unit=\"inch\"><resources><object id=\"1\" type=\"model\"><mesh><vertices>"
       "<vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/>"
       "</vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object></resources>"
-      "<build><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/></build></model>";
+      "<build><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/></build></model>"};
+}
+
+std::string three_mf(const std::string& model) {
   const std::string relationships =
       "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return {test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}})};
+  return test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}});
+}
+
+std::vector<std::string> three_mf_seeds() { return {three_mf(three_mf_model_seeds().front())}; }
+
+/// The bytes are the model, in an archive that is otherwise sound.
+bool run_3mf_model(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return false;
+  const std::string archive = three_mf({reinterpret_cast<const char*>(data), size});
+  return run_3mf(reinterpret_cast<const std::uint8_t*>(archive.data()), archive.size());
 }
 
 std::vector<std::string> collada_seeds() {
@@ -182,24 +194,26 @@ std::vector<std::string> gdml_seeds() {
 }
 
 /// A vertex of six bytes of text becomes three doubles in several copies, and its cell of the welding grid.
-constexpr std::size_t kPerByte = 256;
+constexpr std::size_t kPerMeshByte = 256;
 /// A few digits ask for a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
 constexpr std::size_t kPerGdmlByte = 200'000;
 
 /// assimp reads OBJ through a buffer of 16 MiB.
 constexpr std::size_t kAssimpsBuffer = std::size_t{17} << 20;
 
-constexpr std::array<Entry, 8> kEntries{{{"stl", run_stl, stl_seeds, kPerByte},
-                                         {"obj", run_obj, obj_seeds, kPerByte, kAssimpsBuffer},
-                                         {"off", run_off, off_seeds, kPerByte},
-                                         {"ply", run_ply, ply_seeds, kPerByte},
-                                         {"3mf", run_3mf, three_mf_seeds, 1032 * kPerByte},
-                                         {"collada", run_collada, collada_seeds, kPerByte},
-                                         {"gltf", run_gltf, gltf_seeds, kPerByte},
-                                         {"gdml", run_gdml, gdml_seeds, kPerGdmlByte}}};
+constexpr std::array<Entry, 9> kGeometryEntries{
+    {{"stl", run_stl, stl_seeds, kPerMeshByte},
+     {"obj", run_obj, obj_seeds, kPerMeshByte, kAssimpsBuffer},
+     {"off", run_off, off_seeds, kPerMeshByte},
+     {"ply", run_ply, ply_seeds, kPerMeshByte},
+     {"3mf", run_3mf, three_mf_seeds, 1032 * kPerMeshByte},
+     {"3mf_model", run_3mf_model, three_mf_model_seeds, kPerMeshByte},
+     {"collada", run_collada, collada_seeds, kPerMeshByte},
+     {"gltf", run_gltf, gltf_seeds, kPerMeshByte},
+     {"gdml", run_gdml, gdml_seeds, kPerGdmlByte}}};
 
 }  // namespace
 
-std::span<const Entry> geometry_entries() { return kEntries; }
+std::span<const Entry> geometry_entries() { return kGeometryEntries; }
 
 }  // namespace scintray::fuzz

@@ -274,6 +274,49 @@ TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
   check_refused(mesh_file("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
 }
 
+TEST_CASE("3MF: components are placed, base materials are groups, and what leads nowhere is refused") {
+  const auto model = [](const std::string& objects, const std::string& build) {
+    return mesh_file(
+        "made.3mf",
+        test::zip_file({{"_rels/.rels", ""},
+                        {"3D/3dmodel.model", "<model><resources>" + objects + "</resources><build>" + build +
+                                                 "</build></model>"}}));
+  };
+  const std::string tetrahedron =
+      "<vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"6\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" "
+      "z=\"0\"/>"
+      "<vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles><triangle v1=\"0\" v2=\"2\" v3=\"1\"/>"
+      "<triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>"
+      "<triangle v1=\"2\" v2=\"0\" v3=\"3\" pid=\"9\" p1=\"1\"/></triangles>";
+  const std::string objects =
+      "<basematerials id=\"9\"><base name=\"ground\"/><base name=\"polished\"/></basematerials>"
+      "<object id=\"1\" name=\"tip\" pid=\"9\" pindex=\"0\"><mesh>" +
+      tetrahedron +
+      "</mesh></object><object id=\"2\" name=\"pair\"><components><component objectid=\"1\"/>"
+      "<component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 -10 0 0\"/></components></object>";
+  const MeshImport pair = import_mesh(model(objects, "<item objectid=\"2\"/>"), 0.0);
+  CHECK(pair.mesh.volume() == doctest::Approx(2.0));
+  CHECK(diagnose(pair.mesh).sound());
+  CHECK(diagnose(pair.mesh).bounds.min().x() == doctest::Approx(-16.0));
+  CHECK(pair.bodies == std::vector<std::string>{"pair"});
+  CHECK(pair.mesh.groups == std::vector<std::string>{"tip:ground", "tip:polished"});
+  check_refused(model(objects, "<item objectid=\"3\"/>"), 0.0,
+                "refers to object \"3\", which does not exist");
+  check_refused(model("<object id=\"1\"><components><component objectid=\"1\"/></components></object>",
+                      "<item objectid=\"1\"/>"),
+                0.0, "made of themselves");
+  std::string doubling = "<object id=\"0\"><mesh>" + tetrahedron + "</mesh></object>";
+  for (int level = 1; level <= 60; ++level)
+    doubling += "<object id=\"" + std::to_string(level) + "\"><components><component objectid=\"" +
+                std::to_string(level - 1) + "\"/><component objectid=\"" + std::to_string(level - 1) +
+                "\"/></components></object>";
+  check_refused(model(doubling, "<item objectid=\"60\"/>"), 0.0, "multiply to more than");
+  check_refused(
+      model("<object id=\"1\"><mesh><vertices><vertex x=\"a\" y=\"0\" z=\"0\"/></vertices></mesh></object>",
+            ""),
+      0.0, "x=\"a\", which is not a number");
+}
+
 TEST_CASE("3MF objects are bodies, with the transforms of their items") {
   const std::filesystem::path path =
       mesh_file("two.3mf", three_mf(" unit=\"inch\"",
