@@ -1,6 +1,5 @@
 #include "scintray/mesh/assimp_import.hpp"
 
-#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
@@ -178,8 +177,6 @@ class SceneReader {
 RawMesh import_through_assimp(const std::filesystem::path& path) {
   WarningCapture warnings;
   Assimp::Importer importer;
-  // Assimp would turn COLLADA's axes; every format keeps the axes of its file here.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;
   try {

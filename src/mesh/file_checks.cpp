@@ -111,24 +111,6 @@ std::size_t xml_depth(std::string_view text) {
   return deepest;
 }
 
-namespace {
-
-void check_collada(const std::filesystem::path& path, const std::string& content) {
-  if (xml_depth(content) > kDeepestNesting) {
-    reject_file(path, "XML elements are nested more than " + std::to_string(kDeepestNesting) + " deep", "");
-  }
-  constexpr std::string_view kWord = "count=\"";
-  for (std::size_t at = content.find(kWord); at != std::string::npos; at = content.find(kWord, at + 1)) {
-    std::uint64_t count = 0;
-    if (!read_count(std::string_view(content).substr(at + kWord.size(), 30), count)) {
-      reject_file(path, "a count in the COLLADA file is not a whole number", "");
-    }
-    check_count(path, "values", count, 1, content);
-  }
-}
-
-}  // namespace
-
 void reject_file(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
   throw InputError(Problem{{path.string(), 0, 0}, what, hint});
 }
@@ -164,7 +146,6 @@ void check_claimed_sizes(const std::filesystem::path& path, const std::string& e
     reject_file(path, "the file is text in UTF-16, which is not read", "save it as UTF-8 or ASCII");
   if (extension == ".stl") check_stl(path, content);
   if (extension == ".off") check_off(path, content);
-  if (extension == ".dae") check_collada(path, content);
 }
 
 std::size_t json_depth(const std::string& text) {

@@ -9,11 +9,6 @@
 
 namespace scintray {
 
-/// <asset><unit meter="..." name="..."/> of a COLLADA file (COLLADA 1.5 specification, section 5, "unit": one
-/// metre when it is left out); assimp has turned the coordinates into metres. Throws InputError for XML that
-/// cannot be read or a length that is not positive.
-FileUnit read_collada_unit(const std::filesystem::path& path, const std::string& content);
-
 /// What coordinates have to be multiplied with to be mm. `given_mm` is the unit that the user states, 0 for
 /// none. Adds a note when it replaces the unit that the format prescribes. Throws InputError when nobody
 /// states a unit, and when the user's contradicts what the file itself says.

@@ -8,6 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/assimp_import.hpp"
 #include "scintray/mesh/body_choice.hpp"
+#include "scintray/mesh/collada_import.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/file_unit.hpp"
@@ -41,11 +42,8 @@ RawMesh read_raw(const std::filesystem::path& path, const std::string& extension
   if (extension == ".ply") return import_ply(path, content);
   if (extension == ".3mf") return import_3mf(path, content);
   if (is_step(extension)) return import_step(path, content, tessellation);
-  FileUnit unit;
-  if (extension == ".dae") unit = read_collada_unit(path, content);
-  RawMesh raw = import_through_assimp(path);
-  raw.unit = std::move(unit);
-  return raw;
+  if (extension == ".dae") return import_collada(path, content);
+  return import_through_assimp(path);
 }
 
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "scintray/core/error.hpp"
 #include "scintray/mesh/shape_error.hpp"
 
 namespace scintray {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/polygon.hpp"
 #include "scintray/mesh/shape_error.hpp"

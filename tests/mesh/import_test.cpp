@@ -245,6 +245,55 @@ TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres u
   check_box(import_mesh(path, 0.0), 1000.0);
 }
 
+TEST_CASE("COLLADA: counts and references that do not fit are refused") {
+  const std::string text = collada_text("");
+  const auto changed = [&text](const std::string& from, const std::string& to) {
+    std::string copy = text;
+    copy.replace(copy.find(from), from.size(), to);
+    return mesh_file("changed.dae", copy);
+  };
+  check_refused(changed("count=\"8\" stride", "count=\"9\" stride"), 1.0,
+                "an accessor reaches for 27 numbers, but there are 24");
+  check_refused(changed("<p>0 4 6", "<p>0 4 8"), 1.0, "refers to vertex 8, which does not exist");
+  check_refused(changed("url=\"#g\"", "url=\"#h\""), 1.0, "\"#h\", which is not in the file");
+  check_refused(changed("<translate>10 0 0", "<translate>10 0"), 1.0,
+                "<translate> has 2 numbers; expected 3");
+  check_refused(changed("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#n\"/>"), 1.0,
+                "inside themselves");
+}
+
+TEST_CASE("COLLADA: polylists, nested nodes in order, and bound materials") {
+  std::string text = collada_text("");
+  const std::size_t start = text.find("<triangles"), end = text.find("</triangles>") + 12;
+  std::string sizes, corners;
+  for (const auto& quad : kQuads) {
+    sizes += "4 ";
+    for (const int corner : quad) corners += std::to_string(corner) + " 7 ";
+  }
+  text.replace(
+      start, end - start,
+      "<polylist count=\"6\" material=\"symbol\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>"
+      "<input semantic=\"NORMAL\" source=\"#none\" offset=\"1\"/><vcount>" +
+          sizes + "</vcount><p>" + corners + "</p></polylist>");
+  const std::string instance = "<instance_geometry url=\"#g\"/>";
+  text.replace(
+      text.find(instance), instance.size(),
+      "<rotate>0 0 1 90</rotate><node name=\"inner\"><scale>2 1 1</scale><instance_geometry url=\"#g\">"
+      "<bind_material><technique_common><instance_material symbol=\"symbol\" target=\"#m\"/>"
+      "</technique_common></bind_material></instance_geometry></node>");
+  text.insert(text.find("<library_geometries>"),
+              "<library_materials><material id=\"m\" name=\"polished\"/></library_materials>");
+  const MeshImport read = import_mesh(mesh_file("nested.dae", text), 1.0);
+  CHECK(read.mesh.volume() == doctest::Approx(12.0));
+  CHECK(diagnose(read.mesh).sound());
+  CHECK(read.mesh.groups == std::vector<std::string>{"crystal:polished"});
+  CHECK(read.bodies == std::vector<std::string>{"inner"});
+  // Moved by 10 along x, turned about z by 90 deg, scaled along its own x: (x, y, z) -> (10 - y, 2 x, z).
+  const auto bounds = diagnose(read.mesh).bounds;
+  CHECK((bounds.min() - Vec3(8, 0, 0)).norm() < 1e-9);
+  CHECK((bounds.max() - Vec3(10, 2, 3)).norm() < 1e-9);
+}
+
 TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
   const std::string inch = R"(<unit name="inch" meter="0.0254"/>)";
   const MeshImport read = import_mesh(mesh_file("inch.dae", collada_text(inch)), 0.0);
