@@ -12,7 +12,7 @@ namespace scintray::cli {
 
 namespace {
 
-struct ImportArguments {
+struct SceneImportArguments {
   std::filesystem::path file, output;
   std::string unit, deviation, angle;
   std::vector<std::string> media, surfaces;
@@ -32,7 +32,7 @@ std::map<std::string, std::string> pairs(const std::string& option, const std::v
   return result;
 }
 
-Tessellation tessellation_of(const ImportArguments& arguments) {
+Tessellation tessellation_of(const SceneImportArguments& arguments) {
   Tessellation tessellation;
   if (!arguments.deviation.empty())
     tessellation.deviation_mm = parse_quantity(arguments.deviation, Dimension::length);
@@ -45,7 +45,7 @@ Tessellation tessellation_of(const ImportArguments& arguments) {
   return tessellation;
 }
 
-SceneDraft draft_of(const ImportArguments& arguments, const std::filesystem::path& scene) {
+SceneDraft draft_of(const SceneImportArguments& arguments, const std::filesystem::path& scene) {
   const Tessellation tessellation = tessellation_of(arguments);
   if (lower_extension(arguments.file) == ".gdml") {
     if (!arguments.unit.empty())
@@ -65,7 +65,7 @@ SceneDraft draft_of(const ImportArguments& arguments, const std::filesystem::pat
       {arguments.unit, tessellation, std::filesystem::absolute(arguments.file).lexically_relative(folder)});
 }
 
-void import_scene(const ImportArguments& arguments) {
+void import_scene(const SceneImportArguments& arguments) {
   const std::filesystem::path scene = scene_file_of(arguments.output);
   const SceneDraft draft = draft_of(arguments, scene);
   write_scene_draft(draft, scene);
@@ -80,7 +80,7 @@ void import_scene(const ImportArguments& arguments) {
 }  // namespace
 
 void add_import_command(CLI::App& app) {
-  auto arguments = std::make_shared<ImportArguments>();
+  auto arguments = std::make_shared<SceneImportArguments>();
   CLI::App* command =
       app.add_subcommand("import", "Make a scene of a GDML file, or of the bodies of a CAD or mesh file");
   command->add_option("FILE", arguments->file, "GDML, STEP, glTF, 3MF, COLLADA, OBJ, STL, PLY or OFF file")

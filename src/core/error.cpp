@@ -96,4 +96,20 @@ InputError unknown_name(const FileLocation& where, const std::string& kind, cons
                      (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("there are: " + list)});
 }
 
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kMost = 80;
+  std::string result = "\"";
+  for (std::size_t k = 0; k < text.size() && k < kMost; ++k) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    // A micro sign or degree sign in Latin-1 stands alone; in UTF-8 a lead byte comes before it.
+    const bool tail = byte >= 0x80 && byte < 0xC0;
+    const bool follows = k > 0 && static_cast<unsigned char>(text[k - 1]) >= 0x80;
+    const bool leads =
+        byte >= 0xC2 && k + 1 < text.size() && (static_cast<unsigned char>(text[k + 1]) & 0xC0) == 0x80;
+    const bool printable = (byte >= 0x20 && byte < 0x7F) || (tail && follows) || leads;
+    result += printable ? text[k] : '?';
+  }
+  return result + (text.size() > kMost ? "...\"" : "\"");
+}
+
 }  // namespace scintray

@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace scintray {
@@ -86,5 +87,9 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 /// @param kind what the names are of: "face", "part"
 InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
                         const std::vector<std::string>& names);
+
+/// `text` for a message: shortened, and with bytes that are no printable ASCII replaced by '?'
+/// unless they are part of UTF-8.
+std::string in_quotes(std::string_view text);
 
 }  // namespace scintray

@@ -1,6 +1,5 @@
 #include "scintray/mesh/assimp_import.hpp"
 
-#include <assimp/config.h>
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
@@ -84,21 +83,6 @@ std::string object_name(const aiScene& scene, const aiMesh& mesh, const aiNode& 
   return object;
 }
 
-std::string group_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
-  const std::string material = material_name(scene, mesh), object = object_name(scene, mesh, node);
-  if (object.empty()) return material.empty() ? "default" : material;
-  return material.empty() ? object : object + ":" + material;
-}
-
-/// Up to assimp 5.3, the 3MF importer frees the pictures of the archive but leaves them in the scene,
-/// which frees them again (assimp issue 5307). Pictures do not matter here.
-void forget_freed_textures(const Assimp::Importer& importer) {
-  auto* scene = const_cast<aiScene*>(importer.GetScene());
-  delete[] scene->mTextures;
-  scene->mNumTextures = 0;
-  scene->mTextures = nullptr;
-}
-
 class SceneReader {
  public:
   SceneReader(const aiScene& scene, const std::filesystem::path& path) : scene_(scene), path_(path) {}
@@ -154,7 +138,10 @@ class SceneReader {
     }
     const bool mirrored = transform.Determinant() < 0.0;
     const bool has_faces = source.mNumFaces > 0 && (source.mPrimitiveTypes & kSurfaces) != 0;
-    const std::uint32_t group = has_faces ? mesh.group_index(group_name(scene_, source, node)) : 0;
+    const std::uint32_t group =
+        has_faces
+            ? mesh.group_index(group_name(object_name(scene_, source, node), material_name(scene_, source)))
+            : 0;
     std::vector<std::uint32_t> corners;
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
       const aiFace& face = source.mFaces[f];
@@ -190,8 +177,6 @@ class SceneReader {
 RawMesh import_through_assimp(const std::filesystem::path& path) {
   WarningCapture warnings;
   Assimp::Importer importer;
-  // Assimp would turn COLLADA's axes; every format keeps the axes of its file here.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = nullptr;
   std::string reason;
   try {
@@ -205,7 +190,6 @@ RawMesh import_through_assimp(const std::filesystem::path& path) {
         path, "cannot read the mesh: " + (reason.empty() ? "assimp gives no reason" : reason),
         "check that the content fits the ending " + path.extension().string() + ", and export it again");
   }
-  if (lower_extension(path) == ".3mf") forget_freed_textures(importer);
   RawMesh raw = SceneReader(*scene, path).read();
   raw.notes.insert(raw.notes.end(), warnings.messages().begin(), warnings.messages().end());
   return raw;

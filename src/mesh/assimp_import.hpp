@@ -1,5 +1,5 @@
 #pragma once
-/// STL, OBJ, PLY, OFF, 3MF and COLLADA through assimp.
+/// STL, OBJ and OFF through assimp.
 
 #include <filesystem>
 

@@ -4,6 +4,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/shape_error.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
@@ -23,10 +24,10 @@ TriMesh combine(const TriMesh& a, const TriMesh& b, BooleanOperation operation) 
   std::optional<BooleanResult> result =
       boolean(a, b, operation, std::max(rounding_length(a), rounding_length(b)));
   if (!result)
-    throw InputError(Problem{{},
-                             "a body of a boolean crosses or touches itself, or the two touch in an edge or a "
-                             "corner only, so that their result has no closed surface",
-                             "let them overlap, or leave a gap between them"});
+    reject_shape(
+        "a body of a boolean crosses or touches itself, or the two touch in an edge or a corner only, so that "
+        "their result has no closed surface",
+        "let them overlap, or leave a gap between them");
   TriMesh mesh = std::move(result->mesh);
   mesh.groups.clear();
   mesh.group_tags.clear();

@@ -111,52 +111,6 @@ std::size_t xml_depth(std::string_view text) {
   return deepest;
 }
 
-namespace {
-
-void check_collada(const std::filesystem::path& path, const std::string& content) {
-  if (xml_depth(content) > kDeepestNesting) {
-    reject_file(path, "XML elements are nested more than " + std::to_string(kDeepestNesting) + " deep", "");
-  }
-  constexpr std::string_view kWord = "count=\"";
-  for (std::size_t at = content.find(kWord); at != std::string::npos; at = content.find(kWord, at + 1)) {
-    std::uint64_t count = 0;
-    if (!read_count(std::string_view(content).substr(at + kWord.size(), 30), count)) {
-      reject_file(path, "a count in the COLLADA file is not a whole number", "");
-    }
-    check_count(path, "values", count, 1, content);
-  }
-}
-
-/// Walks the central directory at the end of a zip file (PKWARE APPNOTE 6.3, sections 4.3.12, 4.3.16).
-void check_zip(const std::filesystem::path& path, const std::string& content) {
-  constexpr std::size_t kEndRecord = 22, kEntry = 46;
-  constexpr std::uint64_t kDeflateRatio = 1032;  // no deflate stream grows by more
-  const auto damaged = [&path]() {
-    reject_file(path, "not a 3MF file: its zip directory is missing or damaged",
-                "export the mesh again as 3MF");
-  };
-  const std::size_t end = content.rfind("PK\x05\x06");
-  if (!content.starts_with("PK") || end == std::string::npos || end + kEndRecord > content.size()) damaged();
-  const std::uint32_t entries = little_endian(content, end + 10, 2);
-  std::size_t at = little_endian(content, end + 16, 4);
-  std::uint64_t total = 0;
-  for (std::uint32_t i = 0; i < entries; ++i) {
-    if (at > content.size() || content.size() - at < kEntry || content.compare(at, 4, "PK\x01\x02") != 0)
-      damaged();
-    total += little_endian(content, at + 24, 4);
-    at += kEntry + little_endian(content, at + 28, 2) + little_endian(content, at + 30, 2) +
-          little_endian(content, at + 32, 2);
-  }
-  if (total > kDeflateRatio * content.size()) {
-    reject_file(path,
-                "the 3MF file announces " + std::to_string(total) + " bytes of content in " +
-                    std::to_string(content.size()) + " bytes of zip, more than compression can reach",
-                "the file is damaged; export it again");
-  }
-}
-
-}  // namespace
-
 void reject_file(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
   throw InputError(Problem{{path.string(), 0, 0}, what, hint});
 }
@@ -188,10 +142,10 @@ std::string read_mesh_file(const std::filesystem::path& path) {
 
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
                          const std::string& content) {
+  if (content.starts_with("\xFE\xFF") || content.starts_with("\xFF\xFE"))
+    reject_file(path, "the file is text in UTF-16, which is not read", "save it as UTF-8 or ASCII");
   if (extension == ".stl") check_stl(path, content);
   if (extension == ".off") check_off(path, content);
-  if (extension == ".dae") check_collada(path, content);
-  if (extension == ".3mf") check_zip(path, content);
 }
 
 std::size_t json_depth(const std::string& text) {

@@ -19,8 +19,7 @@ std::string lower_extension(const std::filesystem::path& path);
 std::string read_mesh_file(const std::filesystem::path& path);
 
 /// Refuses files whose own counts cannot be true, since parsers allocate by them before they read:
-/// element counts of OFF, binary STL and COLLADA against the file's size, sizes inside the zip
-/// container of 3MF, and nesting too deep for recursive readers. Throws InputError.
+/// element counts of OFF and binary STL against the file's size; and text in UTF-16. Throws InputError.
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
                          const std::string& content);
 

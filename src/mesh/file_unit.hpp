@@ -9,16 +9,6 @@
 
 namespace scintray {
 
-/// The `unit` attribute of the model in a 3MF archive (3MF Core Specification 1.3, section 3.4: millimeter
-/// when it is left out). Throws InputError when the archive or its model cannot be read or the unit is not
-/// one of the specification's.
-FileUnit read_3mf_unit(const std::filesystem::path& path, const std::string& content);
-
-/// <asset><unit meter="..." name="..."/> of a COLLADA file (COLLADA 1.5 specification, section 5, "unit": one
-/// metre when it is left out); assimp has turned the coordinates into metres. Throws InputError for XML that
-/// cannot be read or a length that is not positive.
-FileUnit read_collada_unit(const std::filesystem::path& path, const std::string& content);
-
 /// What coordinates have to be multiplied with to be mm. `given_mm` is the unit that the user states, 0 for
 /// none. Adds a note when it replaces the unit that the format prescribes. Throws InputError when nobody
 /// states a unit, and when the user's contradicts what the file itself says.

@@ -8,12 +8,14 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/assimp_import.hpp"
 #include "scintray/mesh/body_choice.hpp"
+#include "scintray/mesh/collada_import.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/file_unit.hpp"
 #include "scintray/mesh/gltf_import.hpp"
 #include "scintray/mesh/ply_import.hpp"
 #include "scintray/mesh/step_import.hpp"
+#include "scintray/mesh/three_mf_import.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
@@ -38,11 +40,10 @@ RawMesh read_raw(const std::filesystem::path& path, const std::string& extension
   if (extension == ".gltf") return import_gltf(path, content, false);
   if (extension == ".glb") return import_gltf(path, content, true);
   if (extension == ".ply") return import_ply(path, content);
+  if (extension == ".3mf") return import_3mf(path, content);
   if (is_step(extension)) return import_step(path, content, tessellation);
-  RawMesh raw = import_through_assimp(path);
-  if (extension == ".3mf") raw.unit = read_3mf_unit(path, content);
-  if (extension == ".dae") raw.unit = read_collada_unit(path, content);
-  return raw;
+  if (extension == ".dae") return import_collada(path, content);
+  return import_through_assimp(path);
 }
 
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {

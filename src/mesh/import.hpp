@@ -28,8 +28,8 @@ struct MeshImport {
   std::vector<std::string> bodies;       ///< all bodies of the file; empty when its format has none
 };
 
-/// Reads STL, OBJ, PLY, OFF, 3MF and COLLADA (assimp), glTF 2.0 as .gltf or .glb (tinygltf), and STEP
-/// (Open CASCADE, when it was there at build time).
+/// Reads STL, OBJ, OFF (assimp), PLY, 3MF and COLLADA (here), glTF 2.0 as .gltf or .glb (tinygltf), and
+/// STEP (Open CASCADE, when it was there at build time).
 ///
 /// All node transforms are applied; axes stay as the file has them. Polygons are cut into triangles.
 /// Triangles keep the order in which the file's objects and then their faces come.

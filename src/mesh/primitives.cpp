@@ -6,14 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "scintray/core/error.hpp"
+#include "scintray/mesh/shape_error.hpp"
 
 namespace scintray {
 namespace {
-
-[[noreturn]] void reject(const std::string& what, const std::string& hint) {
-  throw InputError(Problem{{}, what, hint});
-}
 
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
@@ -59,8 +55,8 @@ TriMesh icosahedron() {
 
 TriMesh make_box(const Vec3& low, const Vec3& high) {
   if (!low.allFinite() || !high.allFinite() || !((high - low).array() > 0.0).all()) {
-    reject("a box needs three positive finite sides",
-           "the first corner must be below the second along x, y and z");
+    reject_shape("a box needs three positive finite sides",
+                 "the first corner must be below the second along x, y and z");
   }
   TriMesh mesh;
   mesh.groups = {"-x", "+x", "-y", "+y", "-z", "+z"};
@@ -79,9 +75,10 @@ TriMesh make_box(const Vec3& low, const Vec3& high) {
 }
 
 TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius kind) {
-  if (!positive(radius) || !positive(height)) reject("a cylinder needs a positive radius and height", "");
+  if (!positive(radius) || !positive(height))
+    reject_shape("a cylinder needs a positive radius and height", "");
   if (segments < 3) {
-    reject("a cylinder of " + std::to_string(segments) + " segments", "give at least 3 segments");
+    reject_shape("a cylinder of " + std::to_string(segments) + " segments", "give at least 3 segments");
   }
   const double step = kTwoPi / segments;
   if (kind == CylinderRadius::equal_area) {
@@ -106,15 +103,15 @@ TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius
 }
 
 TriMesh make_sphere(double radius, int subdivisions) {
-  if (!positive(radius)) reject("a sphere needs a positive radius", "");
-  if (subdivisions < 1) reject("a sphere with fewer than 1 subdivision", "1 gives an icosahedron");
+  if (!positive(radius)) reject_shape("a sphere needs a positive radius", "");
+  if (subdivisions < 1) reject_shape("a sphere with fewer than 1 subdivision", "1 gives an icosahedron");
   TriMesh mesh = subdivide_faces(icosahedron(), subdivisions);
   for (Vec3& vertex : mesh.vertices) vertex *= radius / vertex.norm();
   return mesh;
 }
 
 TriMesh subdivide_faces(const TriMesh& mesh, int n) {
-  if (n < 1) reject("triangles cannot be cut in fewer than 1", "");
+  if (n < 1) reject_shape("triangles cannot be cut in fewer than 1", "");
   TriMesh fine;
   fine.vertices = mesh.vertices;
   fine.groups = mesh.groups;
@@ -177,7 +174,7 @@ void reverse_orientation(TriMesh& mesh) {
 TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform) {
   const double determinant = transform.linear().determinant();
   if (!transform.matrix().allFinite() || determinant == 0.0) {
-    reject("a transform that flattens the mesh or is not finite", "give scales that are not zero");
+    reject_shape("a transform that flattens the mesh or is not finite", "give scales that are not zero");
   }
   TriMesh moved = mesh;
   for (Vec3& vertex : moved.vertices) vertex = transform * vertex;

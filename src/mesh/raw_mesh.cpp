@@ -7,6 +7,11 @@
 
 namespace scintray {
 
+std::string group_name(const std::string& object, const std::string& material) {
+  if (object.empty()) return material.empty() ? "default" : material;
+  return material.empty() ? object : object + ":" + material;
+}
+
 void RawMesh::begin_body(const std::string& name) {
   fill_body();
   const std::string base = name.empty() ? "body" : name;

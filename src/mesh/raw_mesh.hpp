@@ -44,6 +44,10 @@ struct RawMesh {
   bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group, bool mirrored);
 };
 
+/// The group of triangles of an object in a material: "object:material", the one of them that has a name, or
+/// "default".
+std::string group_name(const std::string& object, const std::string& material);
+
 /// Largest number of vertices or triangles of one mesh; their indices are 32 bits wide.
 inline constexpr std::size_t kMostElements = 0x7FFFFFFF;
 

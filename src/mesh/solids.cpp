@@ -3,26 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/polygon.hpp"
+#include "scintray/mesh/shape_error.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
 namespace {
 
-[[noreturn]] void reject(const std::string& what, const std::string& hint) {
-  throw InputError(Problem{{}, what, hint});
-}
-
 void add_end(TriMesh& mesh, const std::vector<std::uint32_t>& ring) {
-  if (ring.size() > kMostCorners) reject("an outline of more corners than can be cut in triangles", "");
+  if (ring.size() > kMostCorners) reject_shape("an outline of more corners than can be cut in triangles", "");
   std::vector<Vec3> corners;
   for (const std::uint32_t v : ring) corners.push_back(mesh.vertices[v]);
   bool simple = true;
   for (const auto& [a, b, c] : triangulate_polygon(corners, simple))
     mesh.triangles.push_back({ring[a], ring[b], ring[c]});
-  if (!simple) reject("an outline crosses itself", "give its corners in order along its edge");
+  if (!simple) reject_shape("an outline crosses itself", "give its corners in order along its edge");
 }
 
 /// Walls between two rings, corner by corner.
@@ -58,20 +54,20 @@ std::vector<std::uint32_t> add_ring(TriMesh& mesh, const std::vector<Vec3>& corn
 
 void check_size(std::size_t corners, std::size_t rings) {
   if (corners > kMostSweptTriangles / 2 / std::max<std::size_t>(rings, 1))
-    reject("the body would be cut in more than " + std::to_string(kMostSweptTriangles) + " triangles",
-           "allow a larger deviation");
+    reject_shape("the body would be cut in more than " + std::to_string(kMostSweptTriangles) + " triangles",
+                 "allow a larger deviation");
 }
 
 }  // namespace
 
 TriMesh revolved(const std::vector<Eigen::Vector2d>& outline, const Turn& turn) {
-  if (outline.size() < 3) reject("an outline of fewer than 3 corners", "");
+  if (outline.size() < 3) reject_shape("an outline of fewer than 3 corners", "");
   for (const Eigen::Vector2d& corner : outline)
-    if (!corner.allFinite() || corner.x() < 0.0) reject("an outline with a radius below 0", "");
+    if (!corner.allFinite() || corner.x() < 0.0) reject_shape("an outline with a radius below 0", "");
   constexpr double kRounding = 1e-9;
   const bool full = turn.extent_rad >= kTwoPi - kRounding;
-  if (turn.segments < (full ? 3 : 1)) reject("a turn in fewer segments than make a body", "");
-  if (!(turn.extent_rad > 0.0)) reject("a turn through no angle", "give an angle above 0");
+  if (turn.segments < (full ? 3 : 1)) reject_shape("a turn in fewer segments than make a body", "");
+  if (!(turn.extent_rad > 0.0)) reject_shape("a turn through no angle", "give an angle above 0");
   const auto steps = static_cast<std::size_t>(turn.segments);
   check_size(outline.size(), steps);
 
@@ -97,13 +93,13 @@ TriMesh revolved(const std::vector<Eigen::Vector2d>& outline, const Turn& turn) 
 
 TriMesh lofted(const std::vector<std::vector<Vec3>>& outlines) {
   if (outlines.size() < 2 || outlines.front().size() < 3)
-    reject("a body between fewer than 2 outlines, or outlines of fewer than 3 corners", "");
+    reject_shape("a body between fewer than 2 outlines, or outlines of fewer than 3 corners", "");
   check_size(outlines.front().size(), outlines.size());
   TriMesh mesh;
   std::vector<std::vector<std::uint32_t>> rings;
   for (const std::vector<Vec3>& outline : outlines) {
     if (outline.size() != outlines.front().size())
-      reject("a body between outlines of different numbers of corners", "");
+      reject_shape("a body between outlines of different numbers of corners", "");
     rings.push_back(add_ring(mesh, outline));
   }
   for (std::size_t i = 0; i + 1 < rings.size(); ++i) add_walls(mesh, rings[i], rings[i + 1]);

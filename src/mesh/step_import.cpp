@@ -7,6 +7,8 @@
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_Surface.hxx>
 #include <IMeshTools_Parameters.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -30,41 +32,31 @@
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <mutex>
+#include <new>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/child_process.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/file_checks.hpp"
+#include "scintray/mesh/raw_mesh_bytes.hpp"
+#include "scintray/mesh/step_checks.hpp"
 
 namespace scintray {
 namespace {
 
-/// Open CASCADE's settings and messages are one per process, so imports take turns. Silences it: libraries
-/// do not print.
-class OpenCascadeSession {
- public:
-  OpenCascadeSession() : lock_(mutex()), printers_(Message::DefaultMessenger()->Printers()) {
-    Message::DefaultMessenger()->ChangePrinters().Clear();
-  }
-  OpenCascadeSession(const OpenCascadeSession&) = delete;
-  OpenCascadeSession& operator=(const OpenCascadeSession&) = delete;
-  ~OpenCascadeSession() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex instance;
-    return instance;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  Message_SequenceOfPrinters printers_;
-};
+[[noreturn]] void reject_step(const std::filesystem::path& path, const std::string& reason) {
+  reject_file(path, "cannot read the STEP file: " + reason,
+              "expected ISO 10303-21 (AP203, AP214 or AP242); export it again");
+}
 
 std::string label_name(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
@@ -286,34 +278,81 @@ FileUnit read_unit(STEPControl_Reader& reader) {
   return {"mm", 1.0, false, 1.0};
 }
 
-}  // namespace
+/// Entities with missing or wrong parts: Open CASCADE goes on without them, and then follows null pointers.
+void refuse_what_did_not_load(STEPCAFControl_Reader& reader, const std::filesystem::path& path) {
+  const Interface_CheckIterator checks = reader.Reader().WS()->ModelCheckList(false);
+  std::size_t failures = 0;
+  std::string first;
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check)& check = checks.Value();
+    if (!check->HasFailed()) continue;
+    if (failures++ == 0 && check->NbFails() > 0) first = check->CFail(1);
+  }
+  if (failures > 0)
+    reject_file(path,
+                std::to_string(failures) +
+                    " entities of the STEP file are damaged; the first one: " + in_quotes(first),
+                "export it again");
+}
 
-RawMesh import_step(const std::filesystem::path& path, const std::string& content,
-                    const Tessellation& tessellation) {
-  const OpenCascadeSession session;
-  const auto cannot_read = [&path](const std::string& reason) {
-    reject_file(path, "cannot read the STEP file: " + reason,
-                "expected ISO 10303-21 (AP203, AP214 or AP242); export it again");
-  };
+/// In a process of its own: settings and messages of Open CASCADE are one per process.
+RawMesh read_step(const std::filesystem::path& path, const std::string& content,
+                  const Tessellation& tessellation) {
   try {
+    Message::DefaultMessenger()->ChangePrinters().Clear();  // libraries do not print
     STEPCAFControl_Reader reader;
     // Names that CAD programs give to single faces.
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
     std::istringstream stream(content);
     if (reader.ChangeReader().ReadStream(path.filename().c_str(), stream) != IFSelect_RetDone)
-      cannot_read("it is not in the form of such a file");
-    const Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+      reject_step(path, "it is not in the form of such a file");
+    refuse_what_did_not_load(reader, path);
+    Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
     FileUnit unit = read_unit(reader.ChangeReader());
-    Handle(TDocStd_Document) target = document;
-    if (!reader.Transfer(target)) cannot_read("it holds no shape");
+    if (!reader.Transfer(document)) reject_step(path, "it holds no shape");
     RawMesh raw = ShapeReader(document, path, tessellation).read();
     raw.unit = std::move(unit);
     return raw;
   } catch (const Standard_Failure& failure) {
-    cannot_read(std::string("Open CASCADE says ") + failure.DynamicType()->Name() + " " +
-                failure.GetMessageString());
+    reject_step(path, std::string("Open CASCADE says ") + failure.DynamicType()->Name() + " " +
+                          failure.GetMessageString());
   }
-  return {};
+}
+
+/// What the child answers: a mesh, or what is wrong with the file and what to do about it.
+constexpr char kMesh = 'm', kProblem = 'p';
+
+std::string step_answer(const std::filesystem::path& path, const std::string& content,
+                        const Tessellation& tessellation) {
+  std::string what = "Open CASCADE failed", hint;
+  try {
+    return kMesh + to_bytes(read_step(path, content, tessellation));
+  } catch (const InputError& error) {
+    what = error.problems().front().what;
+    hint = error.problems().front().hint;
+  } catch (const std::bad_alloc&) {
+    what = "it takes more memory than a file of this size can need";
+  } catch (const std::exception& error) {
+    what = error.what();
+  }
+  return kProblem + what + '\0' + hint;
+}
+
+}  // namespace
+
+RawMesh import_step(const std::filesystem::path& path, const std::string& content,
+                    const Tessellation& tessellation) {
+  constexpr std::size_t kAlways = std::size_t{2} << 30, kPerByte = 2000;
+  constexpr unsigned kMostSeconds = 3600;
+  check_step_references(path, content);
+  const ChildAnswer answer = run_in_child([&] { return step_answer(path, content, tessellation); },
+                                          kAlways + kPerByte * content.size(), kMostSeconds);
+  if (!answer.trouble.empty() || answer.bytes.empty())
+    reject_step(path, "Open CASCADE could not cope with it: " + answer.trouble);
+  const std::string_view payload = std::string_view(answer.bytes).substr(1);
+  if (answer.bytes.front() == kMesh) return from_bytes(payload);
+  const std::size_t end = std::min(payload.find('\0'), payload.size() - 1);
+  reject_file(path, std::string(payload.substr(0, end)), std::string(payload.substr(end + 1)));
 }
 
 }  // namespace scintray

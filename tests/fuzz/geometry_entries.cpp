@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -11,6 +10,9 @@
 #include "scintray/io/gdml/gdml_scene.hpp"
 #include "scintray/mesh/import.hpp"
 #include "support/zipped.hpp"
+#ifdef SCINTRAY_TESTS_STEP
+#include "support/step_shapes.hpp"
+#endif
 
 namespace scintray::fuzz {
 
@@ -73,6 +75,24 @@ bool run_3mf(const std::uint8_t* data, std::size_t size) { return run_mesh(data,
 bool run_collada(const std::uint8_t* data, std::size_t size) { return run_mesh(data, size, ".dae"); }
 bool run_gltf(const std::uint8_t* data, std::size_t size) { return run_mesh(data, size, ".gltf"); }
 
+#ifdef SCINTRAY_TESTS_STEP
+bool run_step(const std::uint8_t* data, std::size_t size) { return run_mesh(data, size, ".step"); }
+
+std::vector<std::string> step_seeds() {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("scintray_fuzz_seed_" + std::to_string(getpid()) + ".step");
+  std::vector<std::string> seeds;
+  for (const test::StepSolid solid : {test::StepSolid::box, test::StepSolid::cylinder}) {
+    test::write_step(
+        path, {{"crystal", solid, {2.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, {{1, "exit"}}, {{2, "#ff8000"}}, ""}});
+    std::ifstream file(path, std::ios::binary);
+    seeds.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  std::filesystem::remove(path);
+  return seeds;
+}
+#endif
+
 bool run_gdml(const std::uint8_t* data, std::size_t size) {
   try {
     gdml::GdmlImport options;
@@ -122,16 +142,28 @@ std::vector<std::string> ply_seeds() {
       lines("", kCorners) + lines("3 ", kFaces)};
 }
 
-std::vector<std::string> three_mf_seeds() {
-  const std::string model =
+std::vector<std::string> three_mf_model_seeds() {
+  return {
       "<model unit=\"inch\"><resources><object id=\"1\" type=\"model\"><mesh><vertices>"
       "<vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/>"
       "</vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object></resources>"
-      "<build><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/></build></model>";
+      "<build><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/></build></model>"};
+}
+
+std::string three_mf(const std::string& model) {
   const std::string relationships =
       "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return {test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}})};
+  return test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}});
+}
+
+std::vector<std::string> three_mf_seeds() { return {three_mf(three_mf_model_seeds().front())}; }
+
+/// The bytes are the model, in an archive that is otherwise sound.
+bool run_3mf_model(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return false;
+  const std::string archive = three_mf({reinterpret_cast<const char*>(data), size});
+  return run_3mf(reinterpret_cast<const std::uint8_t*>(archive.data()), archive.size());
 }
 
 std::vector<std::string> collada_seeds() {
@@ -182,24 +214,33 @@ std::vector<std::string> gdml_seeds() {
 }
 
 /// A vertex of six bytes of text becomes three doubles in several copies, and its cell of the welding grid.
-constexpr std::size_t kPerByte = 256;
+constexpr std::size_t kPerMeshByte = 256;
 /// A few digits ask for a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
 constexpr std::size_t kPerGdmlByte = 200'000;
 
+#ifdef SCINTRAY_TESTS_STEP
+/// Open CASCADE's tables of entity types and its first blocks of memory.
+constexpr std::size_t kOpenCascadesOwn = std::size_t{16} << 20;
+#endif
 /// assimp reads OBJ through a buffer of 16 MiB.
 constexpr std::size_t kAssimpsBuffer = std::size_t{17} << 20;
 
-constexpr std::array<Entry, 8> kEntries{{{"stl", run_stl, stl_seeds, kPerByte},
-                                         {"obj", run_obj, obj_seeds, kPerByte, kAssimpsBuffer},
-                                         {"off", run_off, off_seeds, kPerByte},
-                                         {"ply", run_ply, ply_seeds, kPerByte},
-                                         {"3mf", run_3mf, three_mf_seeds, 1032 * kPerByte},
-                                         {"collada", run_collada, collada_seeds, kPerByte},
-                                         {"gltf", run_gltf, gltf_seeds, kPerByte},
-                                         {"gdml", run_gdml, gdml_seeds, kPerGdmlByte}}};
+constexpr Entry kGeometryEntries[] = {
+#ifdef SCINTRAY_TESTS_STEP
+    {"step", run_step, step_seeds, kPerMeshByte, kOpenCascadesOwn},
+#endif
+    {"stl", run_stl, stl_seeds, kPerMeshByte},
+    {"obj", run_obj, obj_seeds, kPerMeshByte, kAssimpsBuffer},
+    {"off", run_off, off_seeds, kPerMeshByte},
+    {"ply", run_ply, ply_seeds, kPerMeshByte},
+    {"3mf", run_3mf, three_mf_seeds, 1032 * kPerMeshByte},
+    {"3mf_model", run_3mf_model, three_mf_model_seeds, kPerMeshByte},
+    {"collada", run_collada, collada_seeds, kPerMeshByte},
+    {"gltf", run_gltf, gltf_seeds, kPerMeshByte},
+    {"gdml", run_gdml, gdml_seeds, kPerGdmlByte}};
 
 }  // namespace
 
-std::span<const Entry> geometry_entries() { return kEntries; }
+std::span<const Entry> geometry_entries() { return kGeometryEntries; }
 
 }  // namespace scintray::fuzz

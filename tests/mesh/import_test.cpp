@@ -245,6 +245,55 @@ TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres u
   check_box(import_mesh(path, 0.0), 1000.0);
 }
 
+TEST_CASE("COLLADA: counts and references that do not fit are refused") {
+  const std::string text = collada_text("");
+  const auto changed = [&text](const std::string& from, const std::string& to) {
+    std::string copy = text;
+    copy.replace(copy.find(from), from.size(), to);
+    return mesh_file("changed.dae", copy);
+  };
+  check_refused(changed("count=\"8\" stride", "count=\"9\" stride"), 1.0,
+                "an accessor reaches for 27 numbers, but there are 24");
+  check_refused(changed("<p>0 4 6", "<p>0 4 8"), 1.0, "refers to vertex 8, which does not exist");
+  check_refused(changed("url=\"#g\"", "url=\"#h\""), 1.0, "\"#h\", which is not in the file");
+  check_refused(changed("<translate>10 0 0", "<translate>10 0"), 1.0,
+                "<translate> has 2 numbers; expected 3");
+  check_refused(changed("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#n\"/>"), 1.0,
+                "inside themselves");
+}
+
+TEST_CASE("COLLADA: polylists, nested nodes in order, and bound materials") {
+  std::string text = collada_text("");
+  const std::size_t start = text.find("<triangles"), end = text.find("</triangles>") + 12;
+  std::string sizes, corners;
+  for (const auto& quad : kQuads) {
+    sizes += "4 ";
+    for (const int corner : quad) corners += std::to_string(corner) + " 7 ";
+  }
+  text.replace(
+      start, end - start,
+      "<polylist count=\"6\" material=\"symbol\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>"
+      "<input semantic=\"NORMAL\" source=\"#none\" offset=\"1\"/><vcount>" +
+          sizes + "</vcount><p>" + corners + "</p></polylist>");
+  const std::string instance = "<instance_geometry url=\"#g\"/>";
+  text.replace(
+      text.find(instance), instance.size(),
+      "<rotate>0 0 1 90</rotate><node name=\"inner\"><scale>2 1 1</scale><instance_geometry url=\"#g\">"
+      "<bind_material><technique_common><instance_material symbol=\"symbol\" target=\"#m\"/>"
+      "</technique_common></bind_material></instance_geometry></node>");
+  text.insert(text.find("<library_geometries>"),
+              "<library_materials><material id=\"m\" name=\"polished\"/></library_materials>");
+  const MeshImport read = import_mesh(mesh_file("nested.dae", text), 1.0);
+  CHECK(read.mesh.volume() == doctest::Approx(12.0));
+  CHECK(diagnose(read.mesh).sound());
+  CHECK(read.mesh.groups == std::vector<std::string>{"crystal:polished"});
+  CHECK(read.bodies == std::vector<std::string>{"inner"});
+  // Moved by 10 along x, turned about z by 90 deg, scaled along its own x: (x, y, z) -> (10 - y, 2 x, z).
+  const auto bounds = diagnose(read.mesh).bounds;
+  CHECK((bounds.min() - Vec3(8, 0, 0)).norm() < 1e-9);
+  CHECK((bounds.max() - Vec3(10, 2, 3)).norm() < 1e-9);
+}
+
 TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
   const std::string inch = R"(<unit name="inch" meter="0.0254"/>)";
   const MeshImport read = import_mesh(mesh_file("inch.dae", collada_text(inch)), 0.0);
@@ -272,6 +321,49 @@ TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
   }
   check_refused(mesh_file("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "says that it is in inch (25.4 mm)");
   check_refused(mesh_file("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
+}
+
+TEST_CASE("3MF: components are placed, base materials are groups, and what leads nowhere is refused") {
+  const auto model = [](const std::string& objects, const std::string& build) {
+    return mesh_file(
+        "made.3mf",
+        test::zipped({{"_rels/.rels", ""},
+                        {"3D/3dmodel.model", "<model><resources>" + objects + "</resources><build>" + build +
+                                                 "</build></model>"}}));
+  };
+  const std::string tetrahedron =
+      "<vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"6\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" "
+      "z=\"0\"/>"
+      "<vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles><triangle v1=\"0\" v2=\"2\" v3=\"1\"/>"
+      "<triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/>"
+      "<triangle v1=\"2\" v2=\"0\" v3=\"3\" pid=\"9\" p1=\"1\"/></triangles>";
+  const std::string objects =
+      "<basematerials id=\"9\"><base name=\"ground\"/><base name=\"polished\"/></basematerials>"
+      "<object id=\"1\" name=\"tip\" pid=\"9\" pindex=\"0\"><mesh>" +
+      tetrahedron +
+      "</mesh></object><object id=\"2\" name=\"pair\"><components><component objectid=\"1\"/>"
+      "<component objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 -10 0 0\"/></components></object>";
+  const MeshImport pair = import_mesh(model(objects, "<item objectid=\"2\"/>"), 0.0);
+  CHECK(pair.mesh.volume() == doctest::Approx(2.0));
+  CHECK(diagnose(pair.mesh).sound());
+  CHECK(diagnose(pair.mesh).bounds.min().x() == doctest::Approx(-16.0));
+  CHECK(pair.bodies == std::vector<std::string>{"pair"});
+  CHECK(pair.mesh.groups == std::vector<std::string>{"tip:ground", "tip:polished"});
+  check_refused(model(objects, "<item objectid=\"3\"/>"), 0.0,
+                "refers to object \"3\", which does not exist");
+  check_refused(model("<object id=\"1\"><components><component objectid=\"1\"/></components></object>",
+                      "<item objectid=\"1\"/>"),
+                0.0, "made of themselves");
+  std::string doubling = "<object id=\"0\"><mesh>" + tetrahedron + "</mesh></object>";
+  for (int level = 1; level <= 60; ++level)
+    doubling += "<object id=\"" + std::to_string(level) + "\"><components><component objectid=\"" +
+                std::to_string(level - 1) + "\"/><component objectid=\"" + std::to_string(level - 1) +
+                "\"/></components></object>";
+  check_refused(model(doubling, "<item objectid=\"60\"/>"), 0.0, "multiply to more than");
+  check_refused(
+      model("<object id=\"1\"><mesh><vertices><vertex x=\"a\" y=\"0\" z=\"0\"/></vertices></mesh></object>",
+            ""),
+      0.0, "x=\"a\", which is not a number");
 }
 
 TEST_CASE("3MF objects are bodies, with the transforms of their items") {

@@ -223,3 +223,42 @@ TEST_CASE("STEP: what is no shape is refused with the file's name and a way out"
   write_step(scratch("fine.step"), {crystal()});
   check_says(message(scratch("fine.step"), options), "finer than a millionth");
 }
+
+TEST_CASE("STEP: references that form a loop or lead nowhere are refused before anything follows them") {
+  write_step(scratch("sound.step"), {crystal()});
+  std::ifstream file(scratch("sound.step"), std::ios::binary);
+  const std::string sound{std::istreambuf_iterator<char>(file), {}};
+  const auto changed = [&sound](const std::string& entity, const std::string& from, const std::string& to) {
+    std::string text = sound;
+    const std::size_t at = text.find(from, text.find(entity));
+    text.replace(at, from.size(), to);
+    std::ofstream(scratch("changed.step"), std::ios::binary) << text;
+    return scratch("changed.step");
+  };
+  // The first reference of a face is to its bounds.
+  const std::size_t face = sound.find("ADVANCED_FACE");
+  const std::size_t reference = sound.find('#', face);
+  const std::string target =
+      sound.substr(reference, sound.find_first_not_of("0123456789", reference + 1) - reference);
+  const std::size_t line = sound.rfind('\n', face) + 1;
+  const std::string own = sound.substr(line, sound.find(' ', line) - line);
+  check_says(message(changed("ADVANCED_FACE", target, own)),
+             own + " refers to " + own + ", which is made of it");
+  check_says(message(changed("ADVANCED_FACE", target, "#999999")),
+             "refers to #999999, which is not in the file");
+}
+
+TEST_CASE("STEP: what makes Open CASCADE crash is an error of the file") {
+  // An edge that begins at a direction instead of a vertex.
+  write_step(scratch("sound.step"), {crystal()});
+  std::ifstream file(scratch("sound.step"), std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t direction = text.rfind("\n#", text.find("= DIRECTION"));
+  const std::string number = text.substr(direction + 1, text.find(' ', direction) - direction - 1);
+  const std::size_t edge = text.find("EDGE_CURVE"), vertex = text.find('#', edge);
+  text.replace(vertex, text.find(',', vertex) - vertex, number);
+  std::ofstream(scratch("crash.step"), std::ios::binary) << text;
+  check_says(message(scratch("crash.step")), "crash.step");
+  // And this program goes on.
+  CHECK(import_mesh(scratch("sound.step"), 0.0).mesh.triangles.size() == 12);
+}

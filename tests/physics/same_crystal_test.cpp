@@ -24,9 +24,9 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr std::uint64_t kPhotons = 200'000;
+constexpr std::uint64_t kPhotonsAShape = 200'000;
 constexpr double kLeastP = 6.3e-5;
-const TriMesh kCrystal = make_box({-1.0, -1.0, 0.0}, {1.0, 1.0, 20.0});
+const TriMesh kCrystalMesh = make_box({-1.0, -1.0, 0.0}, {1.0, 1.0, 20.0});
 
 struct Shape {
   std::string name, keys;  ///< keys of [[part]]
@@ -73,10 +73,10 @@ std::vector<Shape> shapes() {
   const auto mesh = [](const std::filesystem::path& path, const std::string& more) {
     return "mesh = " + quoted(path) + more;
   };
-  write_stl(folder / "crystal.stl", kCrystal);
-  write_stl(folder / "fine.stl", subdivide_faces(kCrystal, 16));
-  write_gltf(folder / "crystal.gltf", kCrystal);
-  write_obj_in_inches(folder / "crystal.obj", kCrystal);
+  write_stl(folder / "crystal.stl", kCrystalMesh);
+  write_stl(folder / "fine.stl", subdivide_faces(kCrystalMesh, 16));
+  write_gltf(folder / "crystal.gltf", kCrystalMesh);
+  write_obj_in_inches(folder / "crystal.obj", kCrystalMesh);
   std::vector<Shape> all{{"STL, 12 triangles", mesh(folder / "crystal.stl", "\nunit = \"mm\"")},
                          {"STL, 16 x 16 x 2 triangles a face", mesh(folder / "fine.stl", "\nunit = \"mm\"")},
                          {"glTF, a scaled node", mesh(folder / "crystal.gltf", "")},
@@ -102,7 +102,7 @@ std::vector<Shape> shapes() {
 const std::string kBox = "box = [\"2 mm\", \"2 mm\", \"20 mm\"]";
 
 std::string scene_text(const std::string& surface, const std::string& shape_keys, int seed) {
-  std::string text = crystal_scene({"lso", surface, slab(10.0, 8.0), kPhotons, "", ""});
+  std::string text = crystal_scene({"lso", surface, slab(10.0, 8.0), kPhotonsAShape, "", ""});
   text.replace(text.find(kBox), kBox.size(), shape_keys);
   return text + fmt::format(R"(
 [run]

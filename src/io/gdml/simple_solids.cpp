@@ -7,6 +7,7 @@
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/polygon.hpp"
 #include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shape_error.hpp"
 #include "scintray/mesh/solids.hpp"
 #include "scintray/mesh/weld.hpp"
 
@@ -15,10 +16,6 @@ namespace scintray::gdml {
 namespace {
 
 using Outline = std::vector<Eigen::Vector2d>;
-
-[[noreturn]] void reject(const std::string& what, const std::string& hint = {}) {
-  throw InputError(Problem{{}, what, hint});
-}
 
 /// Reads one solid.
 class SolidMaker {
@@ -65,7 +62,7 @@ class SolidMaker {
   /// A length that must be there and above 0.
   double size(const char* attribute) const {
     const double value = length(attribute);
-    if (!(value > 0.0)) reject(std::string("\"") + attribute + "\" is missing or not above 0");
+    if (!(value > 0.0)) reject_shape(std::string("\"") + attribute + "\" is missing or not above 0");
     return value;
   }
   double angle(const char* attribute, double fallback = 0.0) const {
@@ -95,11 +92,11 @@ class SolidMaker {
   /// Corners on circles around the flats of a polyhedron's sides.
   TriMesh revolve_with_sides(Outline outline) const {
     const double sides = definitions_.number(solid_, "numsides");
-    if (!(sides >= 1.0 && sides <= 1e5)) reject("\"numsides\" is not between 1 and 100000");
+    if (!(sides >= 1.0 && sides <= 1e5)) reject_shape("\"numsides\" is not between 1 and 100000");
     Turn result = turn(0.0);
     result.segments = static_cast<int>(sides);
     const double apothem = std::cos(0.5 * result.extent_rad / sides);
-    if (!(apothem > 1e-3)) reject("too few sides for the angle that they span");
+    if (!(apothem > 1e-3)) reject_shape("too few sides for the angle that they span");
     for (Eigen::Vector2d& corner : outline) corner.x() /= apothem;
     return revolved(outline, result);
   }
@@ -111,7 +108,7 @@ class SolidMaker {
 
   TriMesh tube() const {
     const double inner = length("rmin"), outer = size("rmax"), half = 0.5 * size("z");
-    if (!(inner >= 0.0 && inner < outer)) reject("rmin is not between 0 and rmax");
+    if (!(inner >= 0.0 && inner < outer)) reject_shape("rmin is not between 0 and rmax");
     return revolve({{inner, -half}, {outer, -half}, {outer, half}, {inner, half}});
   }
 
@@ -223,13 +220,14 @@ class SolidMaker {
     std::vector<std::vector<Vec3>> facets;
     definitions_.for_each_child(solid_, [&](Node facet) {
       if (std::string_view(facet.attribute("type").value()) == "RELATIVE")
-        reject("a facet with corners relative to its first is not read", "write them with type=\"ABSOLUTE\"");
+        reject_shape("a facet with corners relative to its first is not read",
+                     "write them with type=\"ABSOLUTE\"");
       facets.emplace_back();
       for (const char* name : {"vertex1", "vertex2", "vertex3", "vertex4"})
         if (facet.attribute(name)) facets.back().push_back(vertex(facet, name));
-      if (facets.back().size() < 3) reject("a facet of fewer than 3 corners");
+      if (facets.back().size() < 3) reject_shape("a facet of fewer than 3 corners");
     });
-    if (facets.empty()) reject("a tessellated solid without facets");
+    if (facets.empty()) reject_shape("a tessellated solid without facets");
     return from_facets(facets);
   }
 
@@ -287,7 +285,7 @@ class SolidMaker {
   TriMesh generic_polyhedra() const { return revolve_with_sides(rz_points()); }
 
   TriMesh shell(double inner, double outer, double theta_low, double theta_high) const {
-    if (!(inner >= 0.0 && inner < outer)) reject("the inner radius is not between 0 and the outer");
+    if (!(inner >= 0.0 && inner < outer)) reject_shape("the inner radius is not between 0 and the outer");
     // theta counts from +z, the arc's angle from +r.
     Outline outline =
         arc({0.0, 0.0}, outer, outer, 0.5 * kPi - theta_high, 0.5 * kPi - theta_low, tessellation_);
@@ -300,7 +298,7 @@ class SolidMaker {
 
   TriMesh sphere() const {
     const double low = angle("starttheta"), high = low + angle("deltatheta", kPi);
-    if (!(low >= 0.0 && high > low)) reject("starttheta or deltatheta is out of range");
+    if (!(low >= 0.0 && high > low)) reject_shape("starttheta or deltatheta is out of range");
     return shell(length("rmin"), size("rmax"), low, std::min(high, kPi));
   }
 
@@ -308,12 +306,12 @@ class SolidMaker {
 
   TriMesh torus() const {
     const double inner = length("rmin"), outer = size("rmax"), swept = size("rtor");
-    if (!(swept > outer)) reject("rtor is not above rmax: the torus would cross itself");
+    if (!(swept > outer)) reject_shape("rtor is not above rmax: the torus would cross itself");
     Outline circle = arc({swept, 0.0}, outer, outer, 0.0, kTwoPi, tessellation_);
     circle.pop_back();
     TriMesh body = revolve(circle);
     if (inner <= 0.0) return body;
-    if (turn(swept).extent_rad < kTwoPi) reject("a hollow torus that is not a full circle is not made");
+    if (turn(swept).extent_rad < kTwoPi) reject_shape("a hollow torus that is not a full circle is not made");
     Outline hole = arc({swept, 0.0}, inner, inner, 0.0, kTwoPi, tessellation_);
     hole.pop_back();
     TriMesh hollow = revolved(hole, turn(swept + outer));
@@ -327,7 +325,7 @@ class SolidMaker {
     if (low == 0.0 && high == 0.0) low = -c, high = c;  // both left out: no cuts
     low = std::max(low, -c);
     high = high == 0.0 ? c : std::min(high, c);
-    if (!(low < high)) reject("zcut1 is not below zcut2");
+    if (!(low < high)) reject_shape("zcut1 is not below zcut2");
     Outline outline =
         arc({0.0, 0.0}, std::max(a, b), c, std::asin(low / c), std::asin(high / c), tessellation_);
     outline.emplace_back(0.0, high);
@@ -379,7 +377,7 @@ class SolidMaker {
 
   TriMesh paraboloid() const {
     const double low = length("rlo"), high = size("rhi"), half = size("dz");
-    if (!(low >= 0.0 && low < high)) reject("rlo is not between 0 and rhi");
+    if (!(low >= 0.0 && low < high)) reject_shape("rlo is not between 0 and rhi");
     Outline outline = meridian(half, [&](double z) {
       return std::sqrt(0.5 * (low * low * (1.0 - z / half) + high * high * (1.0 + z / half)));
     });
@@ -398,7 +396,7 @@ class SolidMaker {
     const Outline hole = meridian(half, radius(inner, inner_slope));
     for (std::size_t i = 0; i < std::min(outline.size(), hole.size()); ++i)
       if (!(radius(inner, inner_slope)(outline[i].y()) < outline[i].x()))
-        reject("the inner wall meets the outer");
+        reject_shape("the inner wall meets the outer");
     outline.insert(outline.end(), hole.rbegin(), hole.rend());
     return revolve(outline);
   }

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scintray/core/error.hpp"
-
 namespace scintray {
 
 std::optional<double> length_unit_um(std::string_view unit) {
@@ -49,22 +47,6 @@ std::string lower_case(std::string_view text) {
   for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return result;
-}
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kMost = 80;
-  std::string result = "\"";
-  for (std::size_t k = 0; k < text.size() && k < kMost; ++k) {
-    const auto byte = static_cast<unsigned char>(text[k]);
-    // A micro sign or degree sign in Latin-1 stands alone; in UTF-8 a lead byte comes before it.
-    const bool tail = byte >= 0x80 && byte < 0xC0;
-    const bool follows = k > 0 && static_cast<unsigned char>(text[k - 1]) >= 0x80;
-    const bool leads =
-        byte >= 0xC2 && k + 1 < text.size() && (static_cast<unsigned char>(text[k + 1]) & 0xC0) == 0x80;
-    const bool printable = (byte >= 0x20 && byte < 0x7F) || (tail && follows) || leads;
-    result += printable ? text[k] : '?';
-  }
-  return result + (text.size() > kMost ? "...\"" : "\"");
 }
 
 std::size_t checked_points(double columns, double rows, std::size_t bytes_there, std::size_t bytes_a_point,

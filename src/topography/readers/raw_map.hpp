@@ -1,12 +1,14 @@
 #pragma once
 /// What a height map file says, before units that it lacks are supplied. Internal to the readers.
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/zip_archive.hpp"
 
 namespace scintray {
 
@@ -14,12 +16,6 @@ inline constexpr double kUmPerMetre = 1e6;
 
 /// Most points of a map that is read: 1 GiB of heights.
 inline constexpr std::size_t kMostPoints = std::size_t{1} << 27;
-
-/// What a packed file may unpack to: heights shrink to a fifth or a tenth, and a hundredth is no
-/// measurement, but small files are let through.
-constexpr std::size_t most_unpacked(std::size_t packed) {
-  return std::max(std::size_t{64} << 20, 100 * packed);
-}
 
 /// What a parser is asked for, and what the file is called in messages.
 struct ReadRequest {
@@ -50,10 +46,6 @@ std::optional<double> whole_number(std::string_view text);
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-
-/// `text` for a message: shortened, and with bytes that are no printable ASCII replaced by '?'
-/// unless they are part of UTF-8.
-std::string in_quotes(std::string_view text);
 
 /// Number of points of a map of `columns` x `rows`. InputError unless both are at least 1, the
 /// product is at most kMostPoints, and `bytes_there` can hold it at `bytes_a_point`.

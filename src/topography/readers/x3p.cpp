@@ -9,7 +9,7 @@
 #include "scintray/topography/readers/bytes.hpp"
 #include "scintray/topography/readers/channels.hpp"
 #include "scintray/topography/readers/formats.hpp"
-#include "scintray/topography/readers/zip_archive.hpp"
+#include "scintray/core/zip_archive.hpp"
 
 namespace scintray {
 

@@ -1,9 +1,8 @@
-#include "scintray/topography/readers/zip_archive.hpp"
+#include "scintray/core/zip_archive.hpp"
 
 #include <zip.h>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/readers/raw_map.hpp"
 
 namespace scintray {
 
@@ -30,7 +29,7 @@ ZipArchive::ZipArchive(std::string_view content, std::string file)
   zip_error_fini(&error);
   const zip_int64_t entries = zip_get_num_entries(archive_.get(), 0);
   if (entries > kMostEntries)
-    fail(std::to_string(entries) + " files in a zip archive; expected a height map", "");
+    fail(std::to_string(entries) + " files in a zip archive, more than any file that is read here has", "");
   for (zip_int64_t k = 0; k < entries; ++k)
     if (const char* name = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(k), 0))
       names_.push_back(name);
@@ -51,7 +50,7 @@ std::size_t ZipArchive::size(const std::string& name) const {
   if (impossible || stat.size > most_unpacked(content_.size()))
     fail(
         in_quotes(name) + " claims " + std::to_string(stat.size) + " bytes, packed into " +
-            std::to_string(stat.comp_size) + "; expected a height map",
+            std::to_string(stat.comp_size),
         impossible ? "the file is damaged: nothing packs so well" : "pack the file anew without compression");
   return static_cast<std::size_t>(stat.size);
 }

@@ -1,6 +1,8 @@
 #pragma once
-/// A zip archive in memory. Internal to the readers.
+/// Reading zip archives.
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,7 +12,13 @@ struct zip;
 
 namespace scintray {
 
-/// Opens an archive; the content must outlive it. Every member throws InputError with the file and
+/// What a packed file may unpack to: measured heights and the numbers of meshes shrink to a fifth or a tenth,
+/// and a hundredth is no measurement, but small files are let through.
+constexpr std::size_t most_unpacked(std::size_t packed) {
+  return std::max(std::size_t{64} << 20, 100 * packed);
+}
+
+/// An archive in memory; the content must outlive it. Every member throws InputError with the file and
 /// the entry.
 class ZipArchive {
  public:
@@ -24,6 +32,8 @@ class ZipArchive {
 
   /// The first `size` bytes of an entry, which must have exactly so many.
   std::string read(const std::string& name, std::size_t size) const;
+  /// The whole entry.
+  std::string read(const std::string& name) const { return read(name, size(name)); }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const;
