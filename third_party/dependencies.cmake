@@ -19,6 +19,7 @@ scintray_dependency(ZLIB)
 scintray_dependency(libzip 1.7)
 scintray_dependency(pugixml 1.13)
 scintray_dependency(PNG)
+scintray_dependency(Xraylib)
 scintray_dependency(Boost 1.74)
 
 # embree's own version file accepts no other major number than its own; 3 and 4 both serve.
