@@ -1,6 +1,7 @@
 #pragma once
 /// Which energy makes light.
 
+#include "scintray/core/error.hpp"
 #include "scintray/source/event.hpp"
 
 namespace scintray {
