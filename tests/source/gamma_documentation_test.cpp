@@ -34,7 +34,7 @@ std::set<std::string> documented_keys() {
 std::set<std::string> read_keys() {
   std::set<std::string> keys;
   for (const std::string text :
-       {"type = \"gamma_events\"\nspectrum = 1\nregion = { part = \"crystal\" }",
+       {"type = \"gamma_events\"\nspectrum = 1\nregion = { part = \"crystal\", box = { } }",
         "type = \"gammas\"\nemission = \"gamma\"\nplane = { }\ndirection = { cone = [0, 0, 1] "
         "}\n[[matter]]\npart = "
         "\"crystal\"\nmass_fractions = { H = 1 }",

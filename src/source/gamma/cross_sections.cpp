@@ -11,7 +11,7 @@ namespace scintray {
 namespace {
 
 constexpr int kPerDecade = 200;
-constexpr double kEdgeHalfWidth = 1e-6;  // relative
+constexpr double kEdgeHalfWidth = 3e-4;  // relative: xraylib's cross sections jump within 2e-4 of its edges
 constexpr double kPerCmToPerMm = 0.1;
 constexpr std::size_t kProcesses = kGammaProcesses.size();
 
@@ -42,6 +42,7 @@ void GammaMatter::make_energies() {
       energies_keV_.push_back(edge * (1.0 - kEdgeHalfWidth));
       energies_keV_.push_back(edge * (1.0 + kEdgeHalfWidth));
     }
+  energies_keV_.push_back(2.0 * kElectronMass_keV);  // from where pairs are made
   std::sort(energies_keV_.begin(), energies_keV_.end());
 }
 
