@@ -53,6 +53,20 @@ TEST_CASE("energies follow the spectrum") {
   CHECK(chi_square_test(observed, expected).p_value > 1e-4);
 }
 
+TEST_CASE("the shipped spectrum has its photopeak at 511 keV, 22 % wide") {
+  const GammaSpec spec = gamma_spec(
+      "type = \"gamma_events\"\nevents = 1\nregion = { part = \"crystal\" }\n"
+      "spectrum = { file = \"scenes/spectra/lso_511keV.csv\", energy_unit = \"keV\" }");
+  const Curve& spectrum = std::get<SpectrumSpec>(spec.kind).spectrum;
+  double peak_keV = 400.0;
+  for (double e = 400.0; e < 700.0; e += 1.0)
+    if (spectrum(e) > spectrum(peak_keV)) peak_keV = e;
+  CHECK(std::abs(peak_keV - 511.0) <= 10.0);
+  double half_keV = peak_keV;  // on the upper side, where no Compton events are
+  while (spectrum(half_keV) > 0.5 * spectrum(peak_keV)) half_keV += 0.1;
+  CHECK(2.0 * (half_keV - 511.0) == doctest::Approx(0.22 * 511.0).epsilon(0.05));
+}
+
 TEST_CASE("spectra that are none are refused") {
   CHECK(says(complaint([] { gamma_spec(with_file("100,1\n200,-2\n")); }), "negative"));
   CHECK(says(complaint([] { gamma_spec(with_file("100,0\n200,0\n")); }), "zero everywhere"));
