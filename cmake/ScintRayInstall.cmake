@@ -26,4 +26,4 @@ configure_package_config_file(cmake/ScintRayConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ScintRayConfig.cmake ${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
-  third_party/dependencies.cmake DESTINATION ${package_folder})
+  third_party/dependencies.cmake cmake/FindXraylib.cmake DESTINATION ${package_folder})

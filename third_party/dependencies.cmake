@@ -20,6 +20,7 @@ scintray_dependency(libzip 1.7)
 scintray_dependency(pugixml 1.13)
 scintray_dependency(muparser 2.3)
 scintray_dependency(PNG)
+scintray_dependency(Xraylib)
 scintray_dependency(Boost 1.74)
 
 # Reads STEP. The build does without it where it is missing, unless told to insist with SCINTRAY_STEP=ON.

@@ -1,6 +1,7 @@
 #pragma once
 /// Sampling of the directions and lengths that light transport needs.
 
+#include <algorithm>
 #include <cstdint>
 
 #include "scintray/core/philox.hpp"
@@ -14,6 +15,14 @@ inline Vec3 sample_isotropic(Rng& rng) {
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const double azimuth = kTwoPi * rng.uniform();
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+}
+
+/// The unit vector at the polar angle of cosine `cosine` from the unit vector `axis`.
+inline Vec3 turned(const Vec3& axis, double cosine, double azimuth_rad) {
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const Frame frame = Frame::about(axis);
+  return (sine * std::cos(azimuth_rad) * frame.x + sine * std::sin(azimuth_rad) * frame.y + cosine * frame.z)
+      .normalized();
 }
 
 /// Direction about the unit vector `normal` with density cos(theta)/pi per solid angle (Lambert).

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/medium/composition.hpp"
 
 namespace scintray {
 
@@ -38,6 +39,8 @@ struct Medium {
   Curve emission;              ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given
+  Composition composition;           ///< empty when not given; with it comes the density
+  bool empty_space = false;          ///< gammas pass: said to be made of nothing
   std::vector<std::string> sources;  ///< published sources, for reports
 
   /// Optics at a wavelength (nm). The group index uses the slope of the index table

@@ -190,6 +190,24 @@ void read_source(const TomlTable& block, SourceRule rule, std::vector<std::strin
   }
 }
 
+Composition read_composition(const TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"formula", "mass_fractions"}, true);
+  if (!form) return {};
+  try {
+    if (*form == "formula") return composition_of_formula(block.string("formula"));
+    std::vector<std::pair<std::string, double>> shares;
+    const TomlTable table = block.table("mass_fractions");
+    for (const std::string& symbol : table.keys())
+      shares.emplace_back(symbol, table.quantity(symbol, Dimension::dimensionless));
+    for (const auto& [symbol, share] : shares)
+      if (!table.good(symbol)) return {};
+    return composition_of_mass_fractions(shares);
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) block.report(*form, problem.what, problem.hint);
+    return {};
+  }
+}
+
 Medium read_medium(const TomlTable& table, const std::string& name, SourceRule rule) {
   Medium medium;
   medium.name = name;
@@ -216,6 +234,16 @@ Medium read_medium(const TomlTable& table, const std::string& name, SourceRule r
     read_source(*density, rule, medium.sources);
     medium.density_g_per_cm3 = density->quantity("value", Dimension::density);
     density->expect("value", medium.density_g_per_cm3 > 0.0, "a density must be positive");
+  }
+  if (const std::optional<TomlTable> composition = table.optional_table("composition")) {
+    read_source(*composition, rule, medium.sources);
+    medium.empty_space = composition->has("none") && composition->boolean("none");
+    composition->expect("none", medium.empty_space, "\"none\" can only be true",
+                        "write none = true for empty space, or give a formula or mass fractions");
+    if (!medium.empty_space) medium.composition = read_composition(*composition);
+    if (!medium.empty_space && !table.has("density"))
+      table.report("composition", "a medium with a composition needs its density too",
+                   "add [density] with its value, as \"7.4 g/cm3\", and source");
   }
   read_scintillation(table, rule, medium);
   return medium;

@@ -25,6 +25,9 @@ Medium read_medium(const TomlTable& table, const std::string& name, SourceRule r
 Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule rule);
 Reflector read_reflector(const TomlTable& table, const std::string& name, SourceRule rule);
 
+/// Reads what something is made of from `formula` or `mass_fractions`; empty when wrong.
+Composition read_composition(const TomlTable& block);
+
 /// Reads `source` from a block and appends "BLOCK: source" to `sources`.
 void read_source(const TomlTable& block, SourceRule rule, std::vector<std::string>& sources);
 

@@ -64,6 +64,15 @@ std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector
 /// [source].
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);
 
+/// The value of `source.region`.
+RegionSpec read_region(const TomlTable& table, const std::vector<std::string>& parts);
+
+/// `direction`: "isotropic", a beam, a cone or a Lambertian lobe.
+DirectionSpec read_direction(const TomlTable& table);
+
+/// The value of an integer key, reported and 1 when it is below 1.
+std::uint64_t positive_count(const TomlTable& table, const std::string& key, std::int64_t value);
+
 /// [run].
 RunSpec read_run(const TomlTable& scene);
 

@@ -12,6 +12,8 @@ bool is_word(const TomlTable& table, const std::string& key, const std::string& 
   return node && node->kind == Kind::string && node->text == word;
 }
 
+}  // namespace
+
 RegionSpec read_region(const TomlTable& table, const std::vector<std::string>& parts) {
   RegionSpec region;
   region.where = table.where();
@@ -27,6 +29,8 @@ RegionSpec read_region(const TomlTable& table, const std::vector<std::string>& p
   return region;
 }
 
+namespace {
+
 void read_origin(const TomlTable& table, const std::vector<std::string>& parts, SourceSpec& source) {
   const std::optional<std::string> kind = table.one_of({"region", "position"}, true);
   if (kind == "region") source.origin = read_region(table.table("region"), parts);
@@ -34,6 +38,8 @@ void read_origin(const TomlTable& table, const std::vector<std::string>& parts, 
     source.origin = table.optional_quantity3("position", Dimension::length).value_or(Vec3::Zero());
   if (kind) source.origin_where = table.where(*kind);
 }
+
+}  // namespace
 
 DirectionSpec read_direction(const TomlTable& table) {
   DirectionSpec direction;
@@ -66,6 +72,8 @@ DirectionSpec read_direction(const TomlTable& table) {
   return direction;
 }
 
+namespace {
+
 void read_wavelength(const TomlTable& table, SourceSpec& source) {
   source.wavelength_where = table.where("wavelength");
   if (is_word(table, "wavelength", "emission")) {
@@ -87,13 +95,13 @@ void read_time(const TomlTable& table, SourceSpec& source) {
   source.time_ns = table.quantity("time", Dimension::time, 0.0);
 }
 
+}  // namespace
+
 std::uint64_t positive_count(const TomlTable& table, const std::string& key, std::int64_t value) {
   table.expect(key, value > 0, "\"" + key + "\" is " + std::to_string(value) + ", but at least 1 is expected",
                "give a positive integer");
   return value > 0 ? static_cast<std::uint64_t>(value) : 1;
 }
-
-}  // namespace
 
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts) {
   const TomlTable table = scene.table("source");

@@ -1,11 +1,11 @@
 #pragma once
 /// Photons as they start.
 
-#include <variant>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
 #include "scintray/scene/spec.hpp"
+#include "scintray/source/origin.hpp"
 #include "scintray/source/photon.hpp"
 
 namespace scintray {
@@ -24,23 +24,12 @@ class PhotonSource {
   std::uint64_t photons() const { return photons_; }
   std::uint64_t photons_per_event() const { return photons_per_event_; }
   /// Regions in which photons start.
-  std::vector<std::uint32_t> regions() const;
+  std::vector<std::uint32_t> regions() const { return origin_.regions(); }
 
  private:
-  /// A region and the box in which positions are drawn and, if inside, kept.
-  struct Origin {
-    std::uint32_t region = 0;
-    Eigen::AlignedBox3d box;
-    double most = 1.0;  ///< share of the volume of the boxes up to this one
-  };
-  void add_origin(const RegionSpec& spec, const PartInfo& part);
   void check_medium(const SourceSpec& spec, const Scene& scene);
-  const Origin& sample_origin(Rng& rng) const;
-  void sample_place(const Scene& scene, Rng& rng, Photon& photon) const;
-  Vec3 sample_direction(Rng& rng) const;
 
-  std::vector<Origin> origins_;
-  bool point_ = false;
+  Origin origin_;
   DirectionSpec direction_;
   double wavelength_nm_ = 0.0;
   std::optional<CurveSampler> emission_;

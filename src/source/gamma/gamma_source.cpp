@@ -1,0 +1,109 @@
+#include "scintray/source/gamma/gamma_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/source/scintillation.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr int kLutetium = 71;
+const double kSigmaPerFwhm = 1.0 / std::sqrt(8.0 * std::log(2.0));  // of a normal distribution
+
+}  // namespace
+
+GammaEventSource::GammaEventSource(const EmitterSpec& spec, std::uint64_t events, const Scene& scene)
+    : emission_(spec.emission),
+      energy_keV_(spec.energy_keV),
+      direction_(spec.direction),
+      acollinearity_sigma_rad_(spec.acollinearity_rad * kSigmaPerFwhm),
+      decay_(spec.emission),
+      transport_(scene, spec.matter, spec.fluorescence, spec.origin_where),
+      events_(events) {
+  if (const auto* plane = std::get_if<PlaneSpec>(&spec.origin))
+    plane_ = *plane;
+  else if (const auto* region = std::get_if<RegionSpec>(&spec.origin))
+    origin_.emplace(*region, scene);
+  else
+    origin_.emplace(std::get<Vec3>(spec.origin), scene);
+  if (emission_ == Emission::lutetium) check_lutetium(spec, scene);
+  for (std::uint32_t region = 0; region < scene.regions.size(); ++region)
+    if (scintillates(scene, region)) return;
+  throw InputError({spec.origin_where, "no part of the scene scintillates, so gammas make no light",
+                    "give a part a medium with [yield], [emission] and [[decay]], as LSO"});
+}
+
+void GammaEventSource::check_lutetium(const EmitterSpec& spec, const Scene& scene) const {
+  const auto has_lutetium = [&](std::uint32_t region) {
+    const Composition& made_of = scene.media[scene.regions[region].medium].medium().composition;
+    return std::any_of(made_of.begin(), made_of.end(),
+                       [](const ElementShare& share) { return share.atomic_number == kLutetium; });
+  };
+  if (!origin_)
+    throw InputError({spec.origin_where, "176Lu decays inside a crystal, not on a plane",
+                      "write region = { part = \"...\" } with the part that holds lutetium"});
+  for (const std::uint32_t region : origin_->regions())
+    if (!has_lutetium(region))
+      throw InputError(
+          {spec.origin_where,
+           "there is no lutetium in \"" + scene.regions[region].name + "\", where 176Lu is to decay",
+           "name parts of LSO or LYSO"});
+}
+
+Place GammaEventSource::sample_place(const Scene& scene, Rng& rng) const {
+  if (origin_) return origin_->sample(scene, rng);
+  const double x = rng.uniform() - 0.5, y = rng.uniform() - 0.5;
+  const Vec3 position = plane_.centre + x * plane_.x + y * plane_.y;
+  return {position, scene.locate(position)};
+}
+
+void GammaEventSource::add_pair(Gamma gamma, Rng& rng, std::vector<Gamma>& gammas) const {
+  gamma.energy_keV = kElectronMass_keV;
+  gamma.direction = sample_direction(direction_, rng);
+  gammas.push_back(gamma);
+  const Frame frame = Frame::about(gamma.direction);
+  gamma.direction = -gamma.direction;
+  if (acollinearity_sigma_rad_ > 0.0) {
+    const double x = acollinearity_sigma_rad_ * sample_normal(rng);
+    const double y = acollinearity_sigma_rad_ * sample_normal(rng);
+    gamma.direction = (gamma.direction + x * frame.x + y * frame.y).normalized();
+  }
+  gammas.push_back(gamma);
+}
+
+GammaEventSource::Start GammaEventSource::start(const Scene& scene, Rng& rng) const {
+  Start start;
+  start.place = sample_place(scene, rng);
+  const Emitted emitted = decay_.sample(rng);
+  start.local_keV = emitted.local_keV;
+  Gamma gamma;
+  gamma.position = start.place.position;
+  gamma.region = start.place.region;
+  if (emission_ == Emission::gamma) {
+    gamma.energy_keV = energy_keV_;
+    gamma.direction = sample_direction(direction_, rng);
+    start.gammas.push_back(gamma);
+  }
+  for (const double energy_keV : emitted.gammas_keV) {
+    gamma.energy_keV = energy_keV;
+    gamma.direction = sample_isotropic(rng);
+    start.gammas.push_back(gamma);
+  }
+  if (emitted.pair) add_pair(gamma, rng, start.gammas);
+  return start;
+}
+
+Event GammaEventSource::make(const Scene& scene, std::uint64_t, Rng& rng) const {
+  Start begin = start(scene, rng);
+  Event event;
+  event.energy_keV = begin.local_keV;
+  for (const Gamma& gamma : begin.gammas) event.energy_keV += gamma.energy_keV;
+  leave_energy(scene, {begin.place.position, begin.place.region, begin.local_keV, 0.0}, event);
+  transport_.follow(scene, std::move(begin.gammas), rng, event);
+  return event;
+}
+
+}  // namespace scintray

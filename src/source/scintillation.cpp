@@ -1,0 +1,28 @@
+#include "scintray/source/scintillation.hpp"
+
+namespace scintray {
+
+bool scintillates(const Scene& scene, std::uint32_t region) {
+  return scene.media[scene.regions[region].medium].medium().yield_per_keV > 0.0;
+}
+
+void require_scintillators(const Scene& scene, const std::vector<std::uint32_t>& regions,
+                           const FileLocation& where) {
+  for (const std::uint32_t region : regions)
+    if (!scintillates(scene, region))
+      throw InputError({where,
+                        "\"" + scene.regions[region].name + "\" does not scintillate: its medium \"" +
+                            scene.media[scene.regions[region].medium].medium().name + "\" has no light yield",
+                        "put the events into a scintillator, or give the medium [yield], [emission] and "
+                        "[[decay]]"});
+}
+
+void leave_energy(const Scene& scene, const Deposit& deposit, Event& event) {
+  if (deposit.energy_keV <= 0.0) return;
+  if (scintillates(scene, deposit.region))
+    event.deposits.push_back(deposit);
+  else
+    event.unseen_keV += deposit.energy_keV;
+}
+
+}  // namespace scintray
