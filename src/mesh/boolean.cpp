@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
 
 #include <map>
 #include <memory>
@@ -46,7 +47,7 @@ bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, Fac
   if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons)) return false;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);
   for (const Face face : surface.faces()) numbers[face] = first_number + static_cast<std::uint32_t>(face);
-  return pmp::does_bound_a_volume(surface);
+  return CGAL::is_closed(surface) && pmp::does_bound_a_volume(surface);
 }
 
 }  // namespace
