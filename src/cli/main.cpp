@@ -9,6 +9,7 @@
 #include "scintray/cli/goniometer_command.hpp"
 #include "scintray/cli/import_command.hpp"
 #include "scintray/cli/map_command.hpp"
+#include "scintray/cli/repair_command.hpp"
 #include "scintray/cli/replay_command.hpp"
 #include "scintray/cli/report_command.hpp"
 #include "scintray/cli/run_command.hpp"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   scintray::cli::add_run_command(app);
   scintray::cli::add_check_command(app);
   scintray::cli::add_import_command(app);
+  scintray::cli::add_repair_command(app);
   scintray::cli::add_report_command(app);
   scintray::cli::add_map_command(app);
   scintray::cli::add_table_command(app);

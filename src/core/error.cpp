@@ -55,8 +55,9 @@ InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::m
 InputError::InputError(std::vector<Problem> problems)
     : Error(join(problems)), problems_(std::move(problems)) {}
 
-void Problems::add(FileLocation where, std::string what, std::string hint) {
-  list_.push_back({std::move(where), std::move(what), std::move(hint)});
+void Problems::add(FileLocation where, std::string what, std::string hint,
+                   std::vector<std::array<double, 3>> places_mm) {
+  list_.push_back({std::move(where), std::move(what), std::move(hint), std::move(places_mm)});
 }
 
 void Problems::add(Problem problem) { list_.push_back(std::move(problem)); }
@@ -91,9 +92,8 @@ InputError unknown_name(const FileLocation& where, const std::string& kind, cons
     list += (list.empty() ? "" : ", ") + names[i];
   if (names.size() > kMostNamed) list += " and " + std::to_string(names.size() - kMostNamed) + " more";
   const std::string near = nearest_word(wanted, names);
-  return InputError(
-      {where, "no " + kind + " is called \"" + wanted + "\"",
-       (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("the " + kind + "s are: " + list)});
+  return InputError({where, "no " + kind + " is called \"" + wanted + "\"",
+                     (near.empty() ? "" : "did you mean \"" + near + "\"? ") + ("there are: " + list)});
 }
 
 std::string in_quotes(std::string_view text) {

@@ -3,6 +3,7 @@
 ///
 /// Grammar of a message: what was found, then what was expected, then `hint: what to do`.
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ struct Problem {
   FileLocation where;
   std::string what;  ///< what was found and what was expected
   std::string hint;  ///< what to do about it; may be empty
+  /// Where in space, x, y and z in mm: a few examples, for pictures. Empty when it is nowhere.
+  std::vector<std::array<double, 3>> places_mm = {};
 
   /// "file:line:column: error: what\n  hint: hint"
   std::string text() const;
@@ -62,7 +65,8 @@ class InternalError : public Error {
 /// Collects problems while reading so that all are reported at once.
 class Problems {
  public:
-  void add(FileLocation where, std::string what, std::string hint = {});
+  void add(FileLocation where, std::string what, std::string hint = {},
+           std::vector<std::array<double, 3>> places_mm = {});
   void add(Problem problem);
   /// Takes over the problems of an InputError thrown further down.
   void add(const InputError& error);

@@ -1,5 +1,7 @@
 #include "scintray/core/pattern.hpp"
 
+#include <algorithm>
+
 namespace scintray {
 
 bool matches_pattern(std::string_view pattern, std::string_view name) {
@@ -21,6 +23,17 @@ bool matches_pattern(std::string_view pattern, std::string_view name) {
   }
   while (p < pattern.size() && pattern[p] == '*') ++p;
   return p == pattern.size();
+}
+
+std::size_t literal_length(std::string_view pattern) {
+  return pattern.size() - static_cast<std::size_t>(std::count(pattern.begin(), pattern.end(), '*'));
+}
+
+std::vector<std::string> matching(std::string_view pattern, const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  for (const std::string& name : names)
+    if (matches_pattern(pattern, name)) found.push_back(name);
+  return found;
 }
 
 }  // namespace scintray

@@ -8,13 +8,13 @@
 
 namespace scintray {
 
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+void write_whole_file(const std::filesystem::path& path, std::string_view content) {
   auto temporary = path;
   temporary += ".part";
   std::error_code error;
   {
     std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
     if (!file) {
       std::filesystem::remove(temporary, error);

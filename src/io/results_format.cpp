@@ -42,10 +42,17 @@ constexpr std::array kFields = {
     // exit_angles
     Field{"inside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium of the face's part"},
     Field{"outside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium beyond"},
+    // tallies
+    Field{"names", "", "what each bin of the axis stands for"},
+    Field{"edges", "see group", "edges of the bins, one more than bins"},
+    Field{"along", "1", "direction along which a position, start or direction is measured; zeros otherwise"},
+    Field{"beyond", "see group", "score of what fell beyond the axes"},
+    Field{"refractive_index", "1",
+          "of the medium in which directions at the face are; 0 when there is no one index"},
     // moments
     Field{"count", "1", "photons counted"},
     Field{"sum", "see group", "sum over the photons"},
-    Field{"sum_of_squares", "see group, squared", "sum of squares over the photons"},
+    Field{"sum_of_squares", "see group, squared", "sum over the photons of the square of what each gave"},
     Field{"mean", "see group", "sum / count"},
     Field{"mean_error", "see group", "standard error of mean"},
     // photons

@@ -100,6 +100,7 @@ class PointReader {
             "absorbed_at_surface does not match surfaces");
     point.sensor_faces = sensor_faces();
     point.exit_angles = exit_angles();
+    if (group_.has("tallies")) point.tallies = tallies();
     point.interactions = get_moments(group_, "interactions_per_photon");
     point.detected_path_mm = get_moments(group_, "detected_path");
     point.detected_time_ns = get_moments(group_, "detected_time");
@@ -154,6 +155,47 @@ class PointReader {
       tally.detected_only = from.integer_attribute("", "detected_only") != 0;
       tally.inside = from.read<std::uint64_t>("inside");
       tally.outside = from.read<std::uint64_t>("outside");
+      tallies.push_back(std::move(tally));
+    }
+    return tallies;
+  }
+
+  TallyAxis axis(const h5::Group& group) const {
+    TallyAxis axis;
+    axis.variable = group.string_attribute("", "variable");
+    axis.unit = group.string_attribute("", "unit");
+    if (group.has("names")) {
+      axis.names = group.read_strings("names");
+      require(!axis.names.empty(), "an axis of a tally has no names");
+      return axis;
+    }
+    axis.edges = group.read<double>("edges");
+    require(axis.edges.size() >= 2 && std::is_sorted(axis.edges.begin(), axis.edges.end()),
+            "the edges of an axis of a tally do not rise");
+    const auto along = group.read<double>("along");
+    require(along.size() == 3, "the direction of an axis has not three components");
+    std::copy(along.begin(), along.end(), axis.along.begin());
+    return axis;
+  }
+
+  std::vector<TallyResult> tallies() const {
+    const h5::Group group = group_.open_group("tallies");
+    std::vector<TallyResult> tallies;
+    for (const std::string& member : group.members()) {
+      const h5::Group from = group.open_group(member);
+      TallyResult tally;
+      tally.name = from.string_attribute("", "name");
+      tally.type = from.string_attribute("", "type");
+      tally.score = from.string_attribute("", "score");
+      tally.unit = from.string_attribute("", "unit");
+      for (std::size_t k = 0; from.has("axis_" + std::to_string(k)); ++k)
+        tally.axes.push_back(axis(from.open_group("axis_" + std::to_string(k))));
+      tally.sum = from.read<double>("sum");
+      tally.sum_of_squares = from.read<double>("sum_of_squares");
+      require(tally.sum.size() == tally.bins() && tally.sum_of_squares.size() == tally.bins(),
+              "the sums of the tally \"" + tally.name + "\" do not match its axes");
+      tally.outside = get<double>(from, "beyond");
+      tally.index = get<double>(from, "refractive_index");
       tallies.push_back(std::move(tally));
     }
     return tallies;

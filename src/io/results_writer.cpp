@@ -86,6 +86,42 @@ void put_exit_angles(h5::Group& point, const std::vector<ExitAngleTally>& tallie
   }
 }
 
+void put_axis(h5::Group& tally, const std::string& name, const TallyAxis& axis) {
+  h5::Group group = tally.create_group(name);
+  group.set_attribute("", "variable", axis.variable);
+  group.set_attribute("", "unit", axis.unit);
+  if (axis.names.empty()) {
+    put(group, "edges", axis.edges);
+    put(group, "along", std::vector<double>(axis.along.begin(), axis.along.end()));
+  } else {
+    put_text(group, "names", axis.names);
+  }
+}
+
+void put_tallies(h5::Group& point, const std::vector<TallyResult>& tallies) {
+  h5::Group group = point.create_group("tallies");
+  group.set_attribute("", "description", std::string("counts that the scene asked for, one group a tally"));
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    const TallyResult& from = tallies[i];
+    h5::Group tally = group.create_group(numbered(i));
+    tally.set_attribute("", "name", from.name);
+    tally.set_attribute("", "type", from.type);
+    tally.set_attribute("", "score", from.score);
+    tally.set_attribute("", "unit", from.unit);
+    std::vector<std::size_t> shape;
+    for (std::size_t k = 0; k < from.axes.size(); ++k) {
+      put_axis(tally, "axis_" + std::to_string(k), from.axes[k]);
+      shape.push_back(from.axes[k].bins());
+    }
+    tally.write("sum", from.sum, shape);
+    describe(tally, "sum");
+    tally.write("sum_of_squares", from.sum_of_squares, shape);
+    describe(tally, "sum_of_squares");
+    put(tally, "beyond", from.outside);
+    put(tally, "refractive_index", from.index);
+  }
+}
+
 void put_header(h5::Group& root, const RunHeader& header) {
   root.set_attribute("", "format", std::string(results_format::kFormat));
   root.set_attribute("", "version", kResultsVersion);
@@ -175,6 +211,7 @@ void ResultsWriter::add_point(const PointResult& point) {
   put(group, "absorbed_at_surface", point.absorbed_at_surface);
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, point.exit_angles);
+  put_tallies(group, point.tallies);
   put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
               point.interactions);
   put_moments(group, "detected_path", "mm", "path length of detected photons", point.detected_path_mm);

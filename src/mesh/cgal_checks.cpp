@@ -11,6 +11,7 @@
 #include <array>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/cgal_surface.hpp"
 
 namespace scintray {
 namespace {
@@ -75,16 +76,13 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const Tr
 }
 
 std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh) {
-  auto points = points_of(mesh);
-  std::vector<std::vector<std::size_t>> polygons;
-  polygons.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) polygons.push_back({a, b, c});
-  pmp::orient_polygon_soup(points, polygons);  // splits vertices in which several bodies touch
-  if (!pmp::is_polygon_soup_a_polygon_mesh(polygons)) {
+  Soup<Point> soup(mesh);
+  pmp::orient_polygon_soup(soup.points, soup.polygons);  // splits vertices in which several bodies touch
+  if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons)) {
     throw InternalError("a closed, consistently oriented mesh is no polygon mesh for CGAL");
   }
   CGAL::Surface_mesh<Point> surface;
-  pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);
   pmp::orient_to_bound_a_volume(surface);
 
   std::vector<char> reversed(mesh.triangles.size());

@@ -29,11 +29,6 @@ void require_valid(const TriMesh& mesh) {
   }
 }
 
-Vec3 centre(const TriMesh& mesh, std::size_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
-}
-
 void examine_edges(const TriMesh& mesh, MeshDiagnosis& diagnosis) {
   const auto uses = sorted_edge_uses(mesh);
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
@@ -49,7 +44,7 @@ void examine_triangles(const TriMesh& mesh, MeshDiagnosis& diagnosis) {
   const double length = rounding_length(mesh);
   std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (is_degenerate(mesh, t, length)) diagnosis.degenerate_triangles.add(centre(mesh, t));
+    if (is_degenerate(mesh, t, length)) diagnosis.degenerate_triangles.add(centre_of(mesh, t));
     sorted[t] = {mesh.triangles[t], t};
     std::sort(sorted[t].first.begin(), sorted[t].first.end());
     for (const std::uint32_t v : mesh.triangles[t]) diagnosis.bounds.extend(mesh.vertices[v]);
@@ -57,7 +52,7 @@ void examine_triangles(const TriMesh& mesh, MeshDiagnosis& diagnosis) {
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first == sorted[i - 1].first)
-      diagnosis.duplicate_triangles.add(centre(mesh, sorted[i].second));
+      diagnosis.duplicate_triangles.add(centre_of(mesh, sorted[i].second));
   }
 }
 
@@ -69,7 +64,7 @@ void examine_nesting(const TriMesh& mesh, MeshDiagnosis& diagnosis) {
   for (std::size_t t = 0; t < reversed.size(); ++t) {
     if (!reversed[t] || counted[body[t]]) continue;
     counted[body[t]] = 1;
-    diagnosis.inverted_bodies.add(centre(mesh, t));
+    diagnosis.inverted_bodies.add(centre_of(mesh, t));
   }
 }
 
@@ -158,7 +153,7 @@ MeshDiagnosis diagnose(const TriMesh& mesh) {
   examine_triangles(mesh, diagnosis);
   examine_edges(mesh, diagnosis);
   for (const auto& pair : self_intersections(mesh))
-    diagnosis.self_intersections.add(centre(mesh, pair.first));
+    diagnosis.self_intersections.add(centre_of(mesh, pair.first));
   if (diagnosis.closed() && diagnosis.flipped_edges.count == 0 && diagnosis.self_intersections.count == 0 &&
       diagnosis.degenerate_triangles.count == 0) {
     examine_nesting(mesh, diagnosis);
@@ -171,33 +166,40 @@ std::vector<Problem> mesh_problems(const MeshDiagnosis& diagnosis, const std::st
   const auto report = [&](const Defects& defects, const std::string& one, const std::string& many,
                           const std::string& hint) {
     if (defects.count == 0) return;
+    std::vector<std::array<double, 3>> places;
+    for (const Vec3& p : defects.examples) places.push_back({p.x(), p.y(), p.z()});
     problems.push_back({{},
                         "part \"" + part_name + "\" has " + std::to_string(defects.count) + " " +
                             (defects.count == 1 ? one : many) + "; " +
                             (defects.count == 1 ? "it is at " : "the first is at ") +
                             place(defects.examples.front()),
-                        hint});
+                        hint,
+                        std::move(places)});
   };
   if (diagnosis.triangles == 0) {
     problems.push_back({{}, "part \"" + part_name + "\" has no triangles", "a part needs a closed surface"});
   }
   report(diagnosis.open_edges, "open edge (of one triangle only)", "open edges (of one triangle only)",
-         "the surface has holes, so it has no inside; close them in the program that made the mesh");
+         "the surface has holes, so which medium lies behind it cannot be known; scintray repair fills "
+         "holes");
   report(diagnosis.nonmanifold_edges, "non-manifold edge (of three or more triangles)",
          "non-manifold edges (of three or more triangles)",
-         "remove inner walls and doubled faces, or make bodies that touch separate parts");
+         "remove inner walls and doubled faces, or make bodies that touch separate parts; scintray repair "
+         "can do some of it");
   report(diagnosis.flipped_edges, "edge whose two triangles face opposite ways",
-         "edges whose two triangles face opposite ways", "recalculate the normals to point outwards");
+         "edges whose two triangles face opposite ways",
+         "recalculate the normals to point outwards, as scintray repair does");
   report(diagnosis.degenerate_triangles, "triangle without area", "triangles without area",
-         "merge vertices by distance in the program that made the mesh");
+         "scintray repair removes them, or merge vertices by distance in the program that made the mesh");
   report(diagnosis.self_intersections, "pair of triangles that cross or overlap",
-         "pairs of triangles that cross or overlap", "unite overlapping bodies, or make them separate parts");
+         "pairs of triangles that cross or overlap",
+         "unite overlapping bodies (scintray repair), or make them separate parts");
   report(diagnosis.inverted_bodies, "body that is inside out", "bodies that are inside out",
-         "recalculate the normals to point outwards");
+         "recalculate the normals to point outwards, as scintray repair does");
   if (problems.empty() && diagnosis.volume_mm3 <= 0.0) {
     problems.push_back({{},
                         "part \"" + part_name + "\" encloses no positive volume",
-                        "recalculate the normals to point outwards"});
+                        "recalculate the normals to point outwards, as scintray repair does"});
   }
   return problems;
 }

@@ -1,6 +1,5 @@
 #include "scintray/mesh/stl_writer.hpp"
 
-#include <array>
 #include <bit>
 #include <string>
 

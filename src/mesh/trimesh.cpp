@@ -47,4 +47,21 @@ std::uint32_t TriMesh::group_index(const std::string& name, const FaceTags& tags
   return static_cast<std::uint32_t>(groups.size() - 1);
 }
 
+Vec3 centre_of(const TriMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
+}
+
+void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!wanted[t]) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    if (!mesh.group.empty()) mesh.group[kept] = mesh.group[t];
+    ++kept;
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.group.empty()) mesh.group.resize(kept);
+}
+
 }  // namespace scintray

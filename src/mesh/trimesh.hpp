@@ -38,4 +38,10 @@ struct TriMesh {
   std::uint32_t group_index(const std::string& name, const FaceTags& tags = {});
 };
 
+/// Middle of a triangle, mm.
+Vec3 centre_of(const TriMesh& mesh, std::size_t triangle);
+
+/// Takes out the triangles, with their groups, where `wanted` is zero; the rest keep their order.
+void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted);
+
 }  // namespace scintray

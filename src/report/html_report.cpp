@@ -9,8 +9,10 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/report/format.hpp"
+#include "scintray/report/grid_map.hpp"
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/svg_plot.hpp"
+#include "scintray/report/tally_section.hpp"
 
 namespace scintray {
 
@@ -94,13 +96,14 @@ std::string html_report(const RunResult& run) {
   const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  page += "<title>" + title + "</title>\n<style>" + kReportStyle + svg_plot_style() +
+  page += "<title>" + title + "</title>\n<style>" + kReportStyle + svg_plot_style() + grid_map_style() +
           "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
           escape_html(run.header.scene_file) + "</p>\n";
   page += partial_banner(run) + answer(run);
   if (!run.points.empty())
-    page += fate_section(run) + sensor_section(run) + angle_section(run) + path_section(run);
+    page +=
+        fate_section(run) + sensor_section(run) + angle_section(run) + tally_section(run) + path_section(run);
   page += condition_section(run);
   page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return page + "</body>\n</html>\n";

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scintray/analysis/light_study.hpp"
+#include "scintray/core/vec.hpp"
 #include "scintray/report/format.hpp"
+#include "scintray/report/html_parts.hpp"
 #include "scintray/report/svg_plot.hpp"
 
 namespace scintray::report {
@@ -11,25 +14,6 @@ namespace scintray::report {
 namespace {
 
 constexpr std::size_t kFewPoints = 4;
-
-std::string cell(const std::string& text, const char* tag = "td", const char* kind = "") {
-  const std::string open = *kind == '\0' ? std::string(tag) : std::string(tag) + " class=\"" + kind + "\"";
-  return "<" + open + ">" + escape_html(text) + "</" + tag + ">";
-}
-
-std::string number_cell(const std::string& text) { return cell(text, "td", "n"); }
-
-/// Columns from `first_number` on are set flush right, as numbers are.
-std::string table(const std::vector<std::string>& head, const std::string& rows,
-                  std::size_t first_number = 1) {
-  std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (std::size_t i = 0; i < head.size(); ++i) out += cell(head[i], "th", i < first_number ? "" : "n");
-  return out + "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
-}
-
-std::string section(const std::string& title, const std::string& body) {
-  return "<section>\n<h2>" + escape_html(title) + "</h2>\n" + body + "</section>\n";
-}
 
 std::uint64_t total(const std::vector<std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
@@ -168,6 +152,15 @@ std::vector<std::size_t> shown_points(const RunResult& run) {
   return shown;
 }
 
+/// "31.2 ± 0.1° inside and 40.1 ± 0.2° outside".
+std::string half_angles(const ExitAngleTally& tally) {
+  const auto text = [](const std::vector<std::uint64_t>& counts) {
+    const Estimate half = divergence(counts).half_rad;
+    return with_error({half.value / kDegree, half.error / kDegree}) + "°";
+  };
+  return text(tally.inside) + " inside and " + text(tally.outside) + " outside";
+}
+
 std::string angle_figures(const RunResult& run, const PointResult& point) {
   std::string figures;
   for (const ExitAngleTally& tally : point.exit_angles) {
@@ -187,7 +180,8 @@ std::string angle_figures(const RunResult& run, const PointResult& point) {
     add("outside", tally.outside);
     figures += "<figure>" + svg_plot(plot) + "<figcaption>" + escape_html(plot.title) +
                (tally.detected_only ? " (last crossing of each detected photon)" : " (every crossing)") +
-               "</figcaption></figure>\n";
+               ". Half of the light is within " + half_angles(tally) +
+               " of the normal.</figcaption></figure>\n";
   }
   return figures;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/regions.hpp"
 
 namespace scintray {
@@ -37,17 +39,22 @@ class InterfaceMaker {
 
   void report_unused_contacts() {
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
-      if (contact_used_[i]) continue;
+      if (contact_used_[i] || assembly_.contacts[i].by_builder) continue;
       const ContactSpec& contact = assembly_.contacts[i];
       problems_.add(
           contact.where,
-          "parts \"" + contact.between[0].name + "\" and \"" + contact.between[1].name +
+          "\"" + side_name(contact, 0) + "\" and \"" + side_name(contact, 1) +
               "\" of this contact do not touch",
           "check their positions (scintray check lists every interface), or raise run.contact_tolerance");
     }
   }
 
  private:
+  static std::string side_name(const ContactSpec& contact, std::size_t side) {
+    const std::string& face = contact.faces[side];
+    return contact.between[side].name + (face.empty() ? "" : ":" + face);
+  }
+
   Interface make(const InterfaceTriangle& t) {
     Interface result;
     result.back = static_cast<std::uint32_t>(t.back + 1);
@@ -57,6 +64,8 @@ class InterfaceMaker {
     bind_sensors(t, result);
     if (t.back_face != kNoFace && t.front_face != kNoFace)
       make_contact(t, result);
+    else if (t.back_face != kNoFace && t.front != kAmbient)
+      make_nested(t, result);
     else if (t.back_face != kNoFace)
       result.back_surface = surface(face(t.back_face).surface, medium(t.back), medium(t.front));
     else
@@ -86,18 +95,34 @@ class InterfaceMaker {
     bind(t.back, t.front, t.front_face, result.back_sensor, result.back_sensor_part);
   }
 
+  void make_dry(const InterfaceTriangle& t, const std::string& back, const std::string& front,
+                Interface& result) {
+    result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
+    result.back_surface = surface(back, medium(t.back), assembly_.ambient);
+    result.front_surface = surface(front, medium(t.front), assembly_.ambient);
+  }
+
+  /// Where a part lies in another, its own finish counts unless a contact says otherwise.
+  void make_nested(const InterfaceTriangle& t, Interface& result) {
+    const ContactSpec* contact = find_contact(t).first;
+    const std::string& own = face(t.back_face).surface;
+    if (contact && contact->kind == ContactKind::dry)
+      make_dry(t, own, part(t.front).surface, result);
+    else
+      set_surface(t, result, true, contact && !contact->surface.empty() ? contact->surface.name : own);
+  }
+
   void make_contact(const InterfaceTriangle& t, Interface& result) {
     const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
-    const ContactSpec* contact = find_contact(t.back, t.front);
+    const auto [contact, back_is_first] = find_contact(t);
     const ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
     if (kind == ContactKind::dry) {
-      result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
-      result.back_surface = surface(back.surface, medium(t.back), assembly_.ambient);
-      result.front_surface = surface(front.surface, medium(t.front), assembly_.ambient);
+      make_dry(t, back.surface, front.surface, result);
       return;
     }
-    if (contact && !contact->surface.empty()) {
-      const bool back_is_first = part(t.back).geometry.name == contact->between[0].name;
+    if (contact && contact->joint) {
+      set_surface(t, result, true, std::string());
+    } else if (contact && !contact->surface.empty()) {
       set_surface(t, result, back_is_first, contact->surface.name);
     } else if (front.surface.empty() || back.surface == front.surface) {
       set_surface(t, result, true, back.surface);
@@ -121,17 +146,54 @@ class InterfaceMaker {
       result.front_surface = surface(name, medium(t.front), medium(t.back));
   }
 
-  const ContactSpec* find_contact(std::int32_t a, std::int32_t b) {
+  /// Does the contact's side name this face of this part? Inside another part there is no face.
+  bool names(const ContactSpec& contact, std::size_t side, std::int32_t of_part, std::int32_t of_face) const {
+    const std::string& part_name = part(of_part).geometry.name;
+    if (!matches_pattern(contact.between[side].name, part_name)) return false;
+    return contact.faces[side].empty() ||
+           (of_face != kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
+  }
+
+  /// How much a contact says of a pair; of several that match, the one that says most holds. What the file
+  /// says goes before what builders say, then more faces before fewer, then more letters of both names.
+  static std::tuple<bool, int, std::size_t> weight(const ContactSpec& contact) {
+    return {!contact.by_builder, !contact.faces[0].empty() + !contact.faces[1].empty(),
+            literal_length(contact.between[0].name) + literal_length(contact.between[1].name)};
+  }
+
+  /// The contact that speaks of these two faces, and whether its first name stands for the back.
+  std::pair<const ContactSpec*, bool> find_contact(const InterfaceTriangle& t) {
+    std::optional<std::size_t> best;
+    bool back_is_first = true;
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
-      const auto& [first, second] = assembly_.contacts[i].between;
-      const std::string &name_a = part(a).geometry.name, &name_b = part(b).geometry.name;
-      if ((first.name == name_a && second.name == name_b) ||
-          (first.name == name_b && second.name == name_a)) {
-        contact_used_[i] = true;
-        return &assembly_.contacts[i];
-      }
+      const ContactSpec& contact = assembly_.contacts[i];
+      const bool straight =
+          names(contact, 0, t.back, t.back_face) && names(contact, 1, t.front, t.front_face);
+      if (!straight && !(names(contact, 0, t.front, t.front_face) && names(contact, 1, t.back, t.back_face)))
+        continue;
+      contact_used_[i] = true;
+      if (best && weight(contact) < weight(assembly_.contacts[*best])) continue;
+      if (best && weight(contact) == weight(assembly_.contacts[*best]))
+        report_tie(assembly_.contacts[*best], contact, t);
+      best = i;
+      back_is_first = straight;
     }
-    return nullptr;
+    if (!best) return {nullptr, true};
+    return {&assembly_.contacts[*best], back_is_first};
+  }
+
+  void report_tie(const ContactSpec& one, const ContactSpec& other, const InterfaceTriangle& t) {
+    if (one.kind == other.kind && one.surface.name == other.surface.name) return;
+    const auto pattern = [](const ContactSpec& c) {
+      return "\"" + side_name(c, 0) + "\" - \"" + side_name(c, 1) + "\"";
+    };
+    if (!ties_.insert(pattern(one) + pattern(other)).second) return;
+    problems_.add(other.where,
+                  "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" +
+                      face(t.back_face).name + "\" - \"" +
+                      (t.front_face == kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
+                      "\", and differ",
+                  "name this pair in a [[contact]] of its own, or spell out more of one of them");
   }
 
   /// A surface for two media, made once per triple.
@@ -160,6 +222,7 @@ class InterfaceMaker {
   Scene& scene_;
   Problems& problems_;
   std::vector<bool> contact_used_;
+  std::set<std::string> ties_;  ///< pairs of contacts already reported
   std::map<InterfaceKey, std::uint32_t> known_;
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
 };
@@ -179,7 +242,8 @@ void collect_corners(const PlacedPart& geometry, Scene& scene) {
 
 void describe_parts(const Assembly& assembly, Scene& scene) {
   for (const AssemblyFace& face : assembly.faces)
-    scene.faces.push_back({face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
+    scene.faces.push_back(
+        {face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, Vec3::Zero(), {}});
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const PlacedPart& geometry = assembly.parts[i].geometry;
     PartInfo info;

@@ -23,6 +23,7 @@ struct AssemblyFace {
 struct AssemblyPart {
   PlacedPart geometry;                                     ///< `face` refers to Assembly::faces
   std::uint32_t medium = 0;                                ///< index into Assembly::media
+  std::string surface;                                     ///< its own, where another part lies in it
   std::int32_t sensor = kNone;                             ///< light that enters the part is detected
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its placement: lets identical parts share
 };

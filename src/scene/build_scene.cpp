@@ -6,7 +6,10 @@
 #include <map>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/assemble.hpp"
+#include "scintray/scene/conform_parts.hpp"
+#include "scintray/scene/cut_parts.hpp"
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
@@ -159,6 +162,8 @@ class AssemblyMaker {
                       ? window_medium(assembly_.sensors[static_cast<std::size_t>(part.sensor)])
                       : medium_index(placed.medium);
     part.rotation = placed.rotation;
+    part.surface = placed.surface.name;
+    if (!placed.surface.empty()) find_surface(placed.surface);
     part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}};
     const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
     for (const PlacedFace& face : placed.faces) {
@@ -188,8 +193,9 @@ class AssemblyMaker {
     for (const AssemblyPart& part : assembly_.parts) names.push_back(part.geometry.name);
     for (const ContactSpec& contact : spec_.contacts) {
       if (!contact.surface.empty()) find_surface(contact.surface);
+      if (contact.by_builder) continue;
       for (const NameRef& part : contact.between) {
-        if (std::find(names.begin(), names.end(), part.name) != names.end()) continue;
+        if (!matching(part.name, names).empty()) continue;
         const std::string near = nearest_word(part.name, names);
         problems_.add(part.where, "no part is called \"" + part.name + "\"",
                       near.empty() ? "name two [[part]]s of this scene" : "did you mean \"" + near + "\"?");
@@ -277,7 +283,9 @@ SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move
 
 BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;
-  const std::vector<PlacedMesh> placed = place_parts(spec, problems);
+  std::vector<PlacedMesh> placed = place_parts(spec, problems);
+  if (problems.empty()) cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
+  if (problems.empty()) conform_contacts(placed, spec.contacts, spec.run.contact_tolerance_mm, problems);
   const Library library = library_for(spec);
   BuiltScene built;
   AssemblyMaker maker(spec, library, surface_maker_, problems);
@@ -287,6 +295,7 @@ BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   check_sensors(spec, placed, built.scene, problems, built.warnings);
   problems.throw_if_any();
   for (const PlacedMesh& part : placed) built.parts.push_back({part.name, part.diagnosis, part.notes});
+  built.placed = std::move(placed);
   return built;
 }
 

@@ -7,6 +7,7 @@
 
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/scene/library.hpp"
+#include "scintray/scene/place_parts.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
 #include "scintray/scene/surface_maker.hpp"
@@ -23,6 +24,7 @@ struct PartReport {
 struct BuiltScene {
   Scene scene;
   std::vector<PartReport> parts;
+  std::vector<PlacedMesh> placed;     ///< the parts as they are in the scene, cut and conformed
   std::vector<std::string> warnings;  ///< things a user should know, none of which stops a run
 };
 

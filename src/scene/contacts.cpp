@@ -74,9 +74,10 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
                     "{:.6g}) mm; parts may touch or lie one wholly inside the other",
                     parts[pair.a].name, parts[pair.b].name, common.exact ? "" : "about ", common.volume_mm3,
                     how, common.inside.x(), common.inside.y(), common.inside.z()),
-        fmt::format("move one of them or cut one out of the other; faces meant to touch may miss each "
-                    "other by the contact tolerance, {:.3g} mm",
-                    tolerance_mm));
+        fmt::format("move one of them, or give the one that is to keep the space a higher priority; faces "
+                    "meant to touch may miss each other by the contact tolerance, {:.3g} mm",
+                    tolerance_mm),
+        {{common.inside.x(), common.inside.y(), common.inside.z()}});
   }
   problems.throw_if_any();
 }

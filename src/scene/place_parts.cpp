@@ -2,35 +2,16 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <optional>
 
+#include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/import.hpp"
 #include "scintray/mesh/primitives.hpp"
 
 namespace scintray {
 
 namespace {
-
-/// The face of all triangles that no rule matches.
-constexpr const char* kOtherFace = "other";
-
-struct LoadedShape {
-  TriMesh mesh;
-  std::vector<std::string> notes;
-};
-
-LoadedShape load(const MeshFileSpec& file) {
-  MeshImport imported =
-      import_mesh(file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation});
-  return {std::move(imported.mesh), std::move(imported.notes)};
-}
-LoadedShape load(const BoxSpec& box) { return {make_box(box.low, box.high), {}}; }
-LoadedShape load(const CylinderSpec& c) { return {make_cylinder(c.radius_mm, c.height_mm, c.segments), {}}; }
-
-FileLocation shape_location(const ShapeSpec& shape) {
-  return std::visit([](const auto& s) { return s.where; }, shape);
-}
 
 Eigen::AlignedBox3d bounds_of(const TriMesh& mesh) {
   Eigen::AlignedBox3d bounds;
@@ -38,25 +19,18 @@ Eigen::AlignedBox3d bounds_of(const TriMesh& mesh) {
   return bounds;
 }
 
-Eigen::Matrix3d rotation_of(const PlacementSpec& placement) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  for (const RotationSpec& turn : placement.rotate)
-    rotation = Eigen::AngleAxisd(turn.angle_rad, turn.axis).toRotationMatrix() * rotation;
-  return rotation;
-}
-
 void move(TriMesh& mesh, const Vec3& by) {
   for (Vec3& vertex : mesh.vertices) vertex += by;
 }
 
-/// Moves `mesh` against a side of `touched`, centred on it across.
-void move_against(TriMesh& mesh, const Eigen::AlignedBox3d& touched, const TouchSpec& touch) {
-  const Eigen::AlignedBox3d own = bounds_of(mesh);
+/// How far a body moves to lie against a side of another, centred on it across.
+Vec3 shift_against(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& touched,
+                   const TouchSpec& touch) {
   Vec3 shift = touched.center() - own.center();
   const int axis = touch.side.axis;
   shift[axis] = touch.side.sign > 0 ? touched.max()[axis] + touch.gap_mm - own.min()[axis]
                                     : touched.min()[axis] - touch.gap_mm - own.max()[axis];
-  move(mesh, shift);
+  return shift;
 }
 
 /// The box between two parts: as wide as both bounding boxes have in common, as thick as the gap.
@@ -98,10 +72,15 @@ std::string group_list(const TriMesh& mesh) {
   return list + (names.size() > kMost ? " and more" : "");
 }
 
+/// Where a triangle is, for pictures.
+std::vector<std::array<double, 3>> mark_at(const TriMesh& mesh, std::size_t triangle) {
+  const Vec3 centre = centre_of(mesh, triangle);
+  return {{centre.x(), centre.y(), centre.z()}};
+}
+
 /// Where a triangle is, for messages.
 std::string place_of(const TriMesh& mesh, std::size_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const Vec3 centre = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
+  const Vec3 centre = centre_of(mesh, triangle);
   char text[96];
   std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) mm", centre.x(), centre.y(), centre.z());
   return text;
@@ -139,7 +118,8 @@ class FaceTagger {
         problems_.add(spec.select.where,
                       "rules \"" + part_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
                           placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
-                      "narrow one of them with a second criterion, such as box or normal");
+                      "narrow one of them with a second criterion, such as box or normal",
+                      mark_at(placed_.mesh, t));
       }
     }
     if (!any)
@@ -150,16 +130,17 @@ class FaceTagger {
   }
 
   void add_rest() {
-    const bool smooth_by_nature = !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
+    const bool smooth_by_nature = part_.liquid || !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
     if (part_.surface.empty() && !smooth_by_nature) {
       const auto first = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin();
       problems_.add(part_.where,
                     "part \"" + placed_.name +
                         "\" has faces without a surface: no rule matches the triangle at " +
                         place_of(placed_.mesh, static_cast<std::size_t>(first)),
-                    "give the part a surface = \"...\" for all faces that no rule matches");
+                    "give the part a surface = \"...\" for all faces that no rule matches",
+                    mark_at(placed_.mesh, static_cast<std::size_t>(first)));
     }
-    placed_.faces.push_back({kOtherFace, part_.surface, {}});
+    placed_.faces.push_back({kOtherFaces, part_.surface, {}});
   }
 
   const PartSpec& part_;
@@ -168,92 +149,173 @@ class FaceTagger {
   std::vector<std::uint32_t> rule_of_;
 };
 
+/// Every problem where it is, or at the shape when it has no place.
+void add_problems(const std::vector<Problem>& found, const PartSpec& part, Problems& problems) {
+  for (Problem problem : found) {
+    if (problem.where.file.empty()) problem.where = shape_location(part.shape);
+    problems.add(std::move(problem));
+  }
+}
+
 class PartPlacer {
  public:
   PartPlacer(const SceneSpec& spec, Problems& problems) : spec_(spec), problems_(problems) {}
 
   std::vector<PlacedMesh> place_all() {
-    for (const PartSpec& part : spec_.parts) {
+    auto group = spec_.groups.begin();
+    for (std::size_t i = 0; i < spec_.parts.size();) {
+      const bool starts_group = group != spec_.groups.end() && group->first == i;
+      const std::size_t count = starts_group ? group->count : 1;
+      const PartSpec* parts = &spec_.parts[i];
       try {
-        place(part);
+        if (starts_group)
+          place_group(*group, parts);
+        else
+          place_part(*parts);
       } catch (const InputError& error) {
-        for (Problem problem : error.problems()) {
-          if (problem.where.file.empty()) problem.where = shape_location(part.shape);
-          problems_.add(std::move(problem));
-        }
+        add_problems(error.problems(), *parts, problems_);
       }
+      if (starts_group) ++group;
+      i += count;
     }
     return std::move(placed_);
   }
 
  private:
-  void place(const PartSpec& part) {
+  /// A part in its own frame: rotated, nothing else.
+  PlacedMesh loaded(const PartSpec& part) const {
     PlacedMesh result;
     result.name = part.name.name;
     result.where = part.where;
     result.medium = part.medium;
     result.sensor = part.sensor;
-    LoadedShape shape = std::visit([](const auto& s) { return load(s); }, part.shape);
+    result.surface = part.surface;
+    result.priority = part.priority;
+    ShapeMesh shape = shape_mesh(part.shape);
     result.notes = std::move(shape.notes);
     if (orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
-    result.rotation = rotation_of(part.placement);
-    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
-    turn.linear() = result.rotation;
-    result.mesh = part.placement.rotate.empty() ? std::move(shape.mesh) : transformed(shape.mesh, turn);
-
-    std::optional<PlacedMesh> fill;
-    if (part.placement.touch) fill = touch(part, result.mesh);
-    move(result.mesh, part.placement.translate);
-    result.diagnosis = diagnose(result.mesh);
-    const std::vector<Problem> unsound = mesh_problems(result.diagnosis, result.name);
-    for (Problem problem : unsound) {
-      if (problem.where.file.empty()) problem.where = shape_location(part.shape);
-      problems_.add(std::move(problem));
-    }
-    FaceTagger(part, result, problems_).tag();
-    placed_.push_back(std::move(result));
-    if (fill) placed_.push_back(std::move(*fill));
+    result.mesh = std::move(shape.mesh);
+    rotate(result, part.placement);
+    return result;
   }
 
-  /// Moves the mesh against the touched part; returns the part that fills the gap, if any.
-  std::optional<PlacedMesh> touch(const PartSpec& part, TriMesh& mesh) {
-    const TouchSpec& touch = *part.placement.touch;
-    const auto touched = std::find_if(placed_.begin(), placed_.end(),
-                                      [&](const PlacedMesh& other) { return other.name == touch.part.name; });
-    if (touched == placed_.end()) {
+  static void rotate(PlacedMesh& part, const PlacementSpec& placement) {
+    if (placement.rotate.empty()) return;
+    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
+    turn.linear() = rotation_of(placement);
+    part.mesh = transformed(part.mesh, turn);
+    part.rotation = turn.linear() * part.rotation;
+  }
+
+  /// Diagnoses a part where it stands.
+  static void examine(PlacedMesh& placed, const PartSpec& part, Problems& problems) {
+    placed.diagnosis = diagnose_in_place(placed.mesh);
+    if (placed.diagnosis.bodies > 1)
+      placed.notes.push_back(std::to_string(placed.diagnosis.bodies) +
+                             " separate surfaces in one mesh: bodies or cavities that share the medium and "
+                             "the rules of this part");
+    add_problems(mesh_problems(placed.diagnosis, placed.name), part, problems);
+  }
+
+  void place_part(const PartSpec& part) {
+    PlacedMesh result = loaded(part);
+    const Against against = lie_against(part.name.name, part.placement, bounds_of(result.mesh));
+    move(result.mesh, against.shift);
+    examine(result, part, problems_);
+    FaceTagger(part, result, problems_).tag();
+    keep(std::move(result));
+    if (!against.fill) return;
+    PlacedMesh fill = *against.fill;
+    fill.priority = part.priority;
+    keep(std::move(fill));
+  }
+
+  /// Parts get their faces in their own frame, take their places in the group's, and move with it.
+  void place_group(const GroupSpec& group, const PartSpec* parts) {
+    std::vector<PlacedMesh> members;
+    Eigen::AlignedBox3d bounds;
+    Problems found;
+    for (std::size_t i = 0; i < group.count && found.empty(); ++i) {
+      members.push_back(loaded(parts[i]));
+      PlacedMesh& member = members.back();
+      FaceTagger(parts[i], member, found).tag();
+      move(member.mesh, parts[i].placement.translate);
+      rotate(member, group.placement);
+      bounds.extend(bounds_of(member.mesh));
+    }
+    const Against against = lie_against(group.name.name, group.placement, bounds);
+    for (std::size_t i = 0; i < members.size() && found.empty(); ++i) {
+      move(members[i].mesh, against.shift);
+      examine(members[i], parts[i], found);
+    }
+    for (const Problem& problem : found.list()) problems_.add(problem);
+    for (PlacedMesh& member : members) keep(std::move(member));
+    bounds_[group.name.name] = bounds.translated(against.shift);
+    if (against.fill) keep(*against.fill);
+  }
+
+  void keep(PlacedMesh part) {
+    bounds_[part.name] = bounds_of(part.mesh);
+    placed_.push_back(std::move(part));
+  }
+
+  /// Where a body goes after it is rotated, and the part that fills the gap to what it touches.
+  struct Against {
+    Vec3 shift;
+    std::optional<PlacedMesh> fill;
+  };
+
+  Against lie_against(const std::string& name, const PlacementSpec& placement,
+                      const Eigen::AlignedBox3d& own) {
+    if (!placement.touch) return {placement.translate, {}};
+    const TouchSpec& touch = *placement.touch;
+    const auto touched = bounds_.find(touch.part.name);
+    if (touched == bounds_.end()) {
       problems_.add(touch.part.where,
-                    "part \"" + part.name.name + "\" is to touch \"" + touch.part.name +
+                    "part \"" + name + "\" is to touch \"" + touch.part.name +
                         "\", which does not stand before it or could not be placed",
                     "move the touched part above this one, and mend its own errors first");
-      return std::nullopt;
+      return {placement.translate, {}};
     }
-    const Eigen::AlignedBox3d touched_bounds = touched->diagnosis.bounds;
-    move_against(mesh, touched_bounds, touch);
-    if (touch.fill.empty()) return std::nullopt;
-    const auto box = gap_between(touched_bounds, bounds_of(mesh), touch);
+    const Vec3 shift = shift_against(own, touched->second, touch);
+    Against result{shift + placement.translate, {}};
+    if (touch.fill.empty()) return result;
+    const auto box = gap_between(touched->second, own.translated(shift), touch);
     if (!box) {
       problems_.add(touch.fill.where, "there is no gap to fill with \"" + touch.fill.name + "\"",
                     "give a gap of positive thickness, as gap = \"0.1 mm\"");
-      return std::nullopt;
+      return result;
     }
+    result.fill = fill_of(name, touch, box->translated(placement.translate));
+    return result;
+  }
+
+  static PlacedMesh fill_of(const std::string& name, const TouchSpec& touch, const Eigen::AlignedBox3d& box) {
     PlacedMesh fill;
-    fill.name = part.name.name + "_fill";
+    fill.name = name + kFillSuffix;
     fill.where = touch.fill.where;
     fill.medium = touch.fill;
-    fill.mesh = make_box(box->min(), box->max());
-    move(fill.mesh, part.placement.translate);
-    fill.faces = {{kOtherFace, {}, {}}};
+    fill.mesh = make_box(box.min(), box.max());
+    fill.faces = {{kOtherFaces, {}, {}}};
     fill.face_of.assign(fill.mesh.triangles.size(), 0);
-    fill.diagnosis = diagnose(fill.mesh);
+    fill.diagnosis = diagnose_in_place(fill.mesh);
     return fill;
   }
 
   const SceneSpec& spec_;
   Problems& problems_;
   std::vector<PlacedMesh> placed_;
+  std::map<std::string, Eigen::AlignedBox3d> bounds_;  ///< of parts and groups, world
 };
 
 }  // namespace
+
+Eigen::Matrix3d rotation_of(const PlacementSpec& placement) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  for (const RotationSpec& turn : placement.rotate)
+    rotation = Eigen::AngleAxisd(turn.angle_rad, turn.axis).toRotationMatrix() * rotation;
+  return rotation;
+}
 
 std::vector<PlacedMesh> place_parts(const SceneSpec& spec, Problems& problems) {
   return PartPlacer(spec, problems).place_all();

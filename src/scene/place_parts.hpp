@@ -24,6 +24,8 @@ struct PlacedMesh {
   TriMesh mesh;
   std::vector<PlacedFace> faces;
   std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
+  NameRef surface;                     ///< of faces that no rule matches; may be empty
+  int priority = 0;                    ///< see PartSpec
   NameRef medium;                      ///< empty only where the part is a sensor
   NameRef sensor;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -31,10 +33,13 @@ struct PlacedMesh {
   std::vector<std::string> notes;  ///< what importing left out or turned round
 };
 
+/// The rotations of a placement as one.
+Eigen::Matrix3d rotation_of(const PlacementSpec& placement);
+
 /// Places every part of the scene, with the parts that fill gaps after the part they belong to.
 /// Adds to `problems`: unreadable or unsound meshes, faces that two rules match, rules that match
 /// nothing, faces without a surface, touching a part that does not stand earlier. A part with
-/// problems may be missing from the result.
+/// problems may be missing from the result. Of a builder's parts only the first with problems tells them.
 std::vector<PlacedMesh> place_parts(const SceneSpec& spec, Problems& problems);
 
 }  // namespace scintray

@@ -1,9 +1,10 @@
 #include "scintray/scene/read_parts.hpp"
-#include "scintray/core/pattern.hpp"
 
 #include <algorithm>
+#include <set>
 
-#include "scintray/scene/read_shape.hpp"
+#include "scintray/core/pattern.hpp"
+#include "scintray/scene/read_shapes.hpp"
 
 namespace scintray {
 
@@ -12,11 +13,6 @@ namespace {
 using Kind = TomlNode::Kind;
 
 const std::vector<std::string> kSides{"-x", "+x", "-y", "+y", "-z", "+z"};
-
-bool is_array(const TomlTable& table, const std::string& key) {
-  const TomlNode* node = table.node()->find(key);
-  return node && node->kind == Kind::array;
-}
 
 RotationSpec read_rotation(const TomlTable& table) {
   RotationSpec rotation;
@@ -34,9 +30,7 @@ TouchSpec read_touch(const TomlTable& table, const std::vector<std::string>& ear
   table.expect("touch", std::find(earlier.begin(), earlier.end(), touch.part.name) != earlier.end(),
                "the part \"" + touch.part.name + "\" to be touched does not stand before this one",
                "name a part that stands earlier in the file");
-  const std::string side = table.choice("side", kSides);
-  const auto index = static_cast<int>(std::find(kSides.begin(), kSides.end(), side) - kSides.begin());
-  touch.side = {index / 2, index % 2 == 0 ? -1 : 1};
+  touch.side = side_of(table.choice("side", kSides)).value_or(BoxSide{});
   touch.gap_mm = table.quantity("gap", Dimension::length, 0.0);
   table.expect("gap", touch.gap_mm >= 0.0, "a gap below 0 would make the parts overlap",
                "give a length of 0 or more");
@@ -50,16 +44,14 @@ TouchSpec read_touch(const TomlTable& table, const std::vector<std::string>& ear
   return touch;
 }
 
-PlacementSpec read_placement(const TomlTable& part, const std::vector<std::string>& earlier) {
-  PlacementSpec placement;
-  placement.translate = part.optional_quantity3("translate", Dimension::length).value_or(Vec3::Zero());
-  if (is_array(part, "rotate")) {
-    for (const TomlTable& table : part.tables("rotate")) placement.rotate.push_back(read_rotation(table));
-  } else if (const auto table = part.optional_table("rotate")) {
-    placement.rotate.push_back(read_rotation(*table));
-  }
-  if (const auto table = part.optional_table("place")) placement.touch = read_touch(*table, earlier);
-  return placement;
+/// All names, or as many as can be read at a glance.
+std::string name_list(const std::vector<std::string>& names) {
+  constexpr std::size_t kMostListed = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+    list += (list.empty() ? "" : ", ") + names[i];
+  if (names.size() > kMostListed) list += ", ... (" + std::to_string(names.size()) + " in all)";
+  return list;
 }
 
 /// A scalar as the value of a tag.
@@ -134,11 +126,13 @@ std::string selector_name(const FaceSelectorSpec& select) {
   return "";
 }
 
+}  // namespace
+
 void expect_plain_name(const TomlTable& table, const std::string& key, const std::string& name) {
-  table.expect(
-      key, name.find_first_of(".:\"\n") == std::string::npos,
-      "the name \"" + name + "\" contains a dot, a colon, a quote or a line break",
-      "these characters have a meaning in \"part:face\" and in swept keys: use letters, digits, _ and -");
+  table.expect(key, name.find_first_of(".:*\"\n") == std::string::npos,
+               "the name \"" + name + "\" contains a dot, a colon, a star, a quote or a line break",
+               "these characters have a meaning in \"part:face\", in patterns and in swept keys: use "
+               "letters, digits, _ and -");
 }
 
 std::vector<FaceRuleSpec> read_faces(const TomlTable& part) {
@@ -173,97 +167,61 @@ std::vector<FaceRuleSpec> read_faces(const TomlTable& part) {
   return rules;
 }
 
-PartSpec read_part(const TomlTable& table, const std::vector<std::string>& earlier) {
-  PartSpec part;
-  part.where = table.where();
-  part.name = read_name(table, "name", true);
-  expect_plain_name(table, "name", part.name.name);
+std::optional<BoxSide> side_of(const std::string& word) {
+  const auto found = std::find(kSides.begin(), kSides.end(), word);
+  if (found == kSides.end()) return std::nullopt;
+  const int index = static_cast<int>(found - kSides.begin());
+  return BoxSide{index / 2, index % 2 == 0 ? -1 : 1};
+}
+
+void read_body(const TomlTable& table, PartSpec& part) {
   part.shape = read_shape(table);
-  part.placement = read_placement(table, earlier);
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
+  part.priority = static_cast<int>(table.integer("priority", 0));
+  table.expect("priority", std::abs(table.integer("priority", 0)) <= kHighestPriority,
+               "a priority beyond " + std::to_string(kHighestPriority), "give a smaller number");
   part.faces = read_faces(table);
-  return part;
 }
 
-}  // namespace
+std::vector<RotationSpec> read_rotations(const TomlTable& part) {
+  std::vector<RotationSpec> rotations;
+  if (is_array(part, "rotate")) {
+    for (const TomlTable& table : part.tables("rotate")) rotations.push_back(read_rotation(table));
+  } else if (const auto table = part.optional_table("rotate")) {
+    rotations.push_back(read_rotation(*table));
+  }
+  return rotations;
+}
+
+PlacementSpec read_placement(const TomlTable& table, const std::vector<std::string>& earlier) {
+  PlacementSpec placement;
+  placement.translate = table.optional_quantity3("translate", Dimension::length).value_or(Vec3::Zero());
+  placement.rotate = read_rotations(table);
+  if (const auto touch = table.optional_table("place")) placement.touch = read_touch(*touch, earlier);
+  return placement;
+}
 
 NameRef read_name(const TomlTable& table, const std::string& key, bool required) {
   NameRef name{required ? table.string(key) : table.string(key, ""), table.where(key)};
   return name;
 }
 
-std::optional<BoxSpec> read_low_high(const TomlTable& table, const std::string& key) {
-  if (is_array(table, key)) {
-    table.report(key, "\"" + key + "\" is an array, but a table is expected",
-                 "write " + key + " = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [...] }");
-    table.take(key);
-    return std::nullopt;
-  }
-  const std::optional<TomlTable> corners = table.optional_table(key);
-  if (!corners) return std::nullopt;
-  BoxSpec box;
-  box.where = corners->where();
-  for (const char* corner : {"low", "high"}) {
-    const std::vector<double> mm = corners->quantities(corner, Dimension::length, 3);
-    if (mm.empty()) continue;
-    (corner == std::string("low") ? box.low : box.high) = Vec3(mm[0], mm[1], mm[2]);
-  }
-  if (corners->good("low"))
-    corners->expect("high", (box.high - box.low).minCoeff() > 0.0,
-                    "a coordinate of \"high\" is not above that of \"low\"",
-                    "give the corner with the larger x, y and z");
-  return box;
-}
-
-std::vector<PartSpec> read_parts(const TomlTable& scene) {
-  std::vector<PartSpec> parts;
-  std::vector<std::string> names;
-  const auto claim = [&](const TomlTable& table, const std::string& name, const std::string& hint) {
-    if (name.empty()) return;
-    if (std::find(names.begin(), names.end(), name) != names.end())
-      table.report("name", "the name \"" + name + "\" is already taken by another part", hint);
-    names.push_back(name);
-  };
-  for (const TomlTable& table : scene.tables("part")) {
-    PartSpec part = read_part(table, names);
-    claim(table, part.name.name, "give each [[part]] a name of its own");
-    if (part.placement.touch && !part.placement.touch->fill.empty())
-      claim(table, part.name.name + kFillSuffix,
-            "the fill of a gap is a part of this name: rename one of the two");
-    parts.push_back(std::move(part));
-  }
-  if (!scene.has("part"))
-    scene.report("part", "the scene has no parts", "add a [[part]] with a name, a shape and a medium");
-  return parts;
-}
-
-std::vector<std::string> part_names(const std::vector<PartSpec>& parts) {
-  std::vector<std::string> names;
-  for (const PartSpec& part : parts) {
-    names.push_back(part.name.name);
-    if (part.placement.touch && !part.placement.touch->fill.empty())
-      names.push_back(part.name.name + kFillSuffix);
-  }
-  return names;
-}
-
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts) {
+  if (parts.empty()) return;
   const std::string near = nearest_word(name.name, parts);
-  std::string list;
-  for (const std::string& part : parts) list += (list.empty() ? "" : ", ") + part;
   table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
                "there is no part \"" + name.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + list);
+               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + name_list(parts));
 }
 
 void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
                   const std::vector<std::string>& parts) {
-  if (std::none_of(parts.begin(), parts.end(),
-                   [&](const std::string& part) { return matches_pattern(pattern.name, part); }))
-    expect_part(table, key, pattern, parts);
+  if (!is_pattern(pattern.name) || parts.empty()) return expect_part(table, key, pattern, parts);
+  table.expect(key, !matching(pattern.name, parts).empty(), "no part matches \"" + pattern.name + "\"",
+               "\"*\" stands for any characters; the parts are " + name_list(parts));
 }
 
 }  // namespace scintray

@@ -1,7 +1,7 @@
 #pragma once
 /// The pieces of read_scene, one for each kind of table.
 
-#include <set>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,25 +12,54 @@ namespace scintray {
 /// A string that names something, with its place; empty when absent and not required.
 NameRef read_name(const TomlTable& table, const std::string& key, bool required);
 
-/// { low = [...], high = [...] } under `key`; nothing when absent or wrong.
-std::optional<BoxSpec> read_low_high(const TomlTable& table, const std::string& key);
+/// Reports a new name that holds characters with a meaning elsewhere.
+void expect_plain_name(const TomlTable& table, const std::string& key, const std::string& name);
 
-/// [[part]], with the names checked against each other.
-std::vector<PartSpec> read_parts(const TomlTable& scene);
+/// "-x" to "+z" as a side; nothing for other words.
+std::optional<BoxSide> side_of(const std::string& word);
+
+/// The keys of a [[part]] or of an element, but for its name and place: shape, medium, sensor,
+/// surface and faces.
+void read_body(const TomlTable& table, PartSpec& part);
+
+/// rotate, place and translate; `earlier` are the names that may be touched.
+PlacementSpec read_placement(const TomlTable& table, const std::vector<std::string>& earlier);
+
+/// rotate, one table or a list.
+std::vector<RotationSpec> read_rotations(const TomlTable& part);
+
+/// [[face]] of a part, an element or an override.
+std::vector<FaceRuleSpec> read_faces(const TomlTable& part);
+
+/// Everything with a body: [[part]], [[array]], [[light_guide]], in file order.
+struct Bodies {
+  std::vector<PartSpec> parts;
+  std::vector<GroupSpec> groups;
+  std::vector<ContactSpec> contacts;  ///< that builders make with their parts
+  InlineTables surfaces;              ///< that builders make for their sheets
+  bool names_known = true;            ///< false when mistakes left a builder's parts unknown
+};
+
+/// Reads all bodies and checks their names against each other.
+Bodies read_bodies(const TomlTable& scene);
 
 /// Names of all parts, the fills that placements make included, in file order.
-std::vector<std::string> part_names(const std::vector<PartSpec>& parts);
+std::vector<std::string> part_names(const std::vector<PartSpec>& parts, const std::vector<GroupSpec>& groups);
 
-/// Reports at `key` unless the name is one of a part.
+/// Reports at `key` unless the name is one of a part. Says nothing when no name is known.
 void expect_part(const TomlTable& table, const std::string& key, const NameRef& name,
                  const std::vector<std::string>& parts);
+
+/// What "bonded" and "dry" stand for.
+ContactKind contact_kind(const std::string& word);
 
 /// The same for a name that may have wildcards and then must be that of one part at least.
 void expect_parts(const TomlTable& table, const std::string& key, const NameRef& pattern,
                   const std::vector<std::string>& parts);
 
 /// [[contact]].
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts);
+std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& part_names,
+                                       const std::vector<PartSpec>& parts);
 
 /// [source].
 SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -11,10 +12,6 @@ namespace scintray {
 namespace {
 
 using Kind = TomlNode::Kind;
-
-ContactKind contact_kind(const std::string& word) {
-  return word == "dry" ? ContactKind::dry : ContactKind::bonded;
-}
 
 InlineTables read_definitions(const TomlTable& scene, const std::string& key) {
   InlineTables definitions;
@@ -48,6 +45,31 @@ class DistinctProblems {
   Problems kept_;
 };
 
+/// A swept value with "*" stands for every part that it matches: a sweep can go over an array's elements.
+void expand_patterns(std::vector<SweepSpec>& sweeps, const TomlNodePtr& document) {
+  std::vector<std::string> parts;
+  for (SweepSpec& sweep : sweeps) {
+    std::vector<TomlNode> values;
+    for (const TomlNode& value : sweep.values) {
+      std::vector<std::string> found;
+      if (value.kind == Kind::string && is_pattern(value.text)) {
+        Problems told_when_the_scene_is_read;
+        if (parts.empty()) {
+          const Bodies bodies = read_bodies(TomlTable(document, told_when_the_scene_is_read));
+          parts = part_names(bodies.parts, bodies.groups);
+        }
+        found = matching(value.text, parts);
+      }
+      if (found.empty()) values.push_back(value);
+      for (const std::string& name : found) {
+        values.push_back(value);
+        values.back().text = name;
+      }
+    }
+    sweep.values = std::move(values);
+  }
+}
+
 SceneSpec read_from(const TomlTable& root, const std::string& text) {
   SceneSpec scene;
   scene.file = root.where().file;
@@ -57,14 +79,19 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.ambient = read_name(root, "ambient", true);
   scene.contacts_default_given = root.has("contacts_default");
   scene.contacts_default = contact_kind(root.choice("contacts_default", {"bonded", "dry"}, "bonded"));
-  scene.parts = read_parts(root);
-  const std::vector<std::string> names = part_names(scene.parts);
-  scene.contacts = read_contacts(root, names);
+  Bodies bodies = read_bodies(root);
+  const std::vector<std::string> names =
+      bodies.names_known ? part_names(bodies.parts, bodies.groups) : std::vector<std::string>{};
+  scene.parts = std::move(bodies.parts);
+  scene.groups = std::move(bodies.groups);
+  scene.contacts = read_contacts(root, names, scene.parts);
+  std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   scene.source = read_source(root, names);
   scene.run = read_run(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
+  scene.surfaces.merge(bodies.surfaces);
   scene.sensors = read_definitions(root, "sensors");
   scene.reflectors = read_definitions(root, "reflectors");
   read_sweeps(root);
@@ -72,34 +99,6 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
 }
 
 }  // namespace
-
-std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& parts) {
-  std::vector<ContactSpec> contacts;
-  std::set<std::pair<std::string, std::string>> pairs;
-  for (const TomlTable& table : scene.tables("contact")) {
-    ContactSpec contact;
-    contact.where = table.where();
-    const std::vector<std::string> names = table.strings("between", 2);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      contact.between[i] = {names[i], table.where("between")};
-      expect_part(table, "between", contact.between[i], parts);
-    }
-    contact.kind = contact_kind(table.choice("kind", {"bonded", "dry"}));
-    contact.surface = read_name(table, "surface", false);
-    table.expect("surface", contact.kind == ContactKind::bonded,
-                 "a dry contact has no surface of its own: each part keeps the one of its face",
-                 "remove surface, or write kind = \"bonded\"");
-    if (table.good("between")) {
-      const auto& [a, b] = std::minmax(names[0], names[1]);
-      table.expect("between", a != b, "a contact of the part \"" + a + "\" with itself", "name two parts");
-      table.expect("between", pairs.insert({a, b}).second,
-                   "the contact between \"" + a + "\" and \"" + b + "\" is described twice",
-                   "keep one [[contact]]");
-    }
-    contacts.push_back(std::move(contact));
-  }
-  return contacts;
-}
 
 SceneSpec read_scene(const TomlNodePtr& document, const std::string& text, Problems& problems) {
   const TomlTable root(document, problems);
@@ -126,6 +125,7 @@ SceneFile SceneFile::from_text(const std::string& text, const std::string& file)
   DistinctProblems found;
   Problems sweep_problems;
   scene.sweeps_ = read_sweeps(TomlTable(scene.document_, sweep_problems));
+  expand_patterns(scene.sweeps_, scene.document_);
   const auto try_point = [&](std::size_t point) {
     Problems problems;
     scene.read_point(point, problems);

@@ -1,4 +1,5 @@
 #include "scintray/scene/read_parts.hpp"
+#include "scintray/scene/read_shapes.hpp"
 
 namespace scintray {
 

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/scene/face_path.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -17,34 +18,14 @@ std::string join(const std::vector<std::string>& words) {
   return text;
 }
 
-/// "part:face" as two names with their places.
-void read_face_path(const TomlTable& table, const std::vector<PartSpec>& parts, ExitAngleTallySpec& tally) {
-  const std::string face = table.string("face");
-  const auto colon = face.find(':');
-  table.expect("face", colon != std::string::npos && colon > 0 && colon + 1 < face.size(),
-               "\"" + face + "\" is not the name of a face", "write \"part:face\", as \"crystal:exit\"");
-  if (!table.good("face")) return;
-  tally.part = {face.substr(0, colon), table.where("face")};
-  tally.face = {face.substr(colon + 1), table.where("face")};
-  const std::vector<std::string> known = part_names(parts);
-  expect_part(table, "face", tally.part, known);
-  if (!table.good("face")) return;
-  std::vector<std::string> faces;
-  for (const PartSpec& part : parts)
-    if (part.name.name == tally.part.name)
-      for (const FaceRuleSpec& rule : part.faces) faces.push_back(rule.name);
-  faces.emplace_back(kOtherFaces);
-  const std::string near = nearest_word(tally.face.name, faces);
-  table.expect("face", std::find(faces.begin(), faces.end(), tally.face.name) != faces.end(),
-               "the part \"" + tally.part.name + "\" has no face \"" + tally.face.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its faces are " + join(faces) +
-                   "; name more of them with [[part.face]]");
-}
-
-ExitAngleTallySpec read_exit_angle(const TomlTable& table, const std::vector<PartSpec>& parts) {
+ExitAngleTallySpec read_exit_angle(const TomlTable& table, const SceneSpec& scene) {
   ExitAngleTallySpec tally;
   tally.where = table.where();
-  read_face_path(table, parts, tally);
+  if (const auto path =
+          read_face_path(table, "face", table.string("face"), part_names(scene.parts, scene.groups), scene.parts, false)) {
+    tally.part = path->part;
+    tally.face = path->face;
+  }
   tally.name = table.string("name", tally.part.name + ":" + tally.face.name);
   tally.detected_only = table.boolean("detected_only", false);
   const std::int64_t bins = table.integer("bins", tally.bins);
@@ -395,7 +376,7 @@ void read_tallies(const TomlTable& root, SceneSpec& scene) {
     }
     std::string name;
     if (type == "exit_angle") {
-      scene.exit_angles.push_back(read_exit_angle(table, scene.parts));
+      scene.exit_angles.push_back(read_exit_angle(table, scene));
       name = scene.exit_angles.back().name;
     } else {
       read_tally(table, type, scene.tallies);

@@ -13,9 +13,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/mesh/tessellation.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/tally_spec.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
@@ -27,35 +27,14 @@ inline constexpr const char* kOpaqueMedium = "opaque";
 /// Name of the face made of a part's triangles that no rule matches; no rule may have it.
 inline constexpr const char* kOtherFaces = "other";
 
+/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
+inline constexpr const char* kCutFaces = "cut:";
+
+/// Bound of part priorities, both ways.
+inline constexpr int kHighestPriority = 1000;
+
 /// What the name of a part and this make is the name of the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
-
-/// An axis-aligned box, mm.
-struct BoxSpec {
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
-  FileLocation where;
-};
-
-/// A mesh file, CAD or triangles.
-struct MeshFileSpec {
-  std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
-  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
-  double scale = 1.0;
-  std::string body;           ///< name or number of the one body of the file; empty: all together
-  Tessellation tessellation;  ///< of a CAD file's curved faces
-  FileLocation where;
-};
-
-/// A closed prism about the z axis, from z = 0 up.
-struct CylinderSpec {
-  double radius_mm = 0.0;  ///< of the circle through the vertices
-  double height_mm = 0.0;
-  int segments = 64;  ///< flat sides
-  FileLocation where;
-};
-
-using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec>;
 
 /// A turn about an axis through the origin of the part's own frame.
 struct RotationSpec {
@@ -72,7 +51,7 @@ struct BoxSide {
 
 /// Puts a part against a side of another's bounding box, centred on it laterally.
 struct TouchSpec {
-  NameRef part;  ///< touched; a part that stands earlier in the file
+  NameRef part;  ///< touched; a part or builder that stands earlier in the file
   BoxSide side;  ///< of the touched part's bounding box
   double gap_mm = 0.0;
   NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
@@ -115,11 +94,22 @@ struct PartSpec {
   NameRef name;
   ShapeSpec shape;
   PlacementSpec placement;
-  NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
-  NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
-  NameRef sensor;   ///< the whole part is a sensor
+  NameRef medium;    ///< kOpaqueMedium allowed; empty only for a part that is a sensor
+  NameRef surface;   ///< of every face that no rule matches; empty: rules must cover every face
+  NameRef sensor;    ///< the whole part is a sensor
+  int priority = 0;  ///< of two parts that overlap the one with the higher priority keeps the space
   std::vector<FaceRuleSpec> faces;
+  bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   FileLocation where;
+};
+
+/// What a builder ([[array]], [[light_guide]]) made: parts that are placed as one body. The placement of
+/// each of them, and what its face rules select, count in the builder's own frame.
+struct GroupSpec {
+  NameRef name;
+  std::size_t first = 0;  ///< index of its first part in SceneSpec::parts; the others follow
+  std::size_t count = 0;
+  PlacementSpec placement;
 };
 
 /// How the touching faces of two parts meet.
@@ -129,9 +119,15 @@ enum class ContactKind {
 };
 
 struct ContactSpec {
-  std::array<NameRef, 2> between;
+  std::array<NameRef, 2> between;    ///< names, or patterns with "*" (core/pattern.hpp)
+  std::array<std::string, 2> faces;  ///< of the two parts; empty: every face
   ContactKind kind = ContactKind::bonded;
-  NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
+  NameRef surface;          ///< of the shared interface; empty: the surfaces of the two faces decide
+  bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
+  bool by_builder = false;  ///< made with a builder's parts: yields to what the file says, may find no pair
+  /// Faces this near to each other, curved ones too, are made one (conform_parts.hpp); nothing: only
+  /// those within the scene's contact tolerance.
+  std::optional<double> tolerance_mm;
   FileLocation where;
 };
 
@@ -189,6 +185,7 @@ struct SceneSpec {
   ContactKind contacts_default = ContactKind::bonded;
   bool contacts_default_given = false;
   std::vector<PartSpec> parts;
+  std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;
   SourceSpec source;
   RunSpec run;

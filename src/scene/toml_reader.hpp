@@ -85,6 +85,8 @@ class TomlTable {
   bool good(const std::string& key) const;
   /// Adds a problem at the key's value (at the table when absent); marks the key as bad.
   void report(const std::string& key, std::string what, std::string hint = {}) const;
+  /// Problems found so far, in the whole document and whatever else shares the collector.
+  std::size_t problem_count() const;
   /// Reports unless `ok`. Does nothing when the key is absent or was already found wrong.
   void expect(const std::string& key, bool ok, const std::string& what, const std::string& hint = {}) const;
   /// Which one of `choices` is present. Reports none (when required) and more than one.
@@ -166,7 +168,6 @@ class TomlTable {
 
  private:
   struct Session;
-  std::size_t problem_count() const;
   TomlTable(TomlNodePtr node, std::string path, std::shared_ptr<Session> session);
   const TomlNode* read(const std::string& key, bool required) const;
   void report_at(const FileLocation& where, const std::string& key, std::string what, std::string hint) const;

@@ -97,6 +97,7 @@ class CountBinder {
                         "the tally \"" + spec_.name + "\" has " + std::to_string(bins) + " bins, more than " +
                             std::to_string(kMostBins),
                         "use fewer or coarser axes, or name fewer parts"});
+    count.empty.index = medium_index();
     count.empty.sum.assign(static_cast<std::size_t>(bins), 0.0);
     count.empty.sum_of_squares = count.empty.sum;
     return count;
@@ -202,6 +203,32 @@ class CountBinder {
       made.edges.push_back(i == bound.bins ? high : low + i / bound.per_bin);
     count.axes.push_back(std::move(bound));
     count.empty.axes.push_back(std::move(made));
+  }
+
+  /// Index of the one medium that directions are in, or 0.
+  double medium_index() const {
+    bool before = false, any = false;
+    for (const TallyAxisSpec& axis : spec_.axes) {
+      if (!needs_face(axis.variable) || axis.variable == TallyVariable::face) continue;
+      any = true;
+      before = axis.variable == TallyVariable::angle_before || axis.variable == TallyVariable::sin2_before ||
+               axis.variable == TallyVariable::azimuth_before;
+    }
+    if (!any || spec_.way == FaceWay::both) return 0.0;
+    const bool in_part = (spec_.way == FaceWay::out) == before;
+    std::optional<std::uint32_t> medium;
+    for (const Interface& interface : scene_.interfaces)
+      for (const std::uint32_t face : faces_)
+        for (const bool back : {true, false}) {
+          const std::int32_t own = back ? interface.back_face : interface.front_face;
+          if (own != static_cast<std::int32_t>(face)) continue;
+          const std::uint32_t region = back == in_part ? interface.back : interface.front;
+          const std::uint32_t found = scene_.regions[region].medium;
+          if (medium && *medium != found) return 0.0;
+          medium = found;
+        }
+    if (!medium || scene_.media[*medium].is_opaque()) return 0.0;
+    return scene_.media[*medium].index(0.5 * (scene_.low_nm + scene_.high_nm));
   }
 
   /// Normal of the plane that the faces lie along.

@@ -63,6 +63,9 @@ struct TallyResult {
   std::vector<double> sum;             ///< per bin
   std::vector<double> sum_of_squares;  ///< per bin, of what each photon gave it
   double outside = 0.0;                ///< score that fell beyond the axes
+  /// Refractive index, at the middle of the wavelengths in use, of the medium in which its directions at
+  /// faces are; 0 when it has none or they are in several.
+  double index = 0.0;
 
   std::size_t bins() const;
   /// Score of a bin with its standard error, from `photons` independent photons.

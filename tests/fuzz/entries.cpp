@@ -137,7 +137,7 @@ std::vector<std::string> x3p_seeds() {
   const std::string plain = x3p_file(listed);
   const std::size_t begin = plain.find("<?xml"), end = plain.find("</p:ISO5436_2>") + 14;
   return {x3p_file(), x3p_file(whole), plain,
-          zip_file({{"main.xml", plain.substr(begin, end - begin)}}, true)};
+          zipped({{"main.xml", plain.substr(begin, end - begin)}}, true)};
 }
 
 std::vector<std::string> x3p_xml_seeds() {

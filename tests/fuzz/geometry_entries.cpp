@@ -154,7 +154,7 @@ std::string three_mf(const std::string& model) {
   const std::string relationships =
       "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}});
+  return test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}});
 }
 
 std::vector<std::string> three_mf_seeds() { return {three_mf(three_mf_model_seeds().front())}; }

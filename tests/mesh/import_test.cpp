@@ -102,7 +102,7 @@ std::string three_mf(const std::string& attributes, const std::string& build = "
       "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship "
       "Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return test::zip_file({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}}, true);
+  return test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}}, true);
 }
 
 void check_refused(const std::filesystem::path& path, double mm_per_unit, const std::string& words) {
@@ -327,7 +327,7 @@ TEST_CASE("3MF: components are placed, base materials are groups, and what leads
   const auto model = [](const std::string& objects, const std::string& build) {
     return mesh_file(
         "made.3mf",
-        test::zip_file({{"_rels/.rels", ""},
+        test::zipped({{"_rels/.rels", ""},
                         {"3D/3dmodel.model", "<model><resources>" + objects + "</resources><build>" + build +
                                                  "</build></model>"}}));
   };

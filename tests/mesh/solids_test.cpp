@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/combine.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/import.hpp"
@@ -79,19 +79,19 @@ TEST_CASE("An arc keeps its deviation and its angle") {
 
 TEST_CASE("Booleans of boxes that overlap, touch, lie in each other or apart") {
   const TriMesh a = make_box({0, 0, 0}, {2, 2, 2}), b = make_box({1, 1, 1}, {3, 3, 3});
-  check_sound(boolean(a, b, BooleanOperation::join), 15.0);
-  check_sound(boolean(a, b, BooleanOperation::subtract), 7.0);
-  check_sound(boolean(a, b, BooleanOperation::intersect), 1.0);
+  check_sound(combine(a, b, BooleanOperation::unite), 15.0);
+  check_sound(combine(a, b, BooleanOperation::subtract), 7.0);
+  check_sound(combine(a, b, BooleanOperation::intersect), 1.0);
   // Faces that lie on each other.
-  check_sound(boolean(a, make_box({2, 0, 0}, {3, 2, 2}), BooleanOperation::join), 12.0);
-  check_sound(boolean(a, make_box({0.5, 0.5, -1}, {1.5, 1.5, 3}), BooleanOperation::subtract), 6.0);
-  check_sound(boolean(a, make_box({0, 0, 1}, {2, 2, 2}), BooleanOperation::subtract), 4.0);
+  check_sound(combine(a, make_box({2, 0, 0}, {3, 2, 2}), BooleanOperation::unite), 12.0);
+  check_sound(combine(a, make_box({0.5, 0.5, -1}, {1.5, 1.5, 3}), BooleanOperation::subtract), 6.0);
+  check_sound(combine(a, make_box({0, 0, 1}, {2, 2, 2}), BooleanOperation::subtract), 4.0);
   // A hollow, and two bodies side by side.
-  const TriMesh hollow = boolean(a, make_box({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}), BooleanOperation::subtract);
+  const TriMesh hollow = combine(a, make_box({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5}), BooleanOperation::subtract);
   check_sound(hollow, 7.0);
   CHECK(diagnose(hollow).bodies == 2);
-  check_sound(boolean(a, make_box({5, 5, 5}, {6, 6, 6}), BooleanOperation::join), 9.0);
-  CHECK(boolean(a, make_box({5, 5, 5}, {6, 6, 6}), BooleanOperation::intersect).triangles.empty());
+  check_sound(combine(a, make_box({5, 5, 5}, {6, 6, 6}), BooleanOperation::unite), 9.0);
+  CHECK(combine(a, make_box({5, 5, 5}, {6, 6, 6}), BooleanOperation::intersect).triangles.empty());
 }
 
 TEST_CASE("A boolean's faces keep the groups of the bodies that they come from") {
@@ -99,7 +99,7 @@ TEST_CASE("A boolean's faces keep the groups of the bodies that they come from")
   TriMesh drill = make_cylinder(0.5, 5.0, 16);
   drill.groups = {"bore", "drill bottom", "drill top"};
   for (Vec3& v : drill.vertices) v += Vec3(1, 1, -1);
-  const TriMesh drilled = boolean(a, drill, BooleanOperation::subtract);
+  const TriMesh drilled = combine(a, drill, BooleanOperation::subtract);
   check_sound(drilled, 8.0 - 2.0 * polygon_area(0.5, 16));
   FaceSelector bore;
   bore.group = "bore";
@@ -123,9 +123,9 @@ TEST_CASE("Booleans of open or inverted meshes are refused") {
   open.triangles.pop_back();
   open.group.pop_back();
   reverse_orientation(inverted);
-  CHECK_THROWS_WITH_AS(boolean(a, open, BooleanOperation::join), doctest::Contains("the second body"),
+  CHECK_THROWS_WITH_AS(combine(a, open, BooleanOperation::unite), doctest::Contains("the second body"),
                        InputError);
-  CHECK_THROWS_AS(boolean(inverted, a, BooleanOperation::join), InputError);
+  CHECK_THROWS_AS(combine(inverted, a, BooleanOperation::unite), InputError);
 }
 
 TEST_CASE("write_ply keeps double precision") {

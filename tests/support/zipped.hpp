@@ -11,7 +11,7 @@
 namespace scintray::test {
 
 /// An archive of (name, content), without compression unless `packed`.
-inline std::string zip_file(const std::vector<std::pair<std::string, std::string>>& entries,
+inline std::string zipped(const std::vector<std::pair<std::string, std::string>>& entries,
                             bool packed = false) {
   zip_error_t error;
   zip_error_init(&error);

@@ -222,7 +222,7 @@ std::string x3p_file(const MadeUpX3p& made) {
   entries.emplace_back(made.folder + "main.xml", xml);
   if (!made.listed) entries.emplace_back(made.folder + "bindata/data.bin", data);
   if (!valid.empty()) entries.emplace_back(made.folder + "bindata/valid.bin", valid);
-  return zip_file(entries);
+  return zipped(entries);
 }
 
 std::string gzip_file(std::string_view content) {

@@ -288,9 +288,9 @@ TEST_CASE("ISO 25178-72 archives that lack something, lie or are damaged are ref
   std::string flipped = good;
   flipped[flipped.find("main.xml") + 200] ^= 1;
   CHECK(contains(complaint_about(flipped), "checksum"));
-  CHECK(contains(complaint_about(zip_file({{"readme.txt", "hello"}})), "format not known"));
-  CHECK(contains(complaint_about(zip_file({{"__MACOSX/main.xml", "hello"}})), "without main.xml"));
-  CHECK(contains(complaint_about(zip_file({{"main.xml", "no xml <"}})), "no XML"));
+  CHECK(contains(complaint_about(zipped({{"readme.txt", "hello"}})), "format not known"));
+  CHECK(contains(complaint_about(zipped({{"__MACOSX/main.xml", "hello"}})), "without main.xml"));
+  CHECK(contains(complaint_about(zipped({{"main.xml", "no xml <"}})), "no XML"));
   const auto with = [](const std::string& from, const std::string& to, const MadeUpX3p& base = {}) {
     const std::string plain = x3p_file(base);
     const std::size_t begin = plain.find("<?xml"), end = plain.find("</p:ISO5436_2>") + 14;
@@ -317,7 +317,7 @@ TEST_CASE("a packed file that unpacks to far more than a height map does is refu
   CHECK(contains(complaint_about(gzip_file(zeros)), "declare to unpack to 83886080 bytes"));
   const std::string xml = "<x><Record1><FeatureType>SUR</FeatureType></Record1></x>";
   CHECK(
-      contains(complaint_about(zip_file({{"main.xml", zeros}, {"b", xml}}, true)), "claims 83886080 bytes"));
+      contains(complaint_about(zipped({{"main.xml", zeros}, {"b", xml}}, true)), "claims 83886080 bytes"));
   std::string lying = gzip_file("1 2\n3 4\n");
   CHECK(contains(complaint_about(lying + std::string("more\0\0\0", 7)), "after the end"));
   lying.replace(lying.size() - 4, 4, "\xFF\xFF\xFF\x7F");
@@ -326,7 +326,7 @@ TEST_CASE("a packed file that unpacks to far more than a height map does is refu
   std::string silent = gzip_file(zeros);
   silent.replace(silent.size() - 4, 4, std::string(4, '\0'));
   CHECK(contains(complaint_about(silent), "unpack to more bytes"));
-  std::string zip = zip_file({{"main.xml", xml}});
+  std::string zip = zipped({{"main.xml", xml}});
   const std::string size = bytes_of(static_cast<std::uint32_t>(xml.size()));
   // The size in the central directory stands twice: packed, unpacked.
   const std::size_t at = zip.rfind(size + size);

@@ -135,20 +135,20 @@ ReadOptions without_units(double width_um) {
 TEST_CASE("no ray on any published map is unclassified: side and direction agree up to 89.9 deg") {
   constexpr std::uint64_t kFewRays = 1;
   const std::vector<PublishedMap> maps{{"chip.gsf", {}},
-                                         {"chip.gwy", {}},
-                                         {"matrix-2.txt.gz", {}},
-                                         {"di-3.di", {}},
-                                         {"di-5.di", {}},
-                                         {"mi-1.mi", {}},
-                                         {"P0089OP0027.ibw", {}},
-                                         {"x3p-2.x3p", {}},
-                                         {"sample-land.x3p", {}, true},
-                                         {"sdf-1.sdf", {}},
-                                         {"gwyddion-export-english.txt", {}, false, kFewRays},
-                                         {"gwyddion-export-german.txt", {}, false, kFewRays},
-                                         {"xyz-1.txt", without_units(4.0)},
-                                         {"gwyfile-test.gwy", without_units(128.0)},
-                                         {"10x10-one_channel_without_name.ibw", without_units(10.0)}};
+                                       {"chip.gwy", {}},
+                                       {"matrix-2.txt.gz", {}},
+                                       {"di-3.di", {}},
+                                       {"di-5.di", {}},
+                                       {"mi-1.mi", {}},
+                                       {"P0089OP0027.ibw", {}},
+                                       {"x3p-2.x3p", {}},
+                                       {"sample-land.x3p", {}, true},
+                                       {"sdf-1.sdf", {}},
+                                       {"gwyddion-export-english.txt", {}, false, kFewRays},
+                                       {"gwyddion-export-german.txt", {}, false, kFewRays},
+                                       {"xyz-1.txt", without_units(4.0)},
+                                       {"gwyfile-test.gwy", without_units(128.0)},
+                                       {"10x10-one_channel_without_name.ibw", without_units(10.0)}};
   for (const auto& [file, options, fill, rays] : maps) {
     const auto path = test::shared_file(std::string("data/topography/") + file);
     if (!path) return;

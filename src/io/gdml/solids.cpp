@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "scintray/io/gdml/simple_solids.hpp"
-#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/combine.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/primitives.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 std::optional<BooleanOperation> operation_of(Node solid) {
   const std::string kind = solid.name();
-  if (kind == "union") return BooleanOperation::join;
+  if (kind == "union") return BooleanOperation::unite;
   if (kind == "subtraction") return BooleanOperation::subtract;
   if (kind == "intersection") return BooleanOperation::intersect;
   return std::nullopt;
@@ -107,7 +107,7 @@ TriMesh Solids::make_boolean(Node solid) {
                                               definitions_.rotation(solid, "firstrotation")));
   const TriMesh second =
       transformed(operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
-  TriMesh result = boolean(first, second, *operation_of(solid));
+  TriMesh result = combine(first, second, *operation_of(solid));
   if (result.triangles.empty())
     throw InputError(Problem{{}, "nothing is left of the boolean", "check where its two solids lie"});
   return result;

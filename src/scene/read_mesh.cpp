@@ -1,4 +1,4 @@
-#include "scintray/scene/read_shape.hpp"
+#include "scintray/scene/read_mesh.hpp"
 
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/import.hpp"
@@ -7,37 +7,6 @@
 namespace scintray {
 
 namespace {
-
-/// box = [size, size, size], centred in x and y, from z = 0; or box = { low, high }.
-BoxSpec read_box(const TomlTable& table) {
-  const TomlNode* node = table.node()->find("box");
-  if (node->kind == TomlNode::Kind::table) return read_low_high(table, "box").value_or(BoxSpec{});
-  BoxSpec box;
-  box.where = node->where;
-  const Vec3 size = table.optional_quantity3("box", Dimension::length).value_or(Vec3::Zero());
-  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
-               "give three lengths above 0");
-  box.low = Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
-  box.high = Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
-  return box;
-}
-
-CylinderSpec read_cylinder(const TomlTable& part) {
-  const TomlTable table = part.table("cylinder");
-  CylinderSpec cylinder;
-  cylinder.where = table.where();
-  cylinder.radius_mm = table.quantity("radius", Dimension::length);
-  cylinder.height_mm = table.quantity("height", Dimension::length);
-  const std::int64_t segments = table.integer("segments", cylinder.segments);
-  for (const char* key : {"radius", "height"})
-    table.expect(key, (std::string(key) == "radius" ? cylinder.radius_mm : cylinder.height_mm) > 0.0,
-                 std::string("the ") + key + " of a cylinder is not positive", "give a length above 0");
-  table.expect("segments", segments >= 3 && segments <= 1000000,
-               "a cylinder of " + std::to_string(segments) + " segments",
-               "give 3 or more (64 is the default), up to 1000000");
-  cylinder.segments = static_cast<int>(segments);
-  return cylinder;
-}
 
 /// body = "NAME", or its number.
 std::string read_body(const TomlTable& part) {
@@ -69,6 +38,8 @@ Tessellation read_tessellation(const TomlTable& part) {
   return tessellation;
 }
 
+}  // namespace
+
 MeshFileSpec read_mesh(const TomlTable& table) {
   MeshFileSpec mesh;
   mesh.where = table.where("mesh");
@@ -94,17 +65,6 @@ MeshFileSpec read_mesh(const TomlTable& table) {
                "a tessellation of \"" + mesh.path.filename().string() + "\", which holds triangles already",
                "remove tessellation: it is for STEP files");
   return mesh;
-}
-
-}  // namespace
-
-ShapeSpec read_shape(const TomlTable& part) {
-  const std::optional<std::string> kind = part.one_of({"mesh", "box", "cylinder"}, true);
-  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
-  if (kind == "mesh") return read_mesh(part);
-  if (kind == "cylinder") return read_cylinder(part);
-  if (kind == "box") return read_box(part);
-  return BoxSpec{};
 }
 
 }  // namespace scintray

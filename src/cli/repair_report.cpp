@@ -1,0 +1,91 @@
+#include "scintray/cli/repair_report.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <set>
+
+#include "scintray/mesh/file_checks.hpp"
+#include "scintray/mesh/gltf_writer.hpp"
+#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/stl_writer.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+std::string places(const Defects& defects) {
+  std::string text;
+  for (const Vec3& p : defects.examples)
+    text += fmt::format("{}({:.5g}, {:.5g}, {:.5g})", text.empty() ? "" : ", ", p.x(), p.y(), p.z());
+  if (text.empty()) return text;
+  return fmt::format(", at {}{} mm", text, defects.count > defects.examples.size() ? ", ..." : "");
+}
+
+void print_state(const std::string& when, const MeshDiagnosis& d) {
+  std::cout << fmt::format("  {}: {} triangles, {} {}, {:.6g} mm2, {:.6g} mm3; ", when, d.triangles, d.bodies,
+                           d.bodies == 1 ? "body" : "bodies", d.area_mm2, d.volume_mm3);
+  const std::pair<const char*, const Defects*> kinds[] = {
+      {"open edges", &d.open_edges},
+      {"non-manifold edges", &d.nonmanifold_edges},
+      {"flipped edges", &d.flipped_edges},
+      {"triangles without area", &d.degenerate_triangles},
+      {"duplicate triangles", &d.duplicate_triangles},
+      {"crossing pairs of triangles", &d.self_intersections},
+      {"bodies inside out", &d.inverted_bodies}};
+  std::string found;
+  for (const auto& [name, defects] : kinds)
+    if (defects->count > 0) found += fmt::format("{}{} {}", found.empty() ? "" : ", ", defects->count, name);
+  std::cout << (found.empty() ? (d.sound() ? "sound" : "no volume") : found) << "\n";
+}
+
+void write(const std::filesystem::path& out, const TriMesh& mesh) {
+  if (lower_extension(out) == ".glb") {
+    write_glb(out, {{out.stem().string(), &mesh, std::nullopt}}, GltfAxes::as_they_are);
+    return;
+  }
+  const std::set<std::uint32_t> used(mesh.group.begin(), mesh.group.end());
+  if (used.size() > 1)
+    std::cout << fmt::format("  note: STL has no groups, {} are lost; write .glb to keep them\n",
+                             used.size());
+  write_stl(out, mesh);
+}
+
+}  // namespace
+
+const char* lossless_ending(const std::filesystem::path& in, double mm_per_unit) {
+  const std::string ending = lower_extension(in);
+  if (ending == ".gltf" || ending == ".glb") return ".glb";
+  return import_mesh(in, mm_per_unit).mesh.groups.size() > 1 ? ".glb" : ".stl";
+}
+
+bool repair_file(const std::filesystem::path& in, double mm_per_unit, const std::filesystem::path& out,
+                 const RepairSettings& settings) {
+  const std::string ending = lower_extension(out);
+  if (ending != ".stl" && ending != ".glb")
+    throw InputError({{},
+                      "a mended mesh cannot be written as \"" + out.string() + "\"",
+                      "choose a name that ends in .stl or, to keep groups, in .glb"});
+  MeshImport imported = import_mesh(in, mm_per_unit);
+  std::cout << in.string() << "\n";
+  for (const std::string& note : imported.notes) std::cout << "  on reading: " << note << "\n";
+  const RepairedMesh repaired = repair_mesh(std::move(imported.mesh), settings);
+  print_state("found", repaired.before);
+  for (const RepairStep& step : repaired.steps)
+    std::cout << fmt::format("  done: {}: {}{}\n", step.what, step.where.count, places(step.where));
+  if (repaired.steps.empty()) std::cout << "  done: nothing\n";
+  for (const std::string& reason : repaired.refused) std::cout << "  not done: " << reason << "\n";
+
+  write(out, repaired.mesh);
+  const MeshDiagnosis written = diagnose(import_mesh(out, ending == ".glb" ? 0.0 : 1.0).mesh);
+  print_state("written to " + out.string(), written);
+  if (written.bodies > 1)
+    std::cout << fmt::format(
+        "  note: {} bodies in one file make one part; save them apart to give them media of their own\n",
+        written.bodies);
+  for (const Problem& problem : mesh_problems(written, in.filename().string()))
+    std::cout << "  left: " << problem.what << "\n        hint: " << problem.hint << "\n";
+  return written.sound();
+}
+
+}  // namespace scintray::cli

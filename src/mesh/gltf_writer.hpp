@@ -1,0 +1,34 @@
+#pragma once
+/// glTF 2.0 out, through tinygltf.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray {
+
+/// A mesh with a name in a glTF file.
+struct GltfObject {
+  std::string name;
+  const TriMesh* mesh = nullptr;
+  /// Red, green, blue and opacity, 0 to 1, of all its triangles. Without: grey, and one material for each
+  /// group, with the group's name, so that groups come back on import.
+  std::optional<std::array<double, 4>> colour;
+};
+
+/// How the axes of a file stand.
+enum class GltfAxes {
+  as_they_are,  ///< for meshes that are read again: importers of parts leave axes alone
+  z_up,         ///< for pictures: a node turns our z to glTF's y, which viewers show upwards
+};
+
+/// Writes a binary glTF file (.glb), whole or not at all: one node for each object, one primitive for
+/// each group, coordinates in metres and single precision (sections 3.4 and 3.6.2 of the
+/// specification). @throws SystemError when it cannot.
+void write_glb(const std::filesystem::path& path, const std::vector<GltfObject>& objects, GltfAxes axes);
+
+}  // namespace scintray

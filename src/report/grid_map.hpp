@@ -1,0 +1,32 @@
+#pragma once
+/// Pictures of a quantity over two axes.
+
+#include <string>
+#include <vector>
+
+namespace scintray::report {
+
+/// A grid of values with its axes.
+struct GridMap {
+  std::size_t rows = 0, columns = 0;
+  std::vector<double> values;  ///< rows x columns, the first row lowest
+  double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
+  std::string x_label, y_label, value_label;
+  std::string alternative;  ///< read by screen readers
+};
+
+/// Colours (viridis) from 0 to the largest value, axes with ticks, and the scale below. Cells keep the
+/// proportions of the axes when these are within a factor of 4, so that a face looks like itself.
+/// Throws std::invalid_argument when the values do not fill the grid.
+std::string grid_map(const GridMap& map);
+
+/// Directions over a hemisphere seen along the normal: distance from the centre is the polar angle
+/// (circles at 30, 60 and 90 deg), azimuth 0 to the right and rising counter-clockwise.
+/// @param values  rows of equal steps in the squared sine of the polar angle, columns of azimuth from
+///                -180 to 180 deg
+std::string polar_map(const GridMap& map);
+
+/// CSS of both.
+std::string grid_map_style();
+
+}  // namespace scintray::report

@@ -1,0 +1,64 @@
+#include "scintray/scene/carve.hpp"
+
+#include <map>
+
+#include "scintray/scene/contact_geometry.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr double kGrid_mm = 0x1p-30;
+
+using Key = std::array<double, 3>;
+
+Key key_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Moves a mesh to the grid and remembers where its vertices came from.
+TriMesh on_grid(TriMesh mesh, const Eigen::Matrix3d& axes, const Vec3& origin, std::map<Key, Vec3>& own) {
+  for (Vec3& vertex : mesh.vertices) {
+    const Vec3 at = axes * (vertex - origin);
+    const Vec3 rounded = (at / kGrid_mm).array().round() * kGrid_mm;
+    own.try_emplace(key_of(rounded), vertex);
+    vertex = rounded;
+  }
+  return mesh;
+}
+
+Eigen::AlignedBox3d bounds_of(const TriMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& v : mesh.vertices) box.extend(v);
+  return box;
+}
+
+}  // namespace
+
+Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts) {
+  std::vector<PlacedPart> geometry;
+  for (const PlacedMesh& part : parts) geometry.push_back(geometry_of(part));
+  return contact::natural_axes(geometry);
+}
+
+std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
+                                   double tolerance_mm) {
+  constexpr double kClean = 0.01;  // of the contact tolerance: shorter edges and heights are rounding
+  const Eigen::AlignedBox3d box = bounds_of(part);
+  const Vec3 origin = box.center();
+  std::map<Key, Vec3> own;
+  const TriMesh first = on_grid(part, axes, origin, own), second = on_grid(tool, axes, origin, own);
+  // Not below what diagnose() takes for rounding.
+  const double clean = std::max(kClean * tolerance_mm, 1.01 * std::ldexp(box.diagonal().norm(), -22));
+  auto result = boolean(first, second, BooleanOperation::subtract, clean);
+  if (!result) return result;
+  for (Vec3& vertex : result->mesh.vertices) {
+    const auto known = own.find(key_of(vertex));
+    vertex = known != own.end() ? known->second : Vec3(origin + axes.transpose() * vertex);
+  }
+  return result;
+}
+
+PlacedPart geometry_of(const PlacedMesh& part) {
+  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of};
+}
+
+}  // namespace scintray

@@ -1,0 +1,23 @@
+#pragma once
+/// Taking one placed part's space from another's.
+
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/scene/contacts.hpp"
+#include "scintray/scene/place_parts.hpp"
+
+namespace scintray {
+
+/// Rotation into axes along the largest faces of the parts (contact::natural_axes): there, faces that lie
+/// in one plane by intention have equal coordinates once these are rounded.
+Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts);
+
+/// `part` less `tool`. Both are rounded to 2^-30 mm in `axes` about the middle of `part`, so that nearly
+/// equal planes become equal ones; vertices of either that survive get their own places back. Nothing
+/// when CGAL refuses, an empty mesh when nothing is left.
+std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
+                                   double tolerance_mm);
+
+/// Geometry for the queries of contacts; faces are those of the part.
+PlacedPart geometry_of(const PlacedMesh& part);
+
+}  // namespace scintray

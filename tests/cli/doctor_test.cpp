@@ -1,0 +1,183 @@
+#include "program.hpp"
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/stl_writer.hpp"
+#include "support/shared.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+// `scintray check` and `scintray repair` as a user runs them.
+
+namespace {
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void write(const std::filesystem::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+/// A box of 2 x 2 x 2 mm without one of its triangles.
+TriMesh box_with_hole() {
+  TriMesh mesh = make_box({0, 0, 0}, {2, 2, 2});
+  mesh.triangles.pop_back();
+  mesh.group.pop_back();
+  return mesh;
+}
+
+const std::string kSource = R"(
+[source]
+type = "photons"
+position = ["1 mm", "1 mm", "1 mm"]
+wavelength = "420 nm"
+photons = 10
+)";
+
+/// 64 crystals under a guide, made of crystal[i,j] as builders of arrays name them.
+std::string array_scene() {
+  std::ostringstream text;
+  text << "ambient = \"air\"\n";
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      text << "[[part]]\nname = \"crystal[" << i << "," << j
+           << "]\"\nmedium = \"LSO\"\nsurface = \"polished\"\n"
+           << "box = [\"2 mm\", \"2 mm\", \"10 mm\"]\ntranslate = [\"" << 2.5 * i << " mm\", \"" << 2.5 * j
+           << " mm\", \"0 mm\"]\n";
+  text << "[[part]]\nname = \"guide\"\nmedium = \"glass\"\nsurface = \"polished\"\n"
+       << "box = { low = [\"-2 mm\", \"-2 mm\", \"10 mm\"], high = [\"20 mm\", \"20 mm\", \"13 mm\"] }\n";
+  return text.str() + kSource;
+}
+
+}  // namespace
+
+TEST_CASE("check says that 64 crystals touch their guide, in one line, and with --all in 64") {
+  const auto folder = scratch_folder("check_array");
+  write(folder / "array.toml", array_scene());
+  const Ended brief = run_program({"check", "array.toml"}, folder);
+  CHECK(brief.exit_code == 0);
+  CHECK(contains(brief.output, "crystal[*] | guide: 64 interfaces (64 bonded), 256 mm2"));
+  CHECK(contains(brief.output, "crystal[*] x 64"));
+  CHECK(std::count(brief.output.begin(), brief.output.end(), '\n') < 40);
+  const Ended all = run_program({"check", "array.toml", "--all"}, folder);
+  CHECK(contains(all.output, "crystal[7,3] | guide: 1 interface (1 bonded), 4 mm2"));
+  CHECK(std::count(all.output.begin(), all.output.end(), '\n') > 64 * 5);
+}
+
+TEST_CASE("check marks the places of problems in a picture, also when the scene does not build") {
+  const auto folder = scratch_folder("check_picture");
+  write_stl(folder / "open.stl", box_with_hole());
+  write(folder / "bad.toml",
+        "ambient = \"air\"\n"
+        "[[part]]\nname = \"crystal\"\nmesh = \"open.stl\"\nunit = \"mm\"\nmedium = \"LSO\"\n"
+        "surface = \"polished\"\n"
+        "[[part]]\nname = \"bare\"\nbox = [\"1 mm\", \"1 mm\", \"1 mm\"]\nmedium = \"glass\"\n"
+        "translate = [\"5 mm\", \"0 mm\", \"0 mm\"]\n"
+        "[[part.face]]\nselect = { normal = [0, 0, 1] }\nsurface = \"polished\"\n"
+        "[[part.face]]\nname = \"top\"\nselect = { nearest = [\"5 mm\", \"0 mm\", \"1 mm\"] }\nsurface = "
+        "\"polished\"\n" +
+            kSource);
+  for (const char* picture : {"bad.svg", "bad.glb"}) {
+    CAPTURE(picture);
+    const Ended ended = run_program({"check", "bad.toml", "--picture", picture}, folder);
+    CHECK(ended.exit_code == 1);
+    CHECK(contains(ended.output, "part \"crystal\" has 3 open edges"));
+    CHECK(contains(ended.output, "which medium lies behind it cannot be known"));
+    CHECK(contains(ended.output, "part \"bare\" has faces without a surface"));
+    CHECK(contains(ended.output, "rules \"+z\" and \"top\" of part \"bare\" both match the triangle at"));
+    CHECK(contains(ended.output, "parts: 2, marked problems: 3"));
+    CHECK(std::filesystem::file_size(folder / picture) > 1000);
+  }
+  const std::string svg = content(folder / "bad.svg");
+  CHECK(contains(svg, "part &quot;crystal&quot; has 3 open edges"));
+  // Each of the three views has a ring for every place: 3 open edges, 1 bare face, 1 face of two rules,
+  // some on one spot; and the legend one for each problem.
+  std::size_t rings = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
+    ++rings;
+  CHECK(rings >= 3 + 3 * 3);
+  const MeshImport glb = import_mesh(folder / "bad.glb", 0.0);
+  CHECK(glb.mesh.triangles.size() == 11 + 12 + 5 * 180);
+
+  const Ended other = run_program({"check", "bad.toml", "--picture", "bad.jpeg"}, folder);
+  CHECK(other.exit_code == 1);
+  CHECK(contains(other.output, "choose a name that ends in .glb or .svg"));
+}
+
+TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
+  const auto folder = scratch_folder("repair_mesh");
+  write_stl(folder / "open.stl", box_with_hole());
+  const Ended ended = run_program(
+      {"repair", "open.stl", "--unit", "mm", "--largest-hole", "3 mm", "-o", "closed.stl"}, folder);
+  CHECK(ended.exit_code == 0);
+  CHECK(contains(ended.output, "found: 11 triangles, 1 body, 22 mm2, "));
+  CHECK(contains(ended.output, "3 open edges"));
+  CHECK(contains(ended.output, "done: holes filled: 1, at ("));
+  CHECK(contains(ended.output, "written to closed.stl: 12 triangles, 1 body, 24 mm2, 8 mm3; sound"));
+  const Ended glb = run_program(
+      {"repair", "open.stl", "--unit", "mm", "--largest-hole", "3 mm", "-o", "closed.glb"}, folder);
+  CHECK(glb.exit_code == 0);
+  CHECK(import_mesh(folder / "closed.glb", 0.0).mesh.volume() == doctest::Approx(8.0));
+}
+
+TEST_CASE("repair writes what it has, says what is left, and returns 1, when it cannot mend all") {
+  const auto folder = scratch_folder("repair_in_vain");
+  write_stl(folder / "open.stl", box_with_hole());
+  const Ended ended =
+      run_program({"repair", "open.stl", "--unit", "mm", "--largest-hole", "1 mm", "-o", "same.stl"}, folder);
+  CHECK(ended.exit_code == 1);
+  CHECK(contains(ended.output, "not done: 1 hole stays open: larger than the limit of 1 mm"));
+  CHECK(contains(ended.output, "left: part \"open.stl\" has 3 open edges"));
+  CHECK(std::filesystem::exists(folder / "same.stl"));
+  CHECK(contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output,
+                 "does not say in which unit"));
+  CHECK(contains(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
+                 "ends in .stl or, to keep groups, in .glb"));
+}
+
+TEST_CASE("repair of a scene mends every mesh and writes a scene that names them") {
+  const auto folder = scratch_folder("repair_scene");
+  write_stl(folder / "open.stl", box_with_hole());
+  write(folder / "index.csv", "wavelength (nm), n\n300, 1.5\n700, 1.5\n");
+  write(folder / "scene.toml",
+        "ambient = \"air\"\n"
+        "[[part]]\nname = \"a\"\nmesh = \"open.stl\"  # broken\nunit = \"inch\"\nmedium = \"LSO\"\nsurface = "
+        "\"polished\"\n"
+        "[[part]]\nname = \"b\"\nmesh = \"open.stl\"\nunit = \"inch\"\nmedium = \"LSO\"\nsurface = "
+        "\"polished\"\n"
+        "translate = [\"90 mm\", \"0 mm\", \"0 mm\"]\n" +
+            kSource);
+  CHECK(run_program({"check", "scene.toml"}, folder).exit_code == 1);
+  const Ended ended =
+      run_program({"repair", "scene.toml", "--largest-hole", "100 mm", "-o", "mended"}, folder);
+  CHECK(ended.exit_code == 0);
+  CHECK(contains(ended.output, "names 1 mended mesh"));
+  const std::string text = content(folder / "mended/scene.toml");
+  CHECK(contains(text, "mesh = \"open_mended.stl\"  # broken\nunit = \"mm\"\n"));
+  const Ended checked = run_program({"check", "mended/scene.toml"}, folder);
+  CHECK(checked.exit_code == 0);
+  CHECK(contains(checked.output, "131097"));  // 8 cubic inches in mm3
+  CHECK(contains(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
+                 "the output folder is that of the scene itself"));
+}
+
+TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mistakes") {
+  const auto folder = scratch_folder("check_notes");
+  write_stl(folder / "two.stl", joined(make_box({0, 0, 0}, {2, 2, 2}), make_box({5, 0, 0}, {7, 2, 2})));
+  write(folder / "scene.toml",
+        "ambient = \"air\"\n"
+        "[[part]]\nname = \"two\"\nmesh = \"two.stl\"\nunit = \"mm\"\nmedium = \"LSO\"\nsurface = "
+        "\"polished\"\n"
+        "[[part]]\nname = \"plate\"\nmedium = \"glass\"\nsurface = \"polished\"\n"
+        "box = { low = [\"0 mm\", \"0 mm\", \"2.001 mm\"], high = [\"7 mm\", \"2 mm\", \"3 mm\"] }\n" +
+            kSource);
+  const Ended ended = run_program({"check", "scene.toml", "--picture", "gaps.svg"}, folder);
+  CHECK(ended.exit_code == 0);
+  CHECK(contains(ended.output, "note: 2 separate surfaces in one mesh"));
+  CHECK(contains(ended.output, "warning: parts \"two\" and \"plate\" are 0.001 mm apart at ("));
+  CHECK(contains(content(folder / "gaps.svg"), "are 0.001 mm apart"));
+}

@@ -1,0 +1,110 @@
+#include "doctor/doctor_scenes.hpp"
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/stl_writer.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+// Two tessellations of one curved surface, made one within a tolerance.
+
+namespace {
+
+constexpr double kRadius = 5.0;  // mm
+
+/// Area of the regular polygon with its corners on the circle, mm2.
+double polygon_area(int corners) { return 0.5 * corners * kRadius * kRadius * std::sin(kTwoPi / corners); }
+double polygon_perimeter(int corners) { return 2.0 * corners * kRadius * std::sin(kPi / corners); }
+
+/// A block of 12 x 12 x 10 mm with a bore of 64 flat sides along z, as a file.
+std::string bored_block() {
+  const auto path = scratch_folder("curved") / "holder.stl";
+  TriMesh bore = make_cylinder(kRadius, 12.0, 64);
+  for (Vec3& v : bore.vertices) v.z() -= 1.0;
+  const auto block = boolean(make_box({-6, -6, 0}, {6, 6, 10}), bore, BooleanOperation::subtract, 1e-9);
+  REQUIRE(block);
+  write_stl(path, block->mesh);
+  return path.string();
+}
+
+/// A bonded contact with a tolerance of its own.
+std::string within(const std::string& a, const std::string& b, const std::string& tolerance) {
+  return fmt::format("[[contact]]\nbetween = [\"{}\", \"{}\"]\nkind = \"bonded\"\ntolerance = \"{}\"\n", a, b,
+                     tolerance);
+}
+
+/// A rod of 48 sides from z = low, `height` long, in the bored block; `turn` is added to both parts.
+std::string rod_in_bore(double low, double height, const std::string& tolerance,
+                        const std::string& turn = "") {
+  const std::string put =
+      turn.empty() ? fmt::format("translate = [\"0 mm\", \"0 mm\", \"{} mm\"]\n", low) : turn + "\n";
+  const std::string rod =
+      fmt::format("cylinder = {{ radius = \"5 mm\", height = \"{} mm\", segments = 48 }}\n", height);
+  return lit_scene(part_text("rod", rod + put, "lso") +
+                       part_text("holder", from_file(bored_block()) + turn + "\n", "n15") +
+                       within("rod", "holder", tolerance),
+                   "rod", 2000);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "A rod of 48 sides flush in a bore of 64: the holder takes the rod's sides, and nothing is left "
+    "between") {
+  for (const char* turn : {"", "rotate = { axis = [3, 1, 2], angle = \"40 deg\" }"}) {
+    CAPTURE(turn);
+    const Traced traced = trace(rod_in_bore(0.0, 10.0, "20 um", turn));
+    const Scene& scene = traced.built.scene;
+    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
+    CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
+    CHECK(area_between(scene, "rod", "holder") ==
+          doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
+    REQUIRE(traced.built.parts[1].notes.size() == 1);
+    CHECK(contains(traced.built.parts[1].notes[0], "took the shape of \"rod\""));
+    // Some corners of the 64 lie over middles of the 48 sides: the deepest sliver is r (1 - cos(pi / 48)).
+    CHECK(contains(traced.built.parts[1].notes[0], "moved by up to 0.011 mm"));
+  }
+}
+
+TEST_CASE("A rod that sticks out of the bore on both sides") {
+  const Traced traced = trace(rod_in_bore(-2.0, 14.0, "20 um"));
+  const Scene& scene = traced.built.scene;
+  CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
+  CHECK(area_between(scene, "rod", "holder") == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
+}
+
+TEST_CASE("A rod that ends within the bore takes the bore's sides") {
+  const Traced traced = trace(rod_in_bore(2.0, 6.0, "20 um"));
+  const Scene& scene = traced.built.scene;
+  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(6.0 * polygon_area(64)).epsilon(1e-6));
+  CHECK(area_between(scene, "rod", "holder") == doctest::Approx(6.0 * polygon_perimeter(64)).epsilon(1e-6));
+}
+
+TEST_CASE("A ball in a hollow of other triangles") {
+  const auto path = scratch_folder("hollow") / "block.stl";
+  const auto block =
+      boolean(make_box({-7, -7, -7}, {7, 7, -1}), make_sphere(kRadius, 10), BooleanOperation::subtract, 1e-9);
+  REQUIRE(block);
+  write_stl(path, block->mesh);
+  const auto ball_path = scratch_folder("ball") / "ball.stl";
+  const TriMesh ball = transformed(make_sphere(kRadius, 13),
+                                   Eigen::Affine3d(Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized())));
+  write_stl(ball_path, ball);
+  const Traced traced = trace(lit_scene(part_text("ball", from_file(ball_path.string()), "lso") +
+                                            part_text("block", from_file(path.string()), "n15") +
+                                            within("ball", "block", "60 um"),
+                                        "ball", 2000));
+  const Scene& scene = traced.built.scene;
+  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(ball.volume()).epsilon(1e-6));
+  // The cap of a sphere below z = -1: 2 pi r (r - 1), less what a tessellation lacks.
+  CHECK(area_between(scene, "ball", "block") ==
+        doctest::Approx(kTwoPi * kRadius * (kRadius - 1.0)).epsilon(0.02));
+}
+
+TEST_CASE("What cannot be closed is said: faces that end within each other, tolerances too small, no faces") {
+  CHECK(contains(refusal(rod_in_bore(5.0, 10.0, "20 um")), "on either part a triangle lies partly within"));
+  CHECK(contains(refusal(rod_in_bore(0.0, 10.0, "5 um")), "cannot be closed within 0.005 mm"));
+  CHECK(
+      contains(refusal(rod_in_bore(20.0, 10.0, "20 um")), "no faces of theirs face each other that closely"));
+}

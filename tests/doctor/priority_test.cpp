@@ -1,0 +1,86 @@
+#include "doctor/doctor_scenes.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+// Overlaps that are meant: the part with the higher priority keeps the space.
+
+namespace {
+
+/// A plate 10 x 10 x 4 mm and a rod of 2 x 2 mm through it, with keys of their own, and a source in the rod.
+std::string plate_and_rod(const std::string& plate, const std::string& rod) {
+  return lit_scene(part_text("plate", corners({-5, -5, 0}, {5, 5, 4}) + plate, "n15") +
+                       part_text("rod", corners({-1, -1, -3}, {1, 1, 7}), "lso") + rod,
+                   "rod", 3000);
+}
+
+double area_of(const Scene& scene, const std::string& face) {
+  for (const FaceInfo& info : scene.faces)
+    if (info.name == face) return info.area_mm2;
+  return -1.0;
+}
+
+}  // namespace
+
+TEST_CASE("The part with the higher priority keeps the space, and the cut is a face of the other") {
+  const std::string turned = "rotate = { axis = [1, 2, 3], angle = \"31 deg\" }\n";
+  for (const bool skew : {false, true}) {
+    CAPTURE(skew);
+    const Traced traced = trace(plate_and_rod(skew ? turned : "", "priority = 2\n" + (skew ? turned : "")));
+    const Scene& scene = traced.built.scene;
+    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0 - 16.0).epsilon(1e-9));
+    CHECK(scene.parts[1].volume_mm3 == doctest::Approx(40.0).epsilon(1e-9));
+    CHECK(area_of(scene, "plate:cut:rod") == doctest::Approx(4.0 * 2.0 * 4.0).epsilon(1e-9));
+    CHECK(traced.built.parts[0].notes.size() == 1);
+    CHECK(contains(traced.built.parts[0].notes[0], "cut by \"rod\""));
+    double contact = 0.0;
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+      if (scene.interfaces[i].back == 1 && scene.interfaces[i].front == 2)
+        contact += scene.interface_area_mm2[i];
+    CHECK(contact == doctest::Approx(32.0).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("The other way round the plate cuts the rod in two") {
+  const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("priority = 1\n", ""))).scene;
+  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0));
+  CHECK(scene.parts[1].volume_mm3 == doctest::Approx(24.0).epsilon(1e-12));
+  CHECK(area_of(scene, "rod:cut:plate") == doctest::Approx(8.0).epsilon(1e-12));
+}
+
+TEST_CASE("Equal priorities stay an error that names both parts and the volume") {
+  for (const char* priority : {"", "priority = 3\n"}) {
+    const std::string text = refusal(plate_and_rod(priority, priority));
+    CHECK(contains(text, "parts 'plate' and 'rod' overlap by 16 mm3"));
+    CHECK(contains(text, "give the one that is to keep the space a higher priority"));
+  }
+}
+
+TEST_CASE("Three parts: each is cut by all above it") {
+  const std::string third = part_text("post", corners({0, -2, 1}, {2, 2, 9}) + "priority = 1\n", "n15");
+  const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("", "priority = 2\n" + third))).scene;
+  // post 2 x 4 x 8 less the rod's 1 x 2 x 6; plate less the rod and what is left of the post in it.
+  CHECK(scene.parts[2].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
+  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
+}
+
+TEST_CASE("A part wholly inside another is nested, whatever the priorities") {
+  const std::string nested =
+      lit_scene(part_text("resin", corners({-4, -4, 0}, {4, 4, 9}) + "priority = 5\n", "n15") +
+                    part_text("crystal", corners({-1, -1, 1}, {1, 1, 3}), "lso"),
+                "crystal", 1000);
+  const Traced traced = trace(nested);
+  CHECK(traced.built.parts[0].notes.empty());
+  CHECK(traced.built.parts[1].notes.empty());
+}
+
+TEST_CASE("A cut that needs a surface, and one that grazes, are refused in words") {
+  std::string bare = plate_and_rod("", "priority = 2\n");
+  const std::string surface = "medium = \"n15\"\nsurface = \"flat\"\n";
+  bare.replace(
+      bare.find(surface), surface.size(),
+      "medium = \"n15\"\n[[part.face]]\nname = \"all\"\nselect = { box = { low = [\"-9 mm\", \"-9 mm\", "
+      "\"-9 mm\"], high = [\"9 mm\", \"9 mm\", \"9 mm\"] } }\nsurface = \"flat\"\n");
+  CHECK(contains(refusal(bare), "the faces born in the cut have no surface"));
+  CHECK(contains(refusal(plate_and_rod("priority = 1001\n", "")), "a priority beyond 1000"));
+}

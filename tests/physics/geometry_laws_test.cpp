@@ -1,0 +1,419 @@
+// Laws that hold for every shape: what comes out of bodies, tapers and whole arrays, in closed form.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/traced.hpp"
+#include "scintray/core/pattern.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/mesh/shapes.hpp"
+#include "scintray/scene/place_parts.hpp"
+#include "scintray/surface/fresnel.hpp"
+#include "scintray/trace/step.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+const std::string kMirror = R"(
+[surfaces.mirror]
+model = "painted"
+reflectance = 1.0
+specular_share = 1.0
+)";
+
+double face_area(const Scene& scene, const std::string& name) {
+  double area = 0.0;
+  for (const FaceInfo& face : scene.faces)
+    if (face.name == name) area += face.area_mm2;
+  return area;
+}
+
+/// Points on a closed mesh, uniform in area, with the inward normal.
+class BoundaryPoints {
+ public:
+  explicit BoundaryPoints(const TriMesh& mesh) : mesh_(mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      area_ += mesh.area_vector(t).norm();
+      cumulated_.push_back(area_);
+    }
+  }
+  std::pair<Vec3, Vec3> draw(Rng& rng) const {
+    const double at = rng.uniform() * area_;
+    const auto t = static_cast<std::size_t>(std::upper_bound(cumulated_.begin(), cumulated_.end() - 1, at) -
+                                            cumulated_.begin());
+    const Vec3 &a = mesh_.vertices[mesh_.triangles[t][0]], &b = mesh_.vertices[mesh_.triangles[t][1]],
+               &c = mesh_.vertices[mesh_.triangles[t][2]];
+    double u = rng.uniform(), v = rng.uniform();
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    return {a + u * (b - a) + v * (c - a), -mesh_.area_vector(t).normalized()};
+  }
+  double area() const { return area_; }
+
+ private:
+  const TriMesh& mesh_;
+  double area_ = 0.0;
+  std::vector<double> cumulated_;
+};
+
+/// A hollow concentrator or taper with mirrors for walls, and a sensor of index 1 at its narrow end, lit from
+/// a thin slab under its wide end.
+std::string hollow_taper(const std::string& shape, double wide_z, const std::string& direction,
+                         std::uint64_t photons) {
+  return R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "taper"
+)" + shape +
+         R"(
+medium = "vacuum_n1"
+surface = "mirror"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "flat"
+[[part.face]]
+name = "entrance"
+select = { normal = [0, 0, 1] }
+surface = "flat"
+[[part]]
+name = "sensor"
+box = ["50 mm", "50 mm", "1 mm"]
+place = { touch = "taper", side = "-z" }
+sensor = "perfect_n1"
+[source]
+type = "photons"
+wavelength = "420 nm"
+)" +
+         fmt::format("region = {{ part = \"taper\", slab_z = [\"{0:.9f} mm\", \"{1:.9f} mm\"] }}\n",
+                     wide_z - 1e-6, wide_z) +
+         "direction = " + direction + fmt::format("\nphotons = {}\n", photons) + kMirror;
+}
+
+/// A beam in the xz plane, going down at an angle to the axis.
+std::string beam(double angle_deg) {
+  return fmt::format("[{:.12f}, 0, {:.12f}]", std::sin(angle_deg * kDegree), -std::cos(angle_deg * kDegree));
+}
+
+}  // namespace
+
+TEST_CASE("Law: integrating sphere f / (1 - rho (1 - f)), f by the area of the tessellation") {
+  for (const auto& [subdivisions, reflectance] : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
+    const Traced traced = trace(fmt::format(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "sphere"
+sphere = {{ radius = "10 mm", subdivisions = {} }}
+medium = "vacuum_n1"
+surface = "wall"
+[[part.face]]
+name = "port"
+select = {{ box = {{ low = ["-7 mm", "-7 mm", "6 mm"], high = ["7 mm", "7 mm", "11 mm"] }} }}
+surface = "flat"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "0 mm"]
+wavelength = "420 nm"
+photons = 150_000
+[surfaces.wall]
+model = "painted"
+reflectance = {}
+specular_share = 0.0
+)",
+                                            subdivisions, reflectance));
+    const double port = face_area(traced.built.scene, "sphere:port");
+    const double f = port / (port + face_area(traced.built.scene, "sphere:other"));
+    CAPTURE(subdivisions);
+    CHECK(f > 0.03);
+    // From the middle the port is met with probability f, and so it is from everywhere on the wall.
+    check_fraction(traced.result, Fate::escaped, f / (1.0 - reflectance * (1.0 - f)));
+  }
+}
+
+TEST_CASE(
+    "Law: mean chord 4V/S of convex bodies: prism, cylinder, sphere, taper, Winston cone, chamfered box") {
+  for (
+      const std::string shape :
+      {R"(prism = { sides = 6, flat_to_flat = "3 mm", height = "10 mm" })",
+       R"(cylinder = { radius = "2 mm", height = "5 mm", segments = 24 })",
+       R"(sphere = { radius = "3 mm", subdivisions = 4 })",
+       R"(tapered = { bottom = ["2 mm", "3 mm"], top = ["5 mm", "4 mm"], top_offset = ["1 mm", "0 mm"], height = "6 mm" })",
+       R"(winston = { exit_radius = "1 mm", acceptance = "30 deg", segments = 24, rings = 12 })",
+       "box = [\"2 mm\", \"2 mm\", \"10 mm\"]\nchamfer = \"0.3 mm\""}) {
+    const SceneSpec spec = scene_spec(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "body"
+)" + shape + R"(
+medium = "cloudy_n1"
+surface = "white"
+[source]
+type = "photons"
+region = { part = "body" }
+wavelength = "420 nm"
+photons = 1
+)");
+    SceneBuilder builder;
+    const BuiltScene built = builder.build(spec);
+    const PhotonSource source(spec.source, built.scene);
+    Problems problems;
+    const TriMesh mesh = place_parts(spec, problems).at(0).mesh;
+    const BoundaryPoints boundary(mesh);
+    Moments chord;
+    for (std::uint64_t i = 0; i < 60'000; ++i) {
+      Rng rng(12, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      const auto [position, inward] = boundary.draw(rng);
+      photon.position = position;
+      photon.ray.direction = sample_lambertian(inward, rng);
+      while (photon.interactions < 1) step(built.scene, photon, rng);
+      chord.add(photon.path_mm);
+    }
+    CAPTURE(shape);
+    check_law("mean chord, mm", chord.mean(), {4.0 * built.scene.parts[0].volume_mm3 / boundary.area(), 0.0});
+  }
+}
+
+TEST_CASE("Law: a square light pipe keeps 2 cos(tc) - 1 of the light made in it") {
+  // Light is guided when both walls are met beyond the critical angle: |dx|, |dy| < c = cos(tc). Each
+  // excludes 1 - c of all directions; they exclude none twice while 2 c^2 > 1 (n > sqrt 2 ... tc < 45 deg).
+  const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "pipe"
+box = ["3 mm", "3 mm", "400 mm"]
+medium = "n15"
+surface = "flat"
+[[array]]
+name = "end"
+count = [1, 1]
+place = { touch = "pipe", side = "-z" }
+[array.element]
+box = ["3 mm", "3 mm", "1 mm"]
+sensor = "perfect"
+[[part]]
+name = "far_end"
+box = ["3 mm", "3 mm", "1 mm"]
+place = { touch = "pipe", side = "+z" }
+sensor = "perfect"
+[source]
+type = "photons"
+region = { part = "pipe", slab_z = ["199 mm", "201 mm"] }
+wavelength = "420 nm"
+photons = 150_000
+)");
+  // Unguided light meets the walls some 50 times on its way out and is gone.
+  const double c = std::sqrt(1.0 - 1.0 / (1.5 * 1.5));
+  CHECK(2.0 * c * c > 1.0);
+  check_fraction(traced.result, Fate::detected, 2.0 * c - 1.0);
+}
+
+TEST_CASE("Law: a light pipe of index n takes in what comes below sin(t) = sqrt(n^2 - 1)") {
+  constexpr double kIndex = 1.3;
+  const double acceptance = std::asin(std::sqrt(kIndex * kIndex - 1.0)) / kDegree;
+  CHECK(acceptance == doctest::Approx(56.17).epsilon(1e-4));
+  for (const double angle : {acceptance - 0.5, acceptance + 0.5}) {
+    const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "pipe"
+box = ["3 mm", "3 mm", "1000 mm"]
+medium = "n13"
+surface = "flat"
+[[part]]
+name = "far_end"
+box = ["3 mm", "3 mm", "1 mm"]
+place = { touch = "pipe", side = "+z" }
+sensor = "perfect_n13"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "-0.5 mm"]
+polarisation = "unpolarised"
+wavelength = "420 nm"
+photons = 50_000
+direction = )" + fmt::format("[{:.12f}, 0, {:.12f}]", std::sin(angle * kDegree), std::cos(angle * kDegree)) +
+                                R"(
+[media.n13]
+index = { n = 1.3 }
+absorption = { none = true }
+scattering = { none = true }
+[sensors.perfect_n13]
+efficiency = { definition = "internal", value = 1.0 }
+window = { index = 1.3 }
+)");
+    CAPTURE(angle);
+    if (angle < acceptance)
+      check_fraction(traced.result, Fate::detected,
+                     1.0 - fresnel(std::cos(angle * kDegree), 1.0, kIndex).unpolarised());
+    else
+      CHECK(traced.result.count(Fate::detected) == 0);
+  }
+}
+
+TEST_CASE("Law: a Winston trough takes in all light up to its acceptance angle, and none beyond") {
+  const double length = winston_length(2.0, 30.0 * kDegree);
+  const std::string shape =
+      R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", trough = "5 mm", rings = 400 })";
+  for (const auto& [angle, expected] : {std::pair{0.0, 1.0}, std::pair{15.0, 1.0}, std::pair{29.5, 1.0},
+                                        std::pair{30.5, 0.0}, std::pair{45.0, 0.0}}) {
+    CAPTURE(angle);
+    const Traced traced = trace(hollow_taper(shape, length, beam(angle), 20'000));
+    CHECK(traced.result.count(expected > 0.0 ? Fate::escaped : Fate::detected) == 0);
+    CHECK(traced.result.count(expected > 0.0 ? Fate::detected : Fate::escaped) == 20'000);
+  }
+}
+
+TEST_CASE("Law: a Winston cone takes in all light along its axis and none well beyond its acceptance angle") {
+  const double length = winston_length(2.0, 30.0 * kDegree);
+  const std::string shape =
+      R"(winston = { exit_radius = "2 mm", entrance_radius = "4 mm", segments = 128, rings = 200 })";
+  CHECK(trace(hollow_taper(shape, length, beam(0.0), 20'000)).result.count(Fate::escaped) == 0);
+  CHECK(trace(hollow_taper(shape, length, beam(36.0), 20'000)).result.count(Fate::detected) == 0);
+}
+
+TEST_CASE("Law: etendue: of Lambert's light into a taper the share of the areas comes out, A_out / A_in") {
+  // Light sent back from the narrow end always gets out of the wide one, for every wall turns it outwards; so
+  // by reversal what gets through has the etendue of the narrow end, pi A_out (Liouville's theorem).
+  const double length = winston_length(2.0, 30.0 * kDegree);
+  for (
+      const auto& [shape, height] :
+      {std::pair<std::string, double>{
+           R"(tapered = { bottom = ["2 mm", "3 mm"], top = ["6 mm", "4 mm"], height = "9 mm" })", 9.0},
+       std::pair<std::string, double>{
+           R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", segments = 24, rings = 16 })", length},
+       std::pair<std::string, double>{
+           R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", length = "6 mm", segments = 24, rings = 16 })",
+           6.0}}) {
+    CAPTURE(shape);
+    const Traced traced = trace(hollow_taper(shape, height, "{ lambertian = [0, 0, -1] }", 100'000));
+    const Scene& scene = traced.built.scene;
+    check_fraction(traced.result, Fate::detected,
+                   face_area(scene, "taper:exit") / face_area(scene, "taper:entrance"));
+    CHECK(traced.result.count(Fate::detected) + traced.result.count(Fate::escaped) == 100'000);
+  }
+}
+
+TEST_CASE("Law: a cube of eight bonded cubes traps as much light as one, 3 cos(tc) - 2") {
+  const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[array]]
+name = "crystal"
+pitch = "2 mm"
+count = [2, 2]
+[array.element]
+box = ["2 mm", "2 mm", "2 mm"]
+medium = "lso_clear"
+surface = "flat"
+[[array.layer]]
+[[array.layer]]
+[source]
+type = "photons"
+region = { part = "crystal[0,1,0]" }
+wavelength = "420 nm"
+photons = 100_000
+[run]
+max_interactions = 400
+)");
+  CHECK(traced.built.scene.parts.size() == 8);
+  check_fraction(traced.result, Fate::cut_interactions, 3.0 * std::sqrt(1.0 - 1.0 / (1.82 * 1.82)) - 2.0);
+}
+
+TEST_CASE("Law: white furnace: light at rest in a lossless array stays spread as n^2 V over all its parts") {
+  // Two staggered layers of crystals, dry and glued, with septa of partial height, in a white box. Radiance
+  // in equilibrium is n^2, so of the light's way, n^2 V is in each part; light that starts so, stays so.
+  const SceneSpec spec = scene_spec(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "box"
+box = { low = ["-5 mm", "-5 mm", "-1 mm"], high = ["5 mm", "5 mm", "12 mm"] }
+medium = "vacuum_n1"
+surface = "white"
+[[array]]
+name = "crystal"
+pitch = "2.2 mm"
+count = [3, 3]
+glue = { medium = "n15", thickness = "0.2 mm" }
+[array.element]
+box = ["2 mm", "2 mm", "5 mm"]
+medium = "lso_clear"
+surface = "flat"
+[array.septa]
+surface = "white"
+thickness = "0.1 mm"
+height = ["1 mm", "5 mm"]
+[[array.layer]]
+filler = "n15"
+[[array.layer]]
+count = [2, 2]
+pitch = "2 mm"
+septa = { surface = "white", thickness = "0.1 mm", x = false, y = false }
+[[contact]]
+between = ["crystal[1,*]", "crystal[1,*]"]
+kind = "dry"
+[source]
+type = "photons"
+region = { part = "box" }
+wavelength = "420 nm"
+photons = 1
+)");
+  SceneBuilder builder;
+  const BuiltScene built = builder.build(spec);
+  const Scene& scene = built.scene;
+  const PhotonSource source(spec.source, scene);
+  // Volume of the regions: what is nested in a part is not its own.
+  std::vector<double> weight(scene.regions.size(), 0.0);
+  for (const PartInfo& part : scene.parts) {
+    const SceneMedium& medium = scene.media[scene.regions[part.region].medium];
+    if (medium.is_opaque()) continue;
+    double volume = part.volume_mm3;
+    for (const PartInfo& other : scene.parts) {
+      const bool in_filler =
+          matches_pattern("crystal[0,*", other.name) || matches_pattern("crystal_septum*", other.name);
+      const bool in_box = other.name != "box" && !in_filler;
+      if ((part.name == "box" && in_box) || (part.name == "crystal_filler[0]" && in_filler))
+        volume -= other.volume_mm3;
+    }
+    weight[part.region] = volume * std::pow(medium.index(420.0), 2);
+  }
+  double sum = 0.0;
+  for (const double w : weight) sum += w;
+
+  constexpr std::uint64_t kPhotons = 20'000;
+  constexpr double kPath_mm = 150.0;
+  std::vector<std::uint64_t> found(scene.regions.size(), 0);
+  std::uint64_t ended = 0;  // nothing absorbs
+  const Eigen::AlignedBox3d bounds = scene.parts[0].bounds;
+  for (std::uint64_t i = 0; i < kPhotons; ++i) {
+    Rng rng(13, StreamKind::photon, i);
+    Photon photon = source.emit(scene, rng);
+    // A place with density n^2: drawn in the box, kept with probability n^2 / n_crystal^2.
+    for (;;) {
+      for (int axis = 0; axis < 3; ++axis)
+        photon.position[axis] = bounds.min()[axis] + rng.uniform() * bounds.sizes()[axis];
+      photon.region = scene.locate(photon.position);
+      const SceneMedium& medium = scene.media[scene.regions[photon.region].medium];
+      if (medium.is_opaque()) continue;
+      photon.optics = medium.at(photon.wavelength_nm);
+      if (rng.uniform() < std::pow(photon.optics.index / 1.82, 2)) break;
+    }
+    std::uint32_t region = photon.region;
+    while (photon.path_mm < kPath_mm && ended == 0) {
+      region = photon.region;
+      const StepKind kind = step(scene, photon, rng).kind;
+      ended += kind != StepKind::crossed && kind != StepKind::returned;
+    }
+    ++found[region];
+  }
+  CHECK(ended == 0);
+  for (std::size_t r = 0; r < scene.regions.size(); ++r) {
+    if (weight[r] == 0.0) {
+      CHECK(found[r] == 0);
+      continue;
+    }
+    CAPTURE(scene.regions[r].name);
+    check_law(scene.regions[r].name, binomial_estimate(found[r], kPhotons), {weight[r] / sum, 0.0});
+  }
+}
