@@ -25,7 +25,8 @@ TriMesh combine(const TriMesh& a, const TriMesh& b, BooleanOperation operation) 
       boolean(a, b, operation, std::max(rounding_length(a), rounding_length(b)));
   if (!result)
     reject_shape(
-        "a body of a boolean crosses or touches itself, or the two touch in an edge or a corner only, so that "
+        "a body of a boolean crosses or touches itself, or the two touch in an edge or a corner only, so "
+        "that "
         "their result has no closed surface",
         "let them overlap, or leave a gap between them");
   TriMesh mesh = std::move(result->mesh);

@@ -19,7 +19,7 @@ void require(bool ok, const std::string& what, const std::string& hint) {
   if (!ok) throw InputError(Problem{{}, what, hint});
 }
 
-bool positive(double x) { return std::isfinite(x) && x > 0.0; }
+bool is_length(double x) { return std::isfinite(x) && x > 0.0; }
 
 std::vector<std::string> numbered_sides(int sides) {
   std::vector<std::string> names;
@@ -63,7 +63,7 @@ TriMesh chamfered_prism(const std::vector<Vec2>& outline, double z0, double z1, 
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 whole = outline[(i + 1) % n] - outline[i];
     const Vec2 left = cut.sides[(2 * i + 2) % (2 * n)] - cut.sides[2 * i + 1];
-    require(positive(chamfer) && whole.dot(left) > 0.0 && z1 - z0 > 2.0 * chamfer,
+    require(is_length(chamfer) && whole.dot(left) > 0.0 && z1 - z0 > 2.0 * chamfer,
             "a chamfer that is not positive or leaves nothing of a face",
             "give a width below half of the shortest edge");
   }
@@ -97,7 +97,7 @@ double winston_parameter(double exit_radius, double theta, double z) {
 
 TriMesh make_prism(int sides, double circumradius, double height, double chamfer) {
   require(sides >= 3, "a prism of " + std::to_string(sides) + " sides", "give at least 3 sides");
-  require(positive(circumradius) && positive(height), "a prism needs a positive radius and height", "");
+  require(is_length(circumradius) && is_length(height), "a prism needs a positive radius and height", "");
   const std::vector<Vec2> outline = regular_polygon(sides, circumradius);
   const std::vector<std::string> names = numbered_sides(sides);
   return chamfer == 0.0 ? straight_prism(outline, 0.0, height, names)
@@ -113,11 +113,11 @@ TriMesh make_chamfered_box(const Vec3& low, const Vec3& high, double chamfer) {
 }
 
 TriMesh make_tapered(const Rectangle& bottom, const Rectangle& top, double height) {
-  require(positive(height), "a taper needs a positive height", "");
+  require(is_length(height), "a taper needs a positive height", "");
   std::vector<LoftRing> rings;
   for (const Rectangle* end : {&bottom, &top}) {
     const Vec2 half(0.5 * end->size[0], 0.5 * end->size[1]), centre(end->centre[0], end->centre[1]);
-    require(positive(half.x()) && positive(half.y()) && centre.allFinite(),
+    require(is_length(half.x()) && is_length(half.y()) && centre.allFinite(),
             "the ends of a taper need positive sizes", "");
     rings.push_back({end == &bottom ? 0.0 : height, rectangle_corners(centre - half, centre + half)});
   }
@@ -135,14 +135,14 @@ double winston_radius(double exit_radius, double acceptance_rad, double z) {
 
 TriMesh make_winston(const WinstonShape& shape) {
   const double theta = shape.acceptance_rad;
-  require(positive(shape.exit_radius), "a Winston cone needs a positive exit radius", "");
+  require(is_length(shape.exit_radius), "a Winston cone needs a positive exit radius", "");
   require(theta > 0.0 && theta < 0.5 * kPi, "an acceptance angle outside 0 to 90 deg",
           "give the largest angle to the axis that is to reach the exit");
   require(shape.segments >= 3 && shape.rings >= 1, "a Winston cone of too few segments or rings",
           "give 3 segments and 1 ring at least");
   const double full = winston_length(shape.exit_radius, theta);
   const double length = shape.length == 0.0 ? full : shape.length;
-  require(positive(length) && length <= full * (1.0 + 1e-12),
+  require(is_length(length) && length <= full * (1.0 + 1e-12),
           "a Winston cone longer than " + std::to_string(full) + " mm, where its walls become parallel",
           "give that length or less");
   const double entrance =

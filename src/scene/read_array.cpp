@@ -115,8 +115,8 @@ void read_septa(const TomlTable& owner, LayerSpec& layer, InlineTables& surfaces
     // Elements that reach into each other are the pitch's mistake.
     if (layer.count[axis] == 1 || gap < -1e-9 || !(axis == 0 ? septa.x : septa.y)) continue;
     table->expect("thickness", septa.thickness_mm <= gap + 1e-9,
-                  "septa of " + mm_text(septa.thickness_mm) + " do not fit the gap of " +
-                      mm_text(gap) + " along " + (axis == 0 ? "x" : "y"),
+                  "septa of " + mm_text(septa.thickness_mm) + " do not fit the gap of " + mm_text(gap) +
+                      " along " + (axis == 0 ? "x" : "y"),
                   "make the septa thinner or the pitch larger");
   }
   table->expect("x", layer.row_shift_mm == 0.0 || !septa.x, "septa between columns cut rows that are shifted",

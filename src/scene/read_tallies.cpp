@@ -21,8 +21,8 @@ std::string join(const std::vector<std::string>& words) {
 ExitAngleTallySpec read_exit_angle(const TomlTable& table, const SceneSpec& scene) {
   ExitAngleTallySpec tally;
   tally.where = table.where();
-  if (const auto path =
-          read_face_path(table, "face", table.string("face"), part_names(scene.parts, scene.groups), scene.parts, false)) {
+  if (const auto path = read_face_path(table, "face", table.string("face"),
+                                       part_names(scene.parts, scene.groups), scene.parts, false)) {
     tally.part = path->part;
     tally.face = path->face;
   }

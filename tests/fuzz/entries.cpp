@@ -136,8 +136,7 @@ std::vector<std::string> x3p_seeds() {
   listed.listed = true;
   const std::string plain = x3p_file(listed);
   const std::size_t begin = plain.find("<?xml"), end = plain.find("</p:ISO5436_2>") + 14;
-  return {x3p_file(), x3p_file(whole), plain,
-          zipped({{"main.xml", plain.substr(begin, end - begin)}}, true)};
+  return {x3p_file(), x3p_file(whole), plain, zipped({{"main.xml", plain.substr(begin, end - begin)}}, true)};
 }
 
 std::vector<std::string> x3p_xml_seeds() {

@@ -328,8 +328,8 @@ TEST_CASE("3MF: components are placed, base materials are groups, and what leads
     return mesh_file(
         "made.3mf",
         test::zipped({{"_rels/.rels", ""},
-                        {"3D/3dmodel.model", "<model><resources>" + objects + "</resources><build>" + build +
-                                                 "</build></model>"}}));
+                      {"3D/3dmodel.model", "<model><resources>" + objects + "</resources><build>" + build +
+                                               "</build></model>"}}));
   };
   const std::string tetrahedron =
       "<vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"6\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" "

@@ -12,7 +12,7 @@ namespace scintray::test {
 
 /// An archive of (name, content), without compression unless `packed`.
 inline std::string zipped(const std::vector<std::pair<std::string, std::string>>& entries,
-                            bool packed = false) {
+                          bool packed = false) {
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, &error);

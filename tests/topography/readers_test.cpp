@@ -316,8 +316,7 @@ TEST_CASE("a packed file that unpacks to far more than a height map does is refu
   const std::string zeros(std::size_t{80} << 20, '0');
   CHECK(contains(complaint_about(gzip_file(zeros)), "declare to unpack to 83886080 bytes"));
   const std::string xml = "<x><Record1><FeatureType>SUR</FeatureType></Record1></x>";
-  CHECK(
-      contains(complaint_about(zipped({{"main.xml", zeros}, {"b", xml}}, true)), "claims 83886080 bytes"));
+  CHECK(contains(complaint_about(zipped({{"main.xml", zeros}, {"b", xml}}, true)), "claims 83886080 bytes"));
   std::string lying = gzip_file("1 2\n3 4\n");
   CHECK(contains(complaint_about(lying + std::string("more\0\0\0", 7)), "after the end"));
   lying.replace(lying.size() - 4, 4, "\xFF\xFF\xFF\x7F");

@@ -6,10 +6,10 @@
 #include <pugixml.hpp>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/zip_archive.hpp"
 #include "scintray/topography/readers/bytes.hpp"
 #include "scintray/topography/readers/channels.hpp"
 #include "scintray/topography/readers/formats.hpp"
-#include "scintray/core/zip_archive.hpp"
 
 namespace scintray {
 
