@@ -53,7 +53,7 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
   if (!cut) return refuse("the result would be no proper solid", "move one of them a little");
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");
-  if (part.surface.empty() && part.sensor.empty() && part.medium.name != kOpaqueMedium)
+  if (part.surface.empty() && part.needs_surface)
     return refuse("the faces born in the cut have no surface", "give the part a surface = \"...\"");
   const MeshDiagnosis diagnosis = diagnose_in_place(cut->mesh);
   const auto unsound = mesh_problems(diagnosis, part.name);

@@ -130,8 +130,7 @@ class FaceTagger {
   }
 
   void add_rest() {
-    const bool smooth_by_nature = part_.liquid || !part_.sensor.empty() || part_.medium.name == kOpaqueMedium;
-    if (part_.surface.empty() && !smooth_by_nature) {
+    if (part_.surface.empty() && placed_.needs_surface) {
       const auto first = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin();
       problems_.add(part_.where,
                     "part \"" + placed_.name +
@@ -191,6 +190,7 @@ class PartPlacer {
     result.sensor = part.sensor;
     result.surface = part.surface;
     result.priority = part.priority;
+    result.needs_surface = !part.liquid && part.sensor.empty() && part.medium.name != kOpaqueMedium;
     ShapeMesh shape = shape_mesh(part.shape);
     result.notes = std::move(shape.notes);
     if (orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
@@ -295,6 +295,7 @@ class PartPlacer {
     fill.name = name + kFillSuffix;
     fill.where = touch.fill.where;
     fill.medium = touch.fill;
+    fill.needs_surface = false;
     fill.mesh = make_box(box.min(), box.max());
     fill.faces = {{kOtherFaces, {}, {}}};
     fill.face_of.assign(fill.mesh.triangles.size(), 0);

@@ -25,6 +25,7 @@ struct PlacedMesh {
   std::vector<PlacedFace> faces;
   std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
   NameRef surface;                     ///< of faces that no rule matches; may be empty
+  bool needs_surface = true;           ///< not so for sensors, opaque parts, glue and fillers
   int priority = 0;                    ///< see PartSpec
   NameRef medium;                      ///< empty only where the part is a sensor
   NameRef sensor;

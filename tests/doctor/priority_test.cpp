@@ -74,6 +74,21 @@ TEST_CASE("A part wholly inside another is nested, whatever the priorities") {
   CHECK(traced.built.parts[1].notes.empty());
 }
 
+TEST_CASE("Glue in a gap is cut like any other part, and needs no surface") {
+  // A pin stands in the layer of grease between a crystal and a plate.
+  const std::string crystal = part_text("crystal", corners({-2, -2, 0}, {2, 2, 4}), "lso");
+  const std::string plate =
+      part_text("plate",
+                "box = [\"4 mm\", \"4 mm\", \"1 mm\"]\nplace = { touch = \"crystal\", side = "
+                "\"+z\", gap = \"0.5 mm\", fill = \"n15\" }\n",
+                "n15");
+  const std::string pin = part_text("pin", corners({-0.5, -0.5, 4}, {3, 0.5, 4.5}) + "priority = 1\n", "lso");
+  const Traced traced = trace(lit_scene(crystal + plate + pin, "crystal", 2000));
+  const Scene& scene = traced.built.scene;
+  CHECK(area_between(scene, "plate_fill", "pin") == doctest::Approx(0.5 * (1.0 + 2.0 * 2.5)).epsilon(1e-9));
+  CHECK(area_of(scene, "plate_fill:cut:pin") == doctest::Approx(3.0).epsilon(1e-9));
+}
+
 TEST_CASE("A cut that needs a surface, and one that grazes, are refused in words") {
   std::string bare = plate_and_rod("", "priority = 2\n");
   const std::string surface = "medium = \"n15\"\nsurface = \"flat\"\n";
