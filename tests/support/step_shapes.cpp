@@ -9,8 +9,8 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
-#include <STEPControl_Controller.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
 #include <TopExp.hxx>
@@ -79,7 +79,7 @@ void write_step(const std::filesystem::path& path, const std::vector<StepBody>& 
     for (const auto& [number, hex] : body.face_colours)
       colours->SetColor(shapes->AddSubShape(label, faces.FindKey(number)), colour_of(hex), XCAFDoc_ColorSurf);
   }
-  STEPControl_Controller::Init();  // without it the settings are not there yet
+  STEPCAFControl_Controller::Init();  // without it the settings are not there yet
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   STEPCAFControl_Writer writer;

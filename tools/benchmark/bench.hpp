@@ -9,6 +9,8 @@ namespace scintray::bench {
 
 /// Photons in the paper's crystal against Embree alone.
 void bench_crystal();
+/// Arrays of crystals and a part of a million triangles: building, memory, tracing.
+void bench_arrays();
 /// Tracing a height map and building tables from it, against Embree alone on the same map.
 void bench_tables();
 

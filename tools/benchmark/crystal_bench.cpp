@@ -9,12 +9,8 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "raw_embree.hpp"
+#include "prepared.hpp"
 #include "scintray/mesh/primitives.hpp"
-#include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
-#include "scintray/trace/run.hpp"
-#include "scintray/trace/step.hpp"
 
 namespace {
 
@@ -64,61 +60,6 @@ accelerator = "{}"
                      c.surface, c.photons, c.accelerator);
 }
 
-struct Prepared {
-  BuiltScene built;
-  SceneSpec spec;
-};
-
-Prepared prepare(const Case& c, SceneBuilder& builder) {
-  Prepared p;
-  p.spec = SceneFile::from_text(scene_text(c), "bench.toml").spec(0);
-  p.built = builder.build(p.spec);
-  return p;
-}
-
-struct Speed {
-  double segments = 0.0, photons = 0.0;
-};
-
-Speed measure(const Prepared& p, int threads) {
-  const PhotonSource source(p.spec.source, p.built.scene);
-  const TallyPlan plan(p.built.scene, p.spec);
-  RunSettings settings;
-  settings.threads = threads;
-  const PointResult r = run_point(p.built.scene, source, plan, settings);
-  return {static_cast<double>(r.segments) / r.wall_seconds, static_cast<double>(r.photons) / r.wall_seconds};
-}
-
-/// The rays that photons in the polished crystal make, in the crystal's own frame.
-std::vector<bench::RawRay> record_rays(const Prepared& p) {
-  const PhotonSource source(p.spec.source, p.built.scene);
-  std::vector<bench::RawRay> rays;
-  const std::uint32_t crystal = source.region();
-  const Region& region = p.built.scene.regions[crystal];
-  for (std::uint64_t i = 0; rays.size() < kRawRays; ++i) {
-    Rng rng(9, StreamKind::photon, i);
-    Photon photon = source.emit(p.built.scene, rng);
-    for (Step taken{StepKind::returned}; !is_end(taken.kind) && rays.size() < kRawRays;) {
-      if (photon.region == crystal) {
-        const Vec3 o = region.point_to_local(photon.position), d = photon.ray.direction;
-        rays.push_back({{static_cast<float>(o.x()), static_cast<float>(o.y()), static_cast<float>(o.z())},
-                        {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())}});
-      }
-      taken = step(p.built.scene, photon, rng);
-      if (photon.interactions > 1000) break;
-    }
-  }
-  return rays;
-}
-
-std::vector<BoundaryTriangle> crystal_triangles() {
-  const TriMesh box = make_box({-1, -1, -10}, {1, 1, 10});
-  std::vector<BoundaryTriangle> triangles;
-  for (const auto& [a, b, c] : box.triangles)
-    triangles.push_back({box.vertices[a], box.vertices[b], box.vertices[c]});
-  return triangles;
-}
-
 }  // namespace
 
 namespace scintray::bench {
@@ -126,9 +67,9 @@ namespace scintray::bench {
 void bench_crystal() {
   SceneBuilder builder;
   std::vector<Prepared> prepared;
-  for (const Case& c : kCases) prepared.push_back(prepare(c, builder));
-  const std::vector<bench::RawRay> rays = record_rays(prepared[0]);
-  bench::RawEmbree raw(crystal_triangles());
+  for (const Case& c : kCases) prepared.push_back(prepare(scene_text(c), builder));
+  const std::vector<RawRay> rays = record_rays(prepared[0], kRawRays);
+  RawEmbree raw(triangles_of(make_box({-1, -1, -10}, {1, 1, 10})));
 
   std::vector<double> raw_speed;
   std::vector<std::vector<Speed>> one(kCases.size()), two(kCases.size());

@@ -1,4 +1,4 @@
-/// tools/bench [crystal] [tables]: everything, or what is named.
+/// tools/bench [arrays] [crystal] [tables]: everything, or what is named.
 
 #include <cstdlib>
 #include <iostream>
@@ -8,14 +8,15 @@
 #include "bench.hpp"
 
 int main(int argc, char** argv) {
-  const std::map<std::string, void (*)()> benches{{"crystal", scintray::bench::bench_crystal},
+  const std::map<std::string, void (*)()> benches{{"arrays", scintray::bench::bench_arrays},
+                                                  {"crystal", scintray::bench::bench_crystal},
                                                   {"tables", scintray::bench::bench_tables}};
   std::vector<std::string> wanted(argv + 1, argv + argc);
   if (wanted.empty())
     for (const auto& [name, run] : benches) wanted.push_back(name);
   for (const std::string& name : wanted) {
     if (!benches.contains(name)) {
-      std::cerr << "error: there is no bench \"" << name << "\"\n  hint: crystal or tables\n";
+      std::cerr << "error: there is no bench \"" << name << "\"\n  hint: arrays, crystal or tables\n";
       return EXIT_FAILURE;
     }
     benches.at(name)();
