@@ -33,6 +33,9 @@ constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
 /// search.
 constexpr int kMostSelfHits = 2;
 
+/// Triangles from which on Embree builds its hierarchy without splitting them.
+constexpr std::size_t kManyTriangles = 200'000;
+
 /// Distance in the plane from `point` to the triangle; 0 inside.
 double distance_outside(const BoundaryTriangle& triangle, const Vec3& normal, const Vec3& point) {
   double outside = 0.0;
@@ -82,23 +85,23 @@ struct Accelerator::EmbreeScene {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
-  explicit EmbreeScene(const std::vector<BoundaryTriangle>& triangles) {
+  explicit EmbreeScene(const IndexedTriangles& triangles) {
     device = rtcNewDevice("set_affinity=0");
     if (!device) throw SystemError("Embree could not start on this machine");
     scene = rtcNewScene(device);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    // Splitting triangles for a better hierarchy takes memory that large meshes feel.
+    rtcSetSceneBuildQuality(
+        scene, triangles.size() > kManyTriangles ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
+    auto* vertices =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    3 * sizeof(float), triangles.vertices.size()));
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
     if (!vertices || !indices) throw SystemError("Embree could not allocate its mesh buffers");
-    unsigned next = 0;
-    for (const BoundaryTriangle& triangle : triangles)
-      for (const Vec3& vertex : triangle) {
-        for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
-        *indices++ = next++;
-      }
+    for (const Vec3& vertex : triangles.vertices)
+      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
+    std::copy(triangles.corners.begin(), triangles.corners.end(), indices);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -114,35 +117,54 @@ struct Accelerator::EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 };
 
-Accelerator::Accelerator(std::vector<BoundaryTriangle> triangles, const std::vector<std::uint32_t>& labels,
-                         bool closed, AcceleratorKind kind)
-    : triangles_(std::move(triangles)), closed_(closed) {
+IndexedTriangles::IndexedTriangles(const std::vector<BoundaryTriangle>& triangles) {
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  vertices.reserve(3 * triangles.size());
+  for (const BoundaryTriangle& triangle : triangles)
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+  std::sort(vertices.begin(), vertices.end(), before);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices.shrink_to_fit();
+  corners.reserve(3 * triangles.size());
+  for (const BoundaryTriangle& triangle : triangles)
+    for (const Vec3& vertex : triangle)
+      corners.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(vertices.begin(), vertices.end(), vertex, before) - vertices.begin()));
+}
+
+Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
+                         const std::vector<std::uint32_t>& labels, bool closed, AcceleratorKind kind)
+    : triangles_(triangles), closed_(closed) {
   Eigen::AlignedBox3d bounds;
-  for (const BoundaryTriangle& t : triangles_) {
+  triangle_planes_.reserve(triangles.size());
+  for (const BoundaryTriangle& t : triangles) {
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     triangle_planes_.push_back({normal, normal.dot(t[0])});
     for (const Vec3& vertex : t) bounds.extend(vertex);
   }
-  size_mm_ = triangles_.empty() ? 0.0 : bounds.diagonal().norm();
+  size_mm_ = triangles.empty() ? 0.0 : bounds.diagonal().norm();
   if (kind != AcceleratorKind::embree && make_planes(labels)) return;
   if (kind == AcceleratorKind::planes && closed_)
     throw InputError(Problem{{},
                              "accelerator \"planes\" is asked for, but a region is not convex with at most " +
                                  std::to_string(kMostPlanes) + " planes",
                              "use accelerator = \"auto\" or \"embree\""});
-  if (!triangles_.empty()) embree_ = std::make_unique<EmbreeScene>(triangles_);
+  if (!triangles.empty()) embree_ = std::make_unique<EmbreeScene>(triangles_);
 }
 
 Accelerator::~Accelerator() = default;
 
 bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
-  if (!closed_ || triangles_.empty()) return false;
+  if (!closed_ || triangles_.size() == 0) return false;
   const double tolerance = kCoplanar * size_mm_;
   std::vector<Plane> planes;
   for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+    const BoundaryTriangle corners = triangles_[i];
     const auto on_plane = [&](const Plane& plane) {
       return plane.normal.dot(normal(i)) > 0.0 &&
-             std::all_of(triangles_[i].begin(), triangles_[i].end(), [&](const Vec3& v) {
+             std::all_of(corners.begin(), corners.end(), [&](const Vec3& v) {
                return std::abs(plane.normal.dot(v) - plane.offset) <= tolerance;
              });
     };
@@ -155,9 +177,8 @@ bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
     plane->triangles.push_back(i);
   }
   for (Plane& plane : planes) {
-    for (const BoundaryTriangle& triangle : triangles_)
-      for (const Vec3& vertex : triangle)
-        if (plane.normal.dot(vertex) > plane.offset + tolerance) return false;
+    for (const Vec3& vertex : triangles_.vertices)
+      if (plane.normal.dot(vertex) > plane.offset + tolerance) return false;
     const bool one_label = std::all_of(plane.triangles.begin(), plane.triangles.end(),
                                        [&](std::uint32_t t) { return labels[t] == labels[plane.first]; });
     if (one_label)

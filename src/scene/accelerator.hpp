@@ -20,6 +20,18 @@ enum class AcceleratorKind {
 /// A triangle of a region's boundary in the region's own frame; normals point out of the region.
 using BoundaryTriangle = std::array<Vec3, 3>;
 
+/// Triangles with every vertex once: a third of the memory for a large mesh.
+struct IndexedTriangles {
+  std::vector<Vec3> vertices;
+  std::vector<std::uint32_t> corners;  ///< three a triangle
+
+  explicit IndexedTriangles(const std::vector<BoundaryTriangle>& triangles);
+  std::size_t size() const { return corners.size() / 3; }
+  BoundaryTriangle operator[](std::size_t i) const {
+    return {vertices[corners[3 * i]], vertices[corners[3 * i + 1]], vertices[corners[3 * i + 2]]};
+  }
+};
+
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 /// Where a ray leaves a region.
@@ -42,8 +54,8 @@ class Accelerator {
   ///                  be returned
   /// @param closed    false for the ambient region, from which rays may escape
   /// @param kind      throws InputError for `planes` where they do not apply
-  Accelerator(std::vector<BoundaryTriangle> triangles, const std::vector<std::uint32_t>& labels, bool closed,
-              AcceleratorKind kind);
+  Accelerator(const std::vector<BoundaryTriangle>& triangles, const std::vector<std::uint32_t>& labels,
+              bool closed, AcceleratorKind kind);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
@@ -90,7 +102,7 @@ class Accelerator {
     return (plane.offset - plane.normal.dot(origin)) / plane.normal.dot(direction);
   }
 
-  std::vector<BoundaryTriangle> triangles_;
+  IndexedTriangles triangles_;
   std::vector<TrianglePlane> triangle_planes_;
   std::vector<Plane> planes_;
   std::unique_ptr<EmbreeScene> embree_;
