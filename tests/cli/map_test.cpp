@@ -30,7 +30,7 @@ std::filesystem::path folder_with_map(const std::string& name) {
   return folder;
 }
 
-std::string content_of(const std::filesystem::path& path) {
+std::string page_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
@@ -66,7 +66,7 @@ TEST_CASE("map prepare mends a map, says what became of it, and draws it before 
   CHECK(map.columns == 100);
   CHECK(map.rows == 90);
   for (const double height : map.heights_um) CHECK(std::abs(height) < 2.0);
-  const std::string page = content_of(folder / "page.html");
+  const std::string page = page_text(folder / "page.html");
   CHECK(contains(page, "data:image/png;base64,iVBORw0KGgo"));  // the first bytes of every PNG
   CHECK(contains(page, "<svg"));
   CHECK(contains(page, "cropped to 100 x 90"));
@@ -85,7 +85,7 @@ TEST_CASE("map synthesize makes the same map again, and a table is built from it
     CHECK(contains(ended.output, "lay at 30"));
     CHECK(contains(ended.output, "mean slope met"));
   }
-  CHECK(content_of(folder / "a.gsf") == content_of(folder / "b.gsf"));
+  CHECK(page_text(folder / "a.gsf") == page_text(folder / "b.gsf"));
   const Ended built = run_program(
       {"table", "build", "a.gsf", "-o", "a.h5", "--inside-index", "1.82", "--outside-index", "1",
        "--periodic", "--rays", "2", "--incidence-step", "30 deg", "--azimuth-step", "90 deg", "--no-refine"},

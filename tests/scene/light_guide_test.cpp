@@ -24,7 +24,7 @@ depth = "4 mm"
 width = "0.2 mm"
 )";
 
-doctest::Approx exactly(double value) { return doctest::Approx(value).epsilon(1e-9); }
+doctest::Approx to_rounding(double value) { return doctest::Approx(value).epsilon(1e-9); }
 
 /// Volume of the guide without slits: h / 6 (A0 + 4 Am + A1).
 constexpr double kWhole = 6.0 / 6.0 * (120.0 + 4.0 * 9.0 * 10.0 + 64.0);
@@ -43,7 +43,7 @@ TEST_CASE("A light guide's pieces add up to the frustum less its slits") {
   CHECK(parts.size() == 7);
   double volume = 0.0;
   for (const auto& [name, part] : parts) volume += part.volume_mm3;
-  CHECK(volume == exactly(kWhole - 4.0 / 6.0 * (slit_area(2.0) + 4.0 * slit_area(4.0) + slit_area(6.0))));
+  CHECK(volume == to_rounding(kWhole - 4.0 / 6.0 * (slit_area(2.0) + 4.0 * slit_area(4.0) + slit_area(6.0))));
   CHECK(parts.at("guide[0,0]").bounds.max().isApprox(Vec3(-0.1, -0.1 - 8.0 / 6.0 + 0.0, 6.0), 0.2));
   CHECK(parts.at("guide_base").bounds.max().isApprox(Vec3(5, 6, 2), 1e-9));
 }
@@ -63,7 +63,7 @@ TEST_CASE("The joint between segments and base is no surface to light, whatever 
 TEST_CASE("Slits from below, slits right through, and sheets in slits") {
   const Scene below =
       built(scene_with(replaced(kGuide, "depth =", "from = \"bottom\"\ndepth ="), "guide_base")).scene;
-  CHECK(parts_by_name(below).at("guide_base").bounds.min().z() == exactly(4.0));
+  CHECK(parts_by_name(below).at("guide_base").bounds.min().z() == to_rounding(4.0));
   CHECK(between(below, "guide_base", "guide[0,2]").interface.plain);
 
   const auto through = parts_by_name(built(scene_with(replaced(kGuide, "4 mm", "6 mm"), "guide[0,0]")).scene);
@@ -75,7 +75,7 @@ TEST_CASE("Slits from below, slits right through, and sheets in slits") {
   CHECK(parts.size() == 7 + 2 + 3);
   double volume = 0.0;
   for (const auto& [name, part] : parts) volume += part.volume_mm3;
-  CHECK(volume == exactly(kWhole));
+  CHECK(volume == to_rounding(kWhole));
   const Between dry = between(filled, "guide[0,0]", "guide_slit_x[0,0]");
   CHECK(dry.area_mm2 > 1.0);
   CHECK(dry.interface.gap_medium != kNone);

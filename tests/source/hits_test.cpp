@@ -21,7 +21,7 @@ std::string source_of(const std::filesystem::path& file, const std::string& more
          more;
 }
 
-std::string refused(const std::string& csv) {
+std::string hits_refused(const std::string& csv) {
   const Scene scene = lso_cube(10.0);
   return complaint([&] { event_source(source_of(file_with(csv)), scene); });
 }
@@ -102,11 +102,11 @@ TEST_CASE("HDF5 columns are read as CSV columns are") {
 }
 
 TEST_CASE("files that are no lists of hits are refused") {
-  CHECK(says(refused("event,x,y,z,energy,time\n1.5,0,0,0,1,0\n-1,0,0,0,1,0\n"), "hits.csv:2"));
-  CHECK(says(refused("event,x,y,z,energy,time\n1,0,0,0,-1,0\n"), "the energy -1"));
-  CHECK(says(refused("event,x,y,z,energy\n1,0,0,0,1\n"), "no column \"time\""));
-  CHECK(says(refused("event,x,y,z,energy,time\n1,900,0,0,1,0\n"), "none of the 1 hits"));
-  CHECK(says(refused("event,x,y,z,energy,time\n"), "no rows"));
+  CHECK(says(hits_refused("event,x,y,z,energy,time\n1.5,0,0,0,1,0\n-1,0,0,0,1,0\n"), "hits.csv:2"));
+  CHECK(says(hits_refused("event,x,y,z,energy,time\n1,0,0,0,-1,0\n"), "the energy -1"));
+  CHECK(says(hits_refused("event,x,y,z,energy\n1,0,0,0,1\n"), "no column \"time\""));
+  CHECK(says(hits_refused("event,x,y,z,energy,time\n1,900,0,0,1,0\n"), "none of the 1 hits"));
+  CHECK(says(hits_refused("event,x,y,z,energy,time\n"), "no rows"));
   CHECK(says(complaint([&] { gamma_spec("type = \"hits\"\nfile = \"nowhere.csv\"\nlength_unit = \"keV\""); }),
              "nowhere.csv"));
   CHECK(says(complaint([&] { gamma_spec(source_of(file_with("event\n1\n"), "columns = { time = \"t\" }")); }),
