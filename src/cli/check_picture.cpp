@@ -5,7 +5,7 @@
 #include <iostream>
 #include <map>
 
-#include "scintray/core/whole_file.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/gltf_writer.hpp"
 #include "scintray/mesh/primitives.hpp"

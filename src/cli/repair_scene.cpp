@@ -5,7 +5,7 @@
 #include <set>
 
 #include "scintray/cli/repair_report.hpp"
-#include "scintray/core/whole_file.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray::cli {

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::cli {
@@ -67,10 +66,7 @@ void plot_table(const std::filesystem::path& path, const SurfaceTable& table) {
   svg += text(kLeft + 12, kTop + 38, "start",
               fmt::format("from outside, {:g} to {:g}", index.outside, index.inside), outside);
   svg += "</svg>\n";
-  std::ofstream file(path);
-  file << svg;
-  file.close();
-  if (!file) throw SystemError("cannot write plot " + path.string());
+  write_whole_file(path, svg, "the plot");
 }
 
 }  // namespace scintray::cli

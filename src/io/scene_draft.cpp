@@ -6,8 +6,8 @@
 #include <set>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/core/whole_file.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/import.hpp"
 #include "scintray/mesh/ply_writer.hpp"

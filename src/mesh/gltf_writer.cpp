@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/whole_file.hpp"
+#include "scintray/core/output_file.hpp"
 
 namespace scintray {
 namespace {

@@ -3,7 +3,7 @@
 #include <bit>
 #include <string>
 
-#include "scintray/core/whole_file.hpp"
+#include "scintray/core/output_file.hpp"
 
 namespace scintray {
 namespace {

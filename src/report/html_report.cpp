@@ -1,13 +1,7 @@
 #include "scintray/report/html_report.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
-
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/grid_map.hpp"
 #include "scintray/report/report_tables.hpp"
@@ -86,10 +80,6 @@ std::string answer(const RunResult& run) {
   return view ? sweep_section(run, *view) : "";
 }
 
-[[noreturn]] void cannot_write(const std::filesystem::path& path, int cause) {
-  throw SystemError(path.string() + ": cannot write the report: " + std::strerror(cause));
-}
-
 }  // namespace
 
 std::string html_report(const RunResult& run) {
@@ -110,26 +100,7 @@ std::string html_report(const RunResult& run) {
 }
 
 void write_report(const std::filesystem::path& path, const RunResult& run) {
-  const std::string page = html_report(run);
-  if (std::filesystem::is_directory(path)) cannot_write(path, EISDIR);
-  auto temporary = path;
-  temporary.replace_filename("." + path.filename().string() + "." + std::to_string(::getpid()) +
-                             ".unfinished");
-  std::error_code error;
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) {
-    const int cause = errno == 0 ? EIO : errno;
-    std::filesystem::remove(temporary, error);
-    cannot_write(path, cause);
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  cannot_write(path, error.value());
+  write_whole_file(path, html_report(run), "the report");
 }
 
 }  // namespace scintray

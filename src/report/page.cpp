@@ -1,8 +1,7 @@
 #include "scintray/report/page.hpp"
 
-#include <fstream>
-
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/svg_plot.hpp"
@@ -43,10 +42,7 @@ std::string html_page(const std::string& title, const std::string& under, const 
 }
 
 void write_page(const std::filesystem::path& path, const std::string& content) {
-  std::ofstream file(path, std::ios::binary);
-  file << content;
-  file.close();
-  if (!file) throw SystemError("cannot write " + path.string());
+  write_whole_file(path, content);
 }
 
 }  // namespace scintray::report

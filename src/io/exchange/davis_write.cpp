@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/io/exchange/davis.hpp"
-#include "scintray/io/exchange/output_file.hpp"
 
 namespace scintray {
 

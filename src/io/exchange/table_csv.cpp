@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string>
 
+#include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/io/exchange/output_file.hpp"
 #include "scintray/io/exchange/table_side.hpp"
 
 namespace scintray {

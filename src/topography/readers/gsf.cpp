@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/readers/bytes.hpp"
 #include "scintray/topography/readers/channels.hpp"
@@ -107,10 +107,7 @@ void write_gsf(const std::filesystem::path& path, const HeightMap& map) {
     const auto metres = static_cast<float>(height * 1e-6);
     content.append(reinterpret_cast<const char*>(&metres), sizeof(float));
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  if (!file) throw SystemError("cannot write height map " + path.string());
+  write_whole_file(path, content, "the height map");
 }
 
 }  // namespace scintray

@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/output_file.hpp"
+#include "scintray/core/output_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -17,6 +17,7 @@ namespace scintray {
 
 struct OutputFile::State {
   std::filesystem::path path, temporary;
+  std::string what;  ///< "" or " the report"
   int descriptor = -1;
   bool packed = false, finished = false, committed = false;
   z_stream stream{};
@@ -30,7 +31,7 @@ struct OutputFile::State {
   }
 
   [[noreturn]] void fail(int cause) const {
-    throw SystemError(path.string() + ": cannot write: " + std::strerror(cause));
+    throw SystemError(path.string() + ": cannot write" + what + ": " + std::strerror(cause));
   }
 
   void put(std::string_view bytes) {
@@ -60,9 +61,11 @@ struct OutputFile::State {
   }
 };
 
-OutputFile::OutputFile(std::filesystem::path path, Container container) : state_(std::make_unique<State>()) {
+OutputFile::OutputFile(std::filesystem::path path, Container container, const std::string& what)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = std::move(path);
+  if (!what.empty()) s.what = " " + what;
   if (std::filesystem::is_directory(s.path)) s.fail(EISDIR);
   s.temporary = s.path;
   s.temporary.replace_filename("." + s.path.filename().string() + "." + std::to_string(::getpid()) +
@@ -105,6 +108,12 @@ void OutputFile::commit() {
   std::filesystem::rename(s.temporary, s.path, error);
   if (error) s.fail(error.value());
   s.committed = true;
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view content, const std::string& what) {
+  OutputFile file(path, Container::plain, what);
+  file.write(content);
+  file.commit();
 }
 
 }  // namespace scintray
