@@ -32,11 +32,6 @@ std::string complaint(const GdmlText& text) {
   return complaint_of([&] { draft(text); });
 }
 
-void check_says(const std::string& text, const std::string& words) {
-  CAPTURE(text);
-  CHECK(contains(text, words));
-}
-
 /// The scene of a draft, written and read back as a user would.
 SceneSpec written(const SceneDraft& scene) {
   static int number = 0;

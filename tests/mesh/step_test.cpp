@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "import_message.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/face_selection.hpp"
@@ -67,20 +68,6 @@ double sagitta_of_side(const TriMesh& mesh, double radius_mm) {
     }
   }
   return largest;
-}
-
-std::string message(const std::filesystem::path& path, const ImportOptions& options = {}) {
-  try {
-    import_mesh(path, options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-void check_says(const std::string& text, const std::string& words) {
-  CAPTURE(text);
-  CHECK(text.find(words) != std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 /// What the tests ask of texts and of errors.
 
+#include <doctest/doctest.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +13,12 @@ namespace scintray::test {
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// Checks for these words, and shows the text where they are missing.
+inline void check_says(const std::string& text, const std::string& words) {
+  CAPTURE(text);
+  CHECK(contains(text, words));
 }
 
 /// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.
