@@ -13,6 +13,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/detector/readout_spec.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/shape_spec.hpp"
@@ -189,6 +190,7 @@ struct SceneSpec {
   std::vector<ContactSpec> contacts;
   SourceSpec source;
   RunSpec run;
+  std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

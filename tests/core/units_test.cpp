@@ -45,10 +45,10 @@ TEST_CASE("Quantities come out in internal units") {
 }
 
 TEST_CASE("Every unit that a dimension lists is understood in it") {
-  for (const Dimension dimension : {Dimension::length, Dimension::inverse_length, Dimension::wavelength,
-                                    Dimension::time, Dimension::frequency, Dimension::angle, Dimension::energy,
-                                    Dimension::density, Dimension::photons_per_energy,
-                                    Dimension::dimensionless}) {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::inverse_length, Dimension::wavelength, Dimension::time,
+        Dimension::frequency, Dimension::angle, Dimension::energy, Dimension::density,
+        Dimension::photons_per_energy, Dimension::dimensionless}) {
     CAPTURE(dimension_name(dimension));
     CHECK_FALSE(units_of(dimension).empty());
     for (const std::string& unit : units_of(dimension)) CHECK(parse_quantity("2 " + unit, dimension) > 0.0);
