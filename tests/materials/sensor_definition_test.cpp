@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "library_helpers.hpp"
+#include "scintray/scene/material_forms.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
