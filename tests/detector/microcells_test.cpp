@@ -136,6 +136,25 @@ TEST_CASE("Law of crosstalk: by causes and by charges, the probability of one ne
   }
 }
 
+TEST_CASE("Law of crosstalk of a cell that is not recovered: 1 - (1 - p) to the power of its charge") {
+  Sensor sensor = quiet_sipm(0);
+  sensor.microcells->pitch_mm = 0.05;
+  sensor.microcells->crosstalk = 0.5;
+  const SensorResponse response(sensor, kFace);
+  constexpr double kGap_ns = 5.0;
+  const std::vector<Arrival> twice{kOneInTheMiddle[0], {kGap_ns, 0.001, 0.001}};
+  constexpr std::uint64_t kEvents = 10'000;
+  // Neighbours that the first has fired may fire again, with a small charge.
+  std::uint64_t second = 0;
+  for (std::uint64_t event = 0; event < kEvents; ++event) {
+    Rng rng = event_stream(event, 7);
+    const auto avalanches = response.avalanches(twice, 0.0, 10.0, rng);
+    second += avalanches.back().time_ns == kGap_ns && avalanches[avalanches.size() - 2].time_ns == kGap_ns;
+  }
+  const double charge = 1.0 - std::exp(-kGap_ns / 20.0);
+  check_law("probability", binomial_estimate(second, kEvents), {1.0 - std::pow(0.5, charge), 0.0});
+}
+
 TEST_CASE("Law of afterpulses: probability, delay, and charge tau / (tau + recovery)") {
   Sensor sensor = quiet_sipm(100);
   sensor.microcells->afterpulse = 0.3;

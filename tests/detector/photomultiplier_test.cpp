@@ -58,4 +58,7 @@ TEST_CASE("what comes after the end is left out, and avalanches come out by time
   CHECK(avalanches[0].time_ns < -30.0);
   for (std::size_t i = 1; i < avalanches.size(); ++i)
     CHECK(avalanches[i - 1].time_ns <= avalanches[i].time_ns);
+  const auto at_the_end = response.avalanches(flash(10'000, 20.0), 0.0, 20.0, rng);
+  check_law("half of a flash at the end", binomial_estimate(at_the_end.size(), 10'000), {0.5, 0.0});
+  CHECK(at_the_end.back().time_ns < 20.0);
 }
