@@ -39,7 +39,8 @@ void check_angle(const TomlTable& table, const Sensor& sensor) {
                "divide by the value at 0 deg");
   table.expect("factor", factor.x().back() < 0.5 * std::numbers::pi,
                "angles of incidence end below 90 deg, where no light enters");
-  if (!table.good("factor") || !table.good("reference_index")) return;
+  const bool has_index = !table.has("reference_index") || table.good("reference_index");
+  if (!table.good("factor") || !has_index) return;
   const double index =
       angle.measured_in == AngleMedium::outside ? angle.reference_index : sensor.window_index;
   const double greatest = index * std::sin(factor.x().back());

@@ -104,7 +104,7 @@ TEST_CASE("a sensor without these tables has none of it") {
 }
 
 TEST_CASE("mistakes in a sensor's tables are located and mended") {
-  check_refused("transit_time", "fwhm = \"1 ns\"\nsigma = \"1 ns\"\n", 0, "fwhm");
+  check_refused("transit_time", "fwhm = \"1 ns\"\nsigma = \"1 ns\"\n", 2, "only one of");
   check_refused("transit_time", "sigma = \"-1 ns\"\n", 1, "above 0");
   check_refused("single_electron", "charge_spread = 40\n", 1, "lies between 0 and 3");
   check_refused("single_electron", "decay = \"-3 ns\"\n", 1, "cannot be negative");
