@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scintray/scene/light_response_form.hpp"
+#include "scintray/scene/sensor_form.hpp"
 
 namespace scintray {
 
@@ -182,6 +183,28 @@ void expect_share(const TomlTable& block, const std::string& key, const Curve& c
   expect_wavelengths(block, key, curve);
 }
 
+/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
+void read_efficiency(const TomlTable& efficiency, const TomlTable& window, SourceRule rule, Sensor& sensor) {
+  read_source(efficiency, rule, sensor.sources);
+  sensor.efficiency = efficiency.curve("value", Dimension::dimensionless);
+  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
+  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
+  sensor.definition = external ? EfficiencyDefinition::external : EfficiencyDefinition::internal;
+  if (external) {
+    sensor.reference_index = efficiency.number("reference_index");
+    efficiency.expect("reference_index",
+                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
+                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    if (!efficiency.good("reference_index") || !window.good("index")) return;
+    const double r =
+        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
+    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
+                      "this external efficiency is above what the window lets in (" +
+                          std::to_string(1.0 - r * r) + " at normal incidence)",
+                      "check the efficiency and the two indices, or write definition = \"internal\"");
+  }
+}
+
 }  // namespace
 
 void read_source(const TomlTable& block, SourceRule rule, std::vector<std::string>& sources) {
@@ -266,25 +289,8 @@ Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule r
                   "a refractive index lies between 1 and 5");
   }
   const TomlTable efficiency = table.table("efficiency");
-  if (!table.has("efficiency")) return sensor;
-  read_source(efficiency, rule, sensor.sources);
-  sensor.efficiency = efficiency.curve("value", Dimension::dimensionless);
-  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
-  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
-  sensor.definition = external ? EfficiencyDefinition::external : EfficiencyDefinition::internal;
-  if (external) {
-    sensor.reference_index = efficiency.number("reference_index");
-    efficiency.expect("reference_index",
-                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
-                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
-    if (!efficiency.good("reference_index") || !window.good("index")) return sensor;
-    const double r =
-        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
-    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
-                      "this external efficiency is above what the window lets in (" +
-                          std::to_string(1.0 - r * r) + " at normal incidence)",
-                      "check the efficiency and the two indices, or write definition = \"internal\"");
-  }
+  if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
+  read_sensor_response(table, rule, sensor);
   return sensor;
 }
 

@@ -13,6 +13,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/detector/readout_spec.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/gamma_spec.hpp"
@@ -159,6 +160,7 @@ struct SceneSpec {
   SourceSpec source;                       ///< [source] of photons
   std::optional<GammaSpec> energy_source;  ///< [source] of energy; then there is no `source`
   RunSpec run;
+  std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

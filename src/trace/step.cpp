@@ -1,5 +1,6 @@
 #include "scintray/trace/step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scintray/core/sampling.hpp"
@@ -130,8 +131,9 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   photon.region = next;
   photon.optics = next_medium.at(photon.wavelength_nm);
   if (sensor != kNone) {
-    const double probability =
-        scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(photon.wavelength_nm);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
+    const double probability = scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(
+        photon.wavelength_nm, there * sine);
     result.kind = rng.uniform() < probability ? StepKind::detected : StepKind::unconverted;
     result.where = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
   } else if (next_medium.is_opaque()) {

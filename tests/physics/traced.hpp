@@ -13,6 +13,7 @@
 #include "scintray/trace/run.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
+#include "support/laws.hpp"
 
 namespace scintray::test {
 
@@ -93,19 +94,6 @@ inline Traced trace(const std::string& text, int threads = 0) {
   CHECK(traced.result.lost == 0);
   CHECK(traced.result.complete);
   return traced;
-}
-
-/// Checks a measured number against the law in the test's name.
-inline void check_law(const std::string& what, const Estimate& measured, const Estimate& law) {
-  const double distance = sigmas(measured, law);
-  evidence("laws", {doctest::getContextOptions()->currentTest->m_name, what,
-                    fmt::format("{:.6g} ± {:.2g}", measured.value, measured.error),
-                    fmt::format("{:.6g}", law.value), fmt::format("{:.2f}", distance)});
-  CAPTURE(what);
-  CAPTURE(measured.value);
-  CAPTURE(measured.error);
-  CAPTURE(law.value);
-  CHECK(distance < kSigmas);
 }
 
 /// Checks a fraction against an exact value.
