@@ -1,27 +1,9 @@
 #include "scintray/source/photon_source.hpp"
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/medium/decay.hpp"
 
 namespace scintray {
-
-namespace {
-
-/// A time after excitation: the rise and the decay are two exponential steps, so their sum has the
-/// bi-exponential density (exp(-t/decay) - exp(-t/rise)) / (decay - rise).
-double sample_decay(const std::vector<DecayComponent>& components, Rng& rng) {
-  double u = rng.uniform();
-  for (const DecayComponent& component : components) {
-    if (u < component.fraction || &component == &components.back()) {
-      double time = component.decay_ns * sample_exponential(rng);
-      if (component.rise_ns > 0.0) time += component.rise_ns * sample_exponential(rng);
-      return time;
-    }
-    u -= component.fraction;
-  }
-  throw InternalError("a decay without components was sampled");
-}
-
-}  // namespace
 
 PhotonSource::PhotonSource(const SourceSpec& spec, const Scene& scene)
     : origin_(spec.origin, scene),
