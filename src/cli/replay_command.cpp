@@ -23,6 +23,8 @@ std::string describe(const Scene& scene, const Step& step) {
   switch (step.kind) {
     case StepKind::scattered:
       return "scattered in the bulk";
+    case StepKind::shifted:
+      return "shifted to another wavelength";
     case StepKind::returned:
       return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name + " | " +
              scene.regions[scene.interfaces[step.interface].front].name;

@@ -7,6 +7,7 @@
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
 #include "scintray/io/row_table.hpp"
+#include "scintray/io/shift_columns.hpp"
 
 namespace scintray {
 
@@ -99,6 +100,8 @@ class PointReader {
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
+    point.shifted_in_medium = shifts("shifted_in_medium", header_.media.size());
+    point.shifted_at_surface = shifts("shifted_at_surface", header_.surfaces.size());
     point.sensor_faces = sensor_faces();
     point.exit_angles = exit_angles();
     if (group_.has("tallies")) point.tallies = tallies();
@@ -139,6 +142,21 @@ class PointReader {
     energy.unseen = get<double>(group, "unseen_total_keV");
     energy.detected = get_moments(group, "detected_per_event");
     return energy;
+  }
+
+  /// Zeros from a file of before there were wavelength shifters.
+  std::vector<ShiftCount> shifts(const std::string& name, std::size_t size) const {
+    std::vector<ShiftCount> counts(size);
+    if (!group_.has(name)) return counts;
+    const h5::Group group = group_.open_group(name);
+    results_format::for_each_shift_column([&](const char* field, auto member) {
+      const auto values = group.read<std::decay_t<decltype(ShiftCount{}.*member)>>(field);
+      require(values.size() == size, name + " has " + std::to_string(values.size()) + " rows in " + field);
+      for (std::size_t i = 0; i < size; ++i) counts[i].*member = values[i];
+    });
+    for (const ShiftCount& count : counts)
+      require(count.emitted <= count.absorbed, name + " has more photons emitted than absorbed");
+    return counts;
   }
 
   std::vector<SensorFaceCount> sensor_faces() const {

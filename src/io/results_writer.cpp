@@ -5,6 +5,7 @@
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
 #include "scintray/io/row_table.hpp"
+#include "scintray/io/shift_columns.hpp"
 
 namespace scintray {
 
@@ -53,6 +54,17 @@ void put_fates(h5::Group& group, const PointResult& point) {
   put(group, "fate_count", counts);
   put(group, "fate_fraction", fractions);
   put(group, "fate_error", errors);
+}
+
+void put_shifts(h5::Group& point, const std::string& name, const std::string& description,
+                const std::vector<ShiftCount>& counts) {
+  h5::Group group = point.create_group(name);
+  group.set_attribute("", "description", description);
+  results_format::for_each_shift_column([&](const char* field, auto member) {
+    std::vector<std::decay_t<decltype(ShiftCount{}.*member)>> values;
+    for (const ShiftCount& count : counts) values.push_back(count.*member);
+    put(group, field, values);
+  });
 }
 
 void put_sensor_faces(h5::Group& point, const std::vector<SensorFaceCount>& faces) {
@@ -241,6 +253,10 @@ void ResultsWriter::add_point(const PointResult& point) {
   put_fates(group, point);
   put(group, "absorbed_in_medium", point.absorbed_in_medium);
   put(group, "absorbed_at_surface", point.absorbed_at_surface);
+  put_shifts(group, "shifted_in_medium", "what the wavelength shifter of each medium did",
+             point.shifted_in_medium);
+  put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
+             point.shifted_at_surface);
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, point.exit_angles);
   put_tallies(group, point.tallies);

@@ -1,28 +1,24 @@
 #pragma once
 /// What light does inside a homogeneous medium.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
 #include "scintray/medium/composition.hpp"
+#include "scintray/medium/decay.hpp"
+#include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
 
 enum class ScatteringKind { isotropic, rayleigh };
 
-/// One exponential component of scintillation light.
-struct DecayComponent {
-  double decay_ns = 0.0;
-  double rise_ns = 0.0;   ///< 0: instantaneous rise
-  double fraction = 1.0;  ///< share of the light; the fractions of a medium sum to 1
-};
-
 /// Properties of a medium at one wavelength, as the tracer uses them.
 struct MediumOptics {
-  double index = 1.0;        ///< refractive index n
-  double group_index = 1.0;  ///< n - wavelength dn/dwavelength
-  double absorption_per_mm = 0.0;
+  double index = 1.0;              ///< refractive index n
+  double group_index = 1.0;        ///< n - wavelength dn/dwavelength
+  double absorption_per_mm = 0.0;  ///< the wavelength shifter's included
   double scattering_per_mm = 0.0;
 };
 
@@ -30,9 +26,11 @@ struct MediumOptics {
 struct Medium {
   std::string name;
   Curve index;              ///< refractive index against wavelength (nm)
-  Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm); 0 means none
+  Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm), for good; 0 means none
   Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
+  /// Absorbs beside `absorption_per_mm`, and gives light back; most media have none.
+  std::shared_ptr<const WavelengthShifter> shifter;
 
   // Scintillation; a medium that does not scintillate has a zero yield.
   double yield_per_keV = 0.0;  ///< photons per keV

@@ -12,6 +12,7 @@
 #include "scintray/scene/cut_parts.hpp"
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/shifted_range.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
 
 namespace scintray {
@@ -60,6 +61,7 @@ class AssemblyMaker {
 
   Assembly make(const std::vector<PlacedMesh>& placed, std::vector<std::string>& warnings) {
     wavelengths_ = find_wavelengths(placed);
+    wavelengths_.high_nm = std::max(wavelengths_.high_nm, longest_shifted_nm(spec_, placed, library_));
     assembly_.low_nm = wavelengths_.low_nm;
     assembly_.high_nm = wavelengths_.high_nm;
     assembly_.ambient = medium_index(spec_.ambient);

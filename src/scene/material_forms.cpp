@@ -205,6 +205,35 @@ void read_efficiency(const TomlTable& efficiency, const TomlTable& window, Sourc
   }
 }
 
+/// [wavelength_shifting], in which every block says its own source.
+std::shared_ptr<const WavelengthShifter> read_shifter(const TomlTable& table, SourceRule rule,
+                                                      std::vector<std::string>& sources) {
+  const std::size_t problems = table.problem_count();
+  const auto block = [&](const char* key) {
+    const TomlTable found = table.table(key);
+    if (table.has(key)) read_source(found, rule, sources);
+    return found;
+  };
+  const TomlTable absorption = block("absorption");
+  const Curve absorption_per_mm = table.has("absorption") ? read_extinction(absorption) : Curve();
+  absorption.expect("none", false, "a wavelength shifter that absorbs nothing shifts nothing",
+                    "give a length or a coefficient, or leave [wavelength_shifting] out");
+  const TomlTable yield = block("quantum_yield");
+  Curve quantum_yield;
+  if (table.has("quantum_yield")) {
+    quantum_yield = yield.curve("value", Dimension::dimensionless);
+    expect_share(yield, "value", quantum_yield, "a quantum yield");
+  }
+  const TomlTable emission = block("emission");
+  const Curve spectrum = table.has("emission") ? read_emission(emission) : Curve();
+  const std::vector<DecayComponent> decay = read_decay(table, rule, sources);
+  if (!table.has("decay"))
+    table.report("decay", "a wavelength shifter does not say when it gives light back",
+                 "add [[" + table.path() + ".decay]] with time, rise and fraction");
+  if (table.problem_count() > problems) return nullptr;
+  return std::make_shared<const WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
+}
+
 }  // namespace
 
 void read_source(const TomlTable& block, SourceRule rule, std::vector<std::string>& sources) {
@@ -275,6 +304,8 @@ Medium read_medium(const TomlTable& table, const std::string& name, SourceRule r
                    "add [density] with its value, as \"7.4 g/cm3\", and source");
   }
   read_scintillation(table, rule, medium);
+  if (const std::optional<TomlTable> shifting = table.optional_table("wavelength_shifting"))
+    medium.shifter = read_shifter(*shifting, rule, medium.sources);
   return medium;
 }
 

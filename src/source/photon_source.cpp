@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scintray/core/sampling.hpp"
-#include "scintray/source/scintillation_source.hpp"
+#include "scintray/medium/decay.hpp"
 
 namespace scintray {
 

@@ -7,6 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/medium/decay.hpp"
 #include "scintray/source/scintillation.hpp"
 
 namespace scintray {
@@ -39,19 +40,6 @@ std::uint64_t sample_photon_number(const Medium& medium, double energy_keV, Rng&
     mean += medium.intrinsic_fwhm / kFwhmPerSigma * medium.yield_per_keV *
             std::sqrt(medium.intrinsic_keV * energy_keV) * sample_normal(rng);
   return sample_poisson(mean, rng);
-}
-
-double sample_decay(const std::vector<DecayComponent>& components, Rng& rng) {
-  double u = rng.uniform();
-  for (const DecayComponent& component : components) {
-    if (u < component.fraction || &component == &components.back()) {
-      double time = component.decay_ns * sample_exponential(rng);
-      if (component.rise_ns > 0.0) time += component.rise_ns * sample_exponential(rng);
-      return time;
-    }
-    u -= component.fraction;
-  }
-  throw InternalError("a decay without components was sampled");
 }
 
 ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, const Scene& scene,

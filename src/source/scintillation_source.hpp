@@ -39,9 +39,4 @@ class ScintillationSource : public LightSource {
 /// @return 0 where the Gaussian falls below zero
 std::uint64_t sample_photon_number(const Medium& medium, double energy_keV, Rng& rng);
 
-/// A time after excitation, ns: the rise and the decay are two exponential steps, so their sum has the
-/// bi-exponential density (exp(-t/decay) - exp(-t/rise)) / (decay - rise).
-/// @param components  fractions sum to 1; throws InternalError when empty
-double sample_decay(const std::vector<DecayComponent>& components, Rng& rng);
-
 }  // namespace scintray

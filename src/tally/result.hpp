@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
 
@@ -96,6 +97,8 @@ struct PointResult {
   std::array<std::uint64_t, kFateCount> fates{};
   std::vector<std::uint64_t> absorbed_in_medium;   ///< per RunHeader::media
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces
+  std::vector<ShiftCount> shifted_in_medium;       ///< per RunHeader::media
+  std::vector<ShiftCount> shifted_at_surface;      ///< per RunHeader::surfaces
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<ExitAngleTally> exit_angles;
   std::vector<TallyResult> tallies;
@@ -111,6 +114,8 @@ struct PointResult {
   double wall_seconds = 0.0;
 
   std::uint64_t count(Fate fate) const { return fates[static_cast<int>(fate)]; }
+  /// What all wavelength shifters did.
+  ShiftCount shifted() const;
   Estimate fraction(Fate fate) const { return binomial_estimate(count(fate), photons); }
   /// Largest error that cutting photons can have made in any fraction: cut photons / photons.
   double cut_bias_bound() const;
