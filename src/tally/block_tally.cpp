@@ -172,7 +172,8 @@ void BlockTally::finish(const Photon& photon, Fate fate) {
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
   for (const PhotonShifts& shifts : photon.shifts)
-    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] += shifts.count;
+    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
+        shifts.count;
 }
 
 }  // namespace scintray

@@ -117,6 +117,8 @@ TEST_CASE("Every photon that a shifter absorbs is given back or absorbed, and so
   CHECK(result.count(Fate::absorbed_in_medium) == result.absorbed_in_medium[number]);
   CHECK(result.shifted().absorbed == shifted.absorbed);
   const double energy = photon_energy_eV(400.0);
+  // The same for any number of threads, to the last bit.
+  CHECK((trace(slab_scene(3.0, dye(0.0)), 1).result.shifted_in_medium == result.shifted_in_medium));
   CHECK(shifted.before_eV == doctest::Approx(energy * static_cast<double>(shifted.emitted)).epsilon(1e-9));
   CHECK(shifted.kept_eV ==
         doctest::Approx(energy * static_cast<double>(shifted.absorbed - shifted.emitted)).epsilon(1e-9));

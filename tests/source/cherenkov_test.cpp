@@ -146,8 +146,9 @@ TEST_CASE("BGO makes more Cherenkov light of 511 keV than LSO; the numbers are p
   const CherenkovEmitter in_bgo(library.medium("BGO"), 360.0, 690.0),
       in_lso(library.medium("LSO"), 360.0, 690.0);
   for (const auto& [name, emitter] : {std::pair{"BGO", &in_bgo}, {"LSO", &in_lso}})
-    MESSAGE(std::string(name) << ", 360 to 690 nm: threshold " << emitter->threshold_keV() << " keV, photons of 511 keV "
-                 << emitter->mean_photons(511.0) << ", of 420 keV " << emitter->mean_photons(420.0));
+    MESSAGE(std::string(name) << ", 360 to 690 nm: threshold " << emitter->threshold_keV()
+                              << " keV, photons of 511 keV " << emitter->mean_photons(511.0)
+                              << ", of 420 keV " << emitter->mean_photons(420.0));
   CHECK(in_bgo.threshold_keV() < in_lso.threshold_keV());
   CHECK(in_bgo.mean_photons(511.0) > in_lso.mean_photons(511.0));
 }
