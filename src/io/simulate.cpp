@@ -51,6 +51,8 @@ class Renumbering {
   void apply(PointResult& result) const {
     result.absorbed_in_medium = moved(result.absorbed_in_medium, media_, lists_.media.names().size());
     result.absorbed_at_surface = moved(result.absorbed_at_surface, surfaces_, lists_.surfaces.names().size());
+    result.shifted_in_medium = moved(result.shifted_in_medium, media_, lists_.media.names().size());
+    result.shifted_at_surface = moved(result.shifted_at_surface, surfaces_, lists_.surfaces.names().size());
     for (SensorFaceCount& count : result.sensor_faces) {
       count.part = parts_[count.part];
       count.face = faces_[count.face];
@@ -82,9 +84,10 @@ class Renumbering {
   }
 
  private:
-  static std::vector<std::uint64_t> moved(const std::vector<std::uint64_t>& counts,
-                                          const std::vector<std::uint32_t>& to, std::size_t size) {
-    std::vector<std::uint64_t> result(size, 0);
+  template <typename Count>
+  static std::vector<Count> moved(const std::vector<Count>& counts, const std::vector<std::uint32_t>& to,
+                                  std::size_t size) {
+    std::vector<Count> result(size);
     for (std::size_t i = 0; i < counts.size(); ++i) result[to[i]] += counts[i];
     return result;
   }

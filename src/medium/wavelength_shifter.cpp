@@ -4,12 +4,13 @@
 
 namespace scintray {
 
-void ShiftCount::add(const ShiftCount& other) {
+ShiftCount& ShiftCount::operator+=(const ShiftCount& other) {
   absorbed += other.absorbed;
   emitted += other.emitted;
   before_eV += other.before_eV;
   after_eV += other.after_eV;
   kept_eV += other.kept_eV;
+  return *this;
 }
 
 WavelengthShifter::WavelengthShifter(Curve absorption_per_mm, Curve quantum_yield, Curve emission,

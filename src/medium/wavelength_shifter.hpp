@@ -22,7 +22,8 @@ struct ShiftCount {
   double after_eV = 0.0;       ///< ... and as they were given back; the difference is the Stokes loss
   double kept_eV = 0.0;        ///< energy of those not given back
 
-  void add(const ShiftCount& other);
+  ShiftCount& operator+=(const ShiftCount& other);
+  bool operator==(const ShiftCount& other) const = default;
 };
 
 /// A photon given back.

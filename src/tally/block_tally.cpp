@@ -39,10 +39,8 @@ void merge(PointResult& total, const PointResult& block) {
   add(total.fates, block.fates);
   add(total.absorbed_in_medium, block.absorbed_in_medium);
   add(total.absorbed_at_surface, block.absorbed_at_surface);
-  for (std::size_t i = 0; i < total.shifted_in_medium.size(); ++i)
-    total.shifted_in_medium[i].add(block.shifted_in_medium[i]);
-  for (std::size_t i = 0; i < total.shifted_at_surface.size(); ++i)
-    total.shifted_at_surface[i].add(block.shifted_at_surface[i]);
+  add(total.shifted_in_medium, block.shifted_in_medium);
+  add(total.shifted_at_surface, block.shifted_at_surface);
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
     total.sensor_faces[i].detected += block.sensor_faces[i].detected;
     total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
@@ -174,8 +172,8 @@ void BlockTally::finish(const Photon& photon, Fate fate) {
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
   for (const PhotonShifts& shifts : photon.shifts)
-    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where].add(
-        shifts.count);
+    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
+        shifts.count;
 }
 
 }  // namespace scintray

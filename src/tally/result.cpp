@@ -50,8 +50,8 @@ Estimate TallyResult::per_photon(std::size_t bin, std::uint64_t photons) const {
 
 ShiftCount PointResult::shifted() const {
   ShiftCount total;
-  for (const ShiftCount& count : shifted_in_medium) total.add(count);
-  for (const ShiftCount& count : shifted_at_surface) total.add(count);
+  for (const ShiftCount& count : shifted_in_medium) total += count;
+  for (const ShiftCount& count : shifted_at_surface) total += count;
   return total;
 }
 

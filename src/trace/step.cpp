@@ -113,7 +113,7 @@ SurfaceOutcome meet_shifting(const Scene& scene, const Interface& interface, boo
       scene.surfaces[static_cast<std::size_t>(id)].meet(photon.ray, side, outward, light, rng);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
-  if (light.count.absorbed > 0) photon.shifts_of(true, static_cast<std::uint32_t>(id)).add(light.count);
+  if (light.count.absorbed > 0) photon.shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
   return outcome;
 }
 
