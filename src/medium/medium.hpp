@@ -36,6 +36,11 @@ struct Medium {
 
   // Scintillation; a medium that does not scintillate has a zero yield.
   double yield_per_keV = 0.0;  ///< photons per keV
+  /// Light per keV of an electron of so many keV, relative to the yield.
+  Curve relative_yield = Curve::constant(1.0);
+  double intrinsic_fwhm = 0.0;  ///< spread of the light beyond counting statistics, full width at half
+                                ///< maximum over mean, at `intrinsic_keV`; 0: none
+  double intrinsic_keV = 0.0;
   Curve emission;              ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given

@@ -30,6 +30,9 @@ struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
 };
 
+/// Stands for the wavelengths of a scene with a mistake, until all mistakes are found.
+constexpr WavelengthRange kNoLight{400.0, 400.0, 400.0};
+
 Library library_for(const SceneSpec& spec) {
   Library library = Library::shipped();
   add_definitions(library, spec);
@@ -75,32 +78,50 @@ class AssemblyMaker {
 
  private:
   WavelengthRange find_wavelengths(const std::vector<PlacedMesh>& placed) {
+    if (spec_.energy_source) return emission_of(placed, {"*", {}});
     if (spec_.source.wavelength_nm) {
       const double nm = *spec_.source.wavelength_nm;
       return {nm, nm, nm};
     }
-    const auto* region = std::get_if<RegionSpec>(&spec_.source.origin);
-    if (!region) {
-      problems_.add(
-          spec_.source.wavelength_where,
-          "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
-          "give a wavelength, as wavelength = \"420 nm\"");
-      return {400.0, 400.0, 400.0};
-    }
+    if (const auto* region = std::get_if<RegionSpec>(&spec_.source.origin))
+      return emission_of(placed, region->part);
+    problems_.add(
+        spec_.source.wavelength_where,
+        "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
+        "give a wavelength, as wavelength = \"420 nm\"");
+    return kNoLight;
+  }
+
+  /// Wavelengths that the parts of a name or pattern emit. Parts of an energy source that do not
+  /// scintillate are left out, of a source of photons they are mistakes.
+  WavelengthRange emission_of(const std::vector<PlacedMesh>& placed, const NameRef& parts) {
+    std::optional<WavelengthRange> found;
     for (const PlacedMesh& part : placed) {
-      if (part.name != region->part.name || part.medium.empty() || part.medium.name == kOpaqueMedium)
+      if (!matches_pattern(parts.name, part.name) || part.medium.empty() || part.medium.name == kOpaqueMedium)
         continue;
       try {
         const Medium medium = library_.medium(part.medium.name, part.medium.where);
-        if (medium.emission.max_y() > 0.0 && !medium.emission.is_constant()) return range_of(medium.emission);
-        problems_.add(spec_.source.wavelength_where,
-                      "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
-                      "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+        const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
+        if (emits) {
+          const WavelengthRange range = range_of(medium.emission);
+          if (!found) found = range;
+          found->low_nm = std::min(found->low_nm, range.low_nm);
+          found->high_nm = std::max(found->high_nm, range.high_nm);
+        } else if (!spec_.energy_source) {
+          problems_.add(spec_.source.wavelength_where,
+                        "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
+                        "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+          return kNoLight;
+        }
       } catch (const InputError&) {
         // reported where the part is added
       }
     }
-    return {400.0, 400.0, 400.0};
+    if (!found && spec_.energy_source && problems_.empty())
+      problems_.add(spec_.energy_source->where, "no part scintillates, so energy makes no light",
+                    "give a part's medium [yield], [emission] and [[decay]], or use one that has them, as "
+                    "\"LSO\"");
+    return found.value_or(kNoLight);
   }
 
   std::uint32_t add_medium(Medium medium, const FileLocation& where) {
@@ -230,7 +251,7 @@ class AssemblyMaker {
 };
 
 /// Regions that light from `start` can reach through interfaces that are not opaque both ways.
-std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
+std::vector<bool> lit_regions(const Scene& scene, const std::vector<std::uint32_t>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](std::int32_t id) {
       return id != kNone && scene.surfaces[static_cast<std::size_t>(id)].opaque();
@@ -240,7 +261,7 @@ std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
            !scene.media[scene.regions[next].medium].is_opaque();
   };
   std::vector<bool> lit(scene.regions.size(), false);
-  lit[start] = true;
+  for (const std::uint32_t region : start) lit[region] = true;
   for (bool grew = true; grew;) {
     grew = false;
     for (const Interface& i : scene.interfaces) {
@@ -251,18 +272,26 @@ std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
   return lit;
 }
 
+/// Regions in which light of the source may start.
+std::vector<std::uint32_t> starting_regions(const SceneSpec& spec, const Scene& scene) {
+  std::vector<std::uint32_t> regions;
+  if (spec.energy_source) {
+    for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
+      if (scene.media[scene.regions[i].medium].medium().yield_per_keV > 0.0) regions.push_back(i);
+  } else if (const auto* region = std::get_if<RegionSpec>(&spec.source.origin)) {
+    for (const PartInfo& part : scene.parts)
+      if (matches_pattern(region->part.name, part.name)) regions.push_back(part.region);
+  } else {
+    regions.push_back(scene.locate(std::get<Vec3>(spec.source.origin)));
+  }
+  return regions;
+}
+
 /// A sensor that cannot be reached is a mistake; a scene without any is a warning.
 void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed, const Scene& scene,
                    Problems& problems, std::vector<std::string>& warnings) {
-  std::uint32_t start = kAmbientRegion;
-  if (const auto* region = std::get_if<RegionSpec>(&spec.source.origin)) {
-    const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
-                                   [&](const PartInfo& p) { return p.name == region->part.name; });
-    if (part == scene.parts.end()) return;  // the source reports it
-    start = part->region;
-  } else {
-    start = scene.locate(std::get<Vec3>(spec.source.origin));
-  }
+  const std::vector<std::uint32_t> start = starting_regions(spec, scene);
+  if (start.empty()) return;  // the source reports it
   const std::vector<bool> lit = lit_regions(scene, start);
   bool any_sensor = false;
   for (const PlacedMesh& part : placed)

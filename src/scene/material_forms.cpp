@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scintray/scene/light_response_form.hpp"
 #include "scintray/scene/sensor_form.hpp"
 
 namespace scintray {
@@ -150,7 +151,10 @@ std::vector<DecayComponent> read_decay(const TomlTable& table, SourceRule rule,
 
 void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium) {
   const bool any = table.has("yield") || table.has("emission") || table.has("decay");
-  if (!any) return;
+  if (!any) {
+    refuse_light_response(table);
+    return;
+  }
   for (const char* key : {"yield", "emission", "decay"})
     if (!table.has(key))
       table.report(key, std::string("a medium that scintillates needs \"") + key + "\" too",
@@ -166,6 +170,7 @@ void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium)
     medium.emission = read_emission(*block);
   }
   medium.decay = read_decay(table, rule, medium.sources);
+  read_light_response(table, rule, medium);
 }
 
 /// Reports unless a curve stays within 0 and 1.

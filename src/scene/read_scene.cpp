@@ -87,7 +87,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.groups = std::move(bodies.groups);
   scene.contacts = read_contacts(root, names, scene.parts);
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
-  scene.source = read_source(root, names);
+  read_source(root, names, scene);
   scene.run = read_run(root);
   scene.readout = read_readout(root);
   read_tallies(root, scene);

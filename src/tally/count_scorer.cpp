@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/tally/face_axes.hpp"
+
 namespace scintray {
 
 namespace {

@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
+#include "scintray/source/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
