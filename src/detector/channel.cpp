@@ -6,12 +6,6 @@ namespace scintray {
 
 namespace {
 
-std::vector<double> stages_of(const Sensor& sensor, const ReadoutSpec& readout) {
-  std::vector<double> stages{sensor.single_electron.decay_ns, sensor.single_electron.rise_ns};
-  stages.insert(stages.end(), readout.shaping_ns.begin(), readout.shaping_ns.end());
-  return stages;
-}
-
 /// Fills what the avalanches themselves say.
 void count(std::span<const Avalanche> avalanches, const ReadoutSpec& readout, ChannelSignal& signal) {
   signal.order_times_ns.resize(readout.photon_order.size());
@@ -29,8 +23,14 @@ void count(std::span<const Avalanche> avalanches, const ReadoutSpec& readout, Ch
 
 }  // namespace
 
+PulseShape pulse_of(const Sensor& sensor, const ReadoutSpec& readout) {
+  std::vector<double> stages{sensor.single_electron.decay_ns, sensor.single_electron.rise_ns};
+  stages.insert(stages.end(), readout.shaping_ns.begin(), readout.shaping_ns.end());
+  return {stages, readout.period_ns};
+}
+
 Channel::Channel(const Sensor& sensor, const ReadoutSpec& readout, const SensorFace& face)
-    : readout_(readout), pulse_(stages_of(sensor, readout), readout.period_ns), response_(sensor, face) {}
+    : readout_(readout), pulse_(pulse_of(sensor, readout)), response_(sensor, face) {}
 
 ChannelSignal Channel::respond(std::span<const Arrival> arrivals, Rng& rng) const {
   const double start_ns = -readout_.before_ns;

@@ -27,6 +27,10 @@ struct ChannelSignal {
   std::vector<float> waveform;  ///< when ReadoutSpec::pulses; first sample at -before_ns
 };
 
+/// The pulse of one avalanche of a sensor behind a readout. Throws InputError (without a place) when neither
+/// of them gives it a duration.
+PulseShape pulse_of(const Sensor& sensor, const ReadoutSpec& readout);
+
 /// Immutable, so one serves all threads. No event leaves anything behind in the sensor for the next one.
 class Channel {
  public:

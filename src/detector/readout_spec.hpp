@@ -2,6 +2,7 @@
 /// The electronics behind every sensor, as a scene file asks for them (docs/readout.md).
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -38,7 +39,7 @@ struct ReadoutSpec {
   std::vector<std::uint64_t> photon_order{};  ///< n of the n-th photon times, from 1
   FileLocation where{};
 
-  std::uint64_t samples() const { return static_cast<std::uint64_t>(window_ns / period_ns + 0.5); }
+  std::uint64_t samples() const { return static_cast<std::uint64_t>(std::llround(window_ns / period_ns)); }
 };
 
 }  // namespace scintray

@@ -70,7 +70,7 @@ class FiringCells {
   /// geometric, and drawn as exponentials.
   void spread(const Carrier& carrier, double charge, Rng& rng) {
     if (neighbour_rate_ <= 0.0) return;
-    std::array<std::uint32_t, 8> room;
+    std::array<std::uint32_t, 8> room{};
     const auto around = grid_.neighbours(carrier.cell, room);
     const double rate = neighbour_rate_ * charge;
     double index = std::floor(sample_exponential(rng) / rate);

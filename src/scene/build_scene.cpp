@@ -7,6 +7,7 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/core/pattern.hpp"
+#include "scintray/detector/channel.hpp"
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/conform_parts.hpp"
 #include "scintray/scene/cut_parts.hpp"
@@ -160,11 +161,23 @@ class AssemblyMaker {
       check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm, wavelengths_.high_nm,
                   "sensor \"" + sensor.name + "\"", "an efficiency",
                   "extend its efficiency table, with zeros where it does not respond");
+      check_pulse(sensor);
     } catch (const InputError& error) {
       problems_.add(error);
     }
     assembly_.sensors.push_back(std::move(sensor));
     return known->second = static_cast<std::int32_t>(assembly_.sensors.size() - 1);
+  }
+
+  /// Reports, at the readout, a sensor whose pulses would have no shape behind it.
+  void check_pulse(const Sensor& sensor) {
+    if (!spec_.readout) return;
+    try {
+      pulse_of(sensor, *spec_.readout);
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      problems_.add(spec_.readout->where, "sensor \"" + sensor.name + "\": " + problem.what, problem.hint);
+    }
   }
 
   /// The medium of a sensor that names none: its window, which only its index describes.

@@ -141,7 +141,7 @@ DarkCounts read_dark_counts(const TomlTable& table) {
 void read_sensor_response(const TomlTable& table, SourceRule rule, Sensor& sensor) {
   if (const auto angle = table.optional_table("angle")) read_angle(*angle, rule, sensor);
   const auto block = [&](const std::string& key) {
-    const std::optional<TomlTable> found = table.optional_table(key);
+    std::optional<TomlTable> found = table.optional_table(key);
     if (found) read_source(*found, rule, sensor.sources);
     return found;
   };

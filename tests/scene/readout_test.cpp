@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/library.hpp"
+#include "scintray/scene/read_scene.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
@@ -126,4 +128,32 @@ TEST_CASE("all mistakes of a readout come out at once, each at its place") {
   REQUIRE(problems.size() == 4);  // "before" too
   CHECK(problems[1].where.line == 3);
   CHECK(problems[3].where.line == 4);
+}
+
+TEST_CASE("a readout without shaping and a sensor without a pulse are refused together, at the readout") {
+  const std::string scene = R"(ambient = "vacuum"
+[[part]]
+name = "sensor"
+box = ["2 mm", "2 mm", "1 mm"]
+sensor = "ideal"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "2 mm"]
+wavelength = "420 nm"
+photons = 1
+[readout]
+sampling = "1 GHz"
+before = "20 ns"
+window = "300 ns"
+threshold = 2.5
+)";
+  const auto build = [](const std::string& text) {
+    SceneBuilder().build(SceneFile::from_text(text, source_file("scene.toml").string()).spec(0));
+  };
+  const auto problems = problems_of([&] { build(scene); });
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].where.line == 11);
+  check_says(problems[0].what, "sensor \"ideal\": neither the sensor nor the electronics");
+  check_says(problems[0].hint, "[readout] shaping");
+  CHECK(complaint_of([&] { build(scene + "shaping = { order = 1, time_constant = \"5 ns\" }\n"); }).empty());
 }
