@@ -12,7 +12,7 @@ namespace scintray {
 
 namespace {
 
-constexpr std::size_t kLeastEvents = 100, kLeastOfSlice = 10;
+constexpr std::size_t kLeastWithBothEnds = 100, kLeastOfDoiSlice = 10;
 /// A slope below this many standard errors is no calibration.
 constexpr double kLeastSlope = 5.0;
 
@@ -29,7 +29,7 @@ struct Calibrated {
 Calibrated line_of_means(std::span<const double> depths_mm, std::span<const double> ratios,
                          std::size_t slices) {
   Calibrated result;
-  result.slices = slice_by_depth(depths_mm, ratios, slices, kLeastOfSlice);
+  result.slices = slice_by_depth(depths_mm, ratios, slices, kLeastOfDoiSlice);
   std::vector<double> depths;
   for (const DepthSlice& slice : result.slices) {
     result.means.push_back(mean_of(slice.values));
@@ -117,7 +117,7 @@ DoiCalibration calibration_of(const Calibrated& calibrated, DoiCalibrationKind k
 std::vector<DoiSlice> judge_slices(std::span<const double> depths_mm, std::span<const double> residuals,
                                    std::size_t slices) {
   std::vector<DoiSlice> judged;
-  for (const DepthSlice& slice : slice_by_depth(depths_mm, residuals, slices, kLeastOfSlice)) {
+  for (const DepthSlice& slice : slice_by_depth(depths_mm, residuals, slices, kLeastOfDoiSlice)) {
     Moments moments, fourth;
     const Estimate mean = mean_of(slice.values);
     for (const double value : slice.values) {
@@ -164,9 +164,9 @@ DoiStudy study_doi(std::span<const double> depths_mm, std::span<const double> ra
     values[usable % 2].push_back(ratios[i]);
     ++usable;
   }
-  if (usable < kLeastEvents)
-    throw no_doi(std::to_string(usable) + " events with light at both ends; " + std::to_string(kLeastEvents) +
-                     " are needed",
+  if (usable < kLeastWithBothEnds)
+    throw no_doi(std::to_string(usable) + " events with light at both ends; " +
+                     std::to_string(kLeastWithBothEnds) + " are needed",
                  "simulate more events");
   DoiStudy study;
   study.ratio = ratio;

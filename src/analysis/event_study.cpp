@@ -15,8 +15,8 @@ namespace scintray {
 
 namespace {
 
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kLeastPairs = 50, kLeastPlane = 4;
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kLeastTimed = 50, kLeastPlane = 4;
 
 Vec3 to_vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -73,13 +73,13 @@ void EventCollector::add_times(const EventRecord& event, Row& row) const {
     const ChannelRecord& record = event.channels[channel];
     return static_cast<double>(has_readout_ ? record.time_ns : record.first_ns);
   };
-  row.time_ns = row.first_ns = kNone;
+  row.time_ns = row.first_ns = kNoNumber;
   for (std::size_t i = 0; i < event.channels.size(); ++i) {
     row.time_ns = earliest(row.time_ns, time(i));
     row.first_ns = earliest(row.first_ns, event.channels[i].first_ns);
   }
   if (!layout_) return;
-  double near = kNone, far = kNone;
+  double near = kNoNumber, far = kNoNumber;
   for (const std::size_t i : layout_->near) near = earliest(near, time(i));
   for (const std::size_t i : layout_->far) far = earliest(far, time(i));
   row.end_difference_ns = near - far;
@@ -93,9 +93,10 @@ void EventCollector::add(const EventRecord& event) {
                              "read events and channels from one results file"});
   if (events_++ == 0 && !event.channels.empty()) has_readout_ = !std::isnan(event.channels.front().charge);
   Row row;
-  row.across_mm = {kNone, kNone};
-  row.end_difference_ns = kNone;
-  row.depth_mm = setup_.depth ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNone;
+  row.across_mm = {kNoNumber, kNoNumber};
+  row.end_difference_ns = kNoNumber;
+  row.depth_mm =
+      setup_.depth ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
   row.part = event.region_part;
   add_light(event, row);
   if (!(row.light > 0.0)) return;
@@ -193,16 +194,16 @@ void EventCollector::study_ends(const std::vector<const Row*>& rows, EventStudy&
 void EventCollector::study_timing(const std::vector<const Row*>& rows, EventStudy& study) const {
   const std::vector<double> times = column(rows, &Row::time_ns);
   const std::vector<double> pairs = paired_differences(times);
-  if (pairs.size() < kLeastPairs) {
+  if (pairs.size() < kLeastTimed) {
     study.left_out.push_back(
-        fmt::format("timing: {} pairs of events with times; {} are needed", pairs.size(), kLeastPairs));
+        fmt::format("timing: {} pairs of events with times; {} are needed", pairs.size(), kLeastTimed));
     return;
   }
   study.pair_difference_ns = spread_of(pairs);
   if (has_readout_)
     study.first_photon_difference_ns = spread_of(paired_differences(column(rows, &Row::first_ns)));
   const Spread ends = spread_of(column(rows, &Row::end_difference_ns));
-  if (ends.count >= kLeastPairs) study.end_difference_ns = ends;
+  if (ends.count >= kLeastTimed) study.end_difference_ns = ends;
   if (!setup_.depth) return;
   const TimingDepth timing = timing_against_depth(column(rows, &Row::depth_mm), times, setup_.slices);
   if (timing.slices.size() > 1) study.timing_against_depth = timing;

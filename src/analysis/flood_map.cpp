@@ -16,7 +16,7 @@ namespace scintray {
 
 namespace {
 
-constexpr std::size_t kLeastEvents = 100;
+constexpr std::size_t kLeastPlaced = 100;
 constexpr double kKernelOfDistance = 0.125, kKernelOfSide = 0.01;
 /// Cells whose smoothed height is below this share of the highest belong to no basin of their own.
 constexpr double kFloor = 1e-6;
@@ -127,10 +127,10 @@ FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<c
                    const FloodOptions& options) {
   if (!part.empty() && part.size() != positions.size())
     throw std::invalid_argument("positions and parts differ in number");
-  if (positions.size() < kLeastEvents)
+  if (positions.size() < kLeastPlaced)
     throw InputError(Problem{{},
                              std::to_string(positions.size()) +
-                                 " events with a position; a flood map needs " + std::to_string(kLeastEvents),
+                                 " events with a position; a flood map needs " + std::to_string(kLeastPlaced),
                              "simulate more events"});
   const std::optional<std::size_t> most = options.expected.value_or(0) > 0 ? options.expected : std::nullopt;
   FloodMap map;

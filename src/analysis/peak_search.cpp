@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBins = 512;
 /// Half width at half maximum of a Gaussian over its standard deviation.
 constexpr double kHalfWidth = 1.1774100225154747;
-constexpr double kSignificance = 4.0;
+constexpr double kPeakSignificance = 4.0;
 constexpr double kLeastHeight = 0.1;
 
 /// Standard error of a height after smoothing: the integral of the squared kernel is 1 / (2 sqrt(pi) width).
@@ -39,7 +39,7 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
     if (climbing && density[i] > density[top]) top = i;
     if (!climbing && density[i] < density[valley]) valley = i;
     const double here = density[climbing ? top : i];
-    const double limit = kSignificance * height_error(here, width);
+    const double limit = kPeakSignificance * height_error(here, width);
     if (climbing && density[top] - density[i] > limit) {
       if (density[top] - density[valley] > limit) found.push_back({top, valley, density[top]});
       climbing = false;
@@ -50,7 +50,7 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
     }
   }
   // A spectrum cut off above its peak never comes down again.
-  if (climbing && density[top] - density[valley] > kSignificance * height_error(density[top], width))
+  if (climbing && density[top] - density[valley] > kPeakSignificance * height_error(density[top], width))
     found.push_back({top, valley, density[top]});
   return found;
 }

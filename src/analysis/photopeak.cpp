@@ -11,12 +11,12 @@ namespace scintray {
 
 namespace {
 
-constexpr double kLeastEvents = 100.0;
+constexpr double kLeastInPeak = 100.0;
 constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5;
-constexpr double kBinsPerSigma = 4.0;
+constexpr double kPeakBinsPerSigma = 4.0;
 constexpr double kWorthATerm = 9.0;
 constexpr double kPoor = 1e-4;
-constexpr int kMostRounds = 8;
+constexpr int kMostPeakRounds = 8;
 
 PeakFit fit_with_background(const Histogram& histogram, PeakModel start, const PhotopeakOptions& options) {
   if (options.background) return fit_peak(histogram, start, *options.background);
@@ -67,11 +67,11 @@ Photopeak verdict(Photopeak peak, PeakVerdict found, std::string reason) {
 void fit_until_settled(std::span<const double> sorted, const PeakPlace& place,
                        const PhotopeakOptions& options, Photopeak& peak) {
   double position = place.position, sigma = place.sigma;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostPeakRounds; ++round) {
     const Span span = span_of(position, sigma, place.valley, options);
     if (!(span.high > span.low)) return;
-    peak.fitted = make_histogram_of_width(sorted, span.low, span.high, sigma / kBinsPerSigma);
-    if (peak.fitted.total() < kLeastEvents) return;
+    peak.fitted = make_histogram_of_width(sorted, span.low, span.high, sigma / kPeakBinsPerSigma);
+    if (peak.fitted.total() < kLeastInPeak) return;
     const PeakFit fit = fit_with_background(peak.fitted, start_model(peak.fitted, position, sigma), options);
     if (!fit.converged) return;
     const bool settled = std::abs(fit.model.position - position) < 0.05 * sigma &&
@@ -112,9 +112,9 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     sorted.erase(inside, sorted.end());
     sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
   }
-  if (static_cast<double>(sorted.size()) < kLeastEvents)
+  if (static_cast<double>(sorted.size()) < kLeastInPeak)
     return verdict(peak, PeakVerdict::too_few,
-                   fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastEvents));
+                   fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastInPeak));
   const std::optional<PeakPlace> place = find_photopeak(sorted);
   if (!place)
     return verdict(peak, PeakVerdict::no_peak,
@@ -122,10 +122,10 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
                                                    : "no maximum stands 4 standard errors above its sides");
   fit_until_settled(sorted, *place, options, peak);
   if (!peak.has_numbers()) {
-    if (peak.fitted.total() < kLeastEvents)
+    if (peak.fitted.total() < kLeastInPeak)
       return verdict(peak, PeakVerdict::too_few,
                      fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit needs {:.0f}",
-                                 peak.fitted.total(), place->position, kLeastEvents));
+                                 peak.fitted.total(), place->position, kLeastInPeak));
     return verdict(peak, PeakVerdict::not_converged,
                    fmt::format("the fit of the peak near {:.4g} did not come to rest", place->position));
   }
@@ -137,9 +137,9 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
         peak, PeakVerdict::edge_of_range,
         fmt::format("the peak at {:.4g} has {:.1f} sigma of data below it and {:.1f} above; {} are needed",
                     model.position, room_below, room_above, kLeastBelow));
-  if (model.events < kLeastEvents)
+  if (model.events < kLeastInPeak)
     return verdict(peak, PeakVerdict::too_few,
-                   fmt::format("{:.0f} pulses in the peak; {:.0f} are needed", model.events, kLeastEvents));
+                   fmt::format("{:.0f} pulses in the peak; {:.0f} are needed", model.events, kLeastInPeak));
   if (peak.fit.goodness.degrees > 0.0 && peak.fit.goodness.p_value < kPoor)
     return verdict(
         peak, PeakVerdict::poor_fit,

@@ -11,9 +11,9 @@ namespace {
 /// Share of a Gaussian below its lower half maximum: Phi(-sqrt(2 ln 2)).
 constexpr double kLowerShare = 0.11951572;
 constexpr double kReach = 2.5;
-constexpr double kBinsPerSigma = 4.0;
-constexpr double kLeastEvents = 50.0;
-constexpr int kMostRounds = 8;
+constexpr double kCoreBinsPerSigma = 4.0;
+constexpr double kLeastInCore = 50.0;
+constexpr int kMostCoreRounds = 8;
 
 Estimate quantile_fwhm(std::span<const double> sorted) {
   const auto n = static_cast<double>(sorted.size());
@@ -31,9 +31,9 @@ Estimate quantile_fwhm(std::span<const double> sorted) {
 
 void fit_core(std::span<const double> sorted, Spread& spread) {
   double centre = sorted_quantile(sorted, 0.5), sigma = spread.quantile_fwhm.value / kFwhmPerSigma;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostCoreRounds; ++round) {
     spread.fitted = make_histogram_of_width(sorted, centre - kReach * sigma, centre + kReach * sigma,
-                                            sigma / kBinsPerSigma);
+                                            sigma / kCoreBinsPerSigma);
     const PeakFit fit =
         fit_peak(spread.fitted, {centre, sigma, std::max(1.0, spread.fitted.total())}, PeakBackground::none);
     if (!fit.converged) return;
@@ -61,7 +61,7 @@ Spread spread_of(std::span<const double> values) {
   spread.mean.value += origin;
   if (sorted.size() < 2 || sorted.front() == sorted.back()) return spread;
   spread.quantile_fwhm = quantile_fwhm(sorted);
-  if (static_cast<double>(sorted.size()) >= kLeastEvents && spread.quantile_fwhm.value > 0.0)
+  if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
   return spread;
 }
