@@ -17,7 +17,10 @@ namespace scintray {
 namespace {
 
 constexpr std::size_t kLeastPlaced = 100;
-constexpr double kKernelOfDistance = 0.125, kKernelOfSide = 0.01;
+/// Standard deviations of the kernels tried, in distances of peaks, and that distance where their number is
+/// not known.
+constexpr std::array kKernels{0.25, 0.18, 0.125, 0.09, 0.063, 0.045};
+constexpr double kDistanceOfSide = 0.08;
 /// Cells whose smoothed height is below this share of the highest belong to no basin of their own.
 constexpr double kFloor = 1e-6;
 
@@ -55,6 +58,35 @@ std::array<double, 2> middle_of(const FloodGrid& grid, std::size_t cell) {
   };
   return {along(grid.x_low, grid.x_high, cell % grid.columns, grid.columns),
           along(grid.y_low, grid.y_high, cell / grid.columns, grid.rows)};
+}
+
+struct Segmentation {
+  double smoothing_mm = 0.0;
+  std::vector<double> height;  ///< the smoothed map
+  Basins basins;
+};
+
+/// The coarsest smoothing that shows the most peaks.
+Segmentation segment(const FloodGrid& grid, std::optional<std::size_t> most) {
+  const double width = grid.x_high - grid.x_low, height = grid.y_high - grid.y_low;
+  const double cell_mm = width / static_cast<double>(grid.columns);
+  const double distance_mm = most ? std::sqrt(width * height / static_cast<double>(*most))
+                                  : kDistanceOfSide * std::max(width, height);
+  Segmentation best;
+  for (const double share : kKernels) {
+    Segmentation next;
+    next.smoothing_mm = std::max(share * distance_mm, 0.5 * cell_mm);
+    const double cells = next.smoothing_mm / cell_mm;
+    const std::vector<double> kernel = gaussian_kernel(cells);
+    next.height = convolved(convolved(grid.counts, kernel, {grid.rows, grid.columns, grid.columns, 1}),
+                            kernel, {grid.columns, grid.rows, 1, grid.columns});
+    const double highest = *std::max_element(next.height.begin(), next.height.end());
+    // The squared kernel integrates to 1 / (4 pi s^2): the variance of a smoothed height.
+    const double error_scale = 1.0 / (2.0 * std::sqrt(kPi) * cells);
+    next.basins = find_basins(next.height, grid.rows, grid.columns, kFloor * highest, error_scale, most);
+    if (next.basins.peaks.size() > best.basins.peaks.size()) best = std::move(next);
+  }
+  return best;
 }
 
 void set_peaks(FloodMap& map, const Basins& basins, const std::vector<double>& height) {
@@ -135,20 +167,9 @@ FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<c
   const std::optional<std::size_t> most = options.expected.value_or(0) > 0 ? options.expected : std::nullopt;
   FloodMap map;
   map.grid = grid_of(positions, options.cells);
-  const double width = map.grid.x_high - map.grid.x_low, height = map.grid.y_high - map.grid.y_low;
-  const double cell_mm = width / static_cast<double>(map.grid.columns);
-  map.smoothing_mm = kKernelOfSide * std::max(width, height);
-  if (most) map.smoothing_mm = kKernelOfDistance * std::sqrt(width * height / static_cast<double>(*most));
-  const double cells = std::max(0.5, map.smoothing_mm / cell_mm);
-  const std::vector<double> kernel = gaussian_kernel(cells);
-  const std::size_t rows = map.grid.rows, columns = map.grid.columns;
-  const std::vector<double> smooth = convolved(
-      convolved(map.grid.counts, kernel, {rows, columns, columns, 1}), kernel, {columns, rows, 1, columns});
-  const double highest = *std::max_element(smooth.begin(), smooth.end());
-  // The squared kernel integrates to 1 / (4 pi s^2): the variance of a smoothed height.
-  const double error_scale = 1.0 / (2.0 * std::sqrt(kPi) * cells);
-  const Basins basins = find_basins(smooth, rows, columns, kFloor * highest, error_scale, most);
-  set_peaks(map, basins, smooth);
+  const Segmentation segmented = segment(map.grid, most);
+  map.smoothing_mm = segmented.smoothing_mm;
+  set_peaks(map, segmented.basins, segmented.height);
   set_owners(map, positions, part);
   return map;
 }

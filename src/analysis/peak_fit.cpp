@@ -54,14 +54,17 @@ BinExpectation expectation(const PeakModel& model, double low, double high) {
   return bin;
 }
 
+/// Positions are searched for in units of the first sigma from the first position, so that the units of the
+/// spectrum do not matter.
 struct Task {
   const Histogram& histogram;
   PeakBackground background;
+  PeakModel start;
 
   PeakModel model(const gsl_vector* x) const {
     PeakModel model;
-    model.position = gsl_vector_get(x, 0);
-    model.sigma = std::exp(gsl_vector_get(x, 1));
+    model.position = start.position + start.sigma * gsl_vector_get(x, 0);
+    model.sigma = start.sigma * std::exp(gsl_vector_get(x, 1));
     model.events = std::exp(gsl_vector_get(x, 2));
     if (background != PeakBackground::none) model.shoulder = std::exp(gsl_vector_get(x, 3));
     if (background == PeakBackground::shoulder_and_constant) model.constant = std::exp(gsl_vector_get(x, 4));
@@ -106,7 +109,8 @@ int jacobian(const gsl_vector* x, void* data, gsl_matrix* out) {
   for (std::size_t i = 0; i < task.histogram.counts.size(); ++i) {
     const BinExpectation bin = expectation(model, task.histogram.edge(i), task.histogram.edge(i + 1));
     const double slope = residual_slope(task.histogram.counts[i], std::max(kLeastExpected, bin.value));
-    for (std::size_t k = 0; k < out->size2; ++k) gsl_matrix_set(out, i, k, slope * bin.slope[k]);
+    for (std::size_t k = 0; k < out->size2; ++k)
+      gsl_matrix_set(out, i, k, slope * bin.slope[k] * (k == 0 ? task.start.sigma : 1.0));
   }
   return GSL_SUCCESS;
 }
@@ -116,7 +120,8 @@ struct Free {
 };
 
 /// Searches from `start`; true when the search came to rest.
-bool search(Task& task, const PeakModel& start, PeakModel& found) {
+bool search(Task& task, PeakModel& found) {
+  const PeakModel& start = task.start;
   const std::size_t parameters = parameters_of(task.background);
   gsl_multifit_nlinear_parameters options = gsl_multifit_nlinear_default_parameters();
   options.scale = gsl_multifit_nlinear_scale_levenberg;
@@ -130,8 +135,7 @@ bool search(Task& task, const PeakModel& start, PeakModel& found) {
   functions.p = parameters;
   functions.params = &task;
   std::array<double, kMostParameters> values{
-      start.position, std::log(start.sigma), std::log(start.events),
-      std::log(std::max(start.shoulder, 1e-6 * start.events / start.sigma)),
+      0.0, 0.0, std::log(start.events), std::log(std::max(start.shoulder, 1e-6 * start.events / start.sigma)),
       std::log(std::max(start.constant, 1e-6 * start.events / start.sigma))};
   const gsl_vector_view x = gsl_vector_view_array(values.data(), parameters);
   if (gsl_multifit_nlinear_init(&x.vector, &functions, work.get()) != GSL_SUCCESS) return false;
@@ -200,8 +204,8 @@ PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackgro
   const auto filled = static_cast<std::size_t>(
       std::count_if(histogram.counts.begin(), histogram.counts.end(), [](double n) { return n > 0.0; }));
   if (filled < parameters_of(background) || !(start.sigma > 0.0) || !(start.events > 0.0)) return fit;
-  Task task{histogram, background};
-  fit.converged = search(task, start, fit.model);
+  Task task{histogram, background, start};
+  fit.converged = search(task, fit.model);
   if (!fit.converged) return fit;
   set_errors(histogram, fit);
   set_goodness(histogram, fit);

@@ -55,13 +55,19 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
   return found;
 }
 
+/// Standard deviation from so many bins of half width, less what smoothing added.
+double sigma_from(std::size_t bins, double width) {
+  const double half = static_cast<double>(bins) / kHalfWidth;
+  return std::max(0.5, std::sqrt(std::max(half * half - width * width, 0.1 * half * half)));
+}
+
 PeakPlace place_of(const Maximum& peak, const std::vector<double>& density, const Histogram& grid,
                    double width) {
-  std::size_t right = peak.at;
+  std::size_t right = peak.at, left = peak.at;
   while (right + 1 < density.size() && density[right] > 0.5 * peak.height) ++right;
-  const double half = (static_cast<double>(right - peak.at)) / kHalfWidth;
-  const double own = std::sqrt(std::max(half * half - width * width, 0.1 * half * half));
-  return {grid.centre(peak.at), std::max(own, 0.5) * grid.width, grid.centre(peak.valley)};
+  while (left > 0 && density[left] > 0.5 * peak.height) --left;
+  return {grid.centre(peak.at), sigma_from(right - peak.at, width) * grid.width,
+          sigma_from(peak.at - left, width) * grid.width, peak.height / grid.width, grid.centre(peak.valley)};
 }
 
 }  // namespace

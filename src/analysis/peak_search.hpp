@@ -8,8 +8,10 @@ namespace scintray {
 
 struct PeakPlace {
   double position = 0.0;
-  double sigma = 0.0;   ///< from the half width at half maximum above the peak
-  double valley = 0.0;  ///< lowest point between the peak and what lies below it
+  double sigma = 0.0;        ///< from the half width at half maximum above the peak
+  double sigma_below = 0.0;  ///< from that below it: a shoulder makes it larger
+  double height = 0.0;       ///< density of values at the peak, smoothed
+  double valley = 0.0;       ///< lowest point between the peak and what lies below it
 };
 
 /// The highest in x of the maxima that stand out and have a tenth of the height of the highest; see

@@ -63,6 +63,19 @@ Photopeak verdict(Photopeak peak, PeakVerdict found, std::string reason) {
   return peak;
 }
 
+/// Values within 0.1 sigma of an end of the data, where these end on the slope of the peak: as many as a
+/// quarter of its height makes are no tail.
+bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above) {
+  const double sigma = above ? place.sigma_below : place.sigma;
+  const double room = above ? sorted.back() - place.position : place.position - sorted.front();
+  if (room > kLeastBelow * sigma) return false;
+  const double reach = 0.1 * sigma;
+  const auto near_end =
+      above ? sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), sorted.back() - reach)
+            : std::upper_bound(sorted.begin(), sorted.end(), sorted.front() + reach) - sorted.begin();
+  return static_cast<double>(near_end) > 0.25 * place.height * reach;
+}
+
 /// Repeats the fit until the bins it used are those that its result asks for.
 void fit_until_settled(std::span<const double> sorted, const PeakPlace& place,
                        const PhotopeakOptions& options, Photopeak& peak) {
@@ -120,6 +133,11 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     return verdict(peak, PeakVerdict::no_peak,
                    sorted.front() == sorted.back() ? "all pulses are equal"
                                                    : "no maximum stands 4 standard errors above its sides");
+  for (const bool above : {true, false})
+    if (cut_off(sorted, *place, above))
+      return verdict(peak, PeakVerdict::edge_of_range,
+                     fmt::format("the data end at {:.4g}, on the slope of the peak at {:.4g}",
+                                 above ? sorted.back() : sorted.front(), place->position));
   fit_until_settled(sorted, *place, options, peak);
   if (!peak.has_numbers()) {
     if (peak.fitted.total() < kLeastInPeak)

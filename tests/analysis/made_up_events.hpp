@@ -38,6 +38,10 @@ struct MadeUpDetector {
     return {kPitch_mm * static_cast<double>(k % kSide), kPitch_mm * static_cast<double>(k / kSide), z};
   }
 
+  static double leak(std::size_t to, std::size_t from) {
+    return std::exp(-(crystal_mm(to, 0.0) - crystal_mm(from, 0.0)).norm() / kPitch_mm);
+  }
+
   EventRecord event(std::size_t number, bool readout, Rng& rng) const {
     EventRecord event;
     event.event = number;
@@ -50,11 +54,13 @@ struct MadeUpDetector {
     const double energy = rng.uniform() < 0.6 ? 511.0 : 341.0 * rng.uniform();
     event.energy_keV = static_cast<float>(energy);
     event.channels.resize(2 * kSide * kSide);
+    double neighbours = 0.0;
+    for (std::size_t k = 0; k < kSide * kSide; ++k)
+      if (k != crystal) neighbours += leak(k, crystal);
     for (std::size_t end = 0; end < 2; ++end) {
       const double way = end == 0 ? z : kLength_mm - z;
       for (std::size_t k = 0; k < kSide * kSide; ++k) {
-        const double distance = (crystal_mm(k, 0.0) - crystal_mm(crystal, 0.0)).norm();
-        const double share = k == crystal ? 0.8 : 0.2 * std::exp(-distance / kPitch_mm);
+        const double share = k == crystal ? 0.8 : 0.2 * leak(k, crystal) / neighbours;
         const double expected = 2.5 * energy * share * std::exp(-way / kAttenuation_mm);
         fill(event.channels[end * kSide * kSide + k], expected, way, readout, rng);
       }
