@@ -113,6 +113,10 @@ void EventCollector::study_light(EventStudy& study) const {
   study.mean_light = mean_of(light);
   study.spectrum = automatic_histogram(light);
   study.peak = fit_photopeak(light, setup_.photopeak);
+  // Bins made for the whole spectrum may be as wide as its peak.
+  const double fine = study.peak.has_numbers() ? study.peak.fit.model.sigma / 3.0 : 0.0;
+  if (study.spectrum && fine > 0.0 && fine < study.spectrum->width)
+    study.spectrum = make_histogram_of_width(light, study.spectrum->low, study.spectrum->high(), fine);
   if (!setup_.depth || rows_.empty()) return;
   study.mean_depth_mm = mean_of(depths);
   const auto [low, high] = std::minmax_element(depths.begin(), depths.end());

@@ -70,6 +70,7 @@ Plot spectrum_plot(const EventStudy& study) {
 
 Plot depth_plot(const DepthCurve& curve) {
   Plot plot = small_plot("light against depth", "depth (mm)", "light, relative");
+  plot.y_from_zero = false;
   PlotSeries points;
   points.joined = false;
   points.label = curve.points.front().from_peak ? "photopeak" : "mean";
@@ -102,13 +103,19 @@ Plot doi_plot(const DoiStudy& doi) {
 
 GridMap flood_picture(const FloodMap& flood) {
   GridMap map;
-  map.rows = flood.grid.rows;
-  map.columns = flood.grid.columns;
-  map.values = flood.grid.counts;
+  map.rows = (flood.grid.rows + 1) / 2;
+  map.columns = (flood.grid.columns + 1) / 2;
+  map.values.assign(map.rows * map.columns, 0.0);
+  for (std::size_t row = 0; row < flood.grid.rows; ++row)
+    for (std::size_t column = 0; column < flood.grid.columns; ++column)
+      map.values[row / 2 * map.columns + column / 2] += flood.grid.counts[row * flood.grid.columns + column];
   map.x_low = flood.grid.x_low;
-  map.x_high = flood.grid.x_high;
+  map.x_high = flood.grid.x_low + (flood.grid.x_high - flood.grid.x_low) *
+                                      static_cast<double>(2 * map.columns) /
+                                      static_cast<double>(flood.grid.columns);
   map.y_low = flood.grid.y_low;
-  map.y_high = flood.grid.y_high;
+  map.y_high = flood.grid.y_low + (flood.grid.y_high - flood.grid.y_low) * static_cast<double>(2 * map.rows) /
+                                      static_cast<double>(flood.grid.rows);
   map.x_label = "position across (mm)";
   map.y_label = "position across (mm)";
   map.value_label = "events per cell";

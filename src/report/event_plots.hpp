@@ -22,7 +22,7 @@ Plot depth_plot(const DepthCurve& curve);
 /// Width (FWHM) and bias of the depth found, against depth.
 Plot doi_plot(const DoiStudy& doi);
 
-/// Counts of a flood map.
+/// Counts of a flood map, four of its cells in one: the segmentation wants finer ones than the eye.
 GridMap flood_picture(const FloodMap& flood);
 
 /// A distribution of time differences with its Gaussian, in ps. The spread has fitted bins.

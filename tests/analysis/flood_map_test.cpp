@@ -140,14 +140,13 @@ TEST_CASE("12 x 12 crystals on 4 x 4 channels are told apart by their light") {
         const double photons = 4000.0 * share / sum;
         light.push_back(std::max(0.0, photons + std::sqrt(photons) * sample_normal(rng)));
       }
-      // Plain weights fold the corners: light of the outermost crystals is spread more evenly than that of the
-      // next ones, which draws it to the middle.
+      // Plain weights fold the corners: light of the outermost crystals is spread more evenly than that of
+      // the next ones, which draws it to the middle.
       positions.push_back(*anger_position(light, channels, {2.0, 0.0}));
       parts.push_back(crystal);
     }
   }
   const FloodMap map = flood_map(positions, parts, {256, 144});
-  MESSAGE("peaks ", map.peaks.size(), ", share right ", map.share_right.value, ", P/V ", map.peak_to_valley);
   CHECK(map.peaks.size() == 144);
   CHECK(map.crystals_without_peak == 0);
   CHECK(map.share_right.value > 0.9);
