@@ -37,9 +37,9 @@ TEST_CASE(
   constexpr std::size_t kOrder = 10;
   double last_excess = 10.0;
   for (const double photons : {100.0, 600.0, 3000.0, 10'000.0}) {
-    const std::size_t events = photons > 5000.0 ? 600 : 1500;
+    constexpr std::size_t kEvents = 1600;
     std::vector<double> likely, first, tenth;
-    for (std::size_t event = 0; event < events; ++event) {
+    for (std::size_t event = 0; event < kEvents; ++event) {
       Rng rng = toy_rng(90, event);
       const std::vector<double> times = sample_photon_times(photons, 40.0, 0.1, 0.12, rng);
       likely.push_back(most_likely(times));
