@@ -1,0 +1,114 @@
+#include "scintray/analysis/coincidence_timing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scintray/analysis/depth_slices.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr std::size_t kLeastPairs = 50, kLeastOfSlice = 100;
+
+OrderTiming timing_of(std::size_t n, const std::vector<double>& times) {
+  return {n, times.size(), mean_of(times), quoted_fwhm(spread_of(paired_differences(times)))};
+}
+
+std::size_t smallest(const std::vector<OrderTiming>& all) {
+  return static_cast<std::size_t>(std::min_element(all.begin(), all.end(),
+                                                   [](const OrderTiming& a, const OrderTiming& b) {
+                                                     return a.ctr_fwhm_ns.value < b.ctr_fwhm_ns.value;
+                                                   }) -
+                                  all.begin());
+}
+
+}  // namespace
+
+std::vector<double> paired_differences(std::span<const double> times_ns) {
+  std::vector<double> differences;
+  const double* waiting = nullptr;
+  for (const double& time : times_ns) {
+    if (!std::isfinite(time)) continue;
+    if (waiting) differences.push_back(*waiting - time);
+    waiting = waiting ? nullptr : &time;
+  }
+  return differences;
+}
+
+std::vector<double> channel_differences(std::span<const double> a_ns, std::span<const double> b_ns) {
+  if (a_ns.size() != b_ns.size()) throw std::invalid_argument("two channels differ in number of events");
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a_ns.size(); ++i)
+    if (std::isfinite(a_ns[i]) && std::isfinite(b_ns[i])) differences.push_back(a_ns[i] - b_ns[i]);
+  return differences;
+}
+
+Estimate quoted_fwhm(const Spread& differences) {
+  return differences.fit.converged ? differences.gaussian_fwhm : differences.quantile_fwhm;
+}
+
+void FirstPhotons::add(std::uint64_t event, double time_ns) {
+  if (most_ == 0 || !std::isfinite(time_ns)) return;
+  std::vector<double>& heap = heaps_[event];
+  if (heap.size() == most_) {
+    if (time_ns >= heap.front()) return;
+    std::pop_heap(heap.begin(), heap.end());
+    heap.pop_back();
+  }
+  heap.push_back(time_ns);
+  std::push_heap(heap.begin(), heap.end());
+}
+
+std::vector<std::vector<double>> FirstPhotons::times_ns() const {
+  std::vector<std::uint64_t> events;
+  for (const auto& [event, heap] : heaps_) events.push_back(event);
+  std::sort(events.begin(), events.end());
+  std::vector<std::vector<double>> all;
+  for (const std::uint64_t event : events) {
+    all.push_back(heaps_.at(event));
+    std::sort(all.back().begin(), all.back().end());
+  }
+  return all;
+}
+
+OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most) {
+  OrderStudy study;
+  std::vector<double> sums(times_ns.size(), 0.0);
+  for (std::size_t n = 1; n <= most; ++n) {
+    std::vector<double> single, average;
+    for (std::size_t event = 0; event < times_ns.size(); ++event) {
+      if (times_ns[event].size() < n) continue;
+      sums[event] += times_ns[event][n - 1];
+      single.push_back(times_ns[event][n - 1]);
+      average.push_back(sums[event] / static_cast<double>(n));
+    }
+    if (single.size() < 2 * kLeastPairs) break;
+    study.single.push_back(timing_of(n, single));
+    study.average.push_back(timing_of(n, average));
+  }
+  if (study.single.empty()) return study;
+  study.best_single = smallest(study.single);
+  study.best_average = smallest(study.average);
+  return study;
+}
+
+TimingDepth timing_against_depth(std::span<const double> depths_mm, std::span<const double> times_ns,
+                                 std::size_t slices) {
+  TimingDepth timing;
+  std::vector<double> depths;
+  std::vector<Estimate> means;
+  for (const DepthSlice& slice : slice_by_depth(depths_mm, times_ns, slices, kLeastOfSlice)) {
+    timing.slices.push_back({slice.depth_mm, slice.values.size(), mean_of(slice.values),
+                             quoted_fwhm(spread_of(paired_differences(slice.values)))});
+    depths.push_back(slice.depth_mm);
+    means.push_back(timing.slices.back().mean_ns);
+  }
+  const bool spread = depths.size() > 1 && std::all_of(means.begin(), means.end(),
+                                                       [](const Estimate& mean) { return mean.error > 0.0; });
+  if (spread) timing.line = fit_line(depths, means);
+  return timing;
+}
+
+}  // namespace scintray

@@ -1,0 +1,156 @@
+#include "scintray/report/event_plots.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace scintray::report {
+
+namespace {
+
+constexpr double kPicoseconds = 1e3;
+constexpr double kPlotWidth = 560.0, kPlotHeight = 320.0;
+constexpr int kCurvePoints = 160;
+
+Plot small_plot(const std::string& title, const std::string& x, const std::string& y) {
+  Plot plot;
+  plot.title = title;
+  plot.x_label = x;
+  plot.y_label = y;
+  plot.width = kPlotWidth;
+  plot.height = kPlotHeight;
+  plot.legend_above = true;
+  return plot;
+}
+
+PlotSeries histogram_series(const std::string& label, const Histogram& histogram, double scale) {
+  PlotSeries series{label, histogram.edges(), histogram.counts, {}, true};
+  for (double& edge : series.x) edge *= scale;
+  return series;
+}
+
+/// A model's counts per bin of `width`, over the bins it was fitted to.
+PlotSeries model_series(const PeakModel& model, const Histogram& fitted, double width, double scale) {
+  PlotSeries series;
+  series.label = "fit";
+  series.marks = false;
+  for (int i = 0; i <= kCurvePoints; ++i) {
+    const double x = fitted.low + (fitted.high() - fitted.low) * i / kCurvePoints;
+    series.x.push_back(scale * x);
+    series.y.push_back(width * model.density(x));
+  }
+  return series;
+}
+
+template <typename Items>
+PlotSeries points_series(const std::string& label, const Items& items,
+                         const std::function<double(const typename Items::value_type&)>& x,
+                         const std::function<Estimate(const typename Items::value_type&)>& y,
+                         double scale = 1.0) {
+  PlotSeries series;
+  series.label = label;
+  for (const auto& item : items) {
+    series.x.push_back(x(item));
+    series.y.push_back(scale * y(item).value);
+    series.error.push_back(scale * y(item).error);
+  }
+  return series;
+}
+
+}  // namespace
+
+std::string light_unit(const EventStudy& study) { return study.has_readout ? "photoelectrons" : "photons"; }
+
+Plot spectrum_plot(const EventStudy& study) {
+  Plot plot = small_plot("energy spectrum", "light of a pulse (" + light_unit(study) + ")", "pulses per bin");
+  plot.series.push_back(histogram_series("pulses", *study.spectrum, 1.0));
+  if (study.peak.has_numbers())
+    plot.series.push_back(model_series(study.peak.fit.model, study.peak.fitted, study.spectrum->width, 1.0));
+  return plot;
+}
+
+Plot depth_plot(const DepthCurve& curve) {
+  Plot plot = small_plot("light against depth", "depth (mm)", "light, relative");
+  plot.y_from_zero = false;
+  PlotSeries points;
+  points.joined = false;
+  points.label = curve.points.front().from_peak ? "photopeak" : "mean";
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    points.x.push_back(curve.points[i].depth_mm);
+    points.y.push_back(curve.relative[i].value);
+    points.error.push_back(curve.relative[i].error);
+  }
+  plot.series.push_back(points);
+  if (curve.points.size() < 2) return plot;
+  PlotSeries line{"line", {points.x.front(), points.x.back()}, {}, {}};
+  line.marks = false;
+  line.dashed = true;
+  for (const double x : line.x)
+    line.y.push_back(curve.line.at(x).value / curve.points[curve.reference].value.value);
+  plot.series.push_back(line);
+  return plot;
+}
+
+Plot doi_plot(const DoiStudy& doi) {
+  Plot plot = small_plot("depth of interaction", "true depth (mm)", "mm");
+  plot.y_from_zero = false;
+  const auto depth = [](const DoiSlice& slice) { return slice.depth_mm; };
+  plot.series.push_back(
+      points_series("FWHM", doi.slices, depth, [](const DoiSlice& slice) { return slice.fwhm_mm; }));
+  plot.series.push_back(
+      points_series("bias", doi.slices, depth, [](const DoiSlice& slice) { return slice.bias_mm; }));
+  return plot;
+}
+
+GridMap flood_picture(const FloodMap& flood) {
+  GridMap map;
+  map.rows = (flood.grid.rows + 1) / 2;
+  map.columns = (flood.grid.columns + 1) / 2;
+  map.values.assign(map.rows * map.columns, 0.0);
+  for (std::size_t row = 0; row < flood.grid.rows; ++row)
+    for (std::size_t column = 0; column < flood.grid.columns; ++column)
+      map.values[row / 2 * map.columns + column / 2] += flood.grid.counts[row * flood.grid.columns + column];
+  map.x_low = flood.grid.x_low;
+  map.x_high = flood.grid.x_low + (flood.grid.x_high - flood.grid.x_low) *
+                                      static_cast<double>(2 * map.columns) /
+                                      static_cast<double>(flood.grid.columns);
+  map.y_low = flood.grid.y_low;
+  map.y_high = flood.grid.y_low + (flood.grid.y_high - flood.grid.y_low) * static_cast<double>(2 * map.rows) /
+                                      static_cast<double>(flood.grid.rows);
+  map.x_label = "position across (mm)";
+  map.y_label = "position across (mm)";
+  map.value_label = "events per cell";
+  map.alternative = "flood map";
+  return map;
+}
+
+Plot difference_plot(const Spread& differences, const std::string& label) {
+  Plot plot = small_plot(label, label + " (ps)", "per bin");
+  plot.series.push_back(histogram_series("simulated", differences.fitted, kPicoseconds));
+  if (differences.fit.converged)
+    plot.series.push_back(
+        model_series(differences.fit.model, differences.fitted, differences.fitted.width, kPicoseconds));
+  return plot;
+}
+
+Plot timing_depth_plot(const TimingDepth& timing) {
+  Plot plot = small_plot("timing against depth", "depth (mm)", "ps");
+  const auto depth = [](const TimingSlice& slice) { return slice.depth_mm; };
+  plot.series.push_back(points_series(
+      "CTR (FWHM)", timing.slices, depth, [](const TimingSlice& slice) { return slice.ctr_fwhm_ns; },
+      kPicoseconds));
+  plot.series.push_back(points_series(
+      "mean time", timing.slices, depth, [](const TimingSlice& slice) { return slice.mean_ns; },
+      kPicoseconds));
+  return plot;
+}
+
+Plot order_plot(const OrderStudy& orders) {
+  Plot plot = small_plot("timing by order of photons", "n", "CTR, FWHM (ps)");
+  const auto n = [](const OrderTiming& timing) { return static_cast<double>(timing.n); };
+  const auto ctr = [](const OrderTiming& timing) { return timing.ctr_fwhm_ns; };
+  plot.series.push_back(points_series("n-th photon", orders.single, n, ctr, kPicoseconds));
+  plot.series.push_back(points_series("mean of the first n", orders.average, n, ctr, kPicoseconds));
+  return plot;
+}
+
+}  // namespace scintray::report

@@ -1,0 +1,37 @@
+#pragma once
+/// Plots of what the events of a point say.
+
+#include <string>
+#include <vector>
+
+#include "scintray/analysis/event_study.hpp"
+#include "scintray/report/grid_map.hpp"
+#include "scintray/report/svg_plot.hpp"
+
+namespace scintray::report {
+
+/// "photoelectrons" or "photons": what the light of a study counts.
+std::string light_unit(const EventStudy& study);
+
+/// The spectrum, with the fitted photopeak over it where there is one. The study has a spectrum.
+Plot spectrum_plot(const EventStudy& study);
+
+/// A depth curve relative to its reference, with its line dashed.
+Plot depth_plot(const DepthCurve& curve);
+
+/// Width (FWHM) and bias of the depth found, against depth.
+Plot doi_plot(const DoiStudy& doi);
+
+/// Counts of a flood map, four of its cells in one: the segmentation wants finer ones than the eye.
+GridMap flood_picture(const FloodMap& flood);
+
+/// A distribution of time differences with its Gaussian, in ps. The spread has fitted bins.
+Plot difference_plot(const Spread& differences, const std::string& label);
+
+/// CTR against depth, and the delay against depth, both in ps.
+Plot timing_depth_plot(const TimingDepth& timing);
+
+/// CTR by the n-th photon and by the mean of the first n, in ps. The study is not empty.
+Plot order_plot(const OrderStudy& orders);
+
+}  // namespace scintray::report

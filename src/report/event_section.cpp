@@ -1,0 +1,183 @@
+#include "scintray/report/event_section.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "scintray/report/event_plots.hpp"
+#include "scintray/report/event_text.hpp"
+#include "scintray/report/format.hpp"
+#include "scintray/report/html_parts.hpp"
+#include "scintray/report/page.hpp"
+
+namespace scintray::report {
+
+namespace {
+
+constexpr std::size_t kPointsShown = 4;
+constexpr const char* kEventStyle =
+    ".grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }\n"
+    ".grid figure { max-width: 36rem; } details { margin-top: .75rem; } summary { cursor: pointer; }\n";
+
+std::string event_figure(const std::string& drawing, const std::string& label, const std::string& title,
+                         const std::string& text) {
+  return "<figure>" + drawing + "<figcaption>" + escape_html(label) + ": " + escape_html(title) + ". <span>" +
+         escape_html(text) + "</span></figcaption></figure>\n";
+}
+
+std::string difference_figure(const Spread& differences, const std::string& label, const std::string& title) {
+  const bool drawn = !differences.fitted.counts.empty();
+  return event_figure(drawn ? svg_plot(difference_plot(differences, "time difference")) : "", label, title,
+                      spread_text(differences));
+}
+
+std::string layers_table(const Confusion& confusion) {
+  std::vector<std::string> head{"true layer"};
+  std::string rows;
+  for (std::size_t told = 0; told < confusion.classes; ++told) head.push_back("told " + std::to_string(told));
+  for (std::size_t truth = 0; truth < confusion.classes; ++truth) {
+    rows += "<tr>" + cell(std::to_string(truth), "th");
+    for (std::size_t told = 0; told < confusion.classes; ++told)
+      rows += number_cell(grouped(confusion.at(truth, told)));
+    rows += "</tr>\n";
+  }
+  return table(head, rows);
+}
+
+std::string figures(const PointStudy& point) {
+  const EventStudy& study = point.study;
+  std::string out;
+  if (study.spectrum)
+    out += event_figure(svg_plot(spectrum_plot(study)), point.label, "energy spectrum", peak_text(study));
+  if (study.light_against_depth)
+    out += event_figure(svg_plot(depth_plot(*study.light_against_depth)), point.label, "light against depth",
+                        depth_text(*study.light_against_depth));
+  if (study.flood)
+    out += event_figure(grid_map(flood_picture(*study.flood)), point.label, "flood map",
+                        flood_text(*study.flood));
+  if (study.doi && !study.doi->slices.empty())
+    out += event_figure(svg_plot(doi_plot(*study.doi)), point.label, "depth of interaction",
+                        doi_text(*study.doi));
+  if (study.pair_difference_ns)
+    out += difference_figure(*study.pair_difference_ns, point.label, "coincidence of two such detectors");
+  if (study.first_photon_difference_ns)
+    out +=
+        difference_figure(*study.first_photon_difference_ns, point.label, "coincidence by the first photon");
+  if (study.end_difference_ns)
+    out += difference_figure(*study.end_difference_ns, point.label, "one end minus the other");
+  if (study.timing_against_depth)
+    out += event_figure(svg_plot(timing_depth_plot(*study.timing_against_depth)), point.label,
+                        "timing against depth", timing_depth_text(*study.timing_against_depth));
+  if (study.layers_by_ratio)
+    out += event_figure(layers_table(study.layers_by_ratio->confusion), point.label,
+                        "layers by the ratio of the ends", layers_text(study.layers_by_ratio->confusion));
+  if (study.layers_by_flood)
+    out += event_figure(layers_table(*study.layers_by_flood), point.label, "layers by the flood map",
+                        layers_text(*study.layers_by_flood));
+  return out;
+}
+
+std::string numbers_row(const PointStudy& point) {
+  const EventStudy& study = point.study;
+  const bool peak = study.peak.has_numbers();
+  const std::string doubt =
+      study.peak.verdict == PeakVerdict::trusted ? "" : verdict_name(study.peak.verdict);
+  return "<tr>" + cell(point.label, "th") + number_cell(grouped(study.pulses)) +
+         number_cell(study.pulses > 0 ? with_error(study.mean_light) : "") +
+         number_cell(peak ? with_error(study.peak.fit.position) : "") +
+         number_cell(peak ? percent_with_error(study.peak.fit.relative_fwhm) : "") + cell(doubt) +
+         number_cell(study.doi ? with_error(study.doi->residual.quantile_fwhm) : "") +
+         number_cell(study.flood ? std::to_string(study.flood->peaks.size()) : "") +
+         number_cell(study.pair_difference_ns ? picoseconds(quoted_fwhm(*study.pair_difference_ns)) : "") +
+         "</tr>\n";
+}
+
+std::string numbers_table(const std::vector<PointStudy>& points) {
+  std::string rows;
+  for (const PointStudy& point : points) rows += numbers_row(point);
+  return table({"point", "pulses", "mean light", "photopeak", "resolution (FWHM)", "doubt", "DOI FWHM (mm)",
+                "flood peaks", "CTR (FWHM)"},
+               rows);
+}
+
+/// Points that differ in depth, all by photopeak or all by mean, as one curve.
+std::string curve_over_points(const std::vector<PointStudy>& points) {
+  std::vector<DepthPoint> depths;
+  std::set<double> distinct;
+  for (const PointStudy& point : points)
+    if (const auto depth = depth_point(point.study); depth && depth->value.error > 0.0) {
+      depths.push_back(*depth);
+      distinct.insert(depth->depth_mm);
+    }
+  const bool alike = std::all_of(depths.begin(), depths.end(), [&](const DepthPoint& depth) {
+    return depth.from_peak == depths.front().from_peak;
+  });
+  if (depths.size() != points.size() || distinct.size() < std::max<std::size_t>(2, depths.size()) || !alike)
+    return "";
+  const DepthCurve curve = depth_curve(depths, *distinct.begin());
+  return event_figure(svg_plot(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
+}
+
+std::string left_out_list(const std::vector<PointStudy>& points) {
+  std::string items;
+  for (const PointStudy& point : points)
+    for (const std::string& line : point.study.left_out)
+      items += "<li>" + escape_html(point.label + ": " + line) + "</li>\n";
+  return items.empty() ? ""
+                       : "<details><summary>What was left out</summary><ul>\n" + items + "</ul></details>\n";
+}
+
+}  // namespace
+
+std::string event_section(const std::vector<PointStudy>& points) {
+  const bool any = std::any_of(points.begin(), points.end(),
+                               [](const PointStudy& point) { return point.study.events > 0; });
+  if (!any) return "";
+  std::string first = curve_over_points(points), others;
+  for (std::size_t i = 0; i < points.size(); ++i) (i < kPointsShown ? first : others) += figures(points[i]);
+  std::string body = numbers_table(points) + "<div class=\"grid\">\n" + first + "</div>\n";
+  if (!others.empty())
+    body += "<details><summary>The other points</summary>\n<div class=\"grid\">\n" + others +
+            "</div></details>\n";
+  return section("Events", body + left_out_list(points));
+}
+
+std::string event_page(const std::string& title, const std::string& under,
+                       const std::vector<PointStudy>& points) {
+  return html_page(title, under, kEventStyle + grid_map_style(), event_section(points));
+}
+
+std::string event_lines(const EventStudy& study) {
+  if (study.events == 0) return "";
+  std::string lines = "pulses: " + grouped(study.pulses) + " of " + grouped(study.events) + " events";
+  if (study.pulses > 0) lines += ", mean light " + with_error(study.mean_light) + " " + light_unit(study);
+  lines += "\nspectrum: " + peak_text(study) + "\n";
+  if (study.light_against_depth)
+    lines += "light against depth: " + depth_text(*study.light_against_depth) + "\n";
+  if (study.flood || study.doi || study.pair_difference_ns)
+    lines += "the following from " + study.selection + " (" + grouped(study.selected) + ")\n";
+  if (study.flood) lines += "flood map: " + flood_text(*study.flood) + "\n";
+  if (study.doi) lines += "depth of interaction: " + doi_text(*study.doi) + "\n";
+  if (study.layers_by_ratio)
+    lines += "layers by the ratio of the ends: " + layers_text(study.layers_by_ratio->confusion) + "\n";
+  if (study.layers_by_flood)
+    lines += "layers by the flood map: " + layers_text(*study.layers_by_flood) + "\n";
+  if (study.pair_difference_ns)
+    lines += "coincidence of two such detectors: " + spread_text(*study.pair_difference_ns) + "\n";
+  if (study.first_photon_difference_ns)
+    lines += "coincidence by the first photon: " + spread_text(*study.first_photon_difference_ns) + "\n";
+  if (study.end_difference_ns)
+    lines += "one end minus the other: " + spread_text(*study.end_difference_ns) + "\n";
+  if (study.timing_against_depth)
+    lines += "timing against depth: " + timing_depth_text(*study.timing_against_depth) + "\n";
+  for (const std::string& line : study.left_out) lines += "left out: " + line + "\n";
+  return lines;
+}
+
+std::string order_section(const OrderStudy& orders) {
+  if (orders.single.empty()) return "";
+  return section("Timing by order of photons",
+                 event_figure(svg_plot(order_plot(orders)), "coincidence of two such detectors",
+                              "by order of photons", order_text(orders)));
+}
+
+}  // namespace scintray::report

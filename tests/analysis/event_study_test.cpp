@@ -1,0 +1,138 @@
+// All studies of a point, from made-up events.
+#include "scintray/analysis/event_study.hpp"
+
+#include <doctest/doctest.h>
+
+#include "analysis/made_up_events.hpp"
+#include "support/agreement.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+using doctest::Approx;
+
+TEST_CASE("Events of a dual-ended array give every study") {
+  const MadeUpDetector detector;
+  const EventStudy study = study_events(detector.events(6000, true), detector.setup());
+  for (const std::string& line : study.left_out) MESSAGE(line);
+  CHECK(study.left_out.empty());
+  CHECK(study.events == 6000);
+  // A Compton event of a keV or less may leave no photon.
+  CHECK(study.pulses > 5980);
+  CHECK(study.has_readout);
+  REQUIRE(study.spectrum);
+  CHECK(study.peak.verdict == PeakVerdict::trusted);
+  CHECK(study.selected > 2000);
+  CHECK(study.selected < study.pulses);
+  REQUIRE(study.light_against_depth);
+  CHECK(study.light_against_depth->points.size() == 10);
+  REQUIRE(study.doi);
+  CHECK(sigmas(study.doi->residual.mean, {0.0, 0.0}) < kSigmas);
+  REQUIRE(study.flood);
+  CHECK(study.flood->peaks.size() == 16);
+  CHECK(study.flood->share_right.value > 0.95);
+  REQUIRE(study.pair_difference_ns);
+  REQUIRE(study.first_photon_difference_ns);
+  REQUIRE(study.end_difference_ns);
+  REQUIRE(study.timing_against_depth);
+  CHECK(study.timing_against_depth->slices.size() == 10);
+}
+
+TEST_CASE("Without a readout photons are the light and first photons the time") {
+  const MadeUpDetector detector;
+  const EventStudy study = study_events(detector.events(3000, false), detector.setup());
+  CHECK_FALSE(study.has_readout);
+  CHECK(study.pair_difference_ns);
+  CHECK_FALSE(study.first_photon_difference_ns);
+  CHECK(study.spectrum->low - std::floor(study.spectrum->low) == 0.5);  // whole numbers
+}
+
+TEST_CASE("The flood map is of one plane and the ends are two") {
+  const MadeUpDetector detector;
+  StudySetup setup = detector.setup();
+  const auto layout = layout_of(setup.channels_mm, setup.depth);
+  REQUIRE(layout);
+  CHECK(layout->near.size() == 16);
+  CHECK(layout->far.size() == 16);
+  // Turned round, the far end is the near one.
+  setup.depth->direction = -Vec3::UnitZ();
+  CHECK(layout_of(setup.channels_mm, setup.depth)->near.front() == 16);
+  // One plane, whose axis need not be given.
+  const std::vector<Vec3> plane(setup.channels_mm.begin(), setup.channels_mm.begin() + 16);
+  const auto flat = layout_of(plane, std::nullopt);
+  REQUIRE(flat);
+  CHECK(flat->far.empty());
+  CHECK(flat->across({1.0, 2.0, 3.0}) == std::array<double, 2>{1.0, 2.0});
+  // A third plane between the two ends.
+  setup.channels_mm.emplace_back(0.0, 0.0, 9.0);
+  CHECK_FALSE(layout_of(setup.channels_mm, setup.depth));
+  CHECK_FALSE(layout_of({}, std::nullopt));
+}
+
+TEST_CASE("Studies that do not apply say why") {
+  const MadeUpDetector detector;
+  StudySetup setup = detector.setup();
+  std::vector<EventRecord> events = detector.events(3000, true);
+  SUBCASE("no depth") {
+    setup.depth.reset();
+    const EventStudy study = study_events(events, setup);
+    CHECK_FALSE(study.doi);
+    CHECK_FALSE(study.light_against_depth);
+    CHECK_FALSE(depth_point(study));
+  }
+  SUBCASE("one depth") {
+    for (EventRecord& event : events) event.position_mm[2] = 7.0F;
+    const EventStudy study = study_events(events, setup);
+    CHECK_FALSE(study.doi);
+    CHECK_FALSE(study.timing_against_depth);
+    std::string reasons;
+    for (const std::string& line : study.left_out) reasons += line + "\n";
+    check_says(reasons, "light against depth: the events lie at one depth");
+    check_says(reasons, "depth of interaction: the events lie at one depth");
+    REQUIRE(depth_point(study));
+    CHECK(depth_point(study)->depth_mm == Approx(7.0));
+  }
+  SUBCASE("few events") {
+    events.resize(40);
+    const EventStudy study = study_events(events, setup);
+    CHECK(study.peak.verdict == PeakVerdict::too_few);
+    CHECK(study.selected == 40);
+    CHECK(study.selection == "all pulses");
+    CHECK(study.left_out.size() >= 3);
+  }
+  SUBCASE("no events") {
+    const EventStudy study = study_events({}, setup);
+    CHECK(study.events == 0);
+    CHECK_FALSE(study.spectrum);
+    CHECK_FALSE(depth_point(study));
+  }
+  SUBCASE("no light") {
+    for (EventRecord& event : events)
+      for (ChannelRecord& channel : event.channels) channel.charge = 0.0F;
+    CHECK(study_events(events, setup).pulses == 0);
+  }
+}
+
+TEST_CASE("Layers are told by the ratio of the ends and by the flood map") {
+  const MadeUpDetector detector;
+  StudySetup setup = detector.setup();
+  std::vector<EventRecord> events = detector.events(6000, true);
+  for (EventRecord& event : events)
+    if (event.position_mm[2] > 10.0F) event.part += 100;
+  for (std::uint32_t part = 0; part < 200; ++part) setup.layer_of_part[part] = part < 100 ? 0 : 1;
+  const EventStudy study = study_events(events, setup);
+  REQUIRE(study.layers_by_ratio);
+  CHECK(study.layers_by_ratio->confusion.share_right().value > 0.9);
+  // Layers right above each other look alike in a flood map: no better than a coin, and the study says so.
+  REQUIRE(study.layers_by_flood);
+  CHECK(study.layers_by_flood->share_right().value < 0.6);
+}
+
+TEST_CASE("Events of another detector are refused") {
+  const MadeUpDetector detector;
+  EventCollector collector(detector.setup());
+  EventRecord event;
+  event.event = 12;
+  event.channels.resize(3);
+  check_says(complaint_of([&] { collector.add(event); }), "event 12 has 3 readout channels; expected 32");
+}
