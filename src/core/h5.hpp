@@ -41,7 +41,8 @@ class Group {
   template <typename T>
   std::vector<T> read(const std::string& name, Shape* shape = nullptr) const;
   std::vector<std::string> read_strings(const std::string& name) const;
-  /// At most `count` values of a one-dimensional dataset from `offset` on; fewer at its end.
+  /// At most `count` values of a one-dimensional dataset from `offset` on; fewer at its end. Of a
+  /// two-dimensional dataset: rows, one after the other.
   template <typename T>
   std::vector<T> read_part(const std::string& name, std::uint64_t offset, std::uint64_t count) const;
   /// Shape of a dataset.
@@ -57,9 +58,11 @@ class Group {
   double double_attribute(const std::string& member, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& member, const std::string& name) const;
 
-  /// Creates an extendible one-dimensional dataset, chunked; append() grows it.
+  /// Creates an extendible dataset, chunked; append() grows it. One-dimensional, or with a width above 0
+  /// two-dimensional, of rows of that many values.
   template <typename T>
-  void create_stream(const std::string& name, std::uint64_t chunk = 65536);
+  void create_stream(const std::string& name, std::uint64_t chunk = 65536, std::uint64_t width = 0);
+  /// `values` are whole rows when the dataset has a width.
   template <typename T>
   void append(const std::string& name, const std::vector<T>& values);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
 
@@ -194,16 +195,19 @@ std::vector<T> Group::read_part(const std::string& name, std::uint64_t offset, s
   const Quiet quiet;
   const Handle dataset = state_->open_dataset(name);
   const Shape found = state_->checked_shape(dataset, name);
-  if (found.size() != 1) state_->refuse("read", name, "it is not one-dimensional");
+  if (found.size() != 1 && found.size() != 2)
+    state_->refuse("read", name, "it is not a list of values or rows");
   const std::uint64_t first = std::min(offset, found[0]);
-  const hsize_t start = first;
-  const hsize_t length = std::min(count, found[0] - first);
-  std::vector<T> values(length);
+  Shape start(found.size(), 0), extent = found;
+  start[0] = first;
+  extent[0] = std::min(count, found[0] - first);
+  std::vector<T> values(product(extent));
   if (values.empty()) return values;
+  const std::vector<hsize_t> from(start.begin(), start.end()), size(extent.begin(), extent.end());
   const Handle file_space(H5Dget_space(dataset.id()), H5Sclose);
-  const Handle memory_space = space_of({length});
+  const Handle memory_space = space_of({values.size()});
   const Handle transfer = transfer_properties();
-  if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, &start, nullptr, &length, nullptr) < 0 ||
+  if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) < 0 ||
       H5Dread(dataset.id(), native_type<T>(), memory_space.id(), file_space.id(), transfer.id(),
               values.data()) < 0)
     state_->fail("read dataset", name);
@@ -303,14 +307,15 @@ std::int64_t Group::integer_attribute(const std::string& member, const std::stri
 }
 
 template <typename T>
-void Group::create_stream(const std::string& name, std::uint64_t chunk) {
+void Group::create_stream(const std::string& name, std::uint64_t chunk, std::uint64_t width) {
   const Quiet quiet;
-  state_->life->stream_bytes += kChunkCacheBytes + chunk * sizeof(T);
+  const std::uint64_t row = std::max<std::uint64_t>(width, 1);
+  state_->life->stream_bytes += kChunkCacheBytes + chunk * row * sizeof(T);
   state_->reserve(0, "create dataset", name);
-  const hsize_t none = 0, unlimited = H5S_UNLIMITED;
-  const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
+  const std::array<hsize_t, 2> none{0, width}, unlimited{H5S_UNLIMITED, width};
+  const Handle space(H5Screate_simple(width > 0 ? 2 : 1, none.data(), unlimited.data()), H5Sclose);
   const Handle properties = dataset_properties();
-  compress(properties, {chunk});
+  compress(properties, width > 0 ? std::vector<hsize_t>{chunk, width} : std::vector<hsize_t>{chunk});
   Handle dataset(H5Dcreate2(state_->group.id(), name.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
                             properties.id(), H5P_DEFAULT),
                  H5Dclose);
@@ -326,18 +331,25 @@ void Group::append(const std::string& name, const std::vector<T>& values) {
   auto found = state_->streams.find(name);
   if (found == state_->streams.end()) found = state_->streams.emplace(name, state_->open_dataset(name)).first;
   const hid_t dataset = found->second.id();
-  hsize_t start = 0;
+  std::array<hsize_t, 2> extent{0, 0};
+  int dimensions = 0;
   {
     const Handle space(H5Dget_space(dataset), H5Sclose);
-    if (H5Sget_simple_extent_ndims(space.id()) != 1)
-      state_->refuse("append to", name, "it is not one-dimensional");
-    H5Sget_simple_extent_dims(space.id(), &start, nullptr);
+    dimensions = H5Sget_simple_extent_ndims(space.id());
+    if (dimensions != 1 && dimensions != 2)
+      state_->refuse("append to", name, "it is not a list of values or rows");
+    H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
   }
-  const hsize_t count = values.size(), end = start + count;
-  if (H5Dset_extent(dataset, &end) < 0) state_->give_up("extend dataset", name);
+  const std::uint64_t width = dimensions == 2 ? extent[1] : 1;
+  if (width == 0 || values.size() % width != 0)
+    state_->refuse("append to", name, "the values are not whole rows");
+  const std::array<hsize_t, 2> start{extent[0], 0}, count{values.size() / width, extent[1]};
+  extent[0] += count[0];
+  if (H5Dset_extent(dataset, extent.data()) < 0) state_->give_up("extend dataset", name);
   const Handle file_space(H5Dget_space(dataset), H5Sclose);
-  const Handle memory_space = space_of({count});
-  if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
+  const Handle memory_space = space_of({values.size()});
+  if (H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) <
+          0 ||
       H5Dwrite(dataset, native_type<T>(), memory_space.id(), file_space.id(), H5P_DEFAULT, values.data()) < 0)
     state_->give_up("append to dataset", name);
 }
@@ -346,7 +358,7 @@ void Group::append(const std::string& name, const std::vector<T>& values) {
   template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&);              \
   template std::vector<T> Group::read<T>(const std::string&, Shape*) const;                            \
   template std::vector<T> Group::read_part<T>(const std::string&, std::uint64_t, std::uint64_t) const; \
-  template void Group::create_stream<T>(const std::string&, std::uint64_t);                            \
+  template void Group::create_stream<T>(const std::string&, std::uint64_t, std::uint64_t);             \
   template void Group::append<T>(const std::string&, const std::vector<T>&);
 SCINTRAY_H5_VALUE(double)
 SCINTRAY_H5_VALUE(float)

@@ -21,6 +21,7 @@ enum class StreamKind : std::uint64_t {
   table = 2,      ///< (incidence node and side, ray): building a surface table
   synthesis = 3,  ///< generating a height map
   other = 4,
+  sensor = 5,  ///< (event, channel): what a sensor and its electronics add
 };
 
 /// A random stream addressed by (seed, kind, a, b, set). Streams with different addresses are

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scintray/detector/readout_spec.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
@@ -31,8 +33,9 @@ class ResultsWriter {
   /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
   void append_photons(const std::vector<DetectedPhoton>& photons);
   /// Says what the events of a point are read out by, before the first of them; without it the file has
-  /// no events.
-  void begin_events(std::size_t point, std::vector<ReadoutChannel> channels);
+  /// no events. Throws InputError when points differ in the length of waveforms or in the order of photons.
+  void begin_events(std::size_t point, std::vector<ReadoutChannel> channels,
+                    const std::optional<ReadoutSpec>& readout);
   /// Adds to the table of events, as append_photons does.
   void append_events(const std::vector<EventRecord>& events);
   /// Adds the result of the next point.

@@ -80,6 +80,11 @@ constexpr std::array kFields = {
     Field{"charge", "photoelectrons", "charge after the sensor's response; NaN without a readout"},
     Field{"amplitude", "photoelectrons", "of the waveform; NaN without a readout"},
     Field{"pickoff_ns", "ns", "time by the readout's pick-off; NaN: none"},
+    // photon_times, pulses
+    Field{"samples", "see group", "one row for each row of /signals"},
+    Field{"order", "1", "which photons: 1 is the first"},
+    Field{"period_ns", "ns", "time between samples"},
+    Field{"first_sample_ns", "ns", "time of the first sample since the event"},
     // channels
     Field{"channel_name", "", "name of each channel: a sensor's part, or part:face of a face that is one"},
     Field{"channel_part", "1", "the sensor's part, index into /parts"},

@@ -266,6 +266,19 @@ std::vector<ReadoutChannel> get_channels(const std::filesystem::path& path, cons
   return channels;
 }
 
+/// Rows of the samples of a group one after the other; empty without that group.
+std::vector<float> samples_of(const h5::Group& root, const std::string& name, std::uint64_t first,
+                              std::uint64_t count) {
+  if (!root.has(name)) return {};
+  return root.open_group(name).read_part<float>("samples", first, count);
+}
+
+std::vector<float> row_of(const std::vector<float>& samples, std::size_t row, std::size_t rows) {
+  const std::size_t width = samples.size() / rows;
+  const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(row * width);
+  return {begin, begin + static_cast<std::ptrdiff_t>(width)};
+}
+
 /// Gives events the signals of their channels.
 void add_signals(const std::filesystem::path& path, const h5::Group& root, std::uint64_t offset,
                  const std::vector<results_format::EventRow>& rows, std::vector<EventRecord>& events) {
@@ -284,11 +297,17 @@ void add_signals(const std::filesystem::path& path, const h5::Group& root, std::
   if (end < first) throw damaged(path, "the signals of events are out of order");
   const auto signals = results_format::read_rows<results_format::SignalRow>(group, first, end - first);
   if (!signals) throw damaged(path, "the columns of signals differ in length");
-  for (const results_format::SignalRow& signal : *signals) {
+  const std::vector<float> orders = samples_of(root, "photon_times", first, end - first);
+  const std::vector<float> pulses = samples_of(root, "pulses", first, end - first);
+  for (std::size_t i = 0; i < signals->size(); ++i) {
+    const results_format::SignalRow& signal = (*signals)[i];
     if (signal.event_row < offset || signal.event_row - offset >= events.size() ||
         signal.channel >= events[signal.event_row - offset].channels.size())
       throw damaged(path, "a signal names an event or a channel that does not exist");
-    events[signal.event_row - offset].channels[signal.channel] = signal.signal;
+    ChannelRecord& record = events[signal.event_row - offset].channels[signal.channel];
+    record = signal.signal;
+    record.order_ns = row_of(orders, i, signals->size());
+    record.waveform = row_of(pulses, i, signals->size());
   }
 }
 

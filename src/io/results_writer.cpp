@@ -202,6 +202,7 @@ struct ResultsWriter::State {
   results_format::RowWriter<DetectedPhoton> photons;
   results_format::RowWriter<results_format::EventRow> events;
   results_format::RowWriter<results_format::SignalRow> signals;
+  results_format::SampleWriter orders, pulses;                  ///< a row a signal
   std::map<std::size_t, std::vector<ReadoutChannel>> channels;  ///< per point, until it is written
 };
 
@@ -212,7 +213,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader&
   put_header(root, header);
   h5::Group points = root.create_group("points");
   points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
-  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}});
+  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}, {}, {}});
   if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
 }
 
@@ -225,11 +226,31 @@ void ResultsWriter::append_photons(const std::vector<DetectedPhoton>& photons) {
   for (const DetectedPhoton& photon : photons) state_->photons.add(photon);
 }
 
-void ResultsWriter::begin_events(std::size_t point, std::vector<ReadoutChannel> channels) {
+void ResultsWriter::begin_events(std::size_t point, std::vector<ReadoutChannel> channels,
+                                 const std::optional<ReadoutSpec>& readout) {
   state_->channels[point] = std::move(channels);
-  if (state_->events.exists()) return;
+  const std::size_t orders = readout ? readout->photon_order.size() : 0;
+  const std::size_t samples = readout && readout->pulses ? readout->samples() : 0;
+  if (state_->events.exists()) {
+    if (orders != state_->orders.width() || samples != state_->pulses.width())
+      throw InputError(
+          {readout ? readout->where : FileLocation{},
+           "the points of the sweep differ in the number of samples or of n-th photons",
+           "keep readout.window, readout.sampling, pulses and photon_order the same in all points, "
+           "or make runs of their own"});
+    return;
+  }
   state_->events = {state_->root, "events", "events, one row an event"};
   state_->signals = {state_->root, "signals", "what channels saw of events, one row an event and channel"};
+  if (orders > 0) {
+    state_->orders = {state_->root, "photon_times", "times of the n-th photons, one row a signal", orders};
+    put(state_->orders.group(), "order", readout->photon_order);
+  }
+  if (samples > 0) {
+    state_->pulses = {state_->root, "pulses", "waveforms, one row a signal", samples};
+    put(state_->pulses.group(), "period_ns", readout->period_ns);
+    put(state_->pulses.group(), "first_sample_ns", -readout->before_ns);
+  }
 }
 
 void ResultsWriter::append_events(const std::vector<EventRecord>& events) {
@@ -237,9 +258,13 @@ void ResultsWriter::append_events(const std::vector<EventRecord>& events) {
   for (const EventRecord& event : events) {
     const std::uint64_t row = state_->events.rows();
     state_->events.add({event, state_->signals.rows()});
-    for (std::uint32_t channel = 0; channel < event.channels.size(); ++channel)
-      if (results_format::has_signal(event.channels[channel]))
-        state_->signals.add({row, channel, event.channels[channel]});
+    for (std::uint32_t channel = 0; channel < event.channels.size(); ++channel) {
+      const ChannelRecord& signal = event.channels[channel];
+      if (!results_format::has_signal(signal)) continue;
+      state_->signals.add({row, channel, signal});
+      state_->orders.add(signal.order_ns);
+      state_->pulses.add(signal.waveform);
+    }
   }
 }
 
@@ -286,6 +311,8 @@ void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) 
   state_->photons.write_waiting();
   state_->events.write_waiting();
   state_->signals.write_waiting();
+  state_->orders.write_waiting();
+  state_->pulses.write_waiting();
   put_text(state_->root, "note", {state_->note});
   state_->root.set_attribute("", "complete", static_cast<std::int64_t>(complete));
   state_->root.set_attribute("", "partial_reason", complete ? std::string() : reason_if_partial);

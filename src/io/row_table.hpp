@@ -62,6 +62,43 @@ class RowWriter {
   std::uint64_t rows_ = 0;
 };
 
+/// Writes rows of equally many samples into the dataset "samples" of a group.
+class SampleWriter {
+ public:
+  SampleWriter() = default;
+  SampleWriter(h5::Group& root, const std::string& name, const std::string& description, std::size_t width)
+      : group_(root.create_group(name)),
+        width_(width),
+        rows_(std::max<std::size_t>(1, kBlockSamples / width)) {
+    group_->set_attribute("", "description", description);
+    group_->create_stream<float>("samples", rows_, width);
+    describe(*group_, "samples");
+  }
+
+  h5::Group& group() { return *group_; }
+  std::size_t width() const { return width_; }
+
+  /// Nothing without a group.
+  void add(const std::vector<float>& samples) {
+    if (!group_) return;
+    waiting_.insert(waiting_.end(), samples.begin(), samples.end());
+    if (waiting_.size() >= rows_ * width_) write_waiting();
+  }
+
+  void write_waiting() {
+    if (group_) group_->append("samples", waiting_);
+    waiting_.clear();
+  }
+
+ private:
+  /// Samples kept in memory before they go to disk, and samples compressed together: 1 MB.
+  static constexpr std::size_t kBlockSamples = 262144;
+
+  std::optional<h5::Group> group_;
+  std::size_t width_ = 0, rows_ = 0;
+  std::vector<float> waiting_;
+};
+
 /// At most `count` rows from `offset` on. Nothing when the columns differ in length.
 template <typename Row>
 std::optional<std::vector<Row>> read_rows(const h5::Group& group, std::uint64_t offset, std::uint64_t count) {

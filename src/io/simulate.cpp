@@ -202,7 +202,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
         writer.append_photons(renumbering.applied(photons));
       };
     if (source->has_energy()) {
-      writer.begin_events(point, renumbering.applied(plan.channels.list));
+      writer.begin_events(point, renumbering.applied(plan.channels.list), spec.readout);
       hooks.events = [&](const std::vector<EventRecord>& events) {
         writer.append_events(renumbering.applied(events));
       };

@@ -11,11 +11,14 @@ namespace scintray {
 /// What one readout channel saw of an event. A channel is a part that is a sensor, or a face that is one.
 struct ChannelRecord {
   std::uint32_t detected = 0;                                 ///< photons
-  float first_ns = std::numeric_limits<float>::quiet_NaN();   ///< first detected photon; NaN: none
+  float first_ns = std::numeric_limits<float>::quiet_NaN();   ///< first detected photon, behind a readout
+                                                              ///< with the sensor's spread; NaN: none
   float charge = std::numeric_limits<float>::quiet_NaN();     ///< photoelectrons, after the sensor's
                                                               ///< response; NaN without [readout]
   float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< of the waveform; NaN without [readout]
   float time_ns = std::numeric_limits<float>::quiet_NaN();    ///< by the readout's pick-off; NaN: none
+  std::vector<float> order_ns;  ///< n-th photons, as ReadoutSpec::photon_order asks; NaN: fewer
+  std::vector<float> waveform;  ///< photoelectrons, when ReadoutSpec::pulses
 };
 
 /// One event of a source of energy.

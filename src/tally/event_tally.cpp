@@ -44,9 +44,28 @@ void EventTally::detected(std::uint32_t channel, const Photon& photon) {
   const auto time = static_cast<float>(photon.time_ns);
   seen.first_ns = seen.detected == 0 ? time : std::min(seen.first_ns, time);
   ++seen.detected;
+  if (arrivals_.empty()) return;
+  const ReadoutChannel& at = plan_.channels.list[channel];
+  const Vec3 from = photon.position - at.position;
+  arrivals_[channel].push_back({photon.time_ns, from.dot(at.x), from.dot(at.y)});
 }
 
-void EventTally::end() {
+void EventTally::read_out(std::uint32_t channel, Rng rng) {
+  constexpr float kNone_ns = std::numeric_limits<float>::quiet_NaN();
+  const auto time = [](const std::optional<double>& ns) { return ns ? static_cast<float>(*ns) : kNone_ns; };
+  ChannelSignal signal = plan_.readout[channel].respond(arrivals_[channel], rng);
+  arrivals_[channel].clear();
+  ChannelRecord& record = events_.back().channels[channel];
+  record.charge = static_cast<float>(signal.charge);
+  record.amplitude = static_cast<float>(signal.amplitude);
+  record.first_ns = time(signal.first_photon_ns);
+  record.time_ns = time(signal.time_ns);
+  for (const std::optional<double>& ns : signal.order_times_ns) record.order_ns.push_back(time(ns));
+  record.waveform = std::move(signal.waveform);
+}
+
+void EventTally::end(const std::function<Rng(std::uint32_t)>& stream) {
+  for (std::uint32_t channel = 0; channel < arrivals_.size(); ++channel) read_out(channel, stream(channel));
   const EventRecord& record = events_.back();
   if (record.energy_keV > 0.0f) balance_.detected.add(static_cast<double>(record.detected));
 }

@@ -1,6 +1,8 @@
 #pragma once
 /// Records of events.
 
+#include <functional>
+
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/tally_plan.hpp"
@@ -10,23 +12,27 @@ namespace scintray {
 /// Gathers one event after the other.
 class EventTally {
  public:
-  EventTally(const Scene& scene, const TallyPlan& plan) : scene_(scene), plan_(plan) {}
+  EventTally(const Scene& scene, const TallyPlan& plan)
+      : scene_(scene), plan_(plan), arrivals_(plan.readout.size()) {}
 
   /// Begins an event.
   void begin(std::uint64_t event, std::uint32_t point, const EventLight& light);
   /// A photon of it that a sensor converted.
   void detected(std::uint32_t channel, const Photon& photon);
-  /// Ends it.
-  void end();
+  /// Ends it: its channels are read out, each with the random stream that `stream(channel)` gives.
+  void end(const std::function<Rng(std::uint32_t)>& stream);
 
   const std::vector<EventRecord>& events() const { return events_; }
   /// Adds the events to the total of those before them.
   void add_to(EnergyBalance& total) const;
 
  private:
+  void read_out(std::uint32_t channel, Rng rng);
+
   const Scene& scene_;
   const TallyPlan& plan_;
-  std::vector<EventRecord> events_;  ///< the last is under way
+  std::vector<EventRecord> events_;             ///< the last is under way
+  std::vector<std::vector<Arrival>> arrivals_;  ///< per channel, of that event; empty without [readout]
   EnergyBalance balance_;
 };
 

@@ -98,6 +98,8 @@ ReadoutChannels::ReadoutChannels(const Scene& scene) : at_way(2 * scene.interfac
         list.push_back({});
         list.back().name = whole ? scene.parts[part].name : scene.faces[static_cast<std::size_t>(face)].name;
         list.back().part = part;
+        list.back().sensor =
+            static_cast<std::uint32_t>(from_back ? interface.front_sensor : interface.back_sensor);
         list.back().face = face;
       }
       at_way[2 * i + (from_back ? 1 : 0)] = channel->second;

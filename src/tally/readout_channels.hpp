@@ -13,6 +13,7 @@ namespace scintray {
 struct ReadoutChannel {
   std::string name;                           ///< "pmt", or "crystal:exit" for a face
   std::uint32_t part = 0;                     ///< the sensor's
+  std::uint32_t sensor = 0;                   ///< index into Scene::sensors
   std::int32_t face = kNone;                  ///< of a face that is a sensor
   Vec3 position = Vec3::Zero();               ///< centre of the faces through which light comes, mm
   Vec3 normal = Vec3::UnitZ();                ///< of them, into the sensor; of unit length

@@ -34,6 +34,7 @@ TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec)
   for (const ExitAngleTallySpec& tally : spec.exit_angles)
     exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
   bind_ways(scene);
+  bind_readout(spec, scene);
   if (spec.tallies.empty()) return;
 
   std::vector<std::vector<std::pair<std::uint32_t, FaceWay>>> counts_of_face(scene.faces.size());
@@ -63,6 +64,25 @@ TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec)
     bind(2 * i + 1, interface.front_face, FaceWay::in);
     bind(2 * i, interface.front_face, FaceWay::out);
     bind(2 * i, interface.back_face, FaceWay::in);
+  }
+}
+
+void TallyPlan::bind_readout(const SceneSpec& spec, const Scene& scene) {
+  if (!spec.readout) return;
+  if (!spec.energy_source)
+    throw InputError({spec.readout->where,
+                      "[readout] makes pulses of events, but this is a source of photons",
+                      "use a source of energy (docs/gamma_sources.md), or remove [readout]"});
+  for (const ReadoutChannel& channel : channels.list) {
+    try {
+      readout.emplace_back(scene.sensors[channel.sensor], *spec.readout,
+                           SensorFace{channel.width_mm, channel.height_mm});
+    } catch (const InputError& error) {
+      Problem problem = error.problems().front();
+      problem.where = spec.readout->where;
+      problem.what = "sensor \"" + channel.name + "\": " + problem.what;
+      throw InputError(problem);
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
 #include "scintray/tally/readout_channels.hpp"
@@ -67,6 +68,7 @@ struct TallyPlan {
   std::vector<std::uint32_t> sensor_faces;  ///< per interface and way: index into the result, or kNoSensor
   std::vector<SensorFaceCount> sensor_face_names;
   ReadoutChannels channels;
+  std::vector<Channel> readout;  ///< the electronics of each channel; empty without [readout]
 
   std::vector<CountRequest> counts;
   /// A count to look at when a face is met, and the face that it is bound to.
@@ -85,6 +87,7 @@ struct TallyPlan {
   static constexpr std::uint32_t kNoSensor = 0xffffffffu;
 
  private:
+  void bind_readout(const SceneSpec& spec, const Scene& scene);
   void bind_ways(const Scene& scene);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sensor_index_;
 };

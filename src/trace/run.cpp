@@ -23,6 +23,11 @@ std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& setti
   return std::nullopt;
 }
 
+/// The random stream of what a sensor and its electronics add to an event.
+Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel) {
+  return Rng(settings.seed, StreamKind::sensor, event, channel, settings.point);
+}
+
 /// What one piece of work found.
 struct Block {
   Block(const Scene& scene, const TallyPlan& plan) : photons(scene, plan), events(scene, plan) {}
@@ -48,7 +53,9 @@ class BlockTracer {
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
       for (std::uint64_t i = 0; i < count; ++i) trace_photon(light, span.event, span.first + i, *block);
       block->started += count;
-      if (energy_) block->events.end();
+      if (energy_)
+        block->events.end(
+            [&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
     }
     return block;
   }
