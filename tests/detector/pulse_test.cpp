@@ -80,7 +80,7 @@ TEST_CASE("the area is the integral, and what is left after the duration is less
   for (const std::vector<double>& stages :
        {std::vector{5.0}, {9.0, 0.7}, {3.0, 3.0, 3.0, 3.0, 3.0}, {20.0, 4.0, 4.0}}) {
     const PulseShape pulse(stages, 1.0);
-    constexpr double kStep = 0.05;
+    constexpr double kStep = 0.025;
     double sum = 0.0, late = 0.0;
     for (double t = 0.5 * kStep; t < 400.0; t += kStep) {
       sum += kStep * pulse.value(t);
