@@ -1,10 +1,15 @@
 #include "scintray/detector/channel.hpp"
 
+#include <string>
+
+#include "scintray/core/error.hpp"
 #include "scintray/detector/waveform.hpp"
 
 namespace scintray {
 
 namespace {
+
+constexpr double kMostDarkCounts = 1e6;
 
 /// Fills what the avalanches themselves say.
 void count(std::span<const Avalanche> avalanches, const ReadoutSpec& readout, ChannelSignal& signal) {
@@ -30,17 +35,23 @@ PulseShape pulse_of(const Sensor& sensor, const ReadoutSpec& readout) {
 }
 
 Channel::Channel(const Sensor& sensor, const ReadoutSpec& readout, const SensorFace& face)
-    : readout_(readout), pulse_(pulse_of(sensor, readout)), response_(sensor, face) {}
+    : readout_(readout), pulse_(pulse_of(sensor, readout)), response_(sensor, face) {
+  const double dark = response_.dark_counts(start_ns() - pulse_.duration_ns(), end_ns());
+  if (dark > kMostDarkCounts)
+    throw InputError({{},
+                      "sensor \"" + sensor.name + "\" has " + std::to_string(dark) +
+                          " dark counts in every event, and 10^6 is the most",
+                      "check its dark count rate, its recovery time, and the window of [readout]"});
+}
 
 ChannelSignal Channel::respond(std::span<const Arrival> arrivals, Rng& rng) const {
-  const double start_ns = -readout_.before_ns;
   const std::vector<Avalanche> avalanches =
-      response_.avalanches(arrivals, start_ns - pulse_.duration_ns(), start_ns + readout_.window_ns, rng);
+      response_.avalanches(arrivals, start_ns() - pulse_.duration_ns(), end_ns(), rng);
   ChannelSignal signal;
   signal.photoelectrons = arrivals.size();
   count(avalanches, readout_, signal);
   std::vector<float> waveform =
-      digitize(pulse_.waveform(avalanches, start_ns, readout_.samples()), readout_, rng);
+      digitize(pulse_.waveform(avalanches, start_ns(), readout_.samples()), readout_, rng);
   const PulseMeasurement measured = measure(waveform, readout_, pulse_.area_ns());
   signal.charge = measured.charge;
   signal.amplitude = measured.amplitude;

@@ -36,13 +36,16 @@ class Channel {
  public:
   /// @param readout  as the reader of [readout] checks it
   /// Throws InputError (without a place) when neither the sensor nor the electronics gives pulses a shape,
-  /// or the face has no area, or far too many cells.
+  /// when the face has no area or far too many cells, or when an event has more than 10^6 dark counts.
   Channel(const Sensor& sensor, const ReadoutSpec& readout, const SensorFace& face);
 
   /// @param arrivals  converted photons of one event in any order
   ChannelSignal respond(std::span<const Arrival> arrivals, Rng& rng) const;
 
  private:
+  double start_ns() const { return -readout_.before_ns; }
+  double end_ns() const { return start_ns() + readout_.window_ns; }
+
   ReadoutSpec readout_;
   PulseShape pulse_;
   SensorResponse response_;

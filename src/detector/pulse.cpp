@@ -12,6 +12,7 @@ namespace {
 constexpr double kInstantaneous = 1e-4;  ///< of a period
 constexpr double kTail = 1e-4;           ///< of the area
 constexpr std::size_t kGrid = 64;
+constexpr double kLongestPulse = 1e6;  ///< periods
 /// Series are cut in pieces whose first weight, exp(-kLongestPiece), is far from underflow.
 constexpr double kLongestPiece = 50.0;
 
@@ -36,24 +37,42 @@ double peak_of(const Function& f, double high) {
 
 PulseShape::PulseShape(const std::vector<double>& time_constants_ns, double period_ns)
     : period_ns_(period_ns) {
-  double sum = 0.0, squares = 0.0, longest = 0.0;
+  double mean_ns = 0.0, squares = 0.0;
   for (const double tau : time_constants_ns) {
     if (tau < kInstantaneous * period_ns) continue;
     rate_per_ns_.push_back(1.0 / tau);
-    sum += tau;
+    mean_ns += tau;
     squares += tau * tau;
-    longest = std::max(longest, tau);
   }
+  check_stages(mean_ns, squares);
+  tabulate();
+  // A sum of exponential delays has a density with one peak (its logarithm is concave), within sqrt(3)
+  // standard deviations of the mean.
+  const double last_ns = mean_ns + std::sqrt(3.0 * squares);
+  const double peak_ns =
+      rate_per_ns_.size() == 1 ? 0.0 : peak_of([this](double t) { return value(t); }, last_ns);
+  scale_ = 1.0 / value(peak_ns);
+}
+
+void PulseShape::check_stages(double mean_ns, double squares) {
   if (rate_per_ns_.empty())
     throw InputError({{},
                       "neither the sensor nor the electronics gives a pulse a duration",
                       "give the sensor [single_electron] decay, or [readout] shaping"});
   if (rate_per_ns_.size() > kMostStages) throw InternalError("a pulse of more stages than there is room for");
-  fastest_per_ns_ = *std::max_element(rate_per_ns_.begin(), rate_per_ns_.end());
-  // The tail falls no slower than its longest stage, each stage delays it by no more than a few times its
+  const auto [slowest, fastest] = std::minmax_element(rate_per_ns_.begin(), rate_per_ns_.end());
+  fastest_per_ns_ = *fastest;
+  // The tail falls no slower than its longest stage; each stage delays it by no more than a few times its
   // own.
-  duration_ns_ = sum - longest * std::log(kTail) + 3.0 * std::sqrt(squares);
+  duration_ns_ = mean_ns - std::log(kTail) / *slowest + 3.0 * std::sqrt(squares);
+  if (duration_ns_ > kLongestPulse * period_ns_)
+    throw InputError(
+        {{},
+         "a pulse of " + std::to_string(duration_ns_) + " ns, which is more than 10^6 samples",
+         "check the units of the time constants of the sensor and the shaper, or sample less often"});
+}
 
+void PulseShape::tabulate() {
   State state = impulse();
   for (std::size_t i = 0; i < kGrid; ++i) {
     grid_.push_back(state);
@@ -65,12 +84,6 @@ PulseShape::PulseShape(const std::vector<double>& time_constants_ns, double peri
     pass(unit, period_ns_);
     per_step_.push_back(unit);
   }
-  // A sum of exponential delays has a density with one peak (its logarithm is concave), within sqrt(3)
-  // standard deviations of the mean.
-  const double peak_ns = rate_per_ns_.size() == 1
-                             ? 0.0
-                             : peak_of([this](double t) { return value(t); }, sum + std::sqrt(3.0 * squares));
-  scale_ = 1.0 / value(peak_ns);
 }
 
 PulseShape::State PulseShape::impulse() const {
@@ -101,11 +114,22 @@ void PulseShape::pass(State& state, double time_ns) const {
   }
 }
 
+void PulseShape::step(State& state) const {
+  State passed{};
+  for (std::size_t from = 0; from < rate_per_ns_.size(); ++from)
+    for (std::size_t to = from; to < rate_per_ns_.size(); ++to)
+      passed[to] += state[from] * per_step_[from][to];
+  state = passed;
+}
+
 PulseShape::State PulseShape::after(double time_ns) const {
-  const double position = time_ns / period_ns_ * kGrid;
-  const std::size_t before = std::min(static_cast<std::size_t>(position), kGrid - 1);
+  const double periods = std::floor(time_ns / period_ns_);
+  const double rest_ns = std::max(0.0, time_ns - periods * period_ns_);
+  const auto before = std::min(static_cast<std::size_t>(rest_ns / period_ns_ * kGrid), kGrid - 1);
   State state = grid_[before];
-  pass(state, time_ns - static_cast<double>(before) * period_ns_ / kGrid);
+  pass(state, rest_ns - static_cast<double>(before) * period_ns_ / kGrid);
+  const auto steps = static_cast<std::uint64_t>(periods);
+  for (std::uint64_t i = 0; i < steps; ++i) step(state);
   return state;
 }
 
@@ -123,10 +147,7 @@ std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, 
   const double early_ns = next == avalanches.end() ? 0.0 : std::max(0.0, start_ns - next->time_ns);
   const auto early = static_cast<std::ptrdiff_t>(std::ceil(early_ns / period_ns_));
   for (std::ptrdiff_t i = -early; i < static_cast<std::ptrdiff_t>(samples); ++i) {
-    State passed{};
-    for (std::size_t from = 0; from < stages; ++from)
-      for (std::size_t to = from; to < stages; ++to) passed[to] += state[from] * per_step_[from][to];
-    state = passed;
+    step(state);
     const double now_ns = start_ns + static_cast<double>(i) * period_ns_;
     for (; next != avalanches.end() && next->time_ns <= now_ns; ++next) {
       const State pulse = after(now_ns - next->time_ns);

@@ -24,7 +24,7 @@ class PulseShape {
 
   /// @param time_constants_ns  of the stages, up to kMostStages; those below 1e-4 of a period act as 0
   /// @param period_ns  of the samples
-  /// Throws InputError when nothing is left that has a duration.
+  /// Throws InputError when nothing is left that has a duration, or when that is more than 10^6 periods.
   PulseShape(const std::vector<double>& time_constants_ns, double period_ns);
 
   /// The pulse at a time after its avalanche, photoelectrons; 0 before.
@@ -42,8 +42,11 @@ class PulseShape {
  private:
   /// Outputs of the stages.
   using State = std::array<double, kMostStages>;
+  void check_stages(double mean_ns, double squares);
+  void tabulate();
   State impulse() const;
   void pass(State& state, double time_ns) const;
+  void step(State& state) const;  ///< by one period
   State after(double time_ns) const;
 
   std::vector<double> rate_per_ns_;  ///< of each stage

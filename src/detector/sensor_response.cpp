@@ -102,6 +102,10 @@ SensorResponse::SensorResponse(const Sensor& sensor, const SensorFace& face)
   memory_ns_ += kTimesToForget * std::max(microcells_->recovery_ns, microcells_->afterpulse_time_ns);
 }
 
+double SensorResponse::dark_counts(double start_ns, double end_ns) const {
+  return dark_per_ns_ * (end_ns - start_ns + memory_ns_ + kTimesToForget * time_spread_ns_);
+}
+
 std::vector<Avalanche> SensorResponse::avalanches(std::span<const Arrival> arrivals, double start_ns,
                                                   double end_ns, Rng& rng) const {
   const double last_ns = end_ns + kTimesToForget * time_spread_ns_;

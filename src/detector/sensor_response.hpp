@@ -34,6 +34,8 @@ class SensorResponse {
   /// @param start_ns, end_ns  dark counts are right between these; what happens later is left out
   std::vector<Avalanche> avalanches(std::span<const Arrival> arrivals, double start_ns, double end_ns,
                                     Rng& rng) const;
+  /// Mean number of dark counts that are made for such an event, those before its start among them.
+  double dark_counts(double start_ns, double end_ns) const;
 
  private:
   double time_spread_ns_, charge_spread_, dark_per_ns_, memory_ns_;

@@ -1,5 +1,7 @@
 #include "scintray/scene/library.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -129,8 +131,8 @@ std::vector<Library::Ancestor> Library::lineage(LibraryKind kind, const std::str
     const std::string one = kKinds[index_of(kind)].one;
     if (std::find(names.begin(), names.end(), next) != names.end())
       throw InputError(
-          {asked, "the " + one + " \"" + next + "\" is based on itself (" + joined(names) + ", " + next + ")",
-           "base it on another " + one});
+          {asked, fmt::format("the {} \"{}\" is based on itself ({}, {})", one, next, joined(names), next),
+           fmt::format("base it on another {}", one)});
     names.push_back(next);
     ancestors.push_back({next, find(kind, next, asked)});
     Problems problems;

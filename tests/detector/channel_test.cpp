@@ -115,4 +115,9 @@ TEST_CASE("a channel without a pulse shape or without a face is refused") {
   readout.shaping_ns = {4.0, 4.0};
   CHECK(complaint_of([&] { Channel(Sensor{}, readout, kFace); }).empty());
   check_says(complaint_of([&] { Channel(quiet_sipm(10), readout, {0.0, 0.0}); }), "no area");
+  Sensor noisy = quiet_sipm(10);
+  noisy.dark_counts.per_ns = 1.0;
+  CHECK(complaint_of([&] { Channel(noisy, readout, kFace); }).empty());
+  noisy.microcells->recovery_ns = 1e6;
+  check_says(complaint_of([&] { Channel(noisy, readout, kFace); }), "dark counts in every event");
 }

@@ -80,7 +80,7 @@ TEST_CASE("the area is the integral, and what is left after the duration is less
   for (const std::vector<double>& stages :
        {std::vector{5.0}, {9.0, 0.7}, {3.0, 3.0, 3.0, 3.0, 3.0}, {20.0, 4.0, 4.0}}) {
     const PulseShape pulse(stages, 1.0);
-    constexpr double kStep = 0.01;
+    constexpr double kStep = 0.025;
     double sum = 0.0, late = 0.0;
     for (double t = 0.5 * kStep; t < 400.0; t += kStep) {
       sum += kStep * pulse.value(t);
@@ -124,4 +124,12 @@ TEST_CASE("a pulse without duration is refused with what to give") {
   const std::string said = complaint_of([] { PulseShape({0.0, 1e-6}, 1.0); });
   check_says(said, "neither the sensor nor the electronics gives a pulse a duration");
   check_says(said, "[readout] shaping");
+}
+
+TEST_CASE("a pulse is exact to its end however long it is, up to a million samples") {
+  const PulseShape pulse({20'000.0, 0.001}, 1.0);
+  for (const double t : {0.01, 77.7, 5'000.25, 150'000.5})
+    CHECK(pulse.value(t) ==
+          doctest::Approx(pulse.area_ns() * two_exponentials(t, 20'000.0, 0.001)).epsilon(1e-9));
+  check_says(complaint_of([] { PulseShape({1e9, 1.0}, 1.0); }), "more than 10^6 samples");
 }
