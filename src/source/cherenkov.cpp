@@ -18,7 +18,6 @@ namespace {
 /// from 1.1 times the threshold on.
 constexpr double kEnergyStep = 1.01;
 constexpr double kWavelengthStep_nm = 2.0;
-constexpr double kFineStructure = 7.2973525693e-3;  ///< CODATA 2018
 constexpr double kNmPerMm = 1e6;
 
 double beta_squared(double energy_keV) {

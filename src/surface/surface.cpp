@@ -198,8 +198,7 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair 
   }
 }
 
-bool Surface::shifts() const {
-  if (mixture.empty()) return gap_shifter != nullptr;
+bool Surface::mixture_shifts() const {
   return std::any_of(mixture.begin(), mixture.end(),
                      [](const SurfaceShare& part) { return part.surface->shifts(); });
 }

@@ -102,9 +102,10 @@ struct Surface {
   /// True when no light passes to the other side.
   bool opaque() const;
   /// True when light may leave it at another wavelength.
-  bool shifts() const;
+  bool shifts() const { return mixture.empty() ? gap_shifter != nullptr : mixture_shifts(); }
 
  private:
+  bool mixture_shifts() const;
   SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
                       ShiftingLight* light, Rng& rng) const;
 };

@@ -9,7 +9,7 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr std::uint64_t kRays = 200'000;
+constexpr std::uint64_t kShots = 200'000;
 constexpr double kThickness_um = 50.0, kDepth = 0.7;  // optical, across the layer
 
 /// Absorbs below 450 nm, gives everything back between 480 and 560 nm.
@@ -39,7 +39,7 @@ struct Met {
 /// Light of 400 nm from inside at an incidence.
 Met shine(const Surface& surface, double incidence, const std::function<IndexPair(double)>& index) {
   Met met;
-  for (std::uint64_t i = 0; i < kRays; ++i) {
+  for (std::uint64_t i = 0; i < kShots; ++i) {
     Rng rng(23, StreamKind::other, i);
     Ray ray{Vec3(std::sin(incidence), 0.0, std::cos(incidence)), Vec3::Zero()};
     ShiftingLight light;
@@ -84,9 +84,9 @@ TEST_CASE("A coating of the indices around it: exp(-tau / cos) passes, and halve
     });
     CHECK(met.returned == 0);
     CHECK(met.absorbed == 0);
-    CHECK(met.count.absorbed == kRays - met.passed);
+    CHECK(met.count.absorbed == kShots - met.passed);
     CHECK(met.count.emitted == met.count.absorbed);
-    CHECK(distance(met.passed, kRays, std::exp(-kDepth / std::cos(incidence))) < kSigmas);
+    CHECK(distance(met.passed, kShots, std::exp(-kDepth / std::cos(incidence))) < kSigmas);
     CHECK(distance(met.inside, met.inside + met.outside, 0.5) < kSigmas);
     CHECK(sigmas(met.delay_ns.mean(), {50.0, 0.0}) < kSigmas);
   }
@@ -111,13 +111,13 @@ TEST_CASE("Light given back meets the faces of the coating with the indices of i
 TEST_CASE("Without knowing of other wavelengths a coating only absorbs") {
   const Surface surface = coated(Curve::constant(1.5));
   std::uint64_t absorbed = 0;
-  for (std::uint64_t i = 0; i < kRays; ++i) {
+  for (std::uint64_t i = 0; i < kShots; ++i) {
     Rng rng(29, StreamKind::other, i);
     Ray ray{Vec3::UnitZ(), Vec3::Zero()};
     absorbed +=
         surface.meet(ray, Side::inside, Vec3::UnitZ(), {1.5, 1.5}, 400.0, rng) == SurfaceOutcome::absorbed;
   }
-  CHECK(distance(absorbed, kRays, 1.0 - std::exp(-kDepth)) < kSigmas);
+  CHECK(distance(absorbed, kShots, 1.0 - std::exp(-kDepth)) < kSigmas);
 }
 
 TEST_CASE("A mixture shifts when one of its shares does") {
@@ -127,5 +127,5 @@ TEST_CASE("A mixture shifts when one of its shares does") {
   CHECK(mixed.shifts());
   CHECK_FALSE(Surface().shifts());
   const Met met = shine(mixed, 0.0, [](double) { return IndexPair{1.5, 1.5}; });
-  CHECK(distance(met.count.absorbed, kRays, 0.5 * (1.0 - std::exp(-kDepth))) < kSigmas);
+  CHECK(distance(met.count.absorbed, kShots, 0.5 * (1.0 - std::exp(-kDepth))) < kSigmas);
 }

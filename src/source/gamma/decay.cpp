@@ -11,7 +11,6 @@ namespace scintray {
 
 namespace {
 
-constexpr double kFineStructure = 1.0 / 137.035999;            // CODATA 2018
 constexpr double kReducedComptonWavelength_fm = 386.15926796;  // CODATA 2018
 constexpr int kSpectrumPoints = 401;
 
