@@ -129,7 +129,7 @@ void EventCollector::study_light(EventStudy& study) const {
 }
 
 std::vector<const EventCollector::Row*> EventCollector::select(EventStudy& study) const {
-  const bool by_peak = setup_.photopeak_only && study.peak.verdict == PeakVerdict::trusted;
+  const bool by_peak = setup_.photopeak_only && study.peak.locates_peak();
   const double centre = study.peak.fit.model.position, reach = kFwhmPerSigma * study.peak.fit.model.sigma;
   std::vector<const Row*> rows;
   for (const Row& row : rows_)
@@ -237,7 +237,7 @@ EventStudy study_events(std::span<const EventRecord> events, const StudySetup& s
 
 std::optional<DepthPoint> depth_point(const EventStudy& study) {
   if (!study.mean_depth_mm || study.pulses == 0) return std::nullopt;
-  const bool peak = study.peak.verdict == PeakVerdict::trusted;
+  const bool peak = study.peak.locates_peak();
   return DepthPoint{study.mean_depth_mm->value, study.pulses,
                     peak ? study.peak.fit.position : study.mean_light, peak};
 }
