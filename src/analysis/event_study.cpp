@@ -97,7 +97,7 @@ void EventCollector::add(const EventRecord& event) {
   row.end_difference_ns = kNoNumber;
   row.depth_mm =
       setup_.depth ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
-  row.part = event.region_part;
+  row.part = event.part;
   add_light(event, row);
   if (!(row.light > 0.0)) return;
   add_times(event, row);

@@ -11,7 +11,7 @@
 #include "scintray/cli/progress.hpp"
 #include "scintray/io/simulate.hpp"
 #include "scintray/scene/small_gaps.hpp"
-#include "scintray/source/photon_source.hpp"
+#include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 
 namespace scintray::cli {
@@ -39,6 +39,17 @@ std::vector<Problem> gap_warnings(const std::vector<PlacedMesh>& parts, double t
   return warnings;
 }
 
+void print_source(const LightSource& source, const Scene& scene) {
+  const std::vector<std::uint32_t> origins = source.regions();
+  std::cout << "\nsource: "
+            << (source.has_energy() ? fmt::format("{} events, light", source.events())
+                                    : fmt::format("{} photons", source.photons()))
+            << " from \"" << scene.regions[origins.front()].name << "\"";
+  if (origins.size() > 1)
+    std::cout << " and " << origins.size() - 1 << " more part" << (origins.size() > 2 ? "s" : "");
+  std::cout << "\n";
+}
+
 void check_scene(const CheckOptions& options) {
   const std::filesystem::path& path = options.scene;
   if (!options.picture.empty()) expect_picture_name(options.picture);
@@ -64,7 +75,8 @@ void check_scene(const CheckOptions& options) {
     const std::vector<Problem> gaps =
         shown ? gap_warnings(built.placed, spec.run.contact_tolerance_mm) : std::vector<Problem>();
     if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
-    const PhotonSource source(spec.source, built.scene);
+    std::vector<std::string> source_notes;
+    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene, &source_notes);
     const TallyPlan plan(built.scene, spec);
     line.clear();
     if (!shown) continue;
@@ -80,11 +92,8 @@ void check_scene(const CheckOptions& options) {
         spec.contacts_default == ContactKind::bonded ? "bonded" : "dry",
         spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_scene(built, options.all);
-    const std::vector<std::uint32_t> origins = source.regions();
-    std::cout << "\nsource: " << source.photons() << " photons from \""
-              << built.scene.regions[origins.front()].name << "\"";
-    if (origins.size() > 1) std::cout << " and " << origins.size() - 1 << " more parts";
-    std::cout << "\n";
+    print_source(*source, built.scene);
+    for (const std::string& note : source_notes) std::cout << "note: " << note << "\n";
     for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
     print_warnings(gaps, options.all);
   }

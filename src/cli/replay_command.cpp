@@ -23,6 +23,8 @@ std::string describe(const Scene& scene, const Step& step) {
   switch (step.kind) {
     case StepKind::scattered:
       return "scattered in the bulk";
+    case StepKind::shifted:
+      return "shifted to another wavelength";
     case StepKind::returned:
       return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name + " | " +
              scene.regions[scene.interfaces[step.interface].front].name;
@@ -54,7 +56,7 @@ void replay_photon(const ReplayOptions& options) {
   const SceneSpec spec = file.spec(options.point);
   SceneBuilder builder;
   const BuiltScene built = builder.build(spec);
-  const PhotonSource source(spec.source, built.scene);
+  const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene);
   RunSettings settings;
   settings.seed = options.seed.value_or(spec.run.seed);
   settings.point = static_cast<std::uint32_t>(options.point);
@@ -64,7 +66,7 @@ void replay_photon(const ReplayOptions& options) {
   std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",
                            "x mm", "y mm", "z mm", "dx", "dy", "dz", "path mm", "time ns");
   std::uint64_t number = 0;
-  replay(built.scene, source, settings, options.event, options.photon,
+  replay(built.scene, *source, settings, options.event, options.photon,
          [&](const Photon& photon, const Step& step) {
            const Vec3 &p = photon.position, &d = photon.ray.direction;
            std::cout << fmt::format(

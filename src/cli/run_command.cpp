@@ -21,7 +21,7 @@ struct RunOptions {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
   std::optional<int> threads;
-  std::optional<std::uint64_t> seed, photons;
+  std::optional<std::uint64_t> seed, photons, events;
   bool no_report = false;
   bool quiet = false;
 };
@@ -40,6 +40,7 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
   result.threads = options.threads;
   result.seed = options.seed;
   result.photons = options.photons;
+  result.events = options.events;
   result.stop = &InterruptGuard::requested();
   result.surface_hooks.stop = [] { return InterruptGuard::requested().load(); };
   result.surface_hooks.table_progress = [&line](const std::string& surface, double done) {
@@ -47,8 +48,8 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
     if (done >= 1.0) line.restart();
   };
   result.progress = [&line](const SimulationProgress& p) {
-    line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.photons_done),
-              static_cast<double>(p.photons_total), "photons");
+    line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.done),
+              static_cast<double>(p.total), p.thing);
   };
   return result;
 }
@@ -86,6 +87,8 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--events", options->events, "events per point, in place of the scene's")
       ->check(CLI::PositiveNumber);
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only where the results are");

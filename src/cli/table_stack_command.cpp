@@ -46,6 +46,11 @@ void build(const StackArguments& arguments) {
   const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
   const Surface surface = SurfaceMaker().make(spec, media.inside, media.outside, nm, nm, nm).surface;
   TableProvenance provenance;
+  if (surface.shifts())
+    throw InputError(Problem{
+        spec.where,
+        "surface \"" + spec.name + "\" gives light back at other wavelengths, which a table cannot hold",
+        "use the surface itself in a scene"});
   provenance.map = spec.name;
   provenance.stack = describe(spec);
   provenance.preparation = "as the surface's definition says";

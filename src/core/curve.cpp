@@ -92,6 +92,15 @@ double CurveSampler::sample(double u) const {
   return x_[i - 1] + std::clamp(t, 0.0, 1.0) * width;
 }
 
+double CurveSampler::share_below(double x) const {
+  if (x <= x_.front()) return 0.0;
+  if (x >= x_.back()) return 1.0;
+  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  const double width = x_[i] - x_[i - 1], t = (x - x_[i - 1]) / width;
+  const double part = width * t * (y_[i - 1] + 0.5 * t * (y_[i] - y_[i - 1]));
+  return std::min(1.0, (cumulative_[i - 1] + part) / cumulative_.back());
+}
+
 double CurveSampler::mean() const {
   if (x_.size() == 1) return x_.front();
   double first_moment = 0.0;

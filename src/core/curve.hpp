@@ -42,6 +42,8 @@ class CurveSampler {
   explicit CurveSampler(const Curve& density);
   /// x for a uniform number u in [0, 1).
   double sample(double u) const;
+  /// Share of the integral that lies below x, in [0, 1]: the inverse of `sample`.
+  double share_below(double x) const;
   double mean() const;
 
  private:

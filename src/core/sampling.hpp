@@ -63,4 +63,20 @@ inline double sample_normal(Rng& rng) {
   return radius * std::cos(kTwoPi * rng.uniform());
 }
 
+/// Gamma deviate with mean 1 and standard deviation `spread` above 0 (G. Marsaglia and W. W. Tsang 2000,
+/// ACM Trans. Math. Softw. 26, 363; shapes below 1 as in its section 6).
+inline double sample_gamma(double spread, Rng& rng) {
+  const double shape = 1.0 / (spread * spread);
+  const double d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3.0;
+  for (;;) {
+    const double x = sample_normal(rng);
+    const double root = 1.0 + x / std::sqrt(9.0 * d);
+    if (root <= 0.0) continue;
+    const double v = root * root * root;
+    if (-sample_exponential(rng) >= 0.5 * x * x + d - d * v + d * std::log(v)) continue;
+    const double boost = shape < 1.0 ? std::exp(-sample_exponential(rng) / shape) : 1.0;
+    return d * v * boost / shape;
+  }
+}
+
 }  // namespace scintray

@@ -26,6 +26,7 @@ const std::vector<Unit>& table_of(Dimension dimension) {
   static const std::vector<Unit> wavelength{{"nm", 1.0}, {"um", 1e3}, {"µm", 1e3}, {"eV", 0.0}};
   static const std::vector<Unit> time{{"ps", 1e-3}, {"ns", 1.0}, {"us", 1e3},
                                       {"µs", 1e3},  {"ms", 1e6}, {"s", 1e9}};
+  static const std::vector<Unit> frequency{{"Hz", 1e-9}, {"kHz", 1e-6}, {"MHz", 1e-3}, {"GHz", 1.0}};
   static const std::vector<Unit> angle{{"deg", kDegreeInRad}, {"rad", 1.0}, {"mrad", 1e-3}};
   static const std::vector<Unit> energy{{"eV", 1e-3}, {"keV", 1.0}, {"MeV", 1e3}};
   static const std::vector<Unit> density{{"g/cm3", 1.0}, {"kg/m3", 1e-3}};
@@ -41,6 +42,8 @@ const std::vector<Unit>& table_of(Dimension dimension) {
       return wavelength;
     case Dimension::time:
       return time;
+    case Dimension::frequency:
+      return frequency;
     case Dimension::angle:
       return angle;
     case Dimension::energy:
@@ -87,6 +90,8 @@ std::string dimension_name(Dimension dimension) {
       return "wavelength";
     case Dimension::time:
       return "time";
+    case Dimension::frequency:
+      return "frequency";
     case Dimension::angle:
       return "angle";
     case Dimension::energy:

@@ -15,6 +15,7 @@ enum class Dimension {
   inverse_length,      ///< 1/mm
   wavelength,          ///< nm; photon energies ("2.95 eV") convert through hc
   time,                ///< ns
+  frequency,           ///< 1/ns
   angle,               ///< rad
   energy,              ///< keV
   density,             ///< g/cm3

@@ -1,15 +1,14 @@
 #pragma once
 /// The list of detected photons, column by column.
 
-#include <type_traits>
-
 #include "scintray/tally/result.hpp"
 
 namespace scintray::results_format {
 
-/// Calls visit(name, member) for every column; `member(photon)` is a reference to its value.
+/// Calls visit(name, member) for every column of a kind of row, which the null pointer names;
+/// `member(row)` is a reference to its value.
 template <typename Visit>
-void for_each_photon_column(const Visit& visit) {
+void for_each_column(const DetectedPhoton*, const Visit& visit) {
   visit(
       "point", [](auto& p) -> auto& { return p.point; });
   visit(
@@ -41,9 +40,5 @@ void for_each_photon_column(const Visit& visit) {
   visit(
       "interactions", [](auto& p) -> auto& { return p.interactions; });
 }
-
-/// Type of a column's values.
-template <typename Member>
-using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, DetectedPhoton&>>;
 
 }  // namespace scintray::results_format

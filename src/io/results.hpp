@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "scintray/tally/event_record.hpp"
+#include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray {
@@ -28,6 +30,11 @@ class ResultsWriter {
 
   /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
   void append_photons(const std::vector<DetectedPhoton>& photons);
+  /// Says what the events of a point are read out by, before the first of them; without it the file has
+  /// no events.
+  void begin_events(std::size_t point, std::vector<ReadoutChannel> channels);
+  /// Adds to the table of events, as append_photons does.
+  void append_events(const std::vector<EventRecord>& events);
   /// Adds the result of the next point.
   void add_point(const PointResult& point);
   /// Replaces the warnings of the header, which may grow during the run.
@@ -47,6 +54,7 @@ struct ResultsStatus {
   std::string reason;  ///< empty when complete
   bool has_photon_list = false;
   std::uint64_t listed_photons = 0;
+  std::uint64_t listed_events = 0;  ///< 0 when there are none
 };
 
 /// Reads everything but the photon list. Throws InputError when the file is missing, is not a ScintRay
@@ -57,6 +65,14 @@ ResultsStatus read_results_status(const std::filesystem::path& path);
 /// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
 std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                          std::uint64_t count);
+
+/// What the events of a point are read out by; empty when it has none.
+std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
+
+/// At most `count` events from row `offset` on, in the order of points. Each has all channels of its
+/// point. Throws InputError when there are no events.
+std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
+                                     std::uint64_t count);
 
 /// True when `path` is an HDF5 file that ScintRay wrote as a result, of whatever version.
 bool is_results_file(const std::filesystem::path& path);

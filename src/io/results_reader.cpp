@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/io/photon_columns.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
+#include "scintray/io/row_table.hpp"
+#include "scintray/io/shift_columns.hpp"
 
 namespace scintray {
 
@@ -98,6 +100,8 @@ class PointReader {
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
+    point.shifted_in_medium = shifts("shifted_in_medium", header_.media.size());
+    point.shifted_at_surface = shifts("shifted_at_surface", header_.surfaces.size());
     point.sensor_faces = sensor_faces();
     point.exit_angles = exit_angles();
     if (group_.has("tallies")) point.tallies = tallies();
@@ -110,6 +114,7 @@ class PointReader {
     point.resolved_misses = get<std::uint64_t>(group_, "resolved_misses");
     point.lost = get<std::uint64_t>(group_, "lost");
     point.wall_seconds = get<double>(group_, "wall_seconds");
+    if (group_.has("energy")) point.energy = energy();
     return point;
   }
 
@@ -123,6 +128,35 @@ class PointReader {
     const auto values = group_.read<std::uint64_t>(dataset);
     require(values.size() == Size, dataset + " has " + std::to_string(values.size()) + " values");
     std::copy(values.begin(), values.end(), to.begin());
+  }
+
+  EnergyBalance energy() const {
+    const h5::Group group = group_.open_group("energy");
+    EnergyBalance energy;
+    energy.events_requested = get<std::uint64_t>(group, "events_requested");
+    energy.events = get<std::uint64_t>(group, "events_traced");
+    energy.silent = get<std::uint64_t>(group, "events_silent");
+    energy.started = get<double>(group, "started_keV");
+    energy.deposited = get<double>(group, "deposited_keV");
+    energy.escaped = get<double>(group, "escaped_total_keV");
+    energy.unseen = get<double>(group, "unseen_total_keV");
+    energy.detected = get_moments(group, "detected_per_event");
+    return energy;
+  }
+
+  /// Zeros from a file of before there were wavelength shifters.
+  std::vector<ShiftCount> shifts(const std::string& name, std::size_t size) const {
+    std::vector<ShiftCount> counts(size);
+    if (!group_.has(name)) return counts;
+    const h5::Group group = group_.open_group(name);
+    results_format::for_each_shift_column([&](const char* field, auto member) {
+      const auto values = group.read<std::decay_t<decltype(ShiftCount{}.*member)>>(field);
+      require(values.size() == size, name + " has " + std::to_string(values.size()) + " rows in " + field);
+      for (std::size_t i = 0; i < size; ++i) counts[i].*member = values[i];
+    });
+    for (const ShiftCount& count : counts)
+      require(count.emitted <= count.absorbed, name + " has more photons emitted than absorbed");
+    return counts;
   }
 
   std::vector<SensorFaceCount> sensor_faces() const {
@@ -207,6 +241,57 @@ class PointReader {
   h5::Group group_;
 };
 
+std::vector<ReadoutChannel> get_channels(const std::filesystem::path& path, const h5::Group& root,
+                                         std::size_t point) {
+  const h5::Group points = root.open_group("points");
+  const std::string name = results_format::numbered(point);
+  if (!points.has(name) || !points.open_group(name).has("channels")) return {};
+  const h5::Group group = points.open_group(name).open_group("channels");
+  const std::vector<std::string> names = group.read_strings("channel_name");
+  const auto parts = group.read<std::uint32_t>("channel_part");
+  std::vector<ReadoutChannel> channels(names.size());
+  const auto require = [&](std::size_t size) {
+    if (size != names.size()) throw damaged(path, "the columns of channels differ in length");
+  };
+  require(parts.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    channels[i].name = names[i];
+    channels[i].part = parts[i];
+  }
+  results_format::for_each_channel_number([&](const char* column, auto member) {
+    const auto values = group.read<double>(column);
+    require(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) member(channels[i]) = values[i];
+  });
+  return channels;
+}
+
+/// Gives events the signals of their channels.
+void add_signals(const std::filesystem::path& path, const h5::Group& root, std::uint64_t offset,
+                 const std::vector<results_format::EventRow>& rows, std::vector<EventRecord>& events) {
+  std::map<std::uint32_t, std::size_t> channels;  // of each point
+  for (EventRecord& event : events) {
+    const auto [known, is_new] = channels.try_emplace(event.point, 0);
+    if (is_new) known->second = get_channels(path, root, event.point).size();
+    event.channels.resize(known->second);
+  }
+  const h5::Group group = root.open_group("signals");
+  const std::uint64_t first = rows.front().first_signal;
+  const auto next =
+      results_format::read_rows<results_format::EventRow>(root.open_group("events"), offset + rows.size(), 1);
+  const std::uint64_t end =
+      next && !next->empty() ? next->front().first_signal : group.shape("channel").at(0);
+  if (end < first) throw damaged(path, "the signals of events are out of order");
+  const auto signals = results_format::read_rows<results_format::SignalRow>(group, first, end - first);
+  if (!signals) throw damaged(path, "the columns of signals differ in length");
+  for (const results_format::SignalRow& signal : *signals) {
+    if (signal.event_row < offset || signal.event_row - offset >= events.size() ||
+        signal.channel >= events[signal.event_row - offset].channels.size())
+      throw damaged(path, "a signal names an event or a channel that does not exist");
+    events[signal.event_row - offset].channels[signal.channel] = signal.signal;
+  }
+}
+
 }  // namespace
 
 bool is_results_file(const std::filesystem::path& path) {
@@ -240,6 +325,7 @@ ResultsStatus read_results_status(const std::filesystem::path& path) {
   status.reason = root.string_attribute("", "partial_reason");
   status.has_photon_list = root.has("photons");
   if (status.has_photon_list) status.listed_photons = root.open_group("photons").shape("point").at(0);
+  if (root.has("events")) status.listed_events = root.open_group("events").shape("point").at(0);
   return status;
 }
 
@@ -250,17 +336,30 @@ std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std:
   if (!root.has("photons"))
     throw wrong(path, "this result has no list of detected photons",
                 "ask for the list when running the scene");
-  const h5::Group group = root.open_group("photons");
-  std::vector<DetectedPhoton> photons;
-  bool first = true;
-  results_format::for_each_photon_column([&](const char* name, auto member) {
-    const auto column = group.read_part<results_format::ColumnValue<decltype(member)>>(name, offset, count);
-    if (first) photons.resize(column.size());
-    first = false;
-    if (column.size() != photons.size()) throw damaged(path, "the columns of photons differ in length");
-    for (std::size_t i = 0; i < column.size(); ++i) member(photons[i]) = column[i];
-  });
-  return photons;
+  auto photons = results_format::read_rows<DetectedPhoton>(root.open_group("photons"), offset, count);
+  if (!photons) throw damaged(path, "the columns of photons differ in length");
+  return std::move(*photons);
+}
+
+std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point) {
+  const h5::File file = open_results(path);
+  return get_channels(path, file.root(), point);
+}
+
+std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
+                                     std::uint64_t count) {
+  const h5::File file = open_results(path);
+  const h5::Group root = file.root();
+  if (!root.has("events"))
+    throw wrong(path, "this result has no events", "run a scene whose [source] is one of energy");
+  const auto rows =
+      results_format::read_rows<results_format::EventRow>(root.open_group("events"), offset, count);
+  if (!rows) throw damaged(path, "the columns of events differ in length");
+  std::vector<EventRecord> events;
+  for (const results_format::EventRow& row : *rows) events.push_back(row.event);
+  if (events.empty()) return events;
+  add_signals(path, root, offset, *rows, events);
+  return events;
 }
 
 }  // namespace scintray

@@ -1,8 +1,11 @@
+#include <map>
+
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/io/photon_columns.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
+#include "scintray/io/row_table.hpp"
+#include "scintray/io/shift_columns.hpp"
 
 namespace scintray {
 
@@ -10,9 +13,6 @@ namespace {
 
 using results_format::describe;
 using results_format::numbered;
-
-/// Rows kept in memory before they go to disk, and rows compressed together: 4 MB of photons.
-constexpr std::size_t kPhotonBlock = 65536;
 
 void put_text(h5::Group& group, const std::string& name, const std::vector<std::string>& values) {
   group.write_strings(name, values);
@@ -54,6 +54,17 @@ void put_fates(h5::Group& group, const PointResult& point) {
   put(group, "fate_count", counts);
   put(group, "fate_fraction", fractions);
   put(group, "fate_error", errors);
+}
+
+void put_shifts(h5::Group& point, const std::string& name, const std::string& description,
+                const std::vector<ShiftCount>& counts) {
+  h5::Group group = point.create_group(name);
+  group.set_attribute("", "description", description);
+  results_format::for_each_shift_column([&](const char* field, auto member) {
+    std::vector<std::decay_t<decltype(ShiftCount{}.*member)>> values;
+    for (const ShiftCount& count : counts) values.push_back(count.*member);
+    put(group, field, values);
+  });
 }
 
 void put_sensor_faces(h5::Group& point, const std::vector<SensorFaceCount>& faces) {
@@ -122,6 +133,38 @@ void put_tallies(h5::Group& point, const std::vector<TallyResult>& tallies) {
   }
 }
 
+void put_energy(h5::Group& point, const EnergyBalance& energy) {
+  h5::Group group = point.create_group("energy");
+  group.set_attribute("", "description", std::string("what became of the energy of the events"));
+  put(group, "events_requested", energy.events_requested);
+  put(group, "events_traced", energy.events);
+  put(group, "events_silent", energy.silent);
+  put(group, "started_keV", energy.started);
+  put(group, "deposited_keV", energy.deposited);
+  put(group, "escaped_total_keV", energy.escaped);
+  put(group, "unseen_total_keV", energy.unseen);
+  put_moments(group, "detected_per_event", "1",
+              "photons detected per event that left energy in a scintillator", energy.detected);
+}
+
+void put_channels(h5::Group& point, const std::vector<ReadoutChannel>& channels) {
+  h5::Group group = point.create_group("channels");
+  group.set_attribute("", "description", std::string("what the sensors are read out as"));
+  std::vector<std::string> names;
+  std::vector<std::uint32_t> parts;
+  for (const ReadoutChannel& channel : channels) {
+    names.push_back(channel.name);
+    parts.push_back(channel.part);
+  }
+  put_text(group, "channel_name", names);
+  put(group, "channel_part", parts);
+  results_format::for_each_channel_number([&](const char* name, auto member) {
+    std::vector<double> column;
+    for (const ReadoutChannel& channel : channels) column.push_back(member(channel));
+    put(group, name, column);
+  });
+}
+
 void put_header(h5::Group& root, const RunHeader& header) {
   root.set_attribute("", "format", std::string(results_format::kFormat));
   root.set_attribute("", "version", kResultsVersion);
@@ -154,21 +197,12 @@ void refuse_foreign_file(const std::filesystem::path& path) {
 struct ResultsWriter::State {
   h5::File file;
   h5::Group root, points;
-  h5::Group photons;
-  bool photon_list = false;
   std::string note;
   std::size_t point_count = 0;
-  std::vector<DetectedPhoton> waiting;
-
-  void write_waiting() {
-    results_format::for_each_photon_column([&](const char* name, auto member) {
-      std::vector<results_format::ColumnValue<decltype(member)>> column;
-      column.reserve(waiting.size());
-      for (const DetectedPhoton& photon : waiting) column.push_back(member(photon));
-      photons.append(name, column);
-    });
-    waiting.clear();
-  }
+  results_format::RowWriter<DetectedPhoton> photons;
+  results_format::RowWriter<results_format::EventRow> events;
+  results_format::RowWriter<results_format::SignalRow> signals;
+  std::map<std::size_t, std::vector<ReadoutChannel>> channels;  ///< per point, until it is written
 };
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader& header, bool photon_list) {
@@ -178,14 +212,8 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader&
   put_header(root, header);
   h5::Group points = root.create_group("points");
   points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
-  state_.reset(new State{std::move(file), root, points, {}, photon_list, header.note, 0, {}});
-  if (!photon_list) return;
-  state_->photons = root.create_group("photons");
-  state_->photons.set_attribute("", "description", std::string("detected photons, one row a photon"));
-  results_format::for_each_photon_column([&](const char* name, auto member) {
-    state_->photons.create_stream<results_format::ColumnValue<decltype(member)>>(name, kPhotonBlock);
-    describe(state_->photons, name);
-  });
+  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}});
+  if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
 }
 
 ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
@@ -193,15 +221,31 @@ ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
 
 void ResultsWriter::append_photons(const std::vector<DetectedPhoton>& photons) {
-  if (!state_->photon_list) throw InternalError("photons for a result that has no photon list");
-  for (const DetectedPhoton& photon : photons) {
-    state_->waiting.push_back(photon);
-    if (state_->waiting.size() == kPhotonBlock) state_->write_waiting();
+  if (!state_->photons.exists()) throw InternalError("photons for a result that has no photon list");
+  for (const DetectedPhoton& photon : photons) state_->photons.add(photon);
+}
+
+void ResultsWriter::begin_events(std::size_t point, std::vector<ReadoutChannel> channels) {
+  state_->channels[point] = std::move(channels);
+  if (state_->events.exists()) return;
+  state_->events = {state_->root, "events", "events, one row an event"};
+  state_->signals = {state_->root, "signals", "what channels saw of events, one row an event and channel"};
+}
+
+void ResultsWriter::append_events(const std::vector<EventRecord>& events) {
+  if (!state_->events.exists()) throw InternalError("events for a result that has none");
+  for (const EventRecord& event : events) {
+    const std::uint64_t row = state_->events.rows();
+    state_->events.add({event, state_->signals.rows()});
+    for (std::uint32_t channel = 0; channel < event.channels.size(); ++channel)
+      if (results_format::has_signal(event.channels[channel]))
+        state_->signals.add({row, channel, event.channels[channel]});
   }
 }
 
 void ResultsWriter::add_point(const PointResult& point) {
-  h5::Group group = state_->points.create_group(numbered(state_->point_count++));
+  const std::size_t number = state_->point_count++;
+  h5::Group group = state_->points.create_group(numbered(number));
   group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
   put_text(group, "parameters", point.parameters);
   put(group, "photons_requested", point.photons_requested);
@@ -209,6 +253,10 @@ void ResultsWriter::add_point(const PointResult& point) {
   put_fates(group, point);
   put(group, "absorbed_in_medium", point.absorbed_in_medium);
   put(group, "absorbed_at_surface", point.absorbed_at_surface);
+  put_shifts(group, "shifted_in_medium", "what the wavelength shifter of each medium did",
+             point.shifted_in_medium);
+  put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
+             point.shifted_at_surface);
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, point.exit_angles);
   put_tallies(group, point.tallies);
@@ -225,12 +273,19 @@ void ResultsWriter::add_point(const PointResult& point) {
   put(group, "resolved_misses", point.resolved_misses);
   put(group, "lost", point.lost);
   put(group, "wall_seconds", point.wall_seconds);
+  if (point.energy.events_requested > 0) put_energy(group, point.energy);
+  if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
+    put_channels(group, channels->second);
+    state_->channels.erase(channels);
+  }
 }
 
 void ResultsWriter::set_note(const std::string& note) { state_->note = note; }
 
 void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) {
-  if (state_->photon_list) state_->write_waiting();
+  state_->photons.write_waiting();
+  state_->events.write_waiting();
+  state_->signals.write_waiting();
   put_text(state_->root, "note", {state_->note});
   state_->root.set_attribute("", "complete", static_cast<std::int64_t>(complete));
   state_->root.set_attribute("", "partial_reason", complete ? std::string() : reason_if_partial);

@@ -51,11 +51,28 @@ class Renumbering {
   void apply(PointResult& result) const {
     result.absorbed_in_medium = moved(result.absorbed_in_medium, media_, lists_.media.names().size());
     result.absorbed_at_surface = moved(result.absorbed_at_surface, surfaces_, lists_.surfaces.names().size());
+    result.shifted_in_medium = moved(result.shifted_in_medium, media_, lists_.media.names().size());
+    result.shifted_at_surface = moved(result.shifted_at_surface, surfaces_, lists_.surfaces.names().size());
     for (SensorFaceCount& count : result.sensor_faces) {
       count.part = parts_[count.part];
       count.face = faces_[count.face];
     }
     for (ExitAngleTally& tally : result.exit_angles) tally.face = faces_[tally.face];
+  }
+
+  std::vector<ReadoutChannel> applied(std::vector<ReadoutChannel> channels) const {
+    for (ReadoutChannel& channel : channels) {
+      channel.part = parts_[channel.part];
+      if (channel.face != kNone)
+        channel.face = static_cast<std::int32_t>(faces_[static_cast<std::size_t>(channel.face)]);
+    }
+    return channels;
+  }
+
+  std::vector<EventRecord> applied(std::vector<EventRecord> events) const {
+    for (EventRecord& event : events)
+      if (event.part != EventRecord::kNoPart) event.part = parts_[event.part];
+    return events;
   }
 
   std::vector<DetectedPhoton> applied(std::vector<DetectedPhoton> photons) const {
@@ -67,9 +84,10 @@ class Renumbering {
   }
 
  private:
-  static std::vector<std::uint64_t> moved(const std::vector<std::uint64_t>& counts,
-                                          const std::vector<std::uint32_t>& to, std::size_t size) {
-    std::vector<std::uint64_t> result(size, 0);
+  template <typename Count>
+  static std::vector<Count> moved(const std::vector<Count>& counts, const std::vector<std::uint32_t>& to,
+                                  std::size_t size) {
+    std::vector<Count> result(size);
     for (std::size_t i = 0; i < counts.size(); ++i) result[to[i]] += counts[i];
     return result;
   }
@@ -92,7 +110,8 @@ RunSettings settings_of(const RunSpec& run, std::size_t point) {
 struct Survey {
   NameLists names;
   std::vector<std::string> notes;
-  std::vector<std::uint64_t> photons;  ///< per point
+  bool energy = false;     ///< some source is one of energy
+  std::uint64_t work = 0;  ///< photons, or events, over all points
 };
 
 /// Builds every point once: finds mistakes, names, and surface tables.
@@ -101,13 +120,15 @@ Survey survey_points(const SceneFile& file, const SimulationOptions& options, Sc
   for (std::size_t point = 0; point < file.points(); ++point) {
     const SceneSpec spec = with_options(file.spec(point), options);
     const BuiltScene built = builder.build(spec);
-    const PhotonSource source(spec.source, built.scene);
+    std::vector<std::string> notes = built.warnings;
+    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene, &notes);
     const TallyPlan plan(built.scene, spec);
     survey.names.add(built.scene);
-    survey.photons.push_back(source.photons());
-    for (const std::string& warning : built.warnings)
-      if (std::find(survey.notes.begin(), survey.notes.end(), warning) == survey.notes.end())
-        survey.notes.push_back(warning);
+    survey.energy = source->has_energy();
+    survey.work += source->has_energy() ? source->events() : source->photons();
+    for (const std::string& note : notes)
+      if (std::find(survey.notes.begin(), survey.notes.end(), note) == survey.notes.end())
+        survey.notes.push_back(note);
   }
   return survey;
 }
@@ -133,7 +154,19 @@ RunHeader make_header(const SceneFile& file, const SceneSpec& first, const Surve
 SceneSpec with_options(SceneSpec spec, const SimulationOptions& options) {
   if (options.threads) spec.run.threads = options.threads;
   if (options.seed) spec.run.seed = *options.seed;
-  if (options.photons) spec.source.photons = *options.photons;
+  const auto refuse = [&](const char* option, const char* source, const char* other) {
+    throw InputError({spec.energy_source ? spec.energy_source->where : spec.source.where,
+                      std::string(option) + " is given, but this is a source of " + source,
+                      std::string("use ") + other});
+  };
+  if (options.photons) {
+    if (spec.energy_source) refuse("--photons", "events", "--events");
+    spec.source.photons = *options.photons;
+  }
+  if (options.events) {
+    if (!spec.energy_source) refuse("--events", "photons", "--photons");
+    spec.energy_source->events = *options.events;
+  }
   return spec;
 }
 
@@ -147,30 +180,37 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
 
   SimulationProgress progress;
   progress.points = file.points();
-  for (const std::uint64_t photons : survey.photons) progress.photons_total += photons;
+  progress.thing = survey.energy ? "events" : "photons";
+  progress.total = survey.work;
   std::uint64_t done_before = 0;
   for (std::size_t point = 0; point < file.points() && !(options.stop && options.stop->load()); ++point) {
     const SceneSpec spec = with_options(file.spec(point), options);
     const BuiltScene built = builder.build(spec);
-    const PhotonSource source(spec.source, built.scene);
+    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene);
     const TallyPlan plan(built.scene, spec);
     const Renumbering renumbering(built.scene, survey.names);
 
     RunHooks hooks;
     hooks.stop = options.stop;
-    hooks.progress = [&](std::uint64_t photons) {
+    hooks.progress = [&](std::uint64_t done) {
       progress.point = point;
-      progress.photons_done = done_before + photons;
+      progress.done = done_before + done;
       if (options.progress) options.progress(progress);
     };
     if (spec.run.photon_list)
       hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
         writer.append_photons(renumbering.applied(photons));
       };
-    PointResult traced = run_point(built.scene, source, plan, settings_of(spec.run, point), hooks);
+    if (source->has_energy()) {
+      writer.begin_events(point, renumbering.applied(plan.channels.list));
+      hooks.events = [&](const std::vector<EventRecord>& events) {
+        writer.append_events(renumbering.applied(events));
+      };
+    }
+    PointResult traced = run_point(built.scene, *source, plan, settings_of(spec.run, point), hooks);
     traced.parameters = file.parameters(point);
     renumbering.apply(traced);
-    done_before += traced.photons;
+    done_before = progress.done;
     progress.segments += traced.segments;
     writer.add_point(traced);
     result.points.push_back(std::move(traced));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
@@ -13,16 +14,18 @@
 namespace scintray {
 
 struct SimulationProgress {
-  std::size_t point = 0, points = 1;                  ///< under way, of how many
-  std::uint64_t photons_done = 0, photons_total = 0;  ///< over all points
-  std::uint64_t segments = 0;                         ///< of finished points
+  std::size_t point = 0, points = 1;  ///< under way, of how many
+  std::uint64_t done = 0, total = 0;  ///< over all points
+  std::string thing;                  ///< of which: "photons", or "events"
+  std::uint64_t segments = 0;         ///< of finished points
 };
 
 struct SimulationOptions {
   std::filesystem::path output;  ///< results file; written only when the run ends
   std::optional<int> threads;    ///< in place of the scene's
   std::optional<std::uint64_t> seed;
-  std::optional<std::uint64_t> photons;  ///< per point
+  std::optional<std::uint64_t> photons;  ///< per point, of a source of photons
+  std::optional<std::uint64_t> events;   ///< per point, of a source of energy
   std::function<void(const SimulationProgress&)> progress;
   SurfaceMaker::Hooks surface_hooks;        ///< told while surface tables are built
   const std::atomic<bool>* stop = nullptr;  ///< set to end early; what was traced is kept
@@ -34,7 +37,8 @@ struct SimulationOptions {
 /// @throws InputError, SystemError; InternalError when a photon has no fate.
 RunResult simulate(const SceneFile& file, const SimulationOptions& options);
 
-/// Settings of a run as its scene gives them, with the options in their place.
+/// Settings of a run as its scene gives them, with the options in their place. Throws InputError for an
+/// option that the scene's source does not have.
 SceneSpec with_options(SceneSpec spec, const SimulationOptions& options);
 
 }  // namespace scintray

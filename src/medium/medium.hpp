@@ -1,28 +1,24 @@
 #pragma once
 /// What light does inside a homogeneous medium.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
 #include "scintray/medium/composition.hpp"
+#include "scintray/medium/decay.hpp"
+#include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
 
 enum class ScatteringKind { isotropic, rayleigh };
 
-/// One exponential component of scintillation light.
-struct DecayComponent {
-  double decay_ns = 0.0;
-  double rise_ns = 0.0;   ///< 0: instantaneous rise
-  double fraction = 1.0;  ///< share of the light; the fractions of a medium sum to 1
-};
-
 /// Properties of a medium at one wavelength, as the tracer uses them.
 struct MediumOptics {
-  double index = 1.0;        ///< refractive index n
-  double group_index = 1.0;  ///< n - wavelength dn/dwavelength
-  double absorption_per_mm = 0.0;
+  double index = 1.0;              ///< refractive index n
+  double group_index = 1.0;        ///< n - wavelength dn/dwavelength
+  double absorption_per_mm = 0.0;  ///< the wavelength shifter's included
   double scattering_per_mm = 0.0;
 };
 
@@ -30,12 +26,19 @@ struct MediumOptics {
 struct Medium {
   std::string name;
   Curve index;              ///< refractive index against wavelength (nm)
-  Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm); 0 means none
+  Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm), for good; 0 means none
   Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
+  /// Absorbs beside `absorption_per_mm`, and gives light back; most media have none.
+  std::shared_ptr<const WavelengthShifter> shifter;
 
   // Scintillation; a medium that does not scintillate has a zero yield.
   double yield_per_keV = 0.0;  ///< photons per keV
+  /// Light per keV of an electron of so many keV, relative to the yield.
+  Curve relative_yield = Curve::constant(1.0);
+  double intrinsic_fwhm = 0.0;  ///< spread of the light beyond counting statistics, full width at half
+                                ///< maximum over mean, at `intrinsic_keV`; 0: none
+  double intrinsic_keV = 0.0;
   Curve emission;              ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given

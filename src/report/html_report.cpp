@@ -5,6 +5,7 @@
 #include "scintray/report/format.hpp"
 #include "scintray/report/grid_map.hpp"
 #include "scintray/report/report_tables.hpp"
+#include "scintray/report/shift_section.hpp"
 #include "scintray/report/svg_plot.hpp"
 #include "scintray/report/tally_section.hpp"
 
@@ -92,8 +93,8 @@ std::string html_report(const RunResult& run) {
           escape_html(run.header.scene_file) + "</p>\n";
   page += partial_banner(run) + answer(run);
   if (!run.points.empty())
-    page +=
-        fate_section(run) + sensor_section(run) + angle_section(run) + tally_section(run) + path_section(run);
+    page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
+            tally_section(run) + path_section(run);
   page += condition_section(run);
   page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return page + "</body>\n</html>\n";

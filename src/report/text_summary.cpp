@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scintray/report/format.hpp"
+#include "scintray/report/shift_section.hpp"
 #include "scintray/report/sweep_view.hpp"
 #include "scintray/report/tally_section.hpp"
 
@@ -95,7 +96,8 @@ std::string warnings(const RunResult& run) {
 std::string text_summary(const RunResult& run) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
-    return fate_table(run.points.front()) + tally_lines(run.points.front()) + warnings(run);
+    return fate_table(run.points.front()) + shift_lines(run.header, run.points.front()) +
+           tally_lines(run.points.front()) + warnings(run);
   const auto view = view_sweep(run);
   return (view ? sweep_table(run, *view) : point_table(run)) + warnings(run);
 }

@@ -70,6 +70,7 @@ class Accelerator {
   /// Unit normal of a triangle, out of the region.
   const Vec3& normal(std::uint32_t triangle) const { return triangle_planes_[triangle].normal; }
   std::size_t size() const { return triangles_.size(); }
+  BoundaryTriangle triangle(std::uint32_t i) const { return triangles_[i]; }
   bool uses_planes() const { return !planes_.empty(); }
   /// Triangles whose planes bound the region, when it is convex: the number of distinct planes.
   std::size_t plane_count() const { return planes_.size(); }

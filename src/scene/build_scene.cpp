@@ -7,11 +7,13 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/core/pattern.hpp"
+#include "scintray/detector/channel.hpp"
 #include "scintray/scene/assemble.hpp"
 #include "scintray/scene/conform_parts.hpp"
 #include "scintray/scene/cut_parts.hpp"
 #include "scintray/scene/library.hpp"
 #include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/shifted_range.hpp"
 #include "scintray/scene/wavelength_cover.hpp"
 
 namespace scintray {
@@ -29,6 +31,9 @@ namespace {
 struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
 };
+
+/// Stands for the wavelengths of a scene with a mistake, until all mistakes are found.
+constexpr WavelengthRange kNoLight{400.0, 400.0, 400.0};
 
 Library library_for(const SceneSpec& spec) {
   Library library = Library::shipped();
@@ -57,6 +62,7 @@ class AssemblyMaker {
 
   Assembly make(const std::vector<PlacedMesh>& placed, std::vector<std::string>& warnings) {
     wavelengths_ = find_wavelengths(placed);
+    wavelengths_.high_nm = std::max(wavelengths_.high_nm, longest_shifted_nm(spec_, placed, library_));
     assembly_.low_nm = wavelengths_.low_nm;
     assembly_.high_nm = wavelengths_.high_nm;
     assembly_.ambient = medium_index(spec_.ambient);
@@ -75,32 +81,50 @@ class AssemblyMaker {
 
  private:
   WavelengthRange find_wavelengths(const std::vector<PlacedMesh>& placed) {
+    if (spec_.energy_source) return emission_of(placed, {"*", {}});
     if (spec_.source.wavelength_nm) {
       const double nm = *spec_.source.wavelength_nm;
       return {nm, nm, nm};
     }
-    const auto* region = std::get_if<RegionSpec>(&spec_.source.origin);
-    if (!region) {
-      problems_.add(
-          spec_.source.wavelength_where,
-          "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
-          "give a wavelength, as wavelength = \"420 nm\"");
-      return {400.0, 400.0, 400.0};
-    }
+    if (const auto* region = std::get_if<RegionSpec>(&spec_.source.origin))
+      return emission_of(placed, region->part);
+    problems_.add(
+        spec_.source.wavelength_where,
+        "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
+        "give a wavelength, as wavelength = \"420 nm\"");
+    return kNoLight;
+  }
+
+  /// Wavelengths that the parts of a name or pattern emit. Parts of an energy source that do not
+  /// scintillate are left out, of a source of photons they are mistakes.
+  WavelengthRange emission_of(const std::vector<PlacedMesh>& placed, const NameRef& parts) {
+    std::optional<WavelengthRange> found;
     for (const PlacedMesh& part : placed) {
-      if (part.name != region->part.name || part.medium.empty() || part.medium.name == kOpaqueMedium)
+      if (!matches_pattern(parts.name, part.name) || part.medium.empty() || part.medium.name == kOpaqueMedium)
         continue;
       try {
         const Medium medium = library_.medium(part.medium.name, part.medium.where);
-        if (medium.emission.max_y() > 0.0 && !medium.emission.is_constant()) return range_of(medium.emission);
-        problems_.add(spec_.source.wavelength_where,
-                      "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
-                      "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+        const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
+        if (emits) {
+          const WavelengthRange range = range_of(medium.emission);
+          if (!found) found = range;
+          found->low_nm = std::min(found->low_nm, range.low_nm);
+          found->high_nm = std::max(found->high_nm, range.high_nm);
+        } else if (!spec_.energy_source) {
+          problems_.add(spec_.source.wavelength_where,
+                        "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
+                        "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+          return kNoLight;
+        }
       } catch (const InputError&) {
         // reported where the part is added
       }
     }
-    return {400.0, 400.0, 400.0};
+    if (!found && spec_.energy_source && problems_.empty())
+      problems_.add(spec_.energy_source->where, "no part scintillates, so energy makes no light",
+                    "give a part's medium [yield], [emission] and [[decay]], or use one that has them, as "
+                    "\"LSO\"");
+    return found.value_or(kNoLight);
   }
 
   std::uint32_t add_medium(Medium medium, const FileLocation& where) {
@@ -137,11 +161,23 @@ class AssemblyMaker {
       check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm, wavelengths_.high_nm,
                   "sensor \"" + sensor.name + "\"", "an efficiency",
                   "extend its efficiency table, with zeros where it does not respond");
+      check_pulse(sensor);
     } catch (const InputError& error) {
       problems_.add(error);
     }
     assembly_.sensors.push_back(std::move(sensor));
     return known->second = static_cast<std::int32_t>(assembly_.sensors.size() - 1);
+  }
+
+  /// Reports, at the readout, a sensor whose pulses would have no shape behind it.
+  void check_pulse(const Sensor& sensor) {
+    if (!spec_.readout) return;
+    try {
+      pulse_of(sensor, *spec_.readout);
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      problems_.add(spec_.readout->where, "sensor \"" + sensor.name + "\": " + problem.what, problem.hint);
+    }
   }
 
   /// The medium of a sensor that names none: its window, which only its index describes.
@@ -230,7 +266,7 @@ class AssemblyMaker {
 };
 
 /// Regions that light from `start` can reach through interfaces that are not opaque both ways.
-std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
+std::vector<bool> lit_regions(const Scene& scene, const std::vector<std::uint32_t>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](std::int32_t id) {
       return id != kNone && scene.surfaces[static_cast<std::size_t>(id)].opaque();
@@ -240,7 +276,7 @@ std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
            !scene.media[scene.regions[next].medium].is_opaque();
   };
   std::vector<bool> lit(scene.regions.size(), false);
-  lit[start] = true;
+  for (const std::uint32_t region : start) lit[region] = true;
   for (bool grew = true; grew;) {
     grew = false;
     for (const Interface& i : scene.interfaces) {
@@ -251,18 +287,26 @@ std::vector<bool> lit_regions(const Scene& scene, std::uint32_t start) {
   return lit;
 }
 
+/// Regions in which light of the source may start.
+std::vector<std::uint32_t> starting_regions(const SceneSpec& spec, const Scene& scene) {
+  std::vector<std::uint32_t> regions;
+  if (spec.energy_source) {
+    for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
+      if (scene.media[scene.regions[i].medium].medium().yield_per_keV > 0.0) regions.push_back(i);
+  } else if (const auto* region = std::get_if<RegionSpec>(&spec.source.origin)) {
+    for (const PartInfo& part : scene.parts)
+      if (matches_pattern(region->part.name, part.name)) regions.push_back(part.region);
+  } else {
+    regions.push_back(scene.locate(std::get<Vec3>(spec.source.origin)));
+  }
+  return regions;
+}
+
 /// A sensor that cannot be reached is a mistake; a scene without any is a warning.
 void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed, const Scene& scene,
                    Problems& problems, std::vector<std::string>& warnings) {
-  std::uint32_t start = kAmbientRegion;
-  if (const auto* region = std::get_if<RegionSpec>(&spec.source.origin)) {
-    const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
-                                   [&](const PartInfo& p) { return p.name == region->part.name; });
-    if (part == scene.parts.end()) return;  // the source reports it
-    start = part->region;
-  } else {
-    start = scene.locate(std::get<Vec3>(spec.source.origin));
-  }
+  const std::vector<std::uint32_t> start = starting_regions(spec, scene);
+  if (start.empty()) return;  // the source reports it
   const std::vector<bool> lit = lit_regions(scene, start);
   bool any_sensor = false;
   for (const PlacedMesh& part : placed)

@@ -11,7 +11,7 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/medium/composition.hpp"
-#include "scintray/scene/spec.hpp"
+#include "scintray/scene/source_spec.hpp"
 
 namespace scintray {
 
@@ -81,6 +81,7 @@ struct HitsSpec {
 struct GammaSpec {
   std::variant<SpectrumSpec, EmitterSpec, HitsSpec> kind;
   std::uint64_t events = 0;  ///< of a file of hits: 0 for all, else at most so many
+  bool unpolarised = false;  ///< the light, as SourceSpec says
   FileLocation where;
 };
 

@@ -93,11 +93,16 @@ Medium Library::medium(const std::string& name, const FileLocation& where) const
 }
 
 Sensor Library::sensor(const std::string& name, const FileLocation& where) const {
-  const Definition definition = find(LibraryKind::sensor, name, where);
+  const std::vector<Ancestor> ancestors = lineage(LibraryKind::sensor, name, where);
+  const Definition& own = ancestors.front().definition;
+  TomlNode merged = *own.node;
+  for (const Ancestor& ancestor : ancestors)
+    for (const TomlNode& table : ancestor.definition.node->items)
+      if (!merged.find(table.key)) merged.items.push_back(table);
   Problems problems;
-  const TomlTable table(definition.node, problems);
-  Sensor sensor =
-      read_sensor(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
+  const TomlTable table(std::make_shared<const TomlNode>(std::move(merged)), problems);
+  table.optional_string("base");  // followed above
+  Sensor sensor = read_sensor(table, name, own.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
   problems.throw_if_any();
   return sensor;
@@ -114,27 +119,41 @@ Reflector Library::reflector(const std::string& name, const FileLocation& where)
   return reflector;
 }
 
+std::vector<Library::Ancestor> Library::lineage(LibraryKind kind, const std::string& name,
+                                                const FileLocation& where) const {
+  std::vector<Ancestor> ancestors;
+  std::vector<std::string> names;
+  for (std::string next = name; !next.empty();) {
+    const FileLocation asked =
+        ancestors.empty() ? where : ancestors.back().definition.node->find("base")->where;
+    const std::string one = kKinds[index_of(kind)].one;
+    if (std::find(names.begin(), names.end(), next) != names.end())
+      throw InputError(
+          {asked, "the " + one + " \"" + next + "\" is based on itself (" + joined(names) + ", " + next + ")",
+           "base it on another " + one});
+    names.push_back(next);
+    ancestors.push_back({next, find(kind, next, asked)});
+    Problems problems;
+    next = TomlTable(ancestors.back().definition.node, problems).optional_string("base").value_or("");
+    problems.throw_if_any();
+  }
+  return ancestors;
+}
+
 Library::Chain Library::chain(const std::string& surface, const FileLocation& where,
                               Problems& problems) const {
   Chain chain;
-  std::vector<TomlNodePtr> levels;
-  for (std::string next = surface; !next.empty();) {
-    const FileLocation asked = levels.empty() ? where : levels.back()->find("base")->where;
-    if (std::find(chain.names.begin(), chain.names.end(), next) != chain.names.end())
-      throw InputError(
-          {asked,
-           "the surface \"" + next + "\" is based on itself (" + joined(chain.names) + ", " + next + ")",
-           "base it on another surface"});
-    const Definition definition = find(LibraryKind::surface, next, asked);
-    chain.names.push_back(next);
-    levels.push_back(definition.node);
-    TomlTable level(definition.node, problems);
-    read_source(level, definition.from_file ? SourceRule::required : SourceRule::optional, chain.sources);
-    next = level.optional_string("base").value_or("");
-    problems.throw_if_any();
+  const std::vector<Ancestor> ancestors = lineage(LibraryKind::surface, surface, where);
+  for (const Ancestor& ancestor : ancestors) {
+    chain.names.push_back(ancestor.name);
+    const Definition& definition = ancestor.definition;
+    read_source(TomlTable(definition.node, problems),
+                definition.from_file ? SourceRule::required : SourceRule::optional, chain.sources);
   }
-  chain.merged = *levels.back();
-  for (std::size_t i = levels.size() - 1; i-- > 0;) chain.merged = merge_over_base(chain.merged, *levels[i]);
+  problems.throw_if_any();
+  chain.merged = *ancestors.back().definition.node;
+  for (std::size_t i = ancestors.size() - 1; i-- > 0;)
+    chain.merged = merge_over_base(chain.merged, *ancestors[i].definition.node);
   return chain;
 }
 

@@ -60,6 +60,13 @@ class Library {
     bool from_file = false;
   };
   Definition find(LibraryKind kind, const std::string& name, const FileLocation& where) const;
+  /// A definition and what it is based on, by their `base`: itself first. Throws InputError when a base is
+  /// missing, is no name, or comes twice.
+  struct Ancestor {
+    std::string name;
+    Definition definition;
+  };
+  std::vector<Ancestor> lineage(LibraryKind kind, const std::string& name, const FileLocation& where) const;
   /// A surface's definition laid over those that it is based on.
   struct Chain {
     TomlNode merged;

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "scintray/scene/light_response_form.hpp"
+#include "scintray/scene/sensor_form.hpp"
+
 namespace scintray {
 
 namespace {
@@ -148,7 +151,10 @@ std::vector<DecayComponent> read_decay(const TomlTable& table, SourceRule rule,
 
 void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium) {
   const bool any = table.has("yield") || table.has("emission") || table.has("decay");
-  if (!any) return;
+  if (!any) {
+    refuse_light_response(table);
+    return;
+  }
   for (const char* key : {"yield", "emission", "decay"})
     if (!table.has(key))
       table.report(key, std::string("a medium that scintillates needs \"") + key + "\" too",
@@ -164,6 +170,7 @@ void read_scintillation(const TomlTable& table, SourceRule rule, Medium& medium)
     medium.emission = read_emission(*block);
   }
   medium.decay = read_decay(table, rule, medium.sources);
+  read_light_response(table, rule, medium);
 }
 
 /// Reports unless a curve stays within 0 and 1.
@@ -174,6 +181,57 @@ void expect_share(const TomlTable& block, const std::string& key, const Curve& c
                    " to " + std::to_string(curve.max_y()),
                "percent are written with value_unit = \"%\", or as \"97 %\"");
   expect_wavelengths(block, key, curve);
+}
+
+/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
+void read_efficiency(const TomlTable& efficiency, const TomlTable& window, SourceRule rule, Sensor& sensor) {
+  read_source(efficiency, rule, sensor.sources);
+  sensor.efficiency = efficiency.curve("value", Dimension::dimensionless);
+  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
+  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
+  sensor.definition = external ? EfficiencyDefinition::external : EfficiencyDefinition::internal;
+  if (external) {
+    sensor.reference_index = efficiency.number("reference_index");
+    efficiency.expect("reference_index",
+                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
+                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    if (!efficiency.good("reference_index") || !window.good("index")) return;
+    const double r =
+        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
+    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
+                      "this external efficiency is above what the window lets in (" +
+                          std::to_string(1.0 - r * r) + " at normal incidence)",
+                      "check the efficiency and the two indices, or write definition = \"internal\"");
+  }
+}
+
+/// [wavelength_shifting], in which every block says its own source.
+std::shared_ptr<const WavelengthShifter> read_shifter(const TomlTable& table, SourceRule rule,
+                                                      std::vector<std::string>& sources) {
+  const std::size_t problems = table.problem_count();
+  const auto block = [&](const char* key) {
+    const TomlTable found = table.table(key);
+    if (table.has(key)) read_source(found, rule, sources);
+    return found;
+  };
+  const TomlTable absorption = block("absorption");
+  const Curve absorption_per_mm = table.has("absorption") ? read_extinction(absorption) : Curve();
+  absorption.expect("none", false, "a wavelength shifter that absorbs nothing shifts nothing",
+                    "give a length or a coefficient, or leave [wavelength_shifting] out");
+  const TomlTable yield = block("quantum_yield");
+  Curve quantum_yield;
+  if (table.has("quantum_yield")) {
+    quantum_yield = yield.curve("value", Dimension::dimensionless);
+    expect_share(yield, "value", quantum_yield, "a quantum yield");
+  }
+  const TomlTable emission = block("emission");
+  const Curve spectrum = table.has("emission") ? read_emission(emission) : Curve();
+  const std::vector<DecayComponent> decay = read_decay(table, rule, sources);
+  if (!table.has("decay"))
+    table.report("decay", "a wavelength shifter does not say when it gives light back",
+                 "add [[" + table.path() + ".decay]] with time, rise and fraction");
+  if (table.problem_count() > problems) return nullptr;
+  return std::make_shared<const WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
 }
 
 }  // namespace
@@ -246,6 +304,8 @@ Medium read_medium(const TomlTable& table, const std::string& name, SourceRule r
                    "add [density] with its value, as \"7.4 g/cm3\", and source");
   }
   read_scintillation(table, rule, medium);
+  if (const std::optional<TomlTable> shifting = table.optional_table("wavelength_shifting"))
+    medium.shifter = read_shifter(*shifting, rule, medium.sources);
   return medium;
 }
 
@@ -260,25 +320,8 @@ Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule r
                   "a refractive index lies between 1 and 5");
   }
   const TomlTable efficiency = table.table("efficiency");
-  if (!table.has("efficiency")) return sensor;
-  read_source(efficiency, rule, sensor.sources);
-  sensor.efficiency = efficiency.curve("value", Dimension::dimensionless);
-  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
-  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
-  sensor.definition = external ? EfficiencyDefinition::external : EfficiencyDefinition::internal;
-  if (external) {
-    sensor.reference_index = efficiency.number("reference_index");
-    efficiency.expect("reference_index",
-                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
-                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
-    if (!efficiency.good("reference_index") || !window.good("index")) return sensor;
-    const double r =
-        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
-    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
-                      "this external efficiency is above what the window lets in (" +
-                          std::to_string(1.0 - r * r) + " at normal incidence)",
-                      "check the efficiency and the two indices, or write definition = \"internal\"");
-  }
+  if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
+  read_sensor_response(table, rule, sensor);
   return sensor;
 }
 

@@ -61,8 +61,8 @@ void expect_parts(const TomlTable& table, const std::string& key, const NameRef&
 std::vector<ContactSpec> read_contacts(const TomlTable& scene, const std::vector<std::string>& part_names,
                                        const std::vector<PartSpec>& parts);
 
-/// [source].
-SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts);
+/// [source], of any type, into `spec`.
+void read_source(const TomlTable& scene, const std::vector<std::string>& parts, SceneSpec& spec);
 
 /// The value of `source.region`.
 RegionSpec read_region(const TomlTable& table, const std::vector<std::string>& parts);

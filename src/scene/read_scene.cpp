@@ -6,6 +6,7 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/read_parts.hpp"
+#include "scintray/scene/read_readout.hpp"
 
 namespace scintray {
 
@@ -86,8 +87,9 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.groups = std::move(bodies.groups);
   scene.contacts = read_contacts(root, names, scene.parts);
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
-  scene.source = read_source(root, names);
+  read_source(root, names, scene);
   scene.run = read_run(root);
+  scene.readout = read_readout(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");

@@ -1,3 +1,4 @@
+#include "scintray/scene/read_gamma_source.hpp"
 #include "scintray/scene/read_parts.hpp"
 #include "scintray/scene/read_shapes.hpp"
 
@@ -103,25 +104,42 @@ std::uint64_t positive_count(const TomlTable& table, const std::string& key, std
   return value > 0 ? static_cast<std::uint64_t>(value) : 1;
 }
 
-SourceSpec read_source(const TomlTable& scene, const std::vector<std::string>& parts) {
-  const TomlTable table = scene.table("source");
+namespace {
+
+SourceSpec read_photon_source(const TomlTable& table, const std::vector<std::string>& parts) {
   SourceSpec source;
   source.where = table.where();
-  table.choice("type", {"photons"});
-  if (table.has("type") && !table.good("type")) {
-    table.skip();
-    return source;
-  }
   read_origin(table, parts, source);
   source.direction = read_direction(table);
   read_wavelength(table, source);
   read_time(table, source);
-  source.unpolarised = table.choice("polarisation", {"random", "unpolarised"}, "random") == "unpolarised";
   source.photons = positive_count(table, "photons", table.integer("photons"));
   const auto standard = static_cast<std::int64_t>(source.photons_per_event);
   source.photons_per_event =
       positive_count(table, "photons_per_event", table.integer("photons_per_event", standard));
   return source;
+}
+
+}  // namespace
+
+void read_source(const TomlTable& scene, const std::vector<std::string>& parts, SceneSpec& spec) {
+  const TomlTable table = scene.table("source");
+  spec.source.where = table.where();
+  std::vector<std::string> types{"photons"};
+  types.insert(types.end(), kGammaSourceTypes.begin(), kGammaSourceTypes.end());
+  const std::string type = table.choice("type", types);
+  if (table.has("type") && !table.good("type")) {
+    table.skip();
+    return;
+  }
+  const bool unpolarised = table.choice("polarisation", {"random", "unpolarised"}, "random") == "unpolarised";
+  if (type == "photons" || !table.has("type")) {
+    spec.source = read_photon_source(table, parts);
+    spec.source.unpolarised = unpolarised;
+  } else {
+    spec.energy_source = read_gamma_source(table, parts);
+    spec.energy_source->unpolarised = unpolarised;
+  }
 }
 
 RunSpec read_run(const TomlTable& scene) {

@@ -11,7 +11,8 @@ constexpr double kWavelengthStep_nm = 0.5;
 
 bool constant_optics(const Medium& medium) {
   return medium.index.is_constant() && medium.absorption_per_mm.is_constant() &&
-         medium.scattering_per_mm.is_constant();
+         medium.scattering_per_mm.is_constant() &&
+         (!medium.shifter || medium.shifter->absorption_per_mm().is_constant());
 }
 
 }  // namespace

@@ -13,9 +13,12 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/detector/readout_spec.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
+#include "scintray/scene/source_spec.hpp"
 #include "scintray/scene/tally_spec.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
@@ -131,39 +134,6 @@ struct ContactSpec {
   FileLocation where;
 };
 
-/// Points of a part (or of an explicit point) from which light starts.
-struct RegionSpec {
-  NameRef part;                                    ///< may have wildcards: any of these parts, by volume
-  std::optional<std::array<double, 2>> slab_z_mm;  ///< world z, low then high
-  std::optional<BoxSpec> box;                      ///< world
-  FileLocation where;
-};
-
-enum class DirectionKind { isotropic, beam, cone, lambertian };
-
-struct DirectionSpec {
-  DirectionKind kind = DirectionKind::isotropic;
-  Vec3 axis = Vec3::UnitZ();    ///< unit; of a beam, a cone (uniform in solid angle), a Lambertian lobe
-  double half_angle_rad = 0.0;  ///< of a cone, up to pi
-  FileLocation where;
-};
-
-/// type = "photons": photons from a region or a point.
-struct SourceSpec {
-  std::variant<RegionSpec, Vec3> origin;  ///< uniform in a region, or one point (mm, world)
-  FileLocation origin_where;
-  DirectionSpec direction;
-  std::optional<double> wavelength_nm;  ///< nothing: drawn from the emission of the medium there
-  FileLocation wavelength_where;
-  std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay of the medium there
-  FileLocation time_where;
-  bool unpolarised = false;  ///< Fresnel's mean at every surface; else each photon carries a
-                             ///< polarisation, drawn uniformly across its direction
-  std::uint64_t photons = 0;
-  std::uint64_t photons_per_event = 1000;  ///< the last event may have fewer
-  FileLocation where;
-};
-
 struct RunSpec {
   std::uint64_t seed = 1;
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
@@ -187,8 +157,10 @@ struct SceneSpec {
   std::vector<PartSpec> parts;
   std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;
-  SourceSpec source;
+  SourceSpec source;                       ///< [source] of photons
+  std::optional<GammaSpec> energy_source;  ///< [source] of energy; then there is no `source`
   RunSpec run;
+  std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

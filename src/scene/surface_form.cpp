@@ -193,6 +193,7 @@ void read_gap(const TomlTable& table, const SurfaceLookup& lookup, Problems& pro
       const Medium medium = lookup.medium(surface.gap, value->where);
       surface.gap_index = medium.index;
       surface.gap_absorption_per_mm = medium.absorption_per_mm;
+      surface.gap_shifter = medium.shifter;
     } catch (const InputError& error) {
       problems.add(error);
     }
@@ -245,6 +246,11 @@ void check_stack(const TomlTable& table, const SurfaceSpec& surface) {
         "gap", "a reflector is given without the gap that separates it from the face",
         "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
   const bool thick = table.has("gap_thickness");
+  if (surface.gap_shifter && !thick)
+    table.report("gap",
+                 "the gap's medium \"" + surface.gap +
+                     "\" shifts wavelengths, but a gap without a thickness absorbs nothing",
+                 "give the layer a gap_thickness: it is this over the absorption length optically thick");
   if (!reflector && table.has("gap") && !painted && !thick)
     table.report(
         "gap", "a gap is given without a reflector behind it",

@@ -238,6 +238,7 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
   surface.reflector = spec.reflector;
   surface.gap_index = spec.gap_index;
   surface.gap_absorption_per_mm = spec.gap_absorption_per_mm;
+  surface.gap_shifter = spec.gap_shifter;
   surface.gap_thickness_um = spec.gap_thickness_um;
   surface.direction = spec.direction;
   const Setting setting{spec, inside, outside, reference_nm, low_nm, high_nm};

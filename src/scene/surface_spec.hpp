@@ -72,6 +72,7 @@ struct SurfaceSpec {
   std::string gap;  ///< medium of the gap under the reflector, or its index as written; empty: none
   Curve gap_index = Curve::constant(1.0);  ///< against wavelength (nm)
   Curve gap_absorption_per_mm = Curve::constant(0.0);
+  std::shared_ptr<const WavelengthShifter> gap_shifter;  ///< of the gap's medium, where it has one
   std::optional<double> gap_thickness_um;
   std::optional<Reflector> reflector;  ///< looked up, with the surface's own specular share
   Vec3 direction = Vec3::Zero();       ///< of a map's x axis (Surface::direction)

@@ -5,10 +5,17 @@
 namespace scintray {
 
 const char* occasion_name(Occasion occasion) {
-  static constexpr std::array<const char*, kOccasionCount> kNames = {
-      "emitted",  "scattered",   "returned",           "crossed",
-      "detected", "unconverted", "absorbed_in_medium", "absorbed_at_surface",
-      "escaped",  "cut"};
+  static constexpr std::array<const char*, kOccasionCount> kNames = {"emitted",
+                                                                     "scattered",
+                                                                     "shifted",
+                                                                     "returned",
+                                                                     "crossed",
+                                                                     "detected",
+                                                                     "unconverted",
+                                                                     "absorbed_in_medium",
+                                                                     "absorbed_at_surface",
+                                                                     "escaped",
+                                                                     "cut"};
   return kNames[static_cast<std::size_t>(occasion)];
 }
 

@@ -33,6 +33,7 @@ struct ExitAngleTallySpec {
 enum class Occasion : std::uint8_t {
   emitted,    ///< at its start
   scattered,  ///< in the bulk
+  shifted,    ///< in the bulk, absorbed and given back at another wavelength
   returned,   ///< met a face and stayed in its region
   crossed,    ///< met a face and went into the neighbouring region
   detected,
@@ -42,7 +43,7 @@ enum class Occasion : std::uint8_t {
   escaped,
   cut,
 };
-inline constexpr int kOccasionCount = 10;
+inline constexpr int kOccasionCount = 11;
 /// "emitted", "scattered", ...
 const char* occasion_name(Occasion occasion);
 /// True where a face is met: returned, crossed, detected, unconverted, absorbed_at_surface, and absorbed

@@ -41,6 +41,8 @@ std::string usual_unit(Dimension dimension) {
       return "nm";
     case Dimension::time:
       return "ns";
+    case Dimension::frequency:
+      return "GHz";
     case Dimension::angle:
       return "deg";
     case Dimension::energy:

@@ -15,10 +15,25 @@ void check_cover(Problems& problems, const FileLocation& where, const Curve& cur
                hint);
 }
 
+namespace {
+
+void check_cover_of_shifter(Problems& problems, const FileLocation& where, const WavelengthShifter* shifter,
+                            double low_nm, double high_nm, const std::string& whose) {
+  if (!shifter) return;
+  const std::string hint = "extend the table, with zeros where nothing is absorbed or given back";
+  check_cover(problems, where, shifter->absorption_per_mm(), low_nm, high_nm, whose, "a shifter's absorption",
+              hint);
+  check_cover(problems, where, shifter->quantum_yield(), low_nm, high_nm, whose, "quantum yields", hint);
+}
+
+}  // namespace
+
 void check_cover(Problems& problems, const FileLocation& where, const Medium& medium, double low_nm,
                  double high_nm) {
-  check_cover(problems, where, medium.index, low_nm, high_nm, "medium \"" + medium.name + "\"",
-              "refractive indices", "extend its index table, or choose other wavelengths");
+  const std::string whose = "medium \"" + medium.name + "\"";
+  check_cover(problems, where, medium.index, low_nm, high_nm, whose, "refractive indices",
+              "extend its index table, or choose other wavelengths");
+  check_cover_of_shifter(problems, where, medium.shifter.get(), low_nm, high_nm, whose);
 }
 
 void check_cover(Problems& problems, const SurfaceSpec& surface, double low_nm, double high_nm) {
@@ -27,6 +42,7 @@ void check_cover(Problems& problems, const SurfaceSpec& surface, double low_nm, 
   check_cover(problems, surface.where, surface.gap_index, low_nm, high_nm, gap, "refractive indices", hint);
   check_cover(problems, surface.where, surface.gap_absorption_per_mm, low_nm, high_nm, gap, "an absorption",
               hint);
+  check_cover_of_shifter(problems, surface.where, surface.gap_shifter.get(), low_nm, high_nm, gap);
   if (surface.reflector)
     check_cover(problems, surface.where, surface.reflector->reflectance, low_nm, high_nm,
                 "reflector \"" + surface.reflector->name + "\"", "reflectances", hint);

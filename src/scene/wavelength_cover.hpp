@@ -14,7 +14,7 @@ namespace scintray {
 void check_cover(Problems& problems, const FileLocation& where, const Curve& curve, double low_nm,
                  double high_nm, const std::string& whose, const std::string& what, const std::string& hint);
 
-/// The medium's refractive index.
+/// The medium's refractive index, and what its wavelength shifter absorbs and gives back.
 void check_cover(Problems& problems, const FileLocation& where, const Medium& medium, double low_nm,
                  double high_nm);
 

@@ -1,25 +1,16 @@
 #include "scintray/source/photon_source.hpp"
 
+#include <algorithm>
+
 #include "scintray/core/sampling.hpp"
+#include "scintray/medium/decay.hpp"
 
 namespace scintray {
 
 namespace {
 
-/// A time after excitation: the rise and the decay are two exponential steps, so their sum has the
-/// bi-exponential density (exp(-t/decay) - exp(-t/rise)) / (decay - rise).
-double sample_decay(const std::vector<DecayComponent>& components, Rng& rng) {
-  double u = rng.uniform();
-  for (const DecayComponent& component : components) {
-    if (u < component.fraction || &component == &components.back()) {
-      double time = component.decay_ns * sample_exponential(rng);
-      if (component.rise_ns > 0.0) time += component.rise_ns * sample_exponential(rng);
-      return time;
-    }
-    u -= component.fraction;
-  }
-  throw InternalError("a decay without components was sampled");
-}
+/// Photons traced as one piece of work; part of what makes results reproducible.
+constexpr std::uint64_t kBlockPhotons = 1024;
 
 }  // namespace
 
@@ -61,6 +52,27 @@ void PhotonSource::check_medium(const SourceSpec& spec, const Scene& scene) {
                             scene.media[region.medium].medium().name,
                         "name parts of one medium; light of others is a run of its own"});
   }
+}
+
+std::uint64_t PhotonSource::events() const {
+  return (photons_ + photons_per_event_ - 1) / photons_per_event_;
+}
+
+std::uint64_t PhotonSource::blocks() const { return (photons_ + kBlockPhotons - 1) / kBlockPhotons; }
+
+std::vector<PhotonSpan> PhotonSource::block(std::uint64_t number) const {
+  std::vector<PhotonSpan> spans;
+  const std::uint64_t last = std::min(photons_, (number + 1) * kBlockPhotons);
+  for (std::uint64_t i = number * kBlockPhotons; i < last;) {
+    const std::uint64_t event = i / photons_per_event_, first = i % photons_per_event_;
+    spans.push_back({event, first, std::min(photons_per_event_ - first, last - i)});
+    i += spans.back().count;
+  }
+  return spans;
+}
+
+void PhotonSource::begin(const Scene&, std::uint64_t event, Rng&, EventLight& light) const {
+  light.photons = std::min(photons_per_event_, photons_ - std::min(photons_, event * photons_per_event_));
 }
 
 Photon PhotonSource::emit(const Scene& scene, Rng& rng) const {

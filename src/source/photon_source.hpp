@@ -5,26 +5,31 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/scene/spec.hpp"
+#include "scintray/source/light_source.hpp"
 #include "scintray/source/origin.hpp"
-#include "scintray/source/photon.hpp"
 
 namespace scintray {
 
 /// Makes the photons of a scene's [source]. Immutable; photons depend on their random stream only.
-class PhotonSource {
+class PhotonSource : public LightSource {
  public:
   /// Binds a specification to a built scene. A pattern of parts is the union of those that have some
   /// of the source's box. Throws InputError when the region is empty, no part has that name, the media
   /// there differ, or have no emission or decay that was asked for.
   PhotonSource(const SourceSpec& spec, const Scene& scene);
 
-  /// A new photon from its own stream.
+  std::uint64_t events() const override;
+  bool has_energy() const override { return false; }
+  std::uint64_t blocks() const override;
+  std::vector<PhotonSpan> block(std::uint64_t number) const override;
+  std::uint64_t photons() const override { return photons_; }
+  void begin(const Scene& scene, std::uint64_t event, Rng& rng, EventLight& light) const override;
+  /// A new photon, from its own stream alone.
   Photon emit(const Scene& scene, Rng& rng) const;
-
-  std::uint64_t photons() const { return photons_; }
-  std::uint64_t photons_per_event() const { return photons_per_event_; }
-  /// Regions in which photons start.
-  std::vector<std::uint32_t> regions() const { return origin_.regions(); }
+  Photon emit(const Scene& scene, const EventLight&, std::uint64_t, Rng& rng) const override {
+    return emit(scene, rng);
+  }
+  std::vector<std::uint32_t> regions() const override { return origin_.regions(); }
 
  private:
   void check_medium(const SourceSpec& spec, const Scene& scene);

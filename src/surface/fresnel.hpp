@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scintray/core/philox.hpp"
+#include "scintray/core/sampling.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray {
@@ -44,6 +45,13 @@ struct Ray {
 inline void reflect(Ray& ray, const Vec3& m) {
   ray.direction = mirror(ray.direction, m);
   ray.polarisation = -mirror(ray.polarisation, m);
+}
+
+/// Sends the ray in any direction; a polarised one with a polarisation of its own.
+inline void scatter_isotropic(Ray& ray, Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  ray.direction = sample_isotropic(rng);
+  if (polarised) ray.polarisation = sample_polarisation(ray.direction, rng);
 }
 
 /// Meets a smooth facet: reflects or refracts `ray` with the Fresnel probability of its

@@ -11,8 +11,10 @@ namespace {
 /// The microsurface of one meeting: a height map keeps its place while light goes to and fro.
 class Meeting {
  public:
-  Meeting(const Surface& surface, const Vec3& normal, double wavelength_nm, Rng& rng)
-      : surface_(surface), normal_(normal), wavelength_nm_(wavelength_nm), rng_(rng) {}
+  Meeting(const Surface& surface, const Vec3& normal, double wavelength_nm, ShiftingLight* light, Rng& rng)
+      : surface_(surface), normal_(normal), wavelength_nm_(wavelength_nm), light_(light), rng_(rng) {}
+
+  double wavelength_nm() const { return wavelength_nm_; }
 
   /// The ray arrives at the microsurface on `side` and leaves on the returned one.
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index) {
@@ -33,25 +35,58 @@ class Meeting {
         surface_.microsurface);
   }
 
-  /// Takes the ray from one side of the gap to the other; false: absorbed on the way.
-  bool cross_gap(const Ray& ray) {
+  /// Takes the ray through the gap from one of its faces; says whether it comes out at the far one, or
+  /// nothing when it is absorbed on the way.
+  std::optional<bool> cross_gap(Ray& ray, bool from_far) {
     if (!surface_.gap_thickness_um) {
       place_.reset();
-      return true;
+      return !from_far;
     }
+    if (surface_.gap_shifter) return cross_coating(ray, from_far);
     const double path_um = *surface_.gap_thickness_um / std::abs(ray.direction.dot(normal_));
     const double absorption_per_mm = surface_.gap_absorption_per_mm(wavelength_nm_);
-    constexpr double kMmPerUm = 1e-3;
     if (absorption_per_mm > 0.0 && sample_exponential(rng_) < absorption_per_mm * path_um * kMmPerUm)
-      return false;
+      return std::nullopt;
     if (place_) place_->shift(ray.direction, path_um);
-    return true;
+    return !from_far;
   }
 
  private:
+  static constexpr double kMmPerUm = 1e-3;
+
+  std::optional<bool> cross_coating(Ray& ray, bool from_far) {
+    const double thickness_um = *surface_.gap_thickness_um;
+    double depth_um = from_far ? thickness_um : 0.0;  // from the microsurface
+    for (;;) {
+      const double shifting_per_mm = surface_.gap_shifter->absorption_per_mm()(wavelength_nm_);
+      const double total_per_mm = shifting_per_mm + surface_.gap_absorption_per_mm(wavelength_nm_);
+      const double along = ray.direction.dot(normal_);
+      const double to_face_um = (along > 0.0 ? thickness_um - depth_um : depth_um) / std::abs(along);
+      const double depth = sample_exponential(rng_);
+      const bool absorbed = depth < total_per_mm * to_face_um * kMmPerUm;
+      const double path_um = absorbed ? depth / (total_per_mm * kMmPerUm) : to_face_um;
+      if (place_) place_->shift(ray.direction, path_um);
+      if (!absorbed) return along > 0.0;
+      depth_um += path_um * along;
+      if (rng_.uniform() * total_per_mm >= shifting_per_mm || !shift(ray)) return std::nullopt;
+    }
+  }
+
+  /// Lets the gap's shifter absorb the photon; false when it does not give it back.
+  bool shift(Ray& ray) {
+    if (!light_) return false;
+    const auto back = surface_.gap_shifter->absorb(wavelength_nm_, rng_, light_->count);
+    if (!back) return false;
+    wavelength_nm_ = light_->wavelength_nm = back->wavelength_nm;
+    light_->delay_ns += back->delay_ns;
+    scatter_isotropic(ray, rng_);
+    return true;
+  }
+
   const Surface& surface_;
   const Vec3& normal_;
   double wavelength_nm_;
+  ShiftingLight* light_;
   Rng& rng_;
   std::optional<MapPlace> place_;
 };
@@ -116,19 +151,21 @@ struct FarFace {
 
 }  // namespace
 
-SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, const IndexPair& index,
-                             double wavelength_nm, Rng& rng) const {
-  if (!mixture.empty()) return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, rng);
-  Meeting meeting(*this, normal, wavelength_nm, rng);
+SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
+                             ShiftingLight* light, Rng& rng) const {
+  if (!mixture.empty()) return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng);
+  Meeting meeting(*this, normal, wavelength_nm, light, rng);
   if (!reflector && !gap_thickness_um) return meeting.scatter(ray, side, index);
 
   // Paint lies on the face itself: its light is still in the inside medium.
   const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
-  const IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
-  const FarFace far{reflector, normal, under.outside, index.outside, wavelength_nm, rng};
+  IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
+  const auto far = [&] {
+    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng};
+  };
   bool at_far_face = side == Side::outside;
   if (at_far_face) {
-    switch (far.from_beyond(ray)) {
+    switch (far().from_beyond(ray)) {
       case FarFace::After::beyond:
         return SurfaceOutcome::outside;
       case FarFace::After::absorbed:
@@ -141,10 +178,16 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, const Inde
     return first;
   }
   for (;;) {
-    if (!meeting.cross_gap(ray)) return SurfaceOutcome::absorbed;
-    at_far_face = !at_far_face;
+    const double before_nm = meeting.wavelength_nm();
+    const std::optional<bool> crossed = meeting.cross_gap(ray, at_far_face);
+    if (!crossed) return SurfaceOutcome::absorbed;
+    at_far_face = *crossed;
+    if (meeting.wavelength_nm() != before_nm) {
+      index = light->index(meeting.wavelength_nm());
+      under = {index.inside, gap_index(meeting.wavelength_nm())};
+    }
     if (at_far_face) {
-      const FarFace::After after = far.from_gap(ray);
+      const FarFace::After after = far().from_gap(ray);
       if (after == FarFace::After::absorbed) return SurfaceOutcome::absorbed;
       if (after == FarFace::After::beyond) return SurfaceOutcome::outside;
     } else {
@@ -153,6 +196,12 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, const Inde
       if (after != SurfaceOutcome::outside) return after;
     }
   }
+}
+
+bool Surface::shifts() const {
+  if (mixture.empty()) return gap_shifter != nullptr;
+  return std::any_of(mixture.begin(), mixture.end(),
+                     [](const SurfaceShare& part) { return part.surface->shifts(); });
 }
 
 bool Surface::opaque() const {

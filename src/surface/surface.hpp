@@ -1,6 +1,7 @@
 #pragma once
 /// A surface is a stack: microsurface | gap or glue | reflector or next medium.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/medium/wavelength_shifter.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/microsurface.hpp"
 #include "scintray/surface/table.hpp"
@@ -49,6 +51,15 @@ struct SurfaceShare {
   std::shared_ptr<const Surface> surface;
 };
 
+/// Light whose wavelength changes on its way through a surface.
+struct ShiftingLight {
+  double wavelength_nm = 0.0;
+  double delay_ns = 0.0;  ///< from absorption to emission, all that happened so far
+  ShiftCount count;       ///< what happened so far
+  /// Indices of the media on the two sides of the surface, at a wavelength (nm).
+  std::function<IndexPair(double)> index;
+};
+
 /// The optical stack of a face. Light without a reflector goes on to the other side.
 struct Surface {
   std::string name;
@@ -57,7 +68,10 @@ struct Surface {
   /// What lies under the reflector, or, with a thickness and no reflector, between the microsurface and the
   /// smooth boundary of the next medium.
   Curve gap_index = Curve::constant(1.0);
-  Curve gap_absorption_per_mm = Curve::constant(0.0);
+  Curve gap_absorption_per_mm = Curve::constant(0.0);  ///< for good, beside the shifter's
+  /// A coating: gives light that it absorbs back in all directions, from where it absorbed it. Only in a
+  /// gap with a thickness.
+  std::shared_ptr<const WavelengthShifter> gap_shifter;
   /// Without one the gap is thin but wide: light comes back to the microsurface anywhere on it.
   std::optional<double> gap_thickness_um;
   std::optional<Reflector> reflector;
@@ -74,11 +88,25 @@ struct Surface {
   ///
   /// @param normal  outward normal of the part whose face it is
   /// @param index   indices of the media on the two sides
+  ///
+  /// What a wavelength shifter in the gap absorbs is absorbed.
   SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, double wavelength_nm,
-                      Rng& rng) const;
+                      Rng& rng) const {
+    return meet(ray, side, normal, index, wavelength_nm, nullptr, rng);
+  }
+  /// As above, and a wavelength shifter gives light back: `light` is the photon's, and changes.
+  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, ShiftingLight& light, Rng& rng) const {
+    return meet(ray, side, normal, light.index(light.wavelength_nm), light.wavelength_nm, &light, rng);
+  }
 
   /// True when no light passes to the other side.
   bool opaque() const;
+  /// True when light may leave it at another wavelength.
+  bool shifts() const;
+
+ private:
+  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
+                      ShiftingLight* light, Rng& rng) const;
 };
 
 }  // namespace scintray

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/tally/face_axes.hpp"
 #include "scintray/tally/tally_plan.hpp"
 
 namespace scintray {
@@ -69,8 +70,8 @@ std::vector<NameRef> sensor_parts(const Scene& scene) {
 
 class CountBinder {
  public:
-  CountBinder(const TallySpec& spec, const SourceSpec& source, const Scene& scene)
-      : spec_(spec), source_(source), scene_(scene), faces_(faces_of(spec, scene)) {}
+  CountBinder(const TallySpec& spec, const std::vector<NameRef>& source_parts, const Scene& scene)
+      : spec_(spec), source_parts_(source_parts), scene_(scene), faces_(faces_of(spec, scene)) {}
 
   CountRequest bind() {
     CountRequest count;
@@ -159,10 +160,7 @@ class CountBinder {
 
   /// The parts of an axis that names none; empty: all.
   std::vector<NameRef> usual_parts(TallyVariable variable) const {
-    if (variable == TallyVariable::source_part) {
-      const auto* region = std::get_if<RegionSpec>(&source_.origin);
-      return region ? std::vector<NameRef>{region->part} : std::vector<NameRef>{};
-    }
+    if (variable == TallyVariable::source_part) return source_parts_;
     const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](Occasion occasion) {
       return occasion == Occasion::detected || occasion == Occasion::unconverted;
     });
@@ -265,15 +263,15 @@ class CountBinder {
   }
 
   const TallySpec& spec_;
-  const SourceSpec& source_;
+  const std::vector<NameRef>& source_parts_;
   const Scene& scene_;
   std::vector<std::uint32_t> faces_;
 };
 
 }  // namespace
 
-CountRequest bind_count(const TallySpec& spec, const SourceSpec& source, const Scene& scene) {
-  return CountBinder(spec, source, scene).bind();
+CountRequest bind_count(const TallySpec& spec, const std::vector<NameRef>& source_parts, const Scene& scene) {
+  return CountBinder(spec, source_parts, scene).bind();
 }
 
 std::vector<std::uint32_t> faces_of(const TallySpec& spec, const Scene& scene) {
@@ -284,16 +282,6 @@ std::vector<std::uint32_t> faces_of(const TallySpec& spec, const Scene& scene) {
   for (std::uint32_t i = 0; i < wanted.size(); ++i)
     if (wanted[i]) faces.push_back(i);
   return faces;
-}
-
-std::array<Vec3, 2> face_axes(const Vec3& normal) {
-  const Vec3 axis = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 first = (axis - normal.dot(axis) * normal).normalized();
-  Vec3 second = normal.cross(first);
-  Eigen::Index largest = 0;
-  second.cwiseAbs().maxCoeff(&largest);
-  if (second[largest] < 0.0) second = -second;
-  return {first, second};
 }
 
 }  // namespace scintray

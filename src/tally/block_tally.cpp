@@ -19,6 +19,8 @@ PointResult empty_block(const Scene& scene, const TallyPlan& plan) {
   PointResult result;
   result.absorbed_in_medium.assign(scene.media.size(), 0);
   result.absorbed_at_surface.assign(scene.surfaces.size(), 0);
+  result.shifted_in_medium.resize(scene.media.size());
+  result.shifted_at_surface.resize(scene.surfaces.size());
   result.sensor_faces = plan.sensor_face_names;
   for (const ExitAngleRequest& request : plan.exit_angles) {
     ExitAngleTally tally{request.name, request.face, request.detected_only, {}, {}};
@@ -37,6 +39,8 @@ void merge(PointResult& total, const PointResult& block) {
   add(total.fates, block.fates);
   add(total.absorbed_in_medium, block.absorbed_in_medium);
   add(total.absorbed_at_surface, block.absorbed_at_surface);
+  add(total.shifted_in_medium, block.shifted_in_medium);
+  add(total.shifted_at_surface, block.shifted_at_surface);
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
     total.sensor_faces[i].detected += block.sensor_faces[i].detected;
     total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
@@ -167,6 +171,9 @@ void BlockTally::finish(const Photon& photon, Fate fate) {
   ++result_.fates[static_cast<std::size_t>(fate)];
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
+  for (const PhotonShifts& shifts : photon.shifts)
+    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
+        shifts.count;
 }
 
 }  // namespace scintray

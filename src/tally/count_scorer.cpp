@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/tally/face_axes.hpp"
+
 namespace scintray {
 
 namespace {
@@ -11,6 +13,8 @@ Occasion occasion_of(StepKind kind) {
   switch (kind) {
     case StepKind::scattered:
       return Occasion::scattered;
+    case StepKind::shifted:
+      return Occasion::shifted;
     case StepKind::returned:
       return Occasion::returned;
     case StepKind::crossed:

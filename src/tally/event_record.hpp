@@ -1,5 +1,5 @@
 #pragma once
-/// What an event left behind: energy, place, and what each readout channel saw.
+/// What one event left and gave.
 
 #include <array>
 #include <cstdint>
@@ -8,23 +8,29 @@
 
 namespace scintray {
 
-/// What one readout channel saw of an event.
+/// What one readout channel saw of an event. A channel is a part that is a sensor, or a face that is one.
 struct ChannelRecord {
-  std::uint32_t detected = 0;                                ///< photons
-  float first_ns = std::numeric_limits<float>::quiet_NaN();  ///< time of the first detected photon; NaN: none
-  float charge = 0;     ///< photoelectrons, after the sensor's response; NaN without [readout]
-  float amplitude = 0;  ///< of the waveform; NaN without [readout]
-  float time_ns = std::numeric_limits<float>::quiet_NaN();  ///< by the readout's time pick-off; NaN: none
+  std::uint32_t detected = 0;                                 ///< photons
+  float first_ns = std::numeric_limits<float>::quiet_NaN();   ///< first detected photon; NaN: none
+  float charge = std::numeric_limits<float>::quiet_NaN();     ///< photoelectrons, after the sensor's
+                                                              ///< response; NaN without [readout]
+  float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< of the waveform; NaN without [readout]
+  float time_ns = std::numeric_limits<float>::quiet_NaN();    ///< by the readout's pick-off; NaN: none
 };
 
+/// One event of a source of energy.
 struct EventRecord {
-  std::uint32_t point = 0;
+  std::uint32_t point = 0;  ///< of the sweep
   std::uint64_t event = 0;
-  float energy_keV = 0, escaped_keV = 0, unseen_keV = 0;  ///< deposited in scintillators
-  std::array<float, 3> position_mm{};                     ///< energy-weighted mean of the deposits
-  std::uint32_t region_part = 0;                          ///< part of the largest deposit
-  std::uint64_t emitted = 0, detected = 0;
+  float energy_keV = 0.0f;                  ///< deposited in scintillators
+  float escaped_keV = 0.0f;                 ///< carried out of the scene
+  float unseen_keV = 0.0f;                  ///< left in what does not scintillate
+  std::array<float, 3> position_mm{};       ///< mean of the deposits, weighted by energy; zero without any
+  std::uint32_t part = kNoPart;             ///< of the largest deposit, index into RunHeader::parts
+  std::uint64_t emitted = 0, detected = 0;  ///< photons
   std::vector<ChannelRecord> channels;
+
+  static constexpr std::uint32_t kNoPart = 0xffffffffu;
 };
 
 }  // namespace scintray

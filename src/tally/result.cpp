@@ -48,6 +48,13 @@ Estimate TallyResult::per_photon(std::size_t bin, std::uint64_t photons) const {
   return {total.value / n, total.error / n};
 }
 
+ShiftCount PointResult::shifted() const {
+  ShiftCount total;
+  for (const ShiftCount& count : shifted_in_medium) total += count;
+  for (const ShiftCount& count : shifted_at_surface) total += count;
+  return total;
+}
+
 double PointResult::cut_bias_bound() const {
   if (photons == 0) return 0.0;
   const std::uint64_t cut = count(Fate::cut_interactions) + count(Fate::cut_time);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
 
@@ -74,15 +75,30 @@ struct TallyResult {
   Estimate per_photon(std::size_t bin, std::uint64_t photons) const;
 };
 
+/// What became of the energy of the events of a point, keV.
+struct EnergyBalance {
+  std::uint64_t events_requested = 0;  ///< 0: the source is one of photons, and the rest is zero too
+  std::uint64_t events = 0;            ///< traced to their end
+  std::uint64_t silent = 0;            ///< of them, those that left no energy in a scintillator
+  double started = 0.0;                ///< of all particles as they started; 0 when not known (lists of hits)
+  double deposited = 0.0;              ///< in scintillators
+  double escaped = 0.0;                ///< carried out of the scene
+  double unseen = 0.0;                 ///< left in what does not scintillate
+  Moments detected;                    ///< photons detected per event that left energy in a scintillator
+};
+
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
-  std::uint64_t photons_requested = 0;
-  std::uint64_t photons = 0;  ///< traced to their end
-  bool complete = false;      ///< false when interrupted
+  std::uint64_t photons_requested = 0;  ///< for events, as many as those that were traced emitted
+  std::uint64_t photons = 0;            ///< traced to their end
+  bool complete = false;                ///< false when interrupted
+  EnergyBalance energy;
   std::array<std::uint64_t, kFateCount> fates{};
   std::vector<std::uint64_t> absorbed_in_medium;   ///< per RunHeader::media
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces
+  std::vector<ShiftCount> shifted_in_medium;       ///< per RunHeader::media
+  std::vector<ShiftCount> shifted_at_surface;      ///< per RunHeader::surfaces
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<ExitAngleTally> exit_angles;
   std::vector<TallyResult> tallies;
@@ -98,6 +114,8 @@ struct PointResult {
   double wall_seconds = 0.0;
 
   std::uint64_t count(Fate fate) const { return fates[static_cast<int>(fate)]; }
+  /// What all wavelength shifters did.
+  ShiftCount shifted() const;
   Estimate fraction(Fate fate) const { return binomial_estimate(count(fate), photons); }
   /// Largest error that cutting photons can have made in any fraction: cut photons / photons.
   double cut_bias_bound() const;

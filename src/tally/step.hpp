@@ -9,6 +9,7 @@ namespace scintray {
 
 enum class StepKind : std::uint8_t {
   scattered,  ///< in the bulk
+  shifted,    ///< in the bulk, absorbed and given back at another wavelength
   returned,   ///< stayed in its region at a boundary
   crossed,    ///< went into the neighbouring region
   // Ends:

@@ -16,9 +16,21 @@ std::uint32_t find_face(const ExitAngleTallySpec& spec, const Scene& scene) {
   throw unknown_name(spec.face.where.file.empty() ? spec.where : spec.face.where, "face", wanted, names);
 }
 
+/// Parts in which light is said to start; empty: not said by part.
+std::vector<NameRef> source_parts(const SceneSpec& spec) {
+  const std::variant<RegionSpec, Vec3>* origin = &spec.source.origin;
+  if (spec.energy_source) {
+    const auto* placed = std::get_if<SpectrumSpec>(&spec.energy_source->kind);
+    origin = placed ? &placed->origin : nullptr;
+  }
+  const auto* region = origin ? std::get_if<RegionSpec>(origin) : nullptr;
+  return region ? std::vector<NameRef>{region->part} : std::vector<NameRef>{};
+}
+
 }  // namespace
 
-TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec) : photon_list(spec.run.photon_list) {
+TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec)
+    : channels(scene), photon_list(spec.run.photon_list) {
   for (const ExitAngleTallySpec& tally : spec.exit_angles)
     exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
   bind_ways(scene);
@@ -27,7 +39,7 @@ TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec) : photon_list(sp
   std::vector<std::vector<std::pair<std::uint32_t, FaceWay>>> counts_of_face(scene.faces.size());
   for (const TallySpec& tally : spec.tallies) {
     const auto number = static_cast<std::uint32_t>(counts.size());
-    counts.push_back(bind_count(tally, spec.source, scene));
+    counts.push_back(bind_count(tally, source_parts(spec), scene));
     std::uint32_t occasions = 0;
     for (const Occasion occasion : tally.at) {
       occasions |= 1u << static_cast<unsigned>(occasion);

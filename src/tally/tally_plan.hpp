@@ -11,6 +11,7 @@
 
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
+#include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray {
@@ -65,6 +66,7 @@ struct TallyPlan {
   std::vector<std::vector<std::uint32_t>> exit_angles_at;
   std::vector<std::uint32_t> sensor_faces;  ///< per interface and way: index into the result, or kNoSensor
   std::vector<SensorFaceCount> sensor_face_names;
+  ReadoutChannels channels;
 
   std::vector<CountRequest> counts;
   /// A count to look at when a face is met, and the face that it is bound to.
@@ -87,13 +89,9 @@ struct TallyPlan {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sensor_index_;
 };
 
-/// Binds one count to a scene and its source. @throws InputError
-CountRequest bind_count(const TallySpec& spec, const SourceSpec& source, const Scene& scene);
-
-/// The two directions across a plane along which positions and azimuths on it count: for a normal along
-/// a world axis the two other axes; in general the first world axis that is not near the normal, turned
-/// into the plane, and the direction across it, with its largest component positive.
-std::array<Vec3, 2> face_axes(const Vec3& normal);
+/// Binds one count to a scene. @throws InputError
+/// @param source_parts  names of the parts in which light starts; empty: not known by name
+CountRequest bind_count(const TallySpec& spec, const std::vector<NameRef>& source_parts, const Scene& scene);
 
 /// The faces that a count is bound to, in their order. @throws InputError for a name without a face.
 std::vector<std::uint32_t> faces_of(const TallySpec& spec, const Scene& scene);

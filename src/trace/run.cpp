@@ -7,14 +7,13 @@
 #include <chrono>
 #include <memory>
 
+#include "scintray/tally/event_tally.hpp"
 #include "scintray/trace/step.hpp"
 
 namespace scintray {
 
 namespace {
 
-/// Photons traced as one piece of work; part of what makes results reproducible.
-constexpr std::uint64_t kBlockPhotons = 1024;
 /// Blocks in flight for each thread.
 constexpr std::size_t kBlocksPerThread = 4;
 
@@ -24,29 +23,61 @@ std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& setti
   return std::nullopt;
 }
 
-void trace_photon(const Scene& scene, const PhotonSource& source, const RunSettings& settings,
-                  std::uint64_t event, std::uint64_t number, BlockTally& tally) {
-  Rng rng = photon_stream(settings, event, number);
-  Photon photon = source.emit(scene, rng);
-  tally.start(photon, event, number);
-  for (;;) {
-    const Step taken = step(scene, photon, rng);
-    if (is_end(taken.kind)) return tally.end(photon, taken, settings.point);
-    tally.record(photon, taken);
-    if (const auto fate = limit_reached(photon, settings)) return tally.cut(photon, *fate);
-  }
-}
+/// What one piece of work found.
+struct Block {
+  Block(const Scene& scene, const TallyPlan& plan) : photons(scene, plan), events(scene, plan) {}
+  BlockTally photons;
+  EventTally events;
+  std::uint64_t started = 0;  ///< photons
+};
 
-std::unique_ptr<BlockTally> trace_block(const Scene& scene, const PhotonSource& source, const TallyPlan& plan,
-                                        const RunSettings& settings, std::uint64_t block) {
-  auto tally = std::make_unique<BlockTally>(scene, plan);
-  const std::uint64_t first = block * kBlockPhotons;
-  const std::uint64_t last = std::min(source.photons(), first + kBlockPhotons);
-  for (std::uint64_t i = first; i < last; ++i)
-    trace_photon(scene, source, settings, i / source.photons_per_event(), i % source.photons_per_event(),
-                 *tally);
-  return tally;
-}
+/// Traces the blocks of one point.
+class BlockTracer {
+ public:
+  BlockTracer(const Scene& scene, const LightSource& source, const TallyPlan& plan,
+              const RunSettings& settings)
+      : scene_(scene), source_(source), plan_(plan), settings_(settings), energy_(source.has_energy()) {}
+
+  std::shared_ptr<Block> trace(std::uint64_t number) const {
+    auto block = std::make_shared<Block>(scene_, plan_);
+    EventLight light;
+    for (const PhotonSpan& span : source_.block(number)) {
+      Rng rng = event_stream(settings_, span.event);
+      source_.begin(scene_, span.event, rng, light);
+      if (energy_) block->events.begin(span.event, settings_.point, light);
+      const std::uint64_t count = std::min(span.count, light.photons - span.first);
+      for (std::uint64_t i = 0; i < count; ++i) trace_photon(light, span.event, span.first + i, *block);
+      block->started += count;
+      if (energy_) block->events.end();
+    }
+    return block;
+  }
+
+ private:
+  void trace_photon(const EventLight& light, std::uint64_t event, std::uint64_t number, Block& block) const {
+    Rng rng = photon_stream(settings_, event, number);
+    Photon photon = source_.emit(scene_, light, number, rng);
+    BlockTally& tally = block.photons;
+    tally.start(photon, event, number);
+    for (;;) {
+      const Step taken = step(scene_, photon, rng);
+      if (is_end(taken.kind)) {
+        tally.end(photon, taken, settings_.point);
+        if (energy_ && taken.kind == StepKind::detected)
+          block.events.detected(plan_.channels.at(taken), photon);
+        return;
+      }
+      tally.record(photon, taken);
+      if (const auto fate = limit_reached(photon, settings_)) return tally.cut(photon, *fate);
+    }
+  }
+
+  const Scene& scene_;
+  const LightSource& source_;
+  const TallyPlan& plan_;
+  const RunSettings& settings_;
+  bool energy_;
+};
 
 void check_every_photon_has_a_fate(PointResult& result, std::uint64_t traced) {
   std::uint64_t ended = 0;
@@ -63,13 +94,18 @@ Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_
   return Rng(settings.seed, StreamKind::photon, event, photon, settings.point);
 }
 
-PointResult run_point(const Scene& scene, const PhotonSource& source, const TallyPlan& plan,
+Rng event_stream(const RunSettings& settings, std::uint64_t event) {
+  return Rng(settings.seed, StreamKind::event, event, 0, settings.point);
+}
+
+PointResult run_point(const Scene& scene, const LightSource& source, const TallyPlan& plan,
                       const RunSettings& settings, const RunHooks& hooks) {
   const auto start = std::chrono::steady_clock::now();
   PointResult total = empty_result(scene, plan);
-  total.photons_requested = source.photons();
-  const std::uint64_t blocks = (source.photons() + kBlockPhotons - 1) / kBlockPhotons;
-  std::uint64_t next_block = 0, traced = 0;
+  const BlockTracer tracer(scene, source, plan, settings);
+  const bool energy = source.has_energy();
+  const std::uint64_t blocks = source.blocks();
+  std::uint64_t next_block = 0, blocks_done = 0, started = 0;
 
   const auto give_block = [&](tbb::flow_control& control) -> std::uint64_t {
     if (next_block == blocks || (hooks.stop && hooks.stop->load())) {
@@ -78,14 +114,15 @@ PointResult run_point(const Scene& scene, const PhotonSource& source, const Tall
     }
     return next_block++;
   };
-  const auto trace = [&](std::uint64_t block) {
-    return std::shared_ptr<BlockTally>(trace_block(scene, source, plan, settings, block));
-  };
-  const auto collect = [&](const std::shared_ptr<BlockTally>& block) {
-    block->add_to(total);
-    traced = std::min(source.photons(), traced + kBlockPhotons);
-    if (hooks.detected && !block->photons().empty()) hooks.detected(block->photons());
-    if (hooks.progress) hooks.progress(traced);
+  const auto trace = [&](std::uint64_t block) { return tracer.trace(block); };
+  const auto collect = [&](const std::shared_ptr<Block>& block) {
+    block->photons.add_to(total);
+    block->events.add_to(total.energy);
+    ++blocks_done;
+    started += block->started;
+    if (hooks.detected && !block->photons.photons().empty()) hooks.detected(block->photons.photons());
+    if (hooks.events && !block->events.events().empty()) hooks.events(block->events.events());
+    if (hooks.progress) hooks.progress(energy ? total.energy.events : started);
   };
 
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
@@ -94,21 +131,34 @@ PointResult run_point(const Scene& scene, const PhotonSource& source, const Tall
     tbb::parallel_pipeline(
         in_flight,
         tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, give_block) &
-            tbb::make_filter<std::uint64_t, std::shared_ptr<BlockTally>>(tbb::filter_mode::parallel, trace) &
-            tbb::make_filter<std::shared_ptr<BlockTally>, void>(tbb::filter_mode::serial_in_order, collect));
+            tbb::make_filter<std::uint64_t, std::shared_ptr<Block>>(tbb::filter_mode::parallel, trace) &
+            tbb::make_filter<std::shared_ptr<Block>, void>(tbb::filter_mode::serial_in_order, collect));
   });
 
-  check_every_photon_has_a_fate(total, traced);
-  total.complete = traced == source.photons();
+  check_every_photon_has_a_fate(total, started);
+  total.complete = blocks_done == blocks;
+  total.photons_requested = energy ? started : source.photons();
+  total.energy.events_requested = energy ? source.events() : 0;
   total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return total;
 }
 
-Photon replay(const Scene& scene, const PhotonSource& source, const RunSettings& settings,
-              std::uint64_t event, std::uint64_t number,
-              const std::function<void(const Photon&, const Step&)>& visit) {
+Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
+              std::uint64_t number, const std::function<void(const Photon&, const Step&)>& visit) {
+  EventLight light;
+  if (event < source.events()) {
+    Rng rng = event_stream(settings, event);
+    source.begin(scene, event, rng, light);
+  }
+  if (number >= light.photons)
+    throw InputError(
+        Problem{{},
+                "there is no photon " + std::to_string(number) + " of event " + std::to_string(event) + ": " +
+                    (event < source.events() ? "that event has " + std::to_string(light.photons) + " photons"
+                                             : "there are " + std::to_string(source.events()) + " events"),
+                "both count from 0"});
   Rng rng = photon_stream(settings, event, number);
-  Photon photon = source.emit(scene, rng);
+  Photon photon = source.emit(scene, light, number, rng);
   for (;;) {
     const Step taken = step(scene, photon, rng);
     visit(photon, taken);

@@ -5,8 +5,9 @@
 #include <functional>
 #include <optional>
 
-#include "scintray/source/photon_source.hpp"
+#include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
+#include "scintray/tally/event_record.hpp"
 
 namespace scintray {
 
@@ -20,24 +21,28 @@ struct RunSettings {
 
 /// What a run tells while it goes on. Any may be empty. All are called from one thread at a time.
 struct RunHooks {
-  std::function<void(std::uint64_t photons_done)> progress;
+  /// Photons traced so far, or events of a source of energy.
+  std::function<void(std::uint64_t done)> progress;
   std::function<void(const std::vector<DetectedPhoton>&)> detected;  ///< in the order of photons
+  std::function<void(const std::vector<EventRecord>&)> events;       ///< of a source of energy, in order
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the blocks under way and return
 };
 
 /// The random stream of one photon of a run.
 Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon);
+/// The random stream of what an event is before its first photon.
+Rng event_stream(const RunSettings& settings, std::uint64_t event);
 
 /// Traces all photons of a source. The result does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
 /// the photons of the blocks before the stop and says `complete = false`.
 /// @throws InternalError when a photon has no fate.
-PointResult run_point(const Scene& scene, const PhotonSource& source, const TallyPlan& plan,
+PointResult run_point(const Scene& scene, const LightSource& source, const TallyPlan& plan,
                       const RunSettings& settings, const RunHooks& hooks = {});
 
-/// Follows one photon again; `visit` sees every step. Returns the photon as it ended.
-Photon replay(const Scene& scene, const PhotonSource& source, const RunSettings& settings,
-              std::uint64_t event, std::uint64_t photon,
-              const std::function<void(const Photon&, const Step&)>& visit);
+/// Follows one photon again; `visit` sees every step. Returns the photon as it ended. Throws InputError
+/// when there is no such photon.
+Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
+              std::uint64_t photon, const std::function<void(const Photon&, const Step&)>& visit);
 
 }  // namespace scintray

@@ -1,5 +1,6 @@
 #include "scintray/trace/step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scintray/core/sampling.hpp"
@@ -29,10 +30,19 @@ void scatter_rayleigh(Ray& ray, Rng& rng) {
   }
 }
 
-void scatter_isotropic(Ray& ray, Rng& rng) {
-  const bool polarised = !ray.polarisation.isZero(0.0);
-  ray.direction = sample_isotropic(rng);
-  if (polarised) ray.polarisation = sample_polarisation(ray.direction, rng);
+/// Lets the medium absorb the photon for good (false), or its wavelength shifter take it and give it back.
+bool shift_in_bulk(std::uint32_t number, const SceneMedium& scene_medium, Photon& photon, Rng& rng) {
+  const Medium& medium = scene_medium.medium();
+  const double shifting_per_mm = medium.shifter->absorption_per_mm()(photon.wavelength_nm);
+  const double total_per_mm = shifting_per_mm + medium.absorption_per_mm(photon.wavelength_nm);
+  if (rng.uniform() * total_per_mm >= shifting_per_mm) return false;
+  const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, photon.shifts_of(false, number));
+  if (!back) return false;
+  photon.wavelength_nm = back->wavelength_nm;
+  photon.time_ns += back->delay_ns;
+  photon.optics = scene_medium.at(photon.wavelength_nm);
+  scatter_isotropic(photon.ray, rng);
+  return true;
 }
 
 Step interact_in_bulk(const Region& region, const SceneMedium& medium, Photon& photon, Rng& rng) {
@@ -40,8 +50,13 @@ Step interact_in_bulk(const Region& region, const SceneMedium& medium, Photon& p
   const double total = absorption + photon.optics.scattering_per_mm;
   Step result;
   if (rng.uniform() * total < absorption) {
-    result.kind = StepKind::absorbed_in_medium;
-    result.where = region.medium;
+    if (medium.medium().shifter && shift_in_bulk(region.medium, medium, photon, rng)) {
+      photon.optical_depth = sample_exponential(rng);
+      result.kind = StepKind::shifted;
+    } else {
+      result.kind = StepKind::absorbed_in_medium;
+      result.where = region.medium;
+    }
     return result;
   }
   if (medium.medium().scattering == ScatteringKind::rayleigh)
@@ -60,13 +75,52 @@ struct Meeting {
   std::int32_t absorbed_by = kNone;
 };
 
-/// Lets the ray meet the interface's surfaces from the back region to the front region and to and
+/// Indices on the two sides of an interface and in the gap of a dry contact, at one wavelength.
+struct InterfaceIndex {
+  double back = 1.0, front = 1.0, gap = 0.0;
+  bool dry = false;
+
+  /// On the two sides of one of its surfaces.
+  IndexPair around(bool back_surface) const {
+    const double inside = back_surface ? back : front;
+    return {inside, dry ? gap : (back_surface ? front : back)};
+  }
+};
+
+InterfaceIndex indices_at(const Scene& scene, const Interface& interface, double wavelength_nm) {
+  const SceneMedium& back = scene.media[scene.regions[interface.back].medium];
+  const SceneMedium& front = scene.media[scene.regions[interface.front].medium];
+  InterfaceIndex index;
+  // An opaque part has no index: where light enters it the indices match.
+  index.back = (back.is_opaque() ? front : back).index(wavelength_nm);
+  index.front = (front.is_opaque() ? back : front).index(wavelength_nm);
+  index.dry = interface.gap_medium != kNone;
+  if (index.dry) index.gap = scene.media[static_cast<std::size_t>(interface.gap_medium)].index(wavelength_nm);
+  return index;
+}
+
+/// Lets the photon meet a surface in which its wavelength may change; `index` follows it.
+SurfaceOutcome meet_shifting(const Scene& scene, const Interface& interface, bool at_back, Side side,
+                             const Vec3& outward, InterfaceIndex& index, Photon& photon, Rng& rng) {
+  const std::int32_t id = at_back ? interface.back_surface : interface.front_surface;
+  ShiftingLight light;
+  light.wavelength_nm = photon.wavelength_nm;
+  light.index = [&](double wavelength_nm) {
+    index = indices_at(scene, interface, wavelength_nm);
+    return index.around(at_back);
+  };
+  const SurfaceOutcome outcome =
+      scene.surfaces[static_cast<std::size_t>(id)].meet(photon.ray, side, outward, light, rng);
+  photon.wavelength_nm = light.wavelength_nm;
+  photon.time_ns += light.delay_ns;
+  if (light.count.absorbed > 0) photon.shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
+  return outcome;
+}
+
+/// Lets the photon meet the interface's surfaces from the back region to the front region and to and
 /// fro between them until it is in one of the regions or absorbed.
 Meeting meet_interface(const Scene& scene, const Interface& interface, bool from_back, const Vec3& normal,
-                       double back_index, double front_index, Ray& ray, double wavelength_nm, Rng& rng) {
-  const bool dry = interface.gap_medium != kNone;
-  const double gap_index =
-      dry ? scene.media[static_cast<std::size_t>(interface.gap_medium)].index(wavelength_nm) : 0.0;
+                       InterfaceIndex index, Photon& photon, Rng& rng) {
   const bool has_back = interface.back_surface != kNone, has_front = interface.front_surface != kNone;
   bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces is met next
   bool came_from_back = from_back;
@@ -75,13 +129,14 @@ Meeting meet_interface(const Scene& scene, const Interface& interface, bool from
     const Surface& surface = scene.surfaces[static_cast<std::size_t>(id)];
     // A surface's inside is the region of the part it belongs to.
     const Vec3 outward = at_back ? normal : Vec3(-normal);
-    const double beyond = dry ? gap_index : (at_back ? front_index : back_index);
-    const IndexPair index{at_back ? back_index : front_index, beyond};
     const Side side = came_from_back == at_back ? Side::inside : Side::outside;
-    const SurfaceOutcome outcome = surface.meet(ray, side, outward, index, wavelength_nm, rng);
+    const SurfaceOutcome outcome =
+        surface.shifts()
+            ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng)
+            : surface.meet(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng);
     if (outcome == SurfaceOutcome::absorbed) return {false, id};
     if (outcome == SurfaceOutcome::inside) return {!at_back, kNone};
-    if (!dry) return {at_back, kNone};
+    if (!index.dry) return {at_back, kNone};
     came_from_back = at_back;  // in the gap, on the way from this surface to the other
     at_back = !at_back;
   }
@@ -110,9 +165,15 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
     crossed = meet_facet(photon.ray, -outward, here, there, rng);
   } else {
     const Vec3 normal = link.from_back ? outward : Vec3(-outward);
+    const bool dry = interface.gap_medium != kNone;
+    const double gap =
+        dry ? scene.media[static_cast<std::size_t>(interface.gap_medium)].index(photon.wavelength_nm) : 0.0;
+    const double back = link.from_back ? here : there, front = link.from_back ? there : here;
+    const double before_nm = photon.wavelength_nm;
     const Meeting meeting =
-        meet_interface(scene, interface, link.from_back, normal, link.from_back ? here : there,
-                       link.from_back ? there : here, photon.ray, photon.wavelength_nm, rng);
+        meet_interface(scene, interface, link.from_back, normal, {back, front, gap, dry}, photon, rng);
+    if (photon.wavelength_nm != before_nm)
+      photon.optics = scene.media[region.medium].at(photon.wavelength_nm);
     if (meeting.absorbed_by != kNone) {
       result.kind = StepKind::absorbed_at_surface;
       result.where = static_cast<std::uint32_t>(meeting.absorbed_by);
@@ -130,8 +191,9 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   photon.region = next;
   photon.optics = next_medium.at(photon.wavelength_nm);
   if (sensor != kNone) {
-    const double probability =
-        scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(photon.wavelength_nm);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
+    const double probability = scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(
+        photon.wavelength_nm, there * sine);
     result.kind = rng.uniform() < probability ? StepKind::detected : StepKind::unconverted;
     result.where = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
   } else if (next_medium.is_opaque()) {

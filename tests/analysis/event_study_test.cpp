@@ -118,7 +118,7 @@ TEST_CASE("Layers are told by the ratio of the ends and by the flood map") {
   StudySetup setup = detector.setup();
   std::vector<EventRecord> events = detector.events(6000, true);
   for (EventRecord& event : events)
-    if (event.position_mm[2] > 10.0F) event.region_part += 100;
+    if (event.position_mm[2] > 10.0F) event.part += 100;
   for (std::uint32_t part = 0; part < 200; ++part) setup.layer_of_part[part] = part < 100 ? 0 : 1;
   const EventStudy study = study_events(events, setup);
   REQUIRE(study.layers_by_ratio);

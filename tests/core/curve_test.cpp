@@ -54,6 +54,18 @@ TEST_CASE("Malformed tables are refused") {
   CHECK_THROWS_AS(Curve({1, 2}, {1, nan}), InputError);
 }
 
+TEST_CASE("The share of a spectrum below x is the inverse of drawing from it") {
+  const CurveSampler sampler(Curve({400, 450, 470, 500}, {0, 2, 0, 1}));
+  for (const double u : {0.0, 0.1, 0.5, 0.77, 0.999})
+    CHECK(sampler.share_below(sampler.sample(u)) == Approx(u));
+  CHECK(sampler.share_below(300.0) == 0.0);
+  CHECK(sampler.share_below(500.0) == 1.0);
+  CHECK(sampler.share_below(600.0) == 1.0);
+  // Areas by hand: triangles of 50 x 2, 20 x 2 and 30 x 1, halved.
+  CHECK(sampler.share_below(470.0) == Approx(70.0 / 85.0));
+  CHECK(CurveSampler(Curve::constant(1.0)).share_below(1.0) == 1.0);
+}
+
 TEST_CASE("A spectrum must be a density") {
   CHECK_THROWS_AS(CurveSampler(Curve({1, 2}, {1, -1})), InputError);
   CHECK_THROWS_AS(CurveSampler(Curve({1, 2}, {0, 0})), InputError);

@@ -39,14 +39,16 @@ TEST_CASE("Quantities come out in internal units") {
   CHECK(parse_quantity("0.511 MeV", Dimension::energy) == Approx(511.0));
   CHECK(parse_quantity("7400 kg/m3", Dimension::density) == Approx(7.4));
   CHECK(parse_quantity("30000 photons/MeV", Dimension::photons_per_energy) == Approx(30.0));
+  CHECK(parse_quantity("2 MHz", Dimension::frequency) == Approx(0.002));
   CHECK(parse_quantity("97 %", Dimension::dimensionless) == Approx(0.97));
   CHECK(parse_quantity("0.97", Dimension::dimensionless) == Approx(0.97));
 }
 
 TEST_CASE("Every unit that a dimension lists is understood in it") {
-  for (const Dimension dimension : {Dimension::length, Dimension::inverse_length, Dimension::wavelength,
-                                    Dimension::time, Dimension::angle, Dimension::energy, Dimension::density,
-                                    Dimension::photons_per_energy, Dimension::dimensionless}) {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::inverse_length, Dimension::wavelength, Dimension::time,
+        Dimension::frequency, Dimension::angle, Dimension::energy, Dimension::density,
+        Dimension::photons_per_energy, Dimension::dimensionless}) {
     CAPTURE(dimension_name(dimension));
     CHECK_FALSE(units_of(dimension).empty());
     for (const std::string& unit : units_of(dimension)) CHECK(parse_quantity("2 " + unit, dimension) > 0.0);

@@ -3,6 +3,7 @@
 
 #include "physics/traced.hpp"
 #include "support/words.hpp"
+#include "scintray/source/photon_source.hpp"
 
 namespace scintray::test {
 

@@ -2,6 +2,7 @@
 
 #include "doctor/doctor_scenes.hpp"
 #include "support/shared.hpp"
+#include "scintray/source/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::test;

@@ -85,6 +85,8 @@ void check_same(const PointResult& a, const PointResult& b) {
   CHECK(a.fates == b.fates);
   CHECK(a.absorbed_in_medium == b.absorbed_in_medium);
   CHECK(a.absorbed_at_surface == b.absorbed_at_surface);
+  CHECK((a.shifted_in_medium == b.shifted_in_medium));
+  CHECK((a.shifted_at_surface == b.shifted_at_surface));
   REQUIRE(a.sensor_faces.size() == b.sensor_faces.size());
   for (std::size_t i = 0; i < a.sensor_faces.size(); ++i) {
     CHECK(a.sensor_faces[i].part == b.sensor_faces[i].part);

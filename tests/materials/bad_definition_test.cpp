@@ -127,6 +127,37 @@ TEST_CASE("scintillation is complete or absent") {
       0, "cannot be negative"));
 }
 
+TEST_CASE("wavelength shifting is complete, absorbs, and gives back no more than it takes") {
+  const std::string start = kPlain + "n = 1.5\n[wavelength_shifting]\n";
+  const std::string absorption = "absorption = { length = \"1 mm\" }\n";
+  const std::string emission =
+      "emission = { spectrum = { wavelength = [480, 560], wavelength_unit = \"nm\", value = [1, 1] } }\n";
+  const std::string decay = "decay = [{ time = \"8 ns\", rise = \"0 ns\", fraction = 1 }]\n";
+  const std::string yield = "quantum_yield = { value = 0.9 }\n";
+  CHECK(library_with(LibraryKind::medium, "mine", start + absorption + yield + emission + decay)
+            .medium("mine")
+            .shifter->quantum_yield()(500.0) == 0.9);
+  const auto missing = medium_problems(start);
+  CHECK(missing.size() == 4);
+  for (const char* key : {"has no \"absorption\"", "has no \"quantum_yield\"", "has no \"emission\"",
+                          "does not say when it gives light back"}) {
+    CAPTURE(key);
+    CHECK(std::any_of(missing.begin(), missing.end(), [&](const Problem& problem) {
+      return (problem.what + problem.hint).find(key) != std::string::npos;
+    }));
+  }
+  CHECK(reports(medium_problems(start + absorption + "quantum_yield = { value = 1.2 }\n" + emission + decay),
+                9, "a quantum yield lies between 0 and 1"));
+  CHECK(reports(medium_problems(start + "absorption = { none = true }\n" + yield + emission + decay), 8,
+                "absorbs nothing"));
+  CHECK(
+      reports(medium_problems(start + absorption + yield +
+                              "emission = { spectrum = { wavelength = [480, 560], wavelength_unit = \"nm\", "
+                              "value = [0, 0] } }\n" +
+                              decay),
+              10, "zero everywhere"));
+}
+
 TEST_CASE("efficiencies and reflectances stay below one") {
   const auto sensor_problems = [](const std::string& text) {
     const Library library = library_with(LibraryKind::sensor, "mine", text);

@@ -86,6 +86,28 @@ TEST_CASE("a stack has a gap and a reflector together, and paint has no gap") {
   CHECK(reports(surface_problems("model = \"smooth\"\nspecular_share = 0.9\n"), 2, "no meaning"));
 }
 
+TEST_CASE("a gap whose medium shifts wavelengths needs a thickness") {
+  Library library = library_with(LibraryKind::medium, "dye", R"(
+index = { n = 1.5 }
+absorption = { length = "3 mm" }
+scattering = { none = true }
+[wavelength_shifting]
+absorption = { length = "1 mm" }
+quantum_yield = { value = 0.9 }
+emission = { spectrum = { wavelength = [480, 560], wavelength_unit = "nm", value = [1, 1] } }
+decay = [{ time = "8 ns", rise = "0 ns", fraction = 1 }]
+)");
+  const std::string text = "model = \"smooth\"\ngap = \"dye\"\nreflector = \"ESR\"\n";
+  library.add(LibraryKind::surface,
+              {{"thin", parse_toml(text, "scene.toml")},
+               {"thick", parse_toml(text + "gap_thickness = \"5 um\"\n", "scene.toml")}});
+  CHECK(reports(problems_of([&] { library.surface("thin"); }), 2, "without a thickness absorbs nothing"));
+  const SurfaceSpec thick = library.surface("thick");
+  REQUIRE(thick.gap_shifter);
+  CHECK(thick.gap_absorption_per_mm(500.0) == doctest::Approx(1.0 / 3.0));  // the shifter's is its own
+  CHECK(thick.gap_shifter->absorption_per_mm()(500.0) == 1.0);
+}
+
 TEST_CASE("tables of another model are refused, not ignored") {
   CHECK(reports(surface_problems("model = \"smooth\"\n[unified]\nlobe = 1\n"), 2, "unified"));
   CHECK(reports(surface_problems("model = \"smooth\"\n[tracing]\nmode = \"table\"\n"), 2, "tracing"));

@@ -5,6 +5,7 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/stl_writer.hpp"
+#include "scintray/source/photon_source.hpp"
 #include "scintray/surface/fresnel.hpp"
 #include "scintray/trace/step.hpp"
 #include "support/shared.hpp"

@@ -7,6 +7,7 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/mesh/shapes.hpp"
 #include "scintray/scene/place_parts.hpp"
+#include "scintray/source/photon_source.hpp"
 #include "scintray/surface/fresnel.hpp"
 #include "scintray/trace/step.hpp"
 

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
+#include "scintray/source/light_source.hpp"
 #include "scintray/trace/run.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
+#include "support/laws.hpp"
 
 namespace scintray::test {
 
@@ -61,6 +64,7 @@ specular_share = 0.0
 struct Traced {
   BuiltScene built;
   PointResult result;
+  std::vector<EventRecord> events;  ///< of a source of energy
 };
 
 /// Scene text plus the library above, with `photons` from `[source]`.
@@ -75,30 +79,21 @@ inline Traced trace(const std::string& text, int threads = 0) {
   SurfaceMaker::Hooks hooks;
   hooks.cache.clear();
   SceneBuilder builder(hooks);
-  Traced traced{builder.build(spec), {}};
-  const PhotonSource source(spec.source, traced.built.scene);
+  Traced traced{builder.build(spec), {}, {}};
+  const auto source = make_light_source(spec, traced.built.scene);
   const TallyPlan plan(traced.built.scene, spec);
   RunSettings settings;
   settings.seed = spec.run.seed;
   settings.max_interactions = spec.run.max_interactions;
   settings.threads = threads;
-  traced.result = run_point(traced.built.scene, source, plan, settings);
+  RunHooks hooks_of_run;
+  hooks_of_run.events = [&](const std::vector<EventRecord>& events) {
+    traced.events.insert(traced.events.end(), events.begin(), events.end());
+  };
+  traced.result = run_point(traced.built.scene, *source, plan, settings, hooks_of_run);
   CHECK(traced.result.lost == 0);
   CHECK(traced.result.complete);
   return traced;
-}
-
-/// Checks a measured number against the law in the test's name.
-inline void check_law(const std::string& what, const Estimate& measured, const Estimate& law) {
-  const double distance = sigmas(measured, law);
-  evidence("laws", {doctest::getContextOptions()->currentTest->m_name, what,
-                    fmt::format("{:.6g} ± {:.2g}", measured.value, measured.error),
-                    fmt::format("{:.6g}", law.value), fmt::format("{:.2f}", distance)});
-  CAPTURE(what);
-  CAPTURE(measured.value);
-  CAPTURE(measured.error);
-  CAPTURE(law.value);
-  CHECK(distance < kSigmas);
 }
 
 /// Checks a fraction against an exact value.

@@ -160,6 +160,29 @@ TEST_CASE("Dual-ended readout: the asymmetry of both ends falls steadily with de
   }
 }
 
+TEST_CASE("Phosphor on the far half: light from deeper comes later, and more of it is shifted") {
+  const std::string text = scene_text("phosphor_coated.toml");
+  const Detector detector = run("phosphor_coated.toml", text, 20'000, 20);
+  Answers measured;
+  std::vector<double> time_ns, shifted;
+  for (const PointResult& point : detector.result.points) {
+    const std::vector<double>& colour = point.tallies.at(0).sum;
+    const std::uint64_t detected = point.count(Fate::detected);
+    const Estimate share = binomial_estimate(detected - static_cast<std::uint64_t>(colour[0]), detected);
+    measured["mean time at " + point.parameters[0] + ", ns"] = point.detected_time_ns.mean();
+    measured["shifted at " + point.parameters[0]] = share;
+    time_ns.push_back(point.detected_time_ns.mean().value);
+    shifted.push_back(share.value);
+    // Every photon that the phosphor kept was absorbed at a surface.
+    const ShiftCount count = point.shifted();
+    CHECK(count.absorbed > count.emitted);
+    CHECK(count.absorbed - count.emitted < point.count(Fate::absorbed_at_surface));
+  }
+  check_answers(measured, answers_in(text));
+  CHECK(time_ns.back() > time_ns.front() + 10.0);
+  CHECK(shifted.back() > shifted.front());
+}
+
 TEST_CASE("Monolithic slab: the centre of gravity follows the source, and lags behind towards the edge") {
   const std::string text = scene_text("monolithic_slab.toml");
   const Detector detector = run("monolithic_slab.toml", text, 40'000, 20);

@@ -25,6 +25,9 @@ inline PointResult made_up_point(std::vector<std::string> parameters, double lig
   point.absorbed_in_medium = {share(0.066), share(0.07) - share(0.066), 0};
   const std::uint64_t absorbed = point.count(Fate::absorbed_at_surface);
   point.absorbed_at_surface = {absorbed - absorbed / 9, absorbed / 9};
+  const auto energy = static_cast<double>(share(0.02));
+  point.shifted_in_medium = {{}, {share(0.03), share(0.02), 3.1 * energy, 2.4 * energy, 31.0}, {}};
+  point.shifted_at_surface = {{}, {share(0.01), share(0.004), 0.5 * energy, 0.4 * energy, 1.5}};
   point.sensor_faces = {{1, 2, detected - detected / 40, point.count(Fate::unconverted)},
                         {1, 1, detected / 40, 0}};
   for (const bool detected_only : {false, true}) {

@@ -21,13 +21,6 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <stdexcept>
 
-#ifdef SCINTRAY_SANITIZED
-// Open CASCADE keeps what it registers until the process ends. scintray reads STEP files in a process
-// of its own; the tests that write such files have it in theirs.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libTK\n"; }
-#endif
-
 namespace scintray::test {
 
 namespace {

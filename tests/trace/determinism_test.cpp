@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
+#include "scintray/source/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -39,6 +40,7 @@ void check_same(const PointResult& a, const PointResult& b) {
   CHECK(a.fates == b.fates);
   CHECK(a.absorbed_in_medium == b.absorbed_in_medium);
   CHECK(a.absorbed_at_surface == b.absorbed_at_surface);
+  CHECK((a.shifted_in_medium == b.shifted_in_medium));
   CHECK(a.segments == b.segments);
   CHECK(a.scatterings == b.scatterings);
   CHECK(a.detected_path_histogram == b.detected_path_histogram);

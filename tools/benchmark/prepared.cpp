@@ -1,5 +1,6 @@
 #include "prepared.hpp"
 
+#include "scintray/source/photon_source.hpp"
 #include "scintray/trace/run.hpp"
 #include "scintray/trace/step.hpp"
 

@@ -1,0 +1,86 @@
+#include "scintray/source/scintillation_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/medium/decay.hpp"
+#include "scintray/source/scintillation.hpp"
+
+namespace scintray {
+
+namespace {
+
+/// A stream of ours as the standard library's distributions want it.
+struct Bits {
+  using result_type = std::uint64_t;
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+  result_type operator()() { return rng.bits(); }
+  Rng& rng;
+};
+
+std::uint64_t sample_poisson(double mean, Rng& rng) {
+  if (mean <= 0.0) return 0;
+  Bits bits{rng};
+  return std::poisson_distribution<std::uint64_t>(mean)(bits);
+}
+
+/// Full width at half maximum over standard deviation of a Gaussian.
+const double kFwhmPerSigma = 2.0 * std::sqrt(2.0 * std::log(2.0));
+
+}  // namespace
+
+std::uint64_t sample_photon_number(const Medium& medium, double energy_keV, Rng& rng) {
+  double mean = medium.yield_per_keV * medium.relative_yield(energy_keV) * energy_keV;
+  if (medium.intrinsic_fwhm > 0.0)
+    mean += medium.intrinsic_fwhm / kFwhmPerSigma * medium.yield_per_keV *
+            std::sqrt(medium.intrinsic_keV * energy_keV) * sample_normal(rng);
+  return sample_poisson(mean, rng);
+}
+
+ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, const Scene& scene,
+                                         bool unpolarised)
+    : events_(std::move(events)), unpolarised_(unpolarised) {
+  for (const SceneMedium& medium : scene.media)
+    emission_.push_back(medium.medium().yield_per_keV > 0.0 ? CurveSampler(medium.medium().emission)
+                                                            : CurveSampler());
+  for (std::uint32_t region = 0; region < scene.regions.size(); ++region)
+    if (scintillates(scene, region)) regions_.push_back(region);
+}
+
+std::vector<std::uint32_t> ScintillationSource::regions() const { return regions_; }
+
+void ScintillationSource::begin(const Scene& scene, std::uint64_t event, Rng& rng, EventLight& light) const {
+  light.event = events_->make(scene, event, rng);
+  light.photons = 0;
+  light.deposit_end.clear();
+  for (const Deposit& deposit : light.event.deposits) {
+    const Medium& medium = scene.media[scene.regions[deposit.region].medium].medium();
+    light.photons += sample_photon_number(medium, deposit.energy_keV, rng);
+    light.deposit_end.push_back(light.photons);
+  }
+}
+
+Photon ScintillationSource::emit(const Scene& scene, const EventLight& light, std::uint64_t number,
+                                 Rng& rng) const {
+  const auto from = std::upper_bound(light.deposit_end.begin(), light.deposit_end.end(), number);
+  const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposit_end.begin())];
+  const std::uint32_t medium = scene.regions[deposit.region].medium;
+  Photon photon;
+  photon.position = deposit.position;
+  photon.region = deposit.region;
+  photon.ray.direction = sample_isotropic(rng);
+  photon.ray.polarisation =
+      unpolarised_ ? Vec3(Vec3::Zero()) : sample_polarisation(photon.ray.direction, rng);
+  photon.wavelength_nm = emission_[medium].sample(rng.uniform());
+  photon.time_ns = deposit.time_ns + sample_decay(scene.media[medium].medium().decay, rng);
+  photon.optics = scene.media[medium].at(photon.wavelength_nm);
+  photon.optical_depth = sample_exponential(rng);
+  return photon;
+}
+
+}  // namespace scintray

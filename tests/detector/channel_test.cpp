@@ -1,0 +1,118 @@
+// A sensor with its electronics as a whole.
+#include <cmath>
+#include <numeric>
+
+#include "detector/made_up.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+Sensor noisy_sipm() {
+  Sensor sensor = quiet_sipm(3600);
+  sensor.time_spread_ns = 0.1;
+  sensor.single_electron = {0.05, 0.5, 15.0};
+  sensor.microcells->crosstalk = 0.1;
+  sensor.microcells->afterpulse = 0.05;
+  sensor.microcells->afterpulse_time_ns = 30.0;
+  sensor.dark_counts.per_ns = 0.01;
+  return sensor;
+}
+
+ReadoutSpec digitizer() {
+  ReadoutSpec readout;
+  readout.before_ns = 50.0;
+  readout.window_ns = 300.0;
+  readout.noise = 0.02;
+  readout.pulses = true;
+  readout.photon_order = {1, 3};
+  return readout;
+}
+
+std::uint64_t of(const ChannelSignal& signal, AvalancheCause cause) {
+  return signal.avalanches[static_cast<std::size_t>(cause)];
+}
+
+}  // namespace
+
+TEST_CASE("a signal holds what was asked for, and the same stream gives the same bits") {
+  const Channel channel(noisy_sipm(), digitizer(), kFace);
+  Rng first = event_stream(1), second = event_stream(1), other = event_stream(2);
+  const std::vector<Arrival> arrivals = flash(40);
+  const ChannelSignal a = channel.respond(arrivals, first), b = channel.respond(arrivals, second),
+                      c = channel.respond(arrivals, other);
+  CHECK(a.photoelectrons == 40);
+  CHECK(a.waveform.size() == 300);
+  CHECK(a.order_times_ns.size() == 2);
+  CHECK(of(a, AvalancheCause::photon) <= 40);
+  CHECK(a.waveform == b.waveform);
+  CHECK(a.time_ns == b.time_ns);
+  CHECK(a.waveform != c.waveform);
+
+  ReadoutSpec without = digitizer();
+  without.pulses = false;
+  Rng third = event_stream(1);
+  const ChannelSignal d = Channel(noisy_sipm(), without, kFace).respond(arrivals, third);
+  CHECK(d.waveform.empty());
+  CHECK(d.charge == a.charge);
+}
+
+TEST_CASE("without light there are dark counts, in the window only, and no photon time") {
+  const Channel channel(noisy_sipm(), digitizer(), kFace);
+  Moments dark;
+  for (std::uint64_t event = 0; event < 2000; ++event) {
+    Rng rng = event_stream(event, 1);
+    const ChannelSignal signal = channel.respond({}, rng);
+    CHECK(of(signal, AvalancheCause::photon) == 0);
+    CHECK_FALSE(signal.first_photon_ns.has_value());
+    dark.add(static_cast<double>(of(signal, AvalancheCause::dark)));
+  }
+  check_law("dark counts", dark.mean(), {0.01 * 300.0, 0.0});
+}
+
+TEST_CASE("dark counts before the window leave their tails in it: the mean waveform is flat from its start") {
+  Sensor sensor = noisy_sipm();
+  sensor.microcells.reset();
+  sensor.single_electron.charge_spread = 0.0;
+  ReadoutSpec readout = digitizer();
+  readout.noise = 0.0;
+  const Channel channel(sensor, readout, kFace);
+  const double area_ns = PulseShape({15.0, 0.5}, 1.0).area_ns();
+  Moments start, middle;
+  for (std::uint64_t event = 0; event < 4000; ++event) {
+    Rng rng = event_stream(event, 2);
+    const ChannelSignal signal = channel.respond({}, rng);
+    start.add(signal.waveform.at(0));
+    middle.add(signal.waveform.at(150));
+  }
+  // Campbell's theorem.
+  check_law("first sample", start.mean(), {0.01 * area_ns, 0.0});
+  check_law("middle", middle.mean(), {0.01 * area_ns, 0.0});
+}
+
+TEST_CASE("the mean charge is the light with its crosstalk, seen by the electronics") {
+  Sensor sensor = noisy_sipm();
+  sensor.dark_counts = {};
+  sensor.microcells->afterpulse = 0.0;
+  const Channel channel(sensor, digitizer(), kFace);
+  Moments charge, causes;
+  for (std::uint64_t event = 0; event < 2000; ++event) {
+    Rng rng = event_stream(event, 3);
+    const ChannelSignal signal = channel.respond(flash(10), rng);
+    charge.add(signal.charge);
+    causes.add(static_cast<double>(
+        std::accumulate(signal.avalanches.begin(), signal.avalanches.end(), std::uint64_t{0})));
+  }
+  // The sum over samples misses the integral by 1e-3 at a nanosecond a sample, and noise has mean 0.
+  check_law("charge", charge.mean(), {causes.mean().value, 1e-3 * causes.mean().value});
+}
+
+TEST_CASE("a channel without a pulse shape or without a face is refused") {
+  ReadoutSpec readout = digitizer();
+  check_says(complaint_of([&] { Channel(Sensor{}, readout, kFace); }), "gives a pulse a duration");
+  readout.shaping_ns = {4.0, 4.0};
+  CHECK(complaint_of([&] { Channel(Sensor{}, readout, kFace); }).empty());
+  check_says(complaint_of([&] { Channel(quiet_sipm(10), readout, {0.0, 0.0}); }), "no area");
+}

@@ -1,0 +1,57 @@
+#pragma once
+/// Sensors and light of the tests: numbers chosen to show one thing each.
+
+#include <vector>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/detector/channel.hpp"
+#include "support/laws.hpp"
+
+namespace scintray::test {
+
+inline constexpr SensorFace kFace{3.0, 3.0};
+inline constexpr double kLongAfter_ns = 1e6;
+
+/// A silicon photomultiplier whose cells fire and recover, and nothing else.
+inline Sensor quiet_sipm(std::uint32_t cells) {
+  Sensor sensor;
+  sensor.microcells = Microcells{0.0, cells, 20.0, 0.0, 0.0, 0.0};
+  return sensor;
+}
+
+/// So many carriers at one time, anywhere on the face.
+inline std::vector<Arrival> flash(std::size_t photoelectrons, double time_ns = 0.0) {
+  return std::vector<Arrival>(photoelectrons, Arrival{time_ns});
+}
+
+/// Independent carriers at a constant rate up to a time.
+inline std::vector<Arrival> steady_light(double per_ns, double end_ns, Rng& rng) {
+  std::vector<Arrival> arrivals;
+  for (double t = sample_exponential(rng) / per_ns; t < end_ns; t += sample_exponential(rng) / per_ns)
+    arrivals.push_back({t});
+  return arrivals;
+}
+
+inline Rng event_stream(std::uint64_t event, std::uint64_t test = 0) {
+  return Rng(20'13, StreamKind::other, event, test);
+}
+
+inline double total_charge(const std::vector<Avalanche>& avalanches) {
+  double sum = 0.0;
+  for (const Avalanche& avalanche : avalanches) sum += avalanche.charge;
+  return sum;
+}
+
+inline std::uint64_t count_of(const std::vector<Avalanche>& avalanches, AvalancheCause cause) {
+  std::uint64_t count = 0;
+  for (const Avalanche& avalanche : avalanches) count += avalanche.cause == cause;
+  return count;
+}
+
+/// The sample standard deviation with its standard error for a normal distribution.
+inline Estimate spread_of(const Moments& moments) {
+  const double s = moments.standard_deviation();
+  return {s, s / std::sqrt(2.0 * static_cast<double>(moments.count - 1))};
+}
+
+}  // namespace scintray::test
