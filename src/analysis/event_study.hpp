@@ -79,6 +79,8 @@ class EventCollector {
   void add_light(const EventRecord& event, Row& row) const;
   void add_times(const EventRecord& event, Row& row) const;
   void study_light(EventStudy& study) const;
+  void study_depth(const std::vector<double>& depths, const std::vector<double>& light,
+                   EventStudy& study) const;
   std::vector<const Row*> select(EventStudy& study) const;
   void study_flood(const std::vector<const Row*>& rows, EventStudy& study) const;
   void study_ends(const std::vector<const Row*>& rows, EventStudy& study) const;
