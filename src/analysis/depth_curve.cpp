@@ -19,7 +19,7 @@ std::vector<Estimate> peak_positions(const std::vector<DepthSlice>& slices) {
   std::vector<Estimate> positions;
   for (const DepthSlice& slice : slices) {
     const Photopeak peak = fit_photopeak(slice.values);
-    if (peak.verdict != PeakVerdict::trusted) return {};
+    if (!peak.locates_peak()) return {};
     positions.push_back(peak.fit.position);
   }
   return positions;

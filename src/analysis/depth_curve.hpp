@@ -42,7 +42,7 @@ struct DepthCurve {
 DepthCurve depth_curve(std::vector<DepthPoint> points, double reference_mm);
 
 /// One point a slice of equal thickness between the least and the greatest depth: the photopeak's position
-/// where its fit is trusted in every slice, the mean in all of them otherwise (a curve never mixes the
+/// where a fit locates it in every slice, the mean in all of them otherwise (a curve never mixes the
 /// two). Slices with fewer than `least` values are left out; the depth of a slice is the mean depth of its
 /// events.
 std::vector<DepthPoint> depth_points(std::span<const double> depths_mm, std::span<const double> values,

@@ -95,8 +95,8 @@ void EventCollector::add(const EventRecord& event) {
   Row row;
   row.across_mm = {kNoNumber, kNoNumber};
   row.end_difference_ns = kNoNumber;
-  row.depth_mm =
-      setup_.depth ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
+  const bool placed = setup_.depth && event.part != EventRecord::kNoPart;
+  row.depth_mm = placed ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
   row.part = event.part;
   add_light(event, row);
   if (!(row.light > 0.0)) return;
@@ -117,19 +117,28 @@ void EventCollector::study_light(EventStudy& study) const {
   const double fine = study.peak.has_numbers() ? study.peak.fit.model.sigma / 3.0 : 0.0;
   if (study.spectrum && fine > 0.0 && fine < study.spectrum->width)
     study.spectrum = make_histogram_of_width(light, study.spectrum->low, study.spectrum->high(), fine);
-  if (!setup_.depth || rows_.empty()) return;
-  study.mean_depth_mm = mean_of(depths);
-  const auto [low, high] = std::minmax_element(depths.begin(), depths.end());
+  study_depth(depths, light, study);
+}
+
+void EventCollector::study_depth(const std::vector<double>& depths, const std::vector<double>& light,
+                                 EventStudy& study) const {
+  // Without an axis there are none, and dark counts happened nowhere.
+  const std::vector<double> known = sorted_finite(depths);
+  if (known.empty()) return;
+  study.mean_depth_mm = mean_of(known);
   const std::vector<DepthPoint> points = depth_points(depths, light, setup_.slices);
-  if (*low == *high || points.size() < 2) {
+  const bool spread = std::all_of(points.begin(), points.end(),
+                                  [](const DepthPoint& point) { return point.value.error > 0.0; });
+  if (known.front() == known.back() || points.size() < 2)
     study.left_out.emplace_back("light against depth: the events lie at one depth");
-    return;
-  }
-  study.light_against_depth = depth_curve(points, 0.5 * (*low + *high));
+  else if (!spread)
+    study.left_out.emplace_back("light against depth: the light does not fluctuate, so it has no errors");
+  else
+    study.light_against_depth = depth_curve(points, 0.5 * (known.front() + known.back()));
 }
 
 std::vector<const EventCollector::Row*> EventCollector::select(EventStudy& study) const {
-  const bool by_peak = setup_.photopeak_only && study.peak.verdict == PeakVerdict::trusted;
+  const bool by_peak = setup_.photopeak_only && study.peak.locates_peak();
   const double centre = study.peak.fit.model.position, reach = kFwhmPerSigma * study.peak.fit.model.sigma;
   std::vector<const Row*> rows;
   for (const Row& row : rows_)
@@ -144,7 +153,7 @@ void EventCollector::study_flood(const std::vector<const Row*>& rows, EventStudy
   std::vector<std::array<double, 2>> positions;
   std::vector<std::uint32_t> parts;
   for (const Row* row : rows) {
-    if (std::isnan(row->across_mm[0])) continue;
+    if (std::isnan(row->across_mm[0]) || row->part == EventRecord::kNoPart) continue;
     positions.push_back({row->across_mm[0], row->across_mm[1]});
     parts.push_back(row->part);
   }
@@ -237,7 +246,7 @@ EventStudy study_events(std::span<const EventRecord> events, const StudySetup& s
 
 std::optional<DepthPoint> depth_point(const EventStudy& study) {
   if (!study.mean_depth_mm || study.pulses == 0) return std::nullopt;
-  const bool peak = study.peak.verdict == PeakVerdict::trusted;
+  const bool peak = study.peak.locates_peak();
   return DepthPoint{study.mean_depth_mm->value, study.pulses,
                     peak ? study.peak.fit.position : study.mean_light, peak};
 }

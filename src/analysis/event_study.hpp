@@ -34,7 +34,7 @@ struct StudySetup {
   DoiCalibrationKind calibration = DoiCalibrationKind::monotone;
   std::size_t slices = 10;  ///< of depth
   bool photopeak_only =
-      true;  ///< flood map, depth of interaction and timing use the peak's events, if it can be trusted
+      true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
 };
 
 struct EventStudy {
@@ -79,6 +79,8 @@ class EventCollector {
   void add_light(const EventRecord& event, Row& row) const;
   void add_times(const EventRecord& event, Row& row) const;
   void study_light(EventStudy& study) const;
+  void study_depth(const std::vector<double>& depths, const std::vector<double>& light,
+                   EventStudy& study) const;
   std::vector<const Row*> select(EventStudy& study) const;
   void study_flood(const std::vector<const Row*>& rows, EventStudy& study) const;
   void study_ends(const std::vector<const Row*>& rows, EventStudy& study) const;
@@ -96,7 +98,7 @@ class EventCollector {
 /// The same for events at hand.
 EventStudy study_events(std::span<const EventRecord> events, const StudySetup& setup);
 
-/// The point of a sweep in a depth curve: mean depth, and the photopeak where it can be trusted, else the
+/// The point of a sweep in a depth curve: mean depth, and the photopeak where a fit locates it, else the
 /// mean light. Nothing without a depth or without light.
 std::optional<DepthPoint> depth_point(const EventStudy& study);
 

@@ -16,6 +16,7 @@ constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5;
 constexpr double kPeakBinsPerSigma = 4.0;
 constexpr double kWorthATerm = 9.0;
 constexpr double kPoor = 1e-4;
+constexpr double kSmallMisfit = 0.01;
 constexpr int kMostPeakRounds = 8;
 
 PeakFit fit_with_background(const Histogram& histogram, PeakModel start, const PhotopeakOptions& options) {
@@ -114,6 +115,16 @@ const char* verdict_name(PeakVerdict verdict) {
       return "poor fit";
   }
   return "";
+}
+
+double Photopeak::misfit() const {
+  const double pulses = fitted.total();
+  if (!fit.converged || pulses <= 0.0) return 0.0;
+  return std::max(0.0, fit.goodness.chi2 - fit.goodness.degrees) / pulses;
+}
+
+bool Photopeak::locates_peak() const {
+  return verdict == PeakVerdict::trusted || (verdict == PeakVerdict::poor_fit && misfit() < kSmallMisfit);
 }
 
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {

@@ -37,7 +37,15 @@ struct Photopeak {
   std::string reason;  ///< of a verdict other than trusted: what was found, and what was needed
   PeakFit fit;         ///< position, sigma, relative_fwhm (the energy resolution), goodness
   Histogram fitted;    ///< bins that were fitted; without bins when nothing was
+
   bool has_numbers() const { return fit.converged; }
+  /// Chi-square above its degrees of freedom, per pulse fitted: how far the shape is from the model, whatever
+  /// the number of pulses (the mean square contingency, H. Cramer 1946, Mathematical Methods of
+  /// Statistics). 0 without a fit.
+  double misfit() const;
+  /// Good for choosing pulses and for depth curves: trusted, or a poor fit only because many pulses show a
+  /// small difference (misfit below 0.01, a tenth in the root mean square).
+  bool locates_peak() const;
 };
 
 /// Finds and fits the photopeak. The search smooths the spectrum at falling widths and takes the first

@@ -8,7 +8,7 @@ namespace scintray::report {
 namespace {
 
 constexpr double kPicoseconds = 1e3;
-constexpr double kPlotWidth = 560.0, kPlotHeight = 320.0;
+constexpr double kEventPlotWidth = 560.0, kEventPlotHeight = 320.0;
 constexpr int kCurvePoints = 160;
 
 Plot small_plot(const std::string& title, const std::string& x, const std::string& y) {
@@ -16,8 +16,8 @@ Plot small_plot(const std::string& title, const std::string& x, const std::strin
   plot.title = title;
   plot.x_label = x;
   plot.y_label = y;
-  plot.width = kPlotWidth;
-  plot.height = kPlotHeight;
+  plot.width = kEventPlotWidth;
+  plot.height = kEventPlotHeight;
   plot.legend_above = true;
   return plot;
 }

@@ -1,7 +1,7 @@
 #include "scintray/report/event_section.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 #include "scintray/report/event_plots.hpp"
 #include "scintray/report/event_text.hpp"
@@ -99,21 +99,32 @@ std::string numbers_table(const std::vector<PointStudy>& points) {
                rows);
 }
 
-/// Points that differ in depth, all by photopeak or all by mean, as one curve.
+/// Points that lie apart in depth by more than twice the spread of depths within any of them.
+bool are_apart(std::vector<double> depths_mm, double spread_mm) {
+  std::sort(depths_mm.begin(), depths_mm.end());
+  for (std::size_t i = 1; i < depths_mm.size(); ++i)
+    if (depths_mm[i] - depths_mm[i - 1] <= 2.0 * spread_mm) return false;
+  return depths_mm.size() > 1;
+}
+
+/// Points of a sweep over depth, all by photopeak or all by mean, as one curve.
 std::string curve_over_points(const std::vector<PointStudy>& points) {
-  std::vector<DepthPoint> depths;
-  std::set<double> distinct;
-  for (const PointStudy& point : points)
-    if (const auto depth = depth_point(point.study); depth && depth->value.error > 0.0) {
-      depths.push_back(*depth);
-      distinct.insert(depth->depth_mm);
-    }
-  const bool alike = std::all_of(depths.begin(), depths.end(), [&](const DepthPoint& depth) {
-    return depth.from_peak == depths.front().from_peak;
+  std::vector<DepthPoint> curve_points;
+  std::vector<double> depths;
+  double spread = 0.0;
+  for (const PointStudy& point : points) {
+    const auto depth = depth_point(point.study);
+    if (!depth || !(depth->value.error > 0.0)) return "";
+    curve_points.push_back(*depth);
+    depths.push_back(depth->depth_mm);
+    spread =
+        std::max(spread, point.study.mean_depth_mm->error * std::sqrt(static_cast<double>(depth->count)));
+  }
+  const bool alike = std::all_of(curve_points.begin(), curve_points.end(), [&](const DepthPoint& depth) {
+    return depth.from_peak == curve_points.front().from_peak;
   });
-  if (depths.size() != points.size() || distinct.size() < std::max<std::size_t>(2, depths.size()) || !alike)
-    return "";
-  const DepthCurve curve = depth_curve(depths, *distinct.begin());
+  if (!alike || !are_apart(depths, spread)) return "";
+  const DepthCurve curve = depth_curve(curve_points, *std::min_element(depths.begin(), depths.end()));
   return event_figure(svg_plot(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
 }
 
@@ -176,8 +187,10 @@ std::string event_lines(const EventStudy& study) {
 std::string order_section(const OrderStudy& orders) {
   if (orders.single.empty()) return "";
   return section("Timing by order of photons",
-                 event_figure(svg_plot(order_plot(orders)), "coincidence of two such detectors",
-                              "by order of photons", order_text(orders)));
+                 "<div class=\"grid\">\n" +
+                     event_figure(svg_plot(order_plot(orders)), "coincidence of two such detectors",
+                                  "by order of photons", order_text(orders)) +
+                     "</div>\n");
 }
 
 }  // namespace scintray::report

@@ -15,7 +15,8 @@ struct PointStudy {
 };
 
 /// A table of all points and the figures of each (those beyond the fourth folded away), and the light against
-/// depth over the points where each has a depth of its own. Empty when no point has an event.
+/// depth over the points of a sweep, where these lie apart in depth by more than their events are spread.
+/// Empty when no point has an event.
 std::string event_section(const std::vector<PointStudy>& points);
 
 /// One self-contained page with that section. @param under  the line below the title: the file it is from

@@ -109,7 +109,7 @@ std::string order_text(const OrderStudy& orders) {
   const OrderTiming& single = orders.single[orders.best_single];
   const OrderTiming& average = orders.average[orders.best_average];
   return fmt::format(
-      "first photon {} after the event; CTR by it {}; best single photon n = {}: {}; best mean of the "
+      "first photon at {}; CTR by it {}; best single photon n = {}: {}; best mean of the "
       "first n = {}: {}",
       picoseconds(orders.single.front().mean_ns), picoseconds(orders.single.front().ctr_fwhm_ns), single.n,
       picoseconds(single.ctr_fwhm_ns), average.n, picoseconds(average.ctr_fwhm_ns));

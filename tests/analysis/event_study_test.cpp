@@ -92,6 +92,25 @@ TEST_CASE("Studies that do not apply say why") {
     REQUIRE(depth_point(study));
     CHECK(depth_point(study)->depth_mm == Approx(7.0));
   }
+  SUBCASE("no fluctuation") {
+    for (EventRecord& event : events)
+      for (ChannelRecord& channel : event.channels) channel.charge = 10.0F;
+    const EventStudy study = study_events(events, setup);
+    CHECK(study.peak.verdict == PeakVerdict::no_peak);
+    CHECK_FALSE(study.light_against_depth);
+    CHECK_FALSE(study.doi);
+  }
+  SUBCASE("dark counts, which happened nowhere") {
+    for (std::size_t i = 0; i < events.size(); i += 2) events[i].part = EventRecord::kNoPart;
+    const EventStudy study = study_events(events, setup);
+    CHECK(study.pulses > 2980);
+    REQUIRE(study.flood);
+    CHECK(study.flood->crystals.size() == 16);
+    REQUIRE(study.doi);
+    CHECK(study.doi->residual.count < study.selected / 3);
+    REQUIRE(study.mean_depth_mm);
+    CHECK(study.mean_depth_mm->value == Approx(10.0).epsilon(0.05));
+  }
   SUBCASE("few events") {
     events.resize(40);
     const EventStudy study = study_events(events, setup);

@@ -115,6 +115,25 @@ TEST_CASE("A shoulder that is left out pulls the peak down: the fit knows the di
   CHECK(sigmas(right.fit.position, {511.0, 0.0}) < kSigmas);
 }
 
+TEST_CASE("Many pulses show a small difference from the model, which still locates the peak") {
+  Rng rng = toy_rng(12);
+  std::vector<double> values;
+  // Two crystals whose light differs by a sigma: wider than either, and flatter than a Gaussian.
+  for (int i = 0; i < 300'000; ++i)
+    values.push_back((i % 2 == 0 ? 490.0 : 525.0) + 20.0 * sample_normal(rng));
+  const Photopeak many = fit_photopeak(values);
+  CHECK(many.verdict == PeakVerdict::poor_fit);
+  CHECK(many.misfit() > 0.0);
+  CHECK(many.locates_peak());
+  CHECK(many.fit.position.value == Approx(507.5).epsilon(0.01));
+  values.resize(1500);
+  CHECK(fit_photopeak(values).verdict == PeakVerdict::trusted);
+  // A falling continuum has no peak to locate, however many pulses.
+  values.clear();
+  for (int i = 0; i < 100'000; ++i) values.push_back(100.0 * sample_exponential(rng));
+  CHECK_FALSE(fit_photopeak(values).locates_peak());
+}
+
 TEST_CASE("Numbers of photons have the resolution of their Poisson law") {
   Rng rng = toy_rng(6);
   std::vector<double> values;

@@ -12,14 +12,14 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr double kLength_mm = 20.0, kExit = 0.3;
+constexpr double kRod_mm = 20.0, kExit = 0.3;
 constexpr std::uint64_t kEmitted = 40'000;
 
 /// Light along a rod between a mirror of reflectance R and a window that lets a share out each time and turns
 /// the rest back: out after k round trips with share exit (1 - exit)^k R^k exp(-mu (2 k + 1) length), started
 /// at the mirror. The sum over k:
 double detected_fraction(double mu, double reflectance) {
-  const double once = std::exp(-mu * kLength_mm);
+  const double once = std::exp(-mu * kRod_mm);
   return kExit * once / (1.0 - (1.0 - kExit) * reflectance * once * once);
 }
 
@@ -27,12 +27,12 @@ std::vector<PhotonHistory> trace_rod(double mu, double reflectance, std::uint64_
   std::vector<PhotonHistory> detected;
   for (std::uint64_t i = 0; i < kEmitted; ++i) {
     Rng rng = toy_rng(stream, i);
-    PhotonHistory photon{{static_cast<float>(kLength_mm)}, {0}};
-    bool alive = rng.uniform() < std::exp(-mu * kLength_mm);
+    PhotonHistory photon{{static_cast<float>(kRod_mm)}, {0}};
+    bool alive = rng.uniform() < std::exp(-mu * kRod_mm);
     while (alive && rng.uniform() >= kExit) {
-      photon.path_mm[0] += static_cast<float>(2.0 * kLength_mm);
+      photon.path_mm[0] += static_cast<float>(2.0 * kRod_mm);
       ++photon.bounces[0];
-      alive = rng.uniform() < reflectance * std::exp(-2.0 * mu * kLength_mm);
+      alive = rng.uniform() < reflectance * std::exp(-2.0 * mu * kRod_mm);
     }
     if (alive) detected.push_back(photon);
   }

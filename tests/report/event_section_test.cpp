@@ -67,6 +67,9 @@ TEST_CASE("Points of a sweep over depth become one curve") {
     points.push_back({std::to_string(depth), study_events(events, detector.setup())});
   }
   check_says(report::event_section(points), "all points: light against depth");
+  points.push_back(made_up_study("all depths", 1500, true));
+  CHECK_FALSE(contains(report::event_section(points), "all points"));
+  points.pop_back();
   points[1].study.mean_depth_mm.reset();
   CHECK_FALSE(contains(report::event_section(points), "all points"));
 }
