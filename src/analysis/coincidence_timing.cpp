@@ -11,9 +11,11 @@ namespace scintray {
 namespace {
 
 constexpr std::size_t kLeastPairs = 50, kLeastOfSlice = 100;
+/// Of a Gaussian whose width is quoted; as for photopeaks.
+constexpr double kLeastQuoted = 1e-4;
 
 OrderTiming timing_of(std::size_t n, const std::vector<double>& times) {
-  return {n, times.size(), mean_of(times), quoted_fwhm(spread_of(paired_differences(times)))};
+  return {n, times.size(), mean_of(times), spread_of(paired_differences(times)).quantile_fwhm};
 }
 
 std::size_t smallest(const std::vector<OrderTiming>& all) {
@@ -46,7 +48,8 @@ std::vector<double> channel_differences(std::span<const double> a_ns, std::span<
 }
 
 Estimate quoted_fwhm(const Spread& differences) {
-  return differences.fit.converged ? differences.gaussian_fwhm : differences.quantile_fwhm;
+  const bool gaussian = differences.fit.converged && differences.fit.goodness.p_value >= kLeastQuoted;
+  return gaussian ? differences.gaussian_fwhm : differences.quantile_fwhm;
 }
 
 void FirstPhotons::add(std::uint64_t event, double time_ns) {
@@ -101,7 +104,7 @@ TimingDepth timing_against_depth(std::span<const double> depths_mm, std::span<co
   std::vector<Estimate> means;
   for (const DepthSlice& slice : slice_by_depth(depths_mm, times_ns, slices, kLeastOfSlice)) {
     timing.slices.push_back({slice.depth_mm, slice.values.size(), mean_of(slice.values),
-                             quoted_fwhm(spread_of(paired_differences(slice.values)))});
+                             spread_of(paired_differences(slice.values)).quantile_fwhm});
     depths.push_back(slice.depth_mm);
     means.push_back(timing.slices.back().mean_ns);
   }

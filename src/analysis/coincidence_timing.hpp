@@ -21,7 +21,8 @@ std::vector<double> paired_differences(std::span<const double> times_ns);
 /// a - b of every event that has both. @throws std::invalid_argument when the sizes differ
 std::vector<double> channel_differences(std::span<const double> a_ns, std::span<const double> b_ns);
 
-/// The CTR to quote: the fitted FWHM when there is one, else that of the quantiles.
+/// The CTR to quote: the fitted FWHM where a Gaussian describes the differences (p of 1e-4 or more), else
+/// that of the quantiles.
 Estimate quoted_fwhm(const Spread& differences);
 
 /// Keeps the earliest detected photons of every event, however many photons there are.
@@ -43,7 +44,7 @@ struct OrderTiming {
   std::size_t n = 0;       ///< from 1
   std::size_t events = 0;  ///< with that many photons
   Estimate mean_ns;        ///< of the time itself
-  Estimate ctr_fwhm_ns;    ///< of pairs of events
+  Estimate ctr_fwhm_ns;    ///< of pairs of events, between quantiles
 };
 
 struct OrderStudy {
@@ -63,7 +64,7 @@ struct TimingSlice {
   double depth_mm = 0.0;
   std::size_t count = 0;
   Estimate mean_ns;      ///< of the time
-  Estimate ctr_fwhm_ns;  ///< of pairs of events of this depth
+  Estimate ctr_fwhm_ns;  ///< of pairs of events of this depth, between quantiles
 };
 
 struct TimingDepth {

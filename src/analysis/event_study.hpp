@@ -60,7 +60,7 @@ struct EventStudy {
   std::vector<std::string> left_out;  ///< "flood map: why not"
 };
 
-/// Takes events one after the other and keeps 64 bytes of each.
+/// Takes events one after the other and keeps 56 bytes of each.
 class EventCollector {
  public:
   /// @throws std::invalid_argument when a direction has no unit length
