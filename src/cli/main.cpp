@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "scintray/cli/analyze_command.hpp"
 #include "scintray/cli/check_command.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/failures.hpp"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
   scintray::cli::add_import_command(app);
   scintray::cli::add_repair_command(app);
   scintray::cli::add_report_command(app);
+  scintray::cli::add_analyze_command(app);
   scintray::cli::add_map_command(app);
   scintray::cli::add_table_command(app);
   scintray::cli::add_goniometer_command(app);

@@ -10,6 +10,7 @@
 #include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/simulate.hpp"
+#include "scintray/io/study_results.hpp"
 #include "scintray/report/html_report.hpp"
 #include "scintray/report/text_summary.hpp"
 
@@ -62,12 +63,13 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const RunResult result = simulate(file, simulation);
   line.clear();
 
-  if (!options.quiet) std::cout << text_summary(result);
+  const std::vector<EventStudy> studies = study_results(simulation.output, result);
+  if (!options.quiet) std::cout << text_summary(result, studies);
   std::cout << "results  " << simulation.output.string() << "\n";
   if (!options.no_report) {
     auto page = simulation.output;
     page.replace_extension(".html");
-    write_report(page, result);
+    write_report(page, result, studies);
     std::cout << "report   " << page.string() << "\n";
   }
   if (!result.complete()) {

@@ -72,10 +72,16 @@ std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std:
 /// What the events of a point are read out by; empty when it has none.
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
 
+/// How much of events is read.
+enum class EventDetail {
+  numbers,  ///< without the times of n-th photons and the waveforms
+  all,
+};
+
 /// At most `count` events from row `offset` on, in the order of points. Each has all channels of its
 /// point. Throws InputError when there are no events.
 std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
-                                     std::uint64_t count);
+                                     std::uint64_t count, EventDetail detail = EventDetail::all);
 
 /// True when `path` is an HDF5 file that ScintRay wrote as a result, of whatever version.
 bool is_results_file(const std::filesystem::path& path);

@@ -281,7 +281,8 @@ std::vector<float> row_of(const std::vector<float>& samples, std::size_t row, st
 
 /// Gives events the signals of their channels.
 void add_signals(const std::filesystem::path& path, const h5::Group& root, std::uint64_t offset,
-                 const std::vector<results_format::EventRow>& rows, std::vector<EventRecord>& events) {
+                 const std::vector<results_format::EventRow>& rows, EventDetail detail,
+                 std::vector<EventRecord>& events) {
   std::map<std::uint32_t, std::size_t> channels;  // of each point
   for (EventRecord& event : events) {
     const auto [known, is_new] = channels.try_emplace(event.point, 0);
@@ -297,8 +298,9 @@ void add_signals(const std::filesystem::path& path, const h5::Group& root, std::
   if (end < first) throw damaged(path, "the signals of events are out of order");
   const auto signals = results_format::read_rows<results_format::SignalRow>(group, first, end - first);
   if (!signals) throw damaged(path, "the columns of signals differ in length");
-  const std::vector<float> orders = samples_of(root, "photon_times", first, end - first);
-  const std::vector<float> pulses = samples_of(root, "pulses", first, end - first);
+  const std::uint64_t sampled = detail == EventDetail::all ? end - first : 0;
+  const std::vector<float> orders = samples_of(root, "photon_times", first, sampled);
+  const std::vector<float> pulses = samples_of(root, "pulses", first, sampled);
   for (std::size_t i = 0; i < signals->size(); ++i) {
     const results_format::SignalRow& signal = (*signals)[i];
     if (signal.event_row < offset || signal.event_row - offset >= events.size() ||
@@ -366,7 +368,7 @@ std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std
 }
 
 std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
-                                     std::uint64_t count) {
+                                     std::uint64_t count, EventDetail detail) {
   const h5::File file = open_results(path);
   const h5::Group root = file.root();
   if (!root.has("events"))
@@ -377,7 +379,7 @@ std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uin
   std::vector<EventRecord> events;
   for (const results_format::EventRow& row : *rows) events.push_back(row.event);
   if (events.empty()) return events;
-  add_signals(path, root, offset, *rows, events);
+  add_signals(path, root, offset, *rows, detail, events);
   return events;
 }
 

@@ -1,9 +1,13 @@
 #include "scintray/report/html_report.hpp"
 
+#include <algorithm>
+
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/report/event_section.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/grid_map.hpp"
+#include "scintray/report/light_curves.hpp"
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/shift_section.hpp"
 #include "scintray/report/svg_plot.hpp"
@@ -74,16 +78,25 @@ std::string partial_banner(const RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
-std::string answer(const RunResult& run) {
+std::string events(const RunResult& run, const std::vector<EventStudy>& studies) {
+  std::vector<PointStudy> points;
+  for (std::size_t i = 0; i < std::min(studies.size(), run.points.size()); ++i)
+    points.push_back({point_label(run.points[i]), studies[i]});
+  return event_section(points);
+}
+
+std::string answer(const RunResult& run, const std::vector<EventStudy>& studies) {
   if (run.points.empty()) return "<p>No point was finished.</p>\n";
   if (run.points.size() == 1) return headline(run.points.front());
   const auto view = view_sweep(run);
-  return view ? sweep_section(run, *view) : "";
+  if (!view) return "";
+  if (studies.size() == run.points.size()) return light_section(*view, studies);
+  return sweep_section(run, *view);
 }
 
 }  // namespace
 
-std::string html_report(const RunResult& run) {
+std::string html_report(const RunResult& run, const std::vector<EventStudy>& studies) {
   const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
@@ -91,7 +104,7 @@ std::string html_report(const RunResult& run) {
           "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
           escape_html(run.header.scene_file) + "</p>\n";
-  page += partial_banner(run) + answer(run);
+  page += partial_banner(run) + answer(run, studies) + events(run, studies);
   if (!run.points.empty())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
@@ -100,8 +113,9 @@ std::string html_report(const RunResult& run) {
   return page + "</body>\n</html>\n";
 }
 
-void write_report(const std::filesystem::path& path, const RunResult& run) {
-  write_whole_file(path, html_report(run), "the report");
+void write_report(const std::filesystem::path& path, const RunResult& run,
+                  const std::vector<EventStudy>& studies) {
+  write_whole_file(path, html_report(run, studies), "the report");
 }
 
 }  // namespace scintray

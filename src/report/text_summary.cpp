@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "scintray/report/event_section.hpp"
 #include "scintray/report/format.hpp"
+#include "scintray/report/light_curves.hpp"
 #include "scintray/report/shift_section.hpp"
 #include "scintray/report/sweep_view.hpp"
 #include "scintray/report/tally_section.hpp"
@@ -91,14 +93,30 @@ std::string warnings(const RunResult& run) {
   return text;
 }
 
+/// Events of a point, in words: what became of their energy, and what they show.
+std::string energy_lines(const PointResult& point) {
+  const EnergyBalance& energy = point.energy;
+  if (energy.events_requested == 0) return "";
+  std::string text = std::to_string(energy.events) + " events, " + std::to_string(energy.silent) +
+                     " of them without energy in a scintillator; keV deposited " +
+                     compact(energy.deposited, 6) + ", escaped " + compact(energy.escaped, 6) +
+                     ", left elsewhere " + compact(energy.unseen, 6) + "\n";
+  if (energy.detected.count > 0)
+    text += "detected per event " + with_error(energy.detected.mean()) + " photons\n";
+  return text;
+}
+
 }  // namespace
 
-std::string text_summary(const RunResult& run) {
+std::string text_summary(const RunResult& run, const std::vector<EventStudy>& studies) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
     return fate_table(run.points.front()) + shift_lines(run.header, run.points.front()) +
-           tally_lines(run.points.front()) + warnings(run);
+           tally_lines(run.points.front()) + energy_lines(run.points.front()) +
+           (studies.empty() ? "" : event_lines(studies.front())) + warnings(run);
   const auto view = view_sweep(run);
+  if (view && studies.size() == run.points.size())
+    return "Light of events\n" + aligned(light_table(*view, studies)) + warnings(run);
   return (view ? sweep_table(run, *view) : point_table(run)) + warnings(run);
 }
 

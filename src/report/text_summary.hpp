@@ -2,13 +2,16 @@
 /// The answer of a run for the terminal.
 
 #include <string>
+#include <vector>
 
+#include "scintray/analysis/event_study.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray {
 
 /// A sweep over a number: a table of detected fractions, rows the swept value, columns the series. Any
 /// other sweep: one line a point. One point: every fate. Ends with what is partial or doubtful.
-std::string text_summary(const RunResult& run);
+/// @param studies  of the events of the points; with them the tables are of light per event
+std::string text_summary(const RunResult& run, const std::vector<EventStudy>& studies = {});
 
 }  // namespace scintray

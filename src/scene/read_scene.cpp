@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/scene/read_analysis.hpp"
 #include "scintray/scene/read_parts.hpp"
 #include "scintray/scene/read_readout.hpp"
 
@@ -90,6 +91,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   read_source(root, names, scene);
   scene.run = read_run(root);
   scene.readout = read_readout(root);
+  scene.analysis = read_analysis(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");

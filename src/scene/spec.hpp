@@ -16,6 +16,7 @@
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/analysis_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/source_spec.hpp"
@@ -161,6 +162,7 @@ struct SceneSpec {
   std::optional<GammaSpec> energy_source;  ///< [source] of energy; then there is no `source`
   RunSpec run;
   std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
+  AnalysisSpec analysis;
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

@@ -1,0 +1,60 @@
+#include "scintray/cli/analyze_command.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/study_results.hpp"
+#include "scintray/report/event_section.hpp"
+#include "scintray/report/sweep_view.hpp"
+#include "scintray/scene/read_analysis.hpp"
+#include "scintray/scene/toml_reader.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct AnalyzeOptions {
+  std::filesystem::path results, settings, page;
+};
+
+void analyze(const AnalyzeOptions& options) {
+  const RunResult run = read_results(options.results);
+  const std::vector<EventStudy> studies =
+      options.settings.empty()
+          ? study_results(options.results, run)
+          : study_results(options.results, run,
+                          analysis_of_text(read_text_file(options.settings), options.settings.string()));
+  if (studies.empty())
+    throw InputError(Problem{{options.results.string()},
+                             "this result has no events to analyse",
+                             "run a scene whose [source] is one of energy (docs/gamma_sources.md)"});
+  std::vector<report::PointStudy> points;
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    points.push_back({report::point_label(run.points[i]), studies[i]});
+    if (studies.size() > 1) std::cout << points.back().label << "\n";
+    std::cout << report::event_lines(studies[i]);
+  }
+  if (options.page.empty()) return;
+  write_whole_file(options.page, report::event_page(run.header.title, options.results.string(), points),
+                   "the page");
+  std::cout << "page     " << options.page.string() << "\n";
+}
+
+}  // namespace
+
+void add_analyze_command(CLI::App& app) {
+  auto options = std::make_shared<AnalyzeOptions>();
+  CLI::App* command = app.add_subcommand(
+      "analyze", "Study the events of a result: spectra, light against depth, flood maps, timing");
+  command->add_option("RESULT", options->results, "results file (HDF5) of `scintray run`")->required();
+  command->add_option("--settings", options->settings,
+                      "a file with [analysis] (default: that of the scene in the result)");
+  command->add_option("--page", options->page, "write an HTML page with the plots");
+  command->callback([options] { analyze(*options); });
+}
+
+}  // namespace scintray::cli

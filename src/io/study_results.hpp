@@ -1,0 +1,24 @@
+#pragma once
+/// The events of a results file, studied.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scintray/analysis/event_study.hpp"
+#include "scintray/scene/analysis_spec.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray {
+
+/// Studies of the points of a run, in their order. Events are read in portions and 64 bytes kept of each.
+/// Empty when the file has no events.
+/// @param run   of the same file
+/// @param spec  throws InputError for a part of a layer that the run does not have
+std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run,
+                                      const AnalysisSpec& spec);
+
+/// The same with the [analysis] of the scene that the run is of.
+std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run);
+
+}  // namespace scintray
