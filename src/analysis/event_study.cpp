@@ -99,6 +99,7 @@ void EventCollector::add(const EventRecord& event) {
   row.depth_mm = placed ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
   row.part = event.part;
   add_light(event, row);
+  if (event.energy_keV > 0.0F) light_of_energy_.add(event.energy_keV, row.light);
   if (!(row.light > 0.0)) return;
   add_times(event, row);
   rows_.push_back(row);
@@ -111,6 +112,7 @@ void EventCollector::study_light(EventStudy& study) const {
     depths.push_back(row.depth_mm);
   }
   study.mean_light = mean_of(light);
+  study.light_per_keV = light_of_energy_.ratio();
   study.spectrum = automatic_histogram(light);
   study.peak = fit_photopeak(light, setup_.photopeak);
   // Bins made for the whole spectrum may be as wide as its peak.

@@ -18,6 +18,7 @@
 #include "scintray/analysis/flood_map.hpp"
 #include "scintray/analysis/histogram.hpp"
 #include "scintray/analysis/photopeak.hpp"
+#include "scintray/analysis/ratio.hpp"
 #include "scintray/tally/event_record.hpp"
 
 namespace scintray {
@@ -46,7 +47,8 @@ struct EventStudy {
 
   std::optional<Histogram> spectrum;  ///< of the light of all channels together
   Photopeak peak;
-  Estimate mean_light;  ///< of pulses
+  Estimate mean_light;     ///< of pulses
+  Estimate light_per_keV;  ///< light of the events over the energy that they left in scintillators
   std::optional<Estimate> mean_depth_mm;
   std::optional<DepthCurve> light_against_depth;  ///< the reference is the middle of the depths
   std::optional<DoiStudy> doi;
@@ -91,6 +93,7 @@ class EventCollector {
   std::vector<std::array<double, 2>> plane_mm_;  ///< across positions of the channels that make the flood map
   std::vector<std::size_t> plane_channels_;
   std::vector<Row> rows_;
+  RatioOfSums light_of_energy_;
   std::uint64_t events_ = 0;
   bool has_readout_ = false;
 };

@@ -23,11 +23,11 @@ struct AnalyzeOptions {
 
 void analyze(const AnalyzeOptions& options) {
   const RunResult run = read_results(options.results);
-  const std::vector<EventStudy> studies =
+  const AnalysisSpec settings =
       options.settings.empty()
-          ? study_results(options.results, run)
-          : study_results(options.results, run,
-                          analysis_of_text(read_text_file(options.settings), options.settings.string()));
+          ? analysis_of_text(run.header.scene_text, run.header.scene_file)
+          : analysis_of_text(read_text_file(options.settings), options.settings.string());
+  const std::vector<EventStudy> studies = study_results(options.results, run, settings);
   if (studies.empty())
     throw InputError(Problem{{options.results.string()},
                              "this result has no events to analyse",

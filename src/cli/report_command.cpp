@@ -4,9 +4,9 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/run_studies.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/study_results.hpp"
 #include "scintray/report/html_report.hpp"
 #include "scintray/report/text_summary.hpp"
 
@@ -34,11 +34,11 @@ std::filesystem::path page_path(const ReportOptions& options) {
 void report(const ReportOptions& options) {
   const RunResult run = read_results(options.results);
   if (options.text) {
-    std::cout << text_summary(run, study_results(options.results, run));
+    std::cout << text_summary(run, studies_of(options.results, run));
     return;
   }
   const auto page = page_path(options);
-  write_report(page, run, study_results(options.results, run));
+  write_report(page, run, studies_of(options.results, run));
   std::cout << "report   " << page.string() << "\n";
 }
 

@@ -8,9 +8,9 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
+#include "scintray/cli/run_studies.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/simulate.hpp"
-#include "scintray/io/study_results.hpp"
 #include "scintray/report/html_report.hpp"
 #include "scintray/report/text_summary.hpp"
 
@@ -25,6 +25,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed, photons, events;
   bool no_report = false;
   bool quiet = false;
+  bool quick = false;
 };
 
 /// Results go where the command line says, then where the scene says, then beside the working folder
@@ -42,6 +43,7 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
   result.seed = options.seed;
   result.photons = options.photons;
   result.events = options.events;
+  result.quick = options.quick;
   result.stop = &InterruptGuard::requested();
   result.surface_hooks.stop = [] { return InterruptGuard::requested().load(); };
   result.surface_hooks.table_progress = [&line](const std::string& surface, double done) {
@@ -63,7 +65,7 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const RunResult result = simulate(file, simulation);
   line.clear();
 
-  const std::vector<EventStudy> studies = study_results(simulation.output, result);
+  const RunStudies studies = studies_of(simulation.output, result);
   if (!options.quiet) std::cout << text_summary(result, studies);
   std::cout << "results  " << simulation.output.string() << "\n";
   if (!options.no_report) {
@@ -92,6 +94,8 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   command->add_option("--events", options->events, "events per point, in place of the scene's")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--quick", options->quick,
+                    "take the scene's quick_events or quick_photons: fewer, to try it");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
   command->callback([options] {

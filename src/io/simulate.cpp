@@ -159,6 +159,14 @@ SceneSpec with_options(SceneSpec spec, const SimulationOptions& options) {
                       std::string(option) + " is given, but this is a source of " + source,
                       std::string("use ") + other});
   };
+  if (options.quick) {
+    const auto& number = spec.energy_source ? spec.energy_source->quick_events : spec.source.quick_photons;
+    const std::string key = spec.energy_source ? "quick_events" : "quick_photons";
+    if (!number)
+      throw InputError({spec.energy_source ? spec.energy_source->where : spec.source.where,
+                        "--quick is given, but [source] has no " + key, "add " + key + " = ... there"});
+    (spec.energy_source ? spec.energy_source->events : spec.source.photons) = *number;
+  }
   if (options.photons) {
     if (spec.energy_source) refuse("--photons", "events", "--events");
     spec.source.photons = *options.photons;

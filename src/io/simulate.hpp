@@ -26,6 +26,7 @@ struct SimulationOptions {
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> photons;  ///< per point, of a source of photons
   std::optional<std::uint64_t> events;   ///< per point, of a source of energy
+  bool quick = false;  ///< the scene's quick_photons or quick_events in place of its full number
   std::function<void(const SimulationProgress&)> progress;
   SurfaceMaker::Hooks surface_hooks;        ///< told while surface tables are built
   const std::atomic<bool>* stop = nullptr;  ///< set to end early; what was traced is kept

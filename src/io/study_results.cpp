@@ -2,7 +2,6 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/scene/read_analysis.hpp"
 
 namespace scintray {
 
@@ -66,10 +65,6 @@ std::vector<EventStudy> study_results(const std::filesystem::path& path, const R
     studies.push_back(collector.finish());
   }
   return studies;
-}
-
-std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run) {
-  return study_results(path, run, analysis_of_text(run.header.scene_text, run.header.scene_file));
 }
 
 }  // namespace scintray

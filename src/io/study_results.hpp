@@ -18,7 +18,4 @@ namespace scintray {
 std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run,
                                       const AnalysisSpec& spec);
 
-/// The same with the [analysis] of the scene that the run is of.
-std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run);
-
 }  // namespace scintray

@@ -4,6 +4,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/report/claims.hpp"
 #include "scintray/report/event_section.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/grid_map.hpp"
@@ -11,6 +12,7 @@
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/shift_section.hpp"
 #include "scintray/report/svg_plot.hpp"
+#include "scintray/report/sweep_view.hpp"
 #include "scintray/report/tally_section.hpp"
 
 namespace scintray {
@@ -47,6 +49,7 @@ table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; break-inside: avoid; } figcaption { color: var(--soft); font-size: .88rem; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
 .grid figure { max-width: 36rem; }
+.claims td, .claims th { white-space: normal; }
 .bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
 .who { font-size: .88rem; } .bar { display: flex; height: 1.5rem; border-radius: 3px; overflow: hidden; }
 .bar span { color: #fff; font-size: .75rem; line-height: 1.5rem; text-align: center; overflow: hidden;
@@ -78,25 +81,26 @@ std::string partial_banner(const RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
-std::string events(const RunResult& run, const std::vector<EventStudy>& studies) {
+std::string events(const RunResult& run, const RunStudies& studies) {
   std::vector<PointStudy> points;
-  for (std::size_t i = 0; i < std::min(studies.size(), run.points.size()); ++i)
-    points.push_back({point_label(run.points[i]), studies[i]});
+  for (std::size_t i = 0; i < std::min(studies.points.size(), run.points.size()); ++i)
+    points.push_back({point_label(run.points[i]), studies.points[i]});
   return event_section(points);
 }
 
-std::string answer(const RunResult& run, const std::vector<EventStudy>& studies) {
+std::string answer(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "<p>No point was finished.</p>\n";
   if (run.points.size() == 1) return headline(run.points.front());
   const auto view = view_sweep(run);
   if (!view) return "";
-  if (studies.size() == run.points.size()) return light_section(*view, studies);
+  if (studies.points.size() == run.points.size())
+    return light_section(*view, studies.points, studies.reference);
   return sweep_section(run, *view);
 }
 
 }  // namespace
 
-std::string html_report(const RunResult& run, const std::vector<EventStudy>& studies) {
+std::string html_report(const RunResult& run, const RunStudies& studies) {
   const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
@@ -104,7 +108,8 @@ std::string html_report(const RunResult& run, const std::vector<EventStudy>& stu
           "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
           escape_html(run.header.scene_file) + "</p>\n";
-  page += partial_banner(run) + answer(run, studies) + events(run, studies);
+  page += partial_banner(run) + answer(run, studies) +
+          claim_section(judge(run, studies.points, studies.claims)) + events(run, studies);
   if (!run.points.empty())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
@@ -113,8 +118,7 @@ std::string html_report(const RunResult& run, const std::vector<EventStudy>& stu
   return page + "</body>\n</html>\n";
 }
 
-void write_report(const std::filesystem::path& path, const RunResult& run,
-                  const std::vector<EventStudy>& studies) {
+void write_report(const std::filesystem::path& path, const RunResult& run, const RunStudies& studies) {
   write_whole_file(path, html_report(run, studies), "the report");
 }
 

@@ -6,25 +6,25 @@
 
 #include "scintray/analysis/event_study.hpp"
 #include "scintray/report/sweep_view.hpp"
+#include "scintray/scene/tally_spec.hpp"
 
 namespace scintray::report {
 
-/// What stands for the light output of a point.
-struct LightOutput {
-  Estimate light;          ///< photons, or photoelectrons behind a readout
-  bool from_peak = false;  ///< the position of the photopeak; else the mean of the pulses
-};
+/// Light of an event of 511 keV: the light of all events over their energy, times that. It has no spread of
+/// energies in it, so it is surer than the photopeak of the same events, and stands for the same.
+Estimate light_of(const EventStudy& study);
 
-/// Light output of the points of a run: of each series by the photopeak when a fit locates it in all of its
-/// points, else by the mean, so that no curve mixes the two. Points without pulses have a light of 0.
-/// @param studies  of the points, in step with run.points
-std::vector<LightOutput> light_outputs(const SweepView& view, const std::vector<EventStudy>& studies);
+/// Two plots with a table: that light, and the photopeak's position for the curves in which a fit locates it
+/// at every point. Empty when no point has events.
+/// @param studies    of the points of the run, in step with its points
+/// @param reference  label of the curve whose first point counts as 1; empty: light in its own unit.
+///                   @throws InputError when no curve has that label
+std::string light_section(const SweepView& view, const std::vector<EventStudy>& studies,
+                          const NameRef& reference);
 
-/// Plot and table; empty when no point has events.
-std::string light_section(const SweepView& view, const std::vector<EventStudy>& studies);
-
-/// The same table for a terminal: head, then a row for each value of the swept key.
+/// The table for a terminal: head, then a row for each value of the swept key. Empty without events.
 std::vector<std::vector<std::string>> light_table(const SweepView& view,
-                                                  const std::vector<EventStudy>& studies);
+                                                  const std::vector<EventStudy>& studies,
+                                                  const NameRef& reference);
 
 }  // namespace scintray::report

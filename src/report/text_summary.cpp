@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scintray/report/claims.hpp"
 #include "scintray/report/event_section.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/light_curves.hpp"
@@ -34,6 +35,16 @@ std::string aligned(const Table& table) {
     text += '\n';
   }
   return text;
+}
+
+/// Rows for columns, when there are more columns than fit a terminal.
+Table upright(const Table& table) {
+  constexpr std::size_t kMostColumns = 6;
+  if (table.empty() || table.front().size() <= kMostColumns) return table;
+  Table turned(table.front().size());
+  for (const auto& row : table)
+    for (std::size_t i = 0; i < row.size(); ++i) turned[i].push_back(row[i]);
+  return turned;
 }
 
 std::string sweep_table(const RunResult& run, const SweepView& view) {
@@ -108,16 +119,19 @@ std::string energy_lines(const PointResult& point) {
 
 }  // namespace
 
-std::string text_summary(const RunResult& run, const std::vector<EventStudy>& studies) {
+std::string text_summary(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
     return fate_table(run.points.front()) + shift_lines(run.header, run.points.front()) +
            tally_lines(run.points.front()) + energy_lines(run.points.front()) +
-           (studies.empty() ? "" : event_lines(studies.front())) + warnings(run);
+           (studies.points.empty() ? "" : event_lines(studies.points.front())) + warnings(run);
   const auto view = view_sweep(run);
-  if (view && studies.size() == run.points.size())
-    return "Light of events\n" + aligned(light_table(*view, studies)) + warnings(run);
-  return (view ? sweep_table(run, *view) : point_table(run)) + warnings(run);
+  const std::string table = !view ? point_table(run)
+                            : studies.points.size() == run.points.size()
+                                ? "Light of events at 511 keV\n" +
+                                      aligned(upright(light_table(*view, studies.points, studies.reference)))
+                                : sweep_table(run, *view);
+  return table + claim_lines(judge(run, studies.points, studies.claims)) + warnings(run);
 }
 
 }  // namespace scintray

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/report/run_studies.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray {
@@ -12,6 +12,6 @@ namespace scintray {
 /// A sweep over a number: a table of detected fractions, rows the swept value, columns the series. Any
 /// other sweep: one line a point. One point: every fate. Ends with what is partial or doubtful.
 /// @param studies  of the events of the points; with them the tables are of light per event
-std::string text_summary(const RunResult& run, const std::vector<EventStudy>& studies = {});
+std::string text_summary(const RunResult& run, const RunStudies& studies = {});
 
 }  // namespace scintray

@@ -26,6 +26,7 @@ struct AnalysisSpec {
   double anger_power = 1.0, anger_threshold = 0.0;
   std::optional<std::size_t> peaks;          ///< of the flood map; nothing: as many as parts were hit
   std::vector<std::vector<NameRef>> layers;  ///< parts of each layer, patterns; empty: no layers
+  NameRef reference;  ///< curve of a sweep whose first point counts as 1 in plots of light; empty: none
   bool photopeak_only = true;  ///< flood map, depth of interaction and timing use the photopeak's events
   FileLocation where;
 };

@@ -62,6 +62,7 @@ AnalysisSpec read_analysis(const TomlTable& scene) {
     if (*peaks >= 1 && *peaks <= kMostPeaks) spec.peaks = static_cast<std::size_t>(*peaks);
   }
   spec.layers = read_layers(*table);
+  spec.reference = {table->string("reference", ""), table->where("reference")};
   spec.photopeak_only = table->boolean("photopeak_only", spec.photopeak_only);
   return spec;
 }

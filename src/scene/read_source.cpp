@@ -114,6 +114,8 @@ SourceSpec read_photon_source(const TomlTable& table, const std::vector<std::str
   read_wavelength(table, source);
   read_time(table, source);
   source.photons = positive_count(table, "photons", table.integer("photons"));
+  if (const auto quick = table.optional_integer("quick_photons"))
+    source.quick_photons = positive_count(table, "quick_photons", *quick);
   const auto standard = static_cast<std::int64_t>(source.photons_per_event);
   source.photons_per_event =
       positive_count(table, "photons_per_event", table.integer("photons_per_event", standard));

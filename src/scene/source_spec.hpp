@@ -43,7 +43,8 @@ struct SourceSpec {
   bool unpolarised = false;  ///< Fresnel's mean at every surface; else each photon carries a
                              ///< polarisation, drawn uniformly across its direction
   std::uint64_t photons = 0;
-  std::uint64_t photons_per_event = 1000;  ///< the last event may have fewer
+  std::optional<std::uint64_t> quick_photons;  ///< in their place, for a quick run
+  std::uint64_t photons_per_event = 1000;      ///< the last event may have fewer
   FileLocation where;
 };
 

@@ -119,6 +119,7 @@ std::optional<SweepSpec> read_sweep(const TomlTable& table) {
     return std::nullopt;
   }
   sweep.values = values->items;
+  sweep.also = table.strings("also", 0, false);
   table.expect("key", kFixedKeys.count(sweep.key) == 0 && sweep.key.rfind("sweep", 0) != 0,
                "\"" + sweep.key + "\" is the same for a whole run and cannot be swept",
                "sweep a key of the scene, or make one scene file for each value");
@@ -137,8 +138,11 @@ std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
   for (const TomlTable& table : scene.tables("sweep")) {
     const std::optional<SweepSpec> sweep = read_sweep(table);
     if (!sweep) continue;
-    table.expect("key", keys.insert(sweep->key).second, "\"" + sweep->key + "\" is swept twice",
-                 "put all its values into one [[sweep]]");
+    std::vector<std::string> swept = sweep->also;
+    swept.push_back(sweep->key);
+    for (const std::string& key : swept)
+      table.expect(key == sweep->key ? "key" : "also", keys.insert(key).second,
+                   "\"" + key + "\" is swept twice", "put all its values into one [[sweep]]");
     table.expect("key", sweep->values.size() <= kMostPoints / points,
                  "the sweeps together have more than " + std::to_string(kMostPoints) + " points",
                  "several sweeps multiply: give fewer values");
@@ -149,8 +153,11 @@ std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
   return sweeps;
 }
 
-TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
-                    Problems& problems) {
+namespace {
+
+/// The same for the sweep's first key alone.
+TomlNode with_one_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
+                        Problems& problems) {
   TomlNode edited = document;
   const std::vector<std::string> segments = segments_of(sweep.key);
   TomlNode* node = &edited;
@@ -186,6 +193,19 @@ TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const Toml
   *target = value;
   target->key = node->kind == Kind::table ? last : "";
   target->key_where = value.where;
+  return edited;
+}
+
+}  // namespace
+
+TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
+                    Problems& problems) {
+  TomlNode edited = with_one_value(document, sweep, value, problems);
+  SweepSpec other = sweep;
+  for (const std::string& key : sweep.also) {
+    other.key = key;
+    edited = with_one_value(edited, other, value, problems);
+  }
   return edited;
 }
 

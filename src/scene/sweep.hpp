@@ -11,8 +11,9 @@ namespace scintray {
 
 /// [[sweep]]: the values a key takes, one after the other.
 struct SweepSpec {
-  std::string key;    ///< dotted path, "source.region.slab_z.center"
-  std::string label;  ///< heading; the key when not given
+  std::string key;                ///< dotted path, "source.region.slab_z.center"
+  std::string label;              ///< heading; the key when not given
+  std::vector<std::string> also;  ///< keys that take the same value
   std::vector<TomlNode> values;
   FileLocation where;  ///< of the key's value
 };
@@ -20,7 +21,7 @@ struct SweepSpec {
 /// The sweeps of a scene, slowest first. What is wrong is reported, and left out.
 std::vector<SweepSpec> read_sweeps(const TomlTable& scene);
 
-/// A copy of the document in which the key at a sweep's path has the given value, which keeps its
+/// A copy of the document in which the keys at a sweep's paths have the given value, which keeps its
 /// own place in the file so that errors point at the sweep.
 ///
 /// Entries of an array of tables are addressed by their `name`: "part.crystal.surface",

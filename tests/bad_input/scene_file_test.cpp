@@ -34,7 +34,7 @@ TEST_CASE("unknown keys name the nearest known one") {
   check_mistake("gap = \"0.1 mm\"", "gap = \"0.1 mm\", @@gasp=1", "unknown key \"gasp\" in [part.place]",
                 "did you mean \"gap\"?");
   check_mistake("[run]", "@@[qqqqqqqq]\nx = 1\n[run]", "unknown key \"qqqqqqqq\" at the top of the file",
-                "known keys here: ambient, array, contact,");
+                "known keys here: ambient, analysis, array, claim, contact,");
   check_mistake("face = \"crystal:exit\"", "face = \"crystal:exit\"\n@@bims.x = 3\n", "unknown key \"bims\"",
                 "did you mean \"bins\"?");
 }
@@ -108,7 +108,9 @@ TEST_CASE("words outside their choice name the nearest") {
   check_mistake("kind = \"bonded\"", "kind = @@\"bondd\"", "one of \"bonded\", \"dry\"",
                 "did you mean \"bonded\"?");
   check_mistake("side = \"-z\"", "side = @@\"z\"", "\"-x\", \"+x\"", "did you mean");
-  check_mistake("type = \"photons\"", "type = @@\"gamma_events\"", "one of \"photons\" is expected", "words");
+  check_mistake("type = \"photons\"", "type = @@\"gamma_event\"",
+                "one of \"photons\", \"gamma_events\", \"gammas\", \"hits\" is expected",
+                "did you mean \"gamma_events\"?");
   check_mistake("type = \"exit_angle\"", "type = @@\"angle\"", "one of \"exit_angle\", \"count\"", "words");
   check_mistake("wavelength = \"420 nm\"", "wavelength = \"420 nm\"\ndirection = @@\"up\"", "not a direction",
                 "[0, 0, 1]");

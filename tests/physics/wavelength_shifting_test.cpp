@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
+#include "scintray/source/photon_source.hpp"
 #include "scintray/trace/step.hpp"
 
 using namespace scintray;

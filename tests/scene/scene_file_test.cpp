@@ -168,6 +168,34 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK(scene.exit_angles[0].name == "crystal:exit");
 }
 
+TEST_CASE("a sweep gives its value to every key that it names") {
+  const SceneFile file = SceneFile::from_text(std::string(kGoodScene) + R"(
+[[sweep]]
+key = "run.seed"
+also = ["source.photons", "run.max_interactions"]
+values = [21, 22]
+)",
+                                              "scene.toml");
+  REQUIRE(file.points() == 4);
+  const SceneSpec second = file.spec(3);
+  CHECK(second.run.seed == 22);
+  CHECK(second.source.photons == 22);
+  CHECK(second.run.max_interactions == 22);
+  const std::string twice = complaint_of([] {
+    SceneFile::from_text(std::string(kGoodScene) + R"(
+[[sweep]]
+key = "run.seed"
+also = ["source.photons"]
+values = [21, 22]
+[[sweep]]
+key = "source.photons"
+values = [1, 2]
+)",
+                         "scene.toml");
+  });
+  CHECK(contains(twice, "\"source.photons\" is swept twice"));
+}
+
 TEST_CASE("several sweeps multiply, the first slowest") {
   const SceneFile file = SceneFile::from_text(std::string(kGoodScene) + R"(
 [[sweep]]

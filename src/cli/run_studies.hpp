@@ -1,0 +1,14 @@
+#pragma once
+/// What commands show of the events of a results file.
+
+#include <filesystem>
+
+#include "scintray/report/run_studies.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray::cli {
+
+/// Studies of the file's events, with the [analysis] and the claims of the scene that the run is of.
+RunStudies studies_of(const std::filesystem::path& results, const RunResult& run);
+
+}  // namespace scintray::cli

@@ -1,0 +1,186 @@
+#include "scintray/report/claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/report/format.hpp"
+#include "scintray/report/html_parts.hpp"
+#include "scintray/report/light_curves.hpp"
+#include "scintray/report/sweep_view.hpp"
+
+namespace scintray::report {
+
+namespace {
+
+/// Standard errors by which a number has to miss a bound for the verdict to count as certain.
+constexpr double kCertain = 2.0;
+
+Estimate ratio_of(const Estimate& a, const Estimate& b) {
+  const double r = a.value / b.value;
+  return {r, std::abs(r) * std::hypot(a.error / a.value, b.error / b.value)};
+}
+
+class Judge {
+ public:
+  Judge(const RunResult& run, const std::vector<EventStudy>& studies, const SweepView& view)
+      : run_(run), studies_(studies), view_(view) {}
+
+  Estimate value(const ClaimSpec& claim) const {
+    const SweepSeries& curve = series(claim.curve);
+    switch (claim.quantity) {
+      case ClaimQuantity::range:
+        return range(curve);
+      case ClaimQuantity::fall:
+        return fall(curve);
+      case ClaimQuantity::fall_difference: {
+        const Estimate a = fall(curve), b = fall(series(claim.over));
+        return {a.value - b.value, std::hypot(a.error, b.error)};
+      }
+      case ClaimQuantity::light:
+        return light(curve.points.front());
+      case ClaimQuantity::maximum_ratio:
+        return ratio_of(maximum(curve), maximum(series(claim.over)));
+      case ClaimQuantity::resolution:
+        return resolution(curve, claim);
+      case ClaimQuantity::time_ratio:
+        return {time_per_photon(curve) / time_per_photon(series(claim.over)), 0.0};
+    }
+    return {};
+  }
+
+ private:
+  const SweepSeries& series(const NameRef& name) const {
+    std::vector<std::string> labels;
+    for (const SweepSeries& one : view_.series) {
+      if (one.label == name.name) return one;
+      labels.push_back(one.label);
+    }
+    throw unknown_name(name.where, "curve", name.name, labels);
+  }
+
+  Estimate light(std::size_t point) const {
+    return studies_.empty() ? run_.points[point].fraction(Fate::detected) : light_of(studies_[point]);
+  }
+
+  std::vector<Estimate> lights(const SweepSeries& curve) const {
+    std::vector<Estimate> values;
+    for (const std::size_t point : curve.points) values.push_back(light(point));
+    return values;
+  }
+
+  Estimate maximum(const SweepSeries& curve) const {
+    const std::vector<Estimate> values = lights(curve);
+    return *std::max_element(values.begin(), values.end(),
+                             [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
+  }
+
+  Estimate range(const SweepSeries& curve) const {
+    const std::vector<Estimate> values = lights(curve);
+    const auto [low, high] = std::minmax_element(
+        values.begin(), values.end(), [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
+    double mean = 0.0;
+    for (const Estimate& one : values) mean += one.value / static_cast<double>(values.size());
+    return {(high->value - low->value) / mean, std::hypot(high->error, low->error) / mean};
+  }
+
+  Estimate fall(const SweepSeries& curve) const {
+    const Estimate kept = ratio_of(light(curve.points.back()), light(curve.points.front()));
+    return {1.0 - kept.value, kept.error};
+  }
+
+  Estimate resolution(const SweepSeries& curve, const ClaimSpec& claim) const {
+    const std::size_t point = curve.points.front();
+    if (studies_.empty() || !studies_[point].peak.has_numbers())
+      throw InputError({claim.where,
+                        "there is no photopeak at the first point of \"" + curve.label + "\"" +
+                            (studies_.empty() ? "" : ": " + studies_[point].peak.reason),
+                        "more events, or a claim of another quantity"});
+    return studies_[point].peak.fit.relative_fwhm;
+  }
+
+  double time_per_photon(const SweepSeries& curve) const {
+    double seconds = 0.0, photons = 0.0;
+    for (const std::size_t point : curve.points) {
+      seconds += run_.points[point].wall_seconds;
+      photons += static_cast<double>(run_.points[point].photons);
+    }
+    return seconds / photons;
+  }
+
+  const RunResult& run_;
+  const std::vector<EventStudy>& studies_;
+  const SweepView& view_;
+};
+
+bool within(const ClaimSpec& claim, double value) {
+  return (!claim.at_least || value >= *claim.at_least) && (!claim.at_most || value <= *claim.at_most);
+}
+
+std::string bounds(const ClaimSpec& claim) {
+  if (claim.at_least && claim.at_most)
+    return compact(*claim.at_least, 3) + " to " + compact(*claim.at_most, 3);
+  return claim.at_least ? "at least " + compact(*claim.at_least, 3) : "at most " + compact(*claim.at_most, 3);
+}
+
+std::string ours(const Verdict& verdict) {
+  return verdict.ours.error > 0.0 ? with_error(verdict.ours) : compact(verdict.ours.value, 3);
+}
+
+std::string words(const Verdict& verdict) {
+  return std::string(verdict.agrees ? "agrees" : "differs") +
+         (verdict.certain ? "" : ", within two errors of the bound");
+}
+
+std::string curves(const ClaimSpec& claim) {
+  return claim.curve.name + (claim.over.empty() ? "" : " over " + claim.over.name);
+}
+
+}  // namespace
+
+std::vector<Verdict> judge(const RunResult& run, const std::vector<EventStudy>& studies,
+                           const std::vector<ClaimSpec>& claims) {
+  std::vector<Verdict> verdicts;
+  if (claims.empty() || run.points.empty()) return verdicts;
+  const auto view = view_sweep(run);
+  if (!view)
+    throw InputError({claims.front().where,
+                      "claims are about curves, but this scene has no sweep over a number",
+                      "sweep one, as source.region.slab_z.center"});
+  const Judge of(run, studies, *view);
+  for (const ClaimSpec& claim : claims) {
+    Verdict verdict;
+    verdict.claim = claim;
+    verdict.ours = of.value(claim);
+    verdict.agrees = within(claim, verdict.ours.value);
+    const double margin = kCertain * verdict.ours.error;
+    verdict.certain = within(claim, verdict.ours.value - margin) == verdict.agrees &&
+                      within(claim, verdict.ours.value + margin) == verdict.agrees;
+    verdicts.push_back(verdict);
+  }
+  return verdicts;
+}
+
+std::string claim_section(const std::vector<Verdict>& verdicts) {
+  if (verdicts.empty()) return "";
+  std::string rows;
+  for (const Verdict& verdict : verdicts)
+    rows += "<tr>" + cell(verdict.claim.text, "th") + cell(curves(verdict.claim)) +
+            cell(verdict.claim.published) + cell(bounds(verdict.claim)) + cell(ours(verdict)) +
+            cell(words(verdict)) + cell(verdict.claim.note) + "</tr>\n";
+  return section(
+      "What was expected",
+      "<div class=\"claims\">" +
+          table({"claim", "of", "published", "expected here", "ours", "verdict", "note"}, rows, 7) +
+          "</div>\n");
+}
+
+std::string claim_lines(const std::vector<Verdict>& verdicts) {
+  std::string lines;
+  for (const Verdict& verdict : verdicts)
+    lines += (verdict.agrees ? "agrees   " : "DIFFERS  ") + verdict.claim.text + " [" +
+             curves(verdict.claim) + "]: " + ours(verdict) + " (expected " + bounds(verdict.claim) +
+             (verdict.claim.published.empty() ? "" : "; published " + verdict.claim.published) + ")\n";
+  return lines;
+}
+
+}  // namespace scintray::report
