@@ -59,6 +59,7 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
 
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const SceneFile file = SceneFile::load(scene);
+  check_claims(file);
   ProgressLine line(!options.quiet);
   SimulationOptions simulation = simulation_options(options, line);
   simulation.output = output_path(options, scene, file);

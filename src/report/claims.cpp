@@ -20,6 +20,20 @@ Estimate ratio_of(const Estimate& a, const Estimate& b) {
   return {r, std::abs(r) * std::hypot(a.error / a.value, b.error / b.value)};
 }
 
+const SweepSeries& named_series(const SweepView& view, const NameRef& name) {
+  std::vector<std::string> labels;
+  for (const SweepSeries& one : view.series) {
+    if (one.label == name.name) return one;
+    labels.push_back(one.label);
+  }
+  throw unknown_name(name.where, "curve", name.name, labels);
+}
+
+/// A number that the run does not have.
+struct Untold {
+  std::string why;
+};
+
 class Judge {
  public:
   Judge(const RunResult& run, const std::vector<EventStudy>& studies, const SweepView& view)
@@ -41,7 +55,7 @@ class Judge {
       case ClaimQuantity::maximum_ratio:
         return ratio_of(maximum(curve), maximum(series(claim.over)));
       case ClaimQuantity::resolution:
-        return resolution(curve, claim);
+        return resolution(curve);
       case ClaimQuantity::time_ratio:
         return {time_per_photon(curve) / time_per_photon(series(claim.over)), 0.0};
     }
@@ -49,14 +63,7 @@ class Judge {
   }
 
  private:
-  const SweepSeries& series(const NameRef& name) const {
-    std::vector<std::string> labels;
-    for (const SweepSeries& one : view_.series) {
-      if (one.label == name.name) return one;
-      labels.push_back(one.label);
-    }
-    throw unknown_name(name.where, "curve", name.name, labels);
-  }
+  const SweepSeries& series(const NameRef& name) const { return named_series(view_, name); }
 
   Estimate light(std::size_t point) const {
     return studies_.empty() ? run_.points[point].fraction(Fate::detected) : light_of(studies_[point]);
@@ -88,13 +95,10 @@ class Judge {
     return {1.0 - kept.value, kept.error};
   }
 
-  Estimate resolution(const SweepSeries& curve, const ClaimSpec& claim) const {
+  Estimate resolution(const SweepSeries& curve) const {
     const std::size_t point = curve.points.front();
-    if (studies_.empty() || !studies_[point].peak.has_numbers())
-      throw InputError({claim.where,
-                        "there is no photopeak at the first point of \"" + curve.label + "\"" +
-                            (studies_.empty() ? "" : ": " + studies_[point].peak.reason),
-                        "more events, or a claim of another quantity"});
+    if (studies_.empty()) throw Untold{"a run of photons has no photopeak"};
+    if (!studies_[point].peak.has_numbers()) throw Untold{studies_[point].peak.reason};
     return studies_[point].peak.fit.relative_fwhm;
   }
 
@@ -122,11 +126,22 @@ std::string bounds(const ClaimSpec& claim) {
   return claim.at_least ? "at least " + compact(*claim.at_least, 3) : "at most " + compact(*claim.at_most, 3);
 }
 
+SweepView view_of(const RunResult& run, const FileLocation& where) {
+  auto view = view_sweep(run);
+  if (!view)
+    throw InputError({where,
+                      "claims and a reference are about curves, but this scene has no sweep over a number",
+                      "sweep one, as source.region.slab_z.center"});
+  return std::move(*view);
+}
+
 std::string ours(const Verdict& verdict) {
+  if (!verdict.untold.empty()) return verdict.untold;
   return verdict.ours.error > 0.0 ? with_error(verdict.ours) : compact(verdict.ours.value, 3);
 }
 
 std::string words(const Verdict& verdict) {
+  if (!verdict.untold.empty()) return "not told";
   return std::string(verdict.agrees ? "agrees" : "differs") +
          (verdict.certain ? "" : ", within two errors of the bound");
 }
@@ -137,20 +152,41 @@ std::string curves(const ClaimSpec& claim) {
 
 }  // namespace
 
+void check_curves(const RunResult& run, const NameRef& reference, const std::vector<ClaimSpec>& claims) {
+  if (claims.empty() && reference.empty()) return;
+  Problems problems;
+  const SweepView view = view_of(run, claims.empty() ? reference.where : claims.front().where);
+  const auto check = [&](const NameRef& name) {
+    try {
+      if (!name.empty()) named_series(view, name);
+    } catch (const InputError& error) {
+      problems.add(error);
+    }
+  };
+  check(reference);
+  for (const ClaimSpec& claim : claims) {
+    check(claim.curve);
+    check(claim.over);
+  }
+  problems.throw_if_any();
+}
+
 std::vector<Verdict> judge(const RunResult& run, const std::vector<EventStudy>& studies,
                            const std::vector<ClaimSpec>& claims) {
   std::vector<Verdict> verdicts;
   if (claims.empty() || run.points.empty()) return verdicts;
-  const auto view = view_sweep(run);
-  if (!view)
-    throw InputError({claims.front().where,
-                      "claims are about curves, but this scene has no sweep over a number",
-                      "sweep one, as source.region.slab_z.center"});
-  const Judge of(run, studies, *view);
+  const SweepView view = view_of(run, claims.front().where);
+  const Judge of(run, studies, view);
   for (const ClaimSpec& claim : claims) {
     Verdict verdict;
     verdict.claim = claim;
-    verdict.ours = of.value(claim);
+    try {
+      verdict.ours = of.value(claim);
+    } catch (const Untold& untold) {
+      verdict.untold = untold.why;
+      verdicts.push_back(verdict);
+      continue;
+    }
     verdict.agrees = within(claim, verdict.ours.value);
     const double margin = kCertain * verdict.ours.error;
     verdict.certain = within(claim, verdict.ours.value - margin) == verdict.agrees &&
@@ -177,8 +213,11 @@ std::string claim_section(const std::vector<Verdict>& verdicts) {
 std::string claim_lines(const std::vector<Verdict>& verdicts) {
   std::string lines;
   for (const Verdict& verdict : verdicts)
-    lines += (verdict.agrees ? "agrees   " : "DIFFERS  ") + verdict.claim.text + " [" +
-             curves(verdict.claim) + "]: " + ours(verdict) + " (expected " + bounds(verdict.claim) +
+    lines += (!verdict.untold.empty() ? "NOT TOLD "
+              : verdict.agrees        ? "agrees   "
+                                      : "DIFFERS  ") +
+             verdict.claim.text + " [" + curves(verdict.claim) + "]: " + ours(verdict) + " (expected " +
+             bounds(verdict.claim) +
              (verdict.claim.published.empty() ? "" : "; published " + verdict.claim.published) + ")\n";
   return lines;
 }

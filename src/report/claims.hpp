@@ -12,6 +12,7 @@ namespace scintray::report {
 
 struct Verdict {
   ClaimSpec claim;
+  std::string untold;  ///< why there is no number; empty when there is one
   Estimate ours;
   bool agrees = false;   ///< within the claim's bounds
   bool certain = false;  ///< and would still be, or still not be, two standard errors away
@@ -19,10 +20,13 @@ struct Verdict {
 
 /// Light is per keV of energy deposited, times 511 keV, for runs of events; else the detected fraction.
 /// @param studies  of the events of the points, in step with run.points; empty for a run of photons
-/// @throws InputError when there is no curve of a claim's name, naming those there are, or the run has no
-///         sweep over a number
+/// @throws InputError as check_curves does
 std::vector<Verdict> judge(const RunResult& run, const std::vector<EventStudy>& studies,
                            const std::vector<ClaimSpec>& claims);
+
+/// @throws InputError when there is no curve of the name that a claim, or the reference, has, naming those
+///         there are, or there is no sweep over a number. Looks at the parameters of the points only.
+void check_curves(const RunResult& run, const NameRef& reference, const std::vector<ClaimSpec>& claims);
 
 /// A table; empty without claims.
 std::string claim_section(const std::vector<Verdict>& verdicts);
