@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "scintray/report/format.hpp"
 #include "scintray/report/html_parts.hpp"
@@ -49,30 +50,60 @@ double scale_of(const SweepView& view, const std::vector<EventStudy>& studies, c
 
 Estimate scaled(const Estimate& light, double scale) { return {light.value / scale, light.error / scale}; }
 
-std::string figure(const SweepView& view, const std::vector<EventStudy>& studies, const NameRef& reference,
-                   const std::string& what, const LightOf& light, bool peaks_only) {
+/// Curves that one plot has room for.
+constexpr std::size_t kMostCurves = 6;
+
+/// The setting of the slowest key, where a run has more curves than one plot has room for; else nothing.
+std::string group_of(const SweepView& view, const SweepSeries& series) {
+  if (view.series.size() <= kMostCurves) return "";
+  const auto comma = series.label.find(", ");
+  return comma == std::string::npos ? "" : series.label.substr(0, comma);
+}
+
+PlotSeries curve(const SweepSeries& series, const std::vector<EventStudy>& studies, const LightOf& light,
+                 double scale, const std::string& group) {
+  PlotSeries drawn;
+  drawn.label = group.empty() ? series.label : series.label.substr(group.size() + 2);
+  drawn.x = series.x;
+  for (const std::size_t point : series.points) {
+    const Estimate value = scaled(light(studies.at(point)), scale);
+    drawn.y.push_back(value.value);
+    drawn.error.push_back(value.error);
+  }
+  return drawn;
+}
+
+/// A plot for each group of curves, all with the same upper end.
+std::string figures(const SweepView& view, const std::vector<EventStudy>& studies, const NameRef& reference,
+                    const std::string& what, const LightOf& light, bool peaks_only) {
   const double scale = scale_of(view, studies, reference, light);
   if (!(scale > 0.0)) return "";
-  Plot plot;
-  plot.title = what + " against " + view.key;
-  plot.x_label = view.key + (view.unit.empty() ? "" : " (" + view.unit + ")");
-  plot.y_label = reference.empty() ? unit_of(studies) : "of " + reference.name;
-  plot.legend_above = view.series.size() > 4;
+  std::vector<std::pair<std::string, std::vector<PlotSeries>>> groups;
+  double highest = 0.0;
   for (const SweepSeries& series : view.series) {
     if (peaks_only && !has_peaks(series, studies)) continue;
-    PlotSeries drawn;
-    drawn.label = series.label;
-    drawn.x = series.x;
-    for (const std::size_t point : series.points) {
-      const Estimate value = scaled(light(studies.at(point)), scale);
-      drawn.y.push_back(value.value);
-      drawn.error.push_back(value.error);
-    }
-    plot.series.push_back(std::move(drawn));
+    const std::string group = group_of(view, series);
+    if (groups.empty() || groups.back().first != group) groups.push_back({group, {}});
+    groups.back().second.push_back(curve(series, studies, light, scale, group));
+    for (const double y : groups.back().second.back().y) highest = std::max(highest, y);
   }
-  if (plot.series.empty()) return "";
-  return "<figure>" + svg_plot(plot) + "<figcaption>" + escape_html(what) + " against " +
-         escape_html(view.key) + ". Bars show one standard error.</figcaption></figure>\n";
+  std::string out;
+  for (auto& [group, curves] : groups) {
+    Plot plot;
+    plot.title = what + " against " + view.key;
+    plot.x_label = view.key + (view.unit.empty() ? "" : " (" + view.unit + ")");
+    plot.y_label = reference.empty() ? unit_of(studies) : "relative";
+    plot.y_high = highest;
+    plot.legend_above = curves.size() > 4;
+    plot.height = plot.legend_above ? 480.0 : 380.0;
+    plot.series = std::move(curves);
+    const std::string unit =
+        reference.empty() ? "" : ", in units of " + reference.name + " at its first point";
+    out += "<figure>" + svg_plot(plot) + "<figcaption>" +
+           escape_html((group.empty() ? "" : group + ": ") + what + unit) +
+           ". Bars show one standard error.</figcaption></figure>\n";
+  }
+  return out;
 }
 
 }  // namespace
@@ -101,10 +132,20 @@ std::vector<std::vector<std::string>> light_table(const SweepView& view,
   return rows;
 }
 
+std::vector<std::vector<std::string>> upright(const std::vector<std::vector<std::string>>& table,
+                                              std::size_t most) {
+  if (table.empty() || table.front().size() <= most) return table;
+  std::vector<std::vector<std::string>> turned(table.front().size());
+  for (const auto& row : table)
+    for (std::size_t i = 0; i < row.size(); ++i) turned[i].push_back(row[i]);
+  return turned;
+}
+
 std::string light_section(const SweepView& view, const std::vector<EventStudy>& studies,
                           const NameRef& reference) {
   if (!any_events(studies)) return "";
-  const std::vector<std::vector<std::string>> rows = light_table(view, studies, reference);
+  const std::vector<std::vector<std::string>> rows =
+      upright(light_table(view, studies, reference), kMostCurves);
   std::string body;
   for (std::size_t r = 1; r < rows.size(); ++r) {
     body += "<tr>" + cell(rows[r].front(), "th");
@@ -113,10 +154,11 @@ std::string light_section(const SweepView& view, const std::vector<EventStudy>& 
   }
   return section(
       "Light output of events",
-      figure(view, studies, reference, "Light at 511 keV, of all events over their energy", light_of, false) +
+      figures(view, studies, reference, "Light at 511 keV, of all events over their energy", light_of,
+              false) +
           table(rows.front(), body) +
-          figure(view, studies, reference, "Position of the photopeak, where it is found at every point",
-                 photopeak_of, true));
+          figures(view, studies, reference, "Position of the photopeak, where it is found at every point",
+                  photopeak_of, true));
 }
 
 }  // namespace scintray::report

@@ -27,4 +27,8 @@ std::vector<std::vector<std::string>> light_table(const SweepView& view,
                                                   const std::vector<EventStudy>& studies,
                                                   const NameRef& reference);
 
+/// Rows for columns when there are more columns than `most`.
+std::vector<std::vector<std::string>> upright(const std::vector<std::vector<std::string>>& table,
+                                              std::size_t most);
+
 }  // namespace scintray::report

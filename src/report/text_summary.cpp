@@ -37,15 +37,8 @@ std::string aligned(const Table& table) {
   return text;
 }
 
-/// Rows for columns, when there are more columns than fit a terminal.
-Table upright(const Table& table) {
-  constexpr std::size_t kMostColumns = 6;
-  if (table.empty() || table.front().size() <= kMostColumns) return table;
-  Table turned(table.front().size());
-  for (const auto& row : table)
-    for (std::size_t i = 0; i < row.size(); ++i) turned[i].push_back(row[i]);
-  return turned;
-}
+/// Columns that fit a terminal.
+constexpr std::size_t kMostColumns = 6;
 
 std::string sweep_table(const RunResult& run, const SweepView& view) {
   Table table{{view.key}};
@@ -126,11 +119,12 @@ std::string text_summary(const RunResult& run, const RunStudies& studies) {
            tally_lines(run.points.front()) + energy_lines(run.points.front()) +
            (studies.points.empty() ? "" : event_lines(studies.points.front())) + warnings(run);
   const auto view = view_sweep(run);
-  const std::string table = !view ? point_table(run)
-                            : studies.points.size() == run.points.size()
-                                ? "Light of events at 511 keV\n" +
-                                      aligned(upright(light_table(*view, studies.points, studies.reference)))
-                                : sweep_table(run, *view);
+  const std::string table =
+      !view ? point_table(run)
+      : studies.points.size() == run.points.size()
+          ? "Light of events at 511 keV\n" +
+                aligned(upright(light_table(*view, studies.points, studies.reference), kMostColumns))
+          : sweep_table(run, *view);
   return table + claim_lines(judge(run, studies.points, studies.claims)) + warnings(run);
 }
 

@@ -12,8 +12,9 @@ std::optional<DepthSpec> read_depth(const TomlTable& table) {
   if (!depth) return std::nullopt;
   DepthSpec spec;
   spec.origin = depth->optional_quantity3("from", Dimension::length).value_or(spec.origin);
-  depth->expect("along", depth->has("along"), "a depth needs its direction",
-                "give along = [0, 0, 1]; depths count from the point \"from\"");
+  if (!depth->has("along"))
+    depth->report("along", "a depth needs its direction",
+                  "give along = [0, 0, 1]; depths count from the point \"from\"");
   spec.along = depth->optional_direction("along").value_or(spec.along);
   return spec;
 }

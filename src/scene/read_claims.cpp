@@ -34,13 +34,13 @@ ClaimSpec read_claim(const TomlTable& table) {
   claim.curve = {table.string("curve", ""), table.where("curve")};
   claim.over = {table.string("over", ""), table.where("over")};
   const bool two = compares(claim.quantity);
-  table.expect("over", !table.good("quantity") || two == table.has("over"),
-               two ? "\"" + chosen + "\" compares two curves" : "\"" + chosen + "\" is of one curve",
-               two ? "name the second one with over" : "remove over");
+  if (table.good("quantity") && two != table.has("over"))
+    table.report("over", "\"" + chosen + (two ? "\" compares two curves" : "\" is of one curve"),
+                 two ? "name the second one with over" : "remove over");
   claim.at_least = table.optional_quantity("at_least", Dimension::dimensionless);
   claim.at_most = table.optional_quantity("at_most", Dimension::dimensionless);
-  table.expect("at_least", claim.at_least || claim.at_most, "a claim without bounds cannot fail",
-               "give at_least, at_most, or both");
+  if (!claim.at_least && !claim.at_most)
+    table.report("at_least", "a claim without bounds cannot fail", "give at_least, at_most, or both");
   return claim;
 }
 
