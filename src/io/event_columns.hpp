@@ -1,6 +1,8 @@
 #pragma once
 /// The tables of events, of what channels saw of them, and of the channels, column by column.
 
+#include <cmath>
+
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/readout_channels.hpp"
 
@@ -86,7 +88,7 @@ void for_each_channel_number(const Visit& visit) {
 
 /// True when a channel has something to say of an event; other channels have no row.
 inline bool has_signal(const ChannelRecord& record) {
-  return record.detected > 0 || record.charge == record.charge;  // not NaN: the channel was read out
+  return record.detected > 0 || !std::isnan(record.charge);  // NaN: no readout
 }
 
 }  // namespace scintray::results_format

@@ -82,6 +82,7 @@ struct GammaSpec {
   std::variant<SpectrumSpec, EmitterSpec, HitsSpec> kind;
   std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else at most so many
   std::optional<std::uint64_t> quick_events;  ///< in their place, for a quick run
+  bool cherenkov = false;                     ///< Cherenkov light beside scintillation
   bool unpolarised = false;                   ///< the light, as SourceSpec says
   FileLocation where;
 };

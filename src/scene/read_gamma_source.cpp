@@ -170,6 +170,7 @@ GammaSpec read_gamma_source(const TomlTable& source, const std::vector<std::stri
   GammaSpec spec;
   spec.where = source.where();
   const std::string type = source.choice("type", kGammaSourceTypes);
+  spec.cherenkov = source.boolean("cherenkov", false);
   if (const auto quick = source.optional_integer("quick_events"))
     spec.quick_events = positive_count(source, "quick_events", *quick);
   if (type == "hits") {

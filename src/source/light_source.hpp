@@ -23,8 +23,12 @@ struct PhotonSpan {
 /// The light of one event. Filled by a LightSource, read by nothing else than it, but for `event`.
 struct EventLight {
   std::uint64_t photons = 0;
-  Event event;                             ///< what made the light; empty when the source is one of photons
-  std::vector<std::uint64_t> deposit_end;  ///< per deposit: photons of it and of those before it
+  Event event;  ///< what made the light; empty when the source is one of photons
+  /// Photons of a deposit: scintillation first, then Cherenkov light. Both count from the event's first.
+  struct DepositEnd {
+    std::uint64_t scintillation = 0, all = 0;
+  };
+  std::vector<DepositEnd> deposits;  ///< per deposit: one past its last photons
 };
 
 /// Makes the photons of a scene's [source]. Immutable; an event depends on its own random stream, and a

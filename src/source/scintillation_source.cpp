@@ -43,13 +43,19 @@ std::uint64_t sample_photon_number(const Medium& medium, double energy_keV, Rng&
 }
 
 ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, const Scene& scene,
-                                         bool unpolarised)
+                                         bool unpolarised, bool cherenkov)
     : events_(std::move(events)), unpolarised_(unpolarised) {
   for (const SceneMedium& medium : scene.media)
     emission_.push_back(medium.medium().yield_per_keV > 0.0 ? CurveSampler(medium.medium().emission)
                                                             : CurveSampler());
   for (std::uint32_t region = 0; region < scene.regions.size(); ++region)
     if (scintillates(scene, region)) regions_.push_back(region);
+  if (!cherenkov) return;
+  for (const SceneMedium& medium : scene.media) {
+    cherenkov_.emplace_back();
+    if (medium.medium().yield_per_keV > 0.0)
+      cherenkov_.back().emplace(medium.medium(), scene.low_nm, scene.high_nm);
+  }
 }
 
 std::vector<std::uint32_t> ScintillationSource::regions() const { return regions_; }
@@ -57,18 +63,24 @@ std::vector<std::uint32_t> ScintillationSource::regions() const { return regions
 void ScintillationSource::begin(const Scene& scene, std::uint64_t event, Rng& rng, EventLight& light) const {
   light.event = events_->make(scene, event, rng);
   light.photons = 0;
-  light.deposit_end.clear();
+  light.deposits.clear();
   for (const Deposit& deposit : light.event.deposits) {
-    const Medium& medium = scene.media[scene.regions[deposit.region].medium].medium();
-    light.photons += sample_photon_number(medium, deposit.energy_keV, rng);
-    light.deposit_end.push_back(light.photons);
+    const std::uint32_t at = scene.regions[deposit.region].medium;
+    light.photons += sample_photon_number(scene.media[at].medium(), deposit.energy_keV, rng);
+    light.deposits.push_back({light.photons, light.photons});
+    if (cherenkov_.empty()) continue;
+    light.photons += sample_poisson(cherenkov_[at]->mean_photons(deposit.energy_keV), rng);
+    light.deposits.back().all = light.photons;
   }
 }
 
 Photon ScintillationSource::emit(const Scene& scene, const EventLight& light, std::uint64_t number,
                                  Rng& rng) const {
-  const auto from = std::upper_bound(light.deposit_end.begin(), light.deposit_end.end(), number);
-  const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposit_end.begin())];
+  const auto from = std::upper_bound(
+      light.deposits.begin(), light.deposits.end(), number,
+      [](std::uint64_t photon, const EventLight::DepositEnd& end) { return photon < end.all; });
+  const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposits.begin())];
+  const bool prompt = number >= from->scintillation;
   const std::uint32_t medium = scene.regions[deposit.region].medium;
   Photon photon;
   photon.position = deposit.position;
@@ -76,8 +88,9 @@ Photon ScintillationSource::emit(const Scene& scene, const EventLight& light, st
   photon.ray.direction = sample_isotropic(rng);
   photon.ray.polarisation =
       unpolarised_ ? Vec3(Vec3::Zero()) : sample_polarisation(photon.ray.direction, rng);
-  photon.wavelength_nm = emission_[medium].sample(rng.uniform());
-  photon.time_ns = deposit.time_ns + sample_decay(scene.media[medium].medium().decay, rng);
+  photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
+                                : emission_[medium].sample(rng.uniform());
+  photon.time_ns = deposit.time_ns + (prompt ? 0.0 : sample_decay(scene.media[medium].medium().decay, rng));
   photon.optics = scene.media[medium].at(photon.wavelength_nm);
   photon.optical_depth = sample_exponential(rng);
   return photon;

@@ -2,19 +2,24 @@
 /// Light from energy.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/source/cherenkov.hpp"
 #include "scintray/source/light_source.hpp"
 
 namespace scintray {
 
 /// Photons of the deposits of events, as the media there make them: their number from the yield, its
 /// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay;
-/// directions isotropic. Immutable.
+/// directions isotropic. Cherenkov light comes at once. Immutable.
 class ScintillationSource : public LightSource {
  public:
-  ScintillationSource(std::unique_ptr<EventSource> events, const Scene& scene, bool unpolarised);
+  /// @param cherenkov  adds Cherenkov light of the wavelengths in use, as of electrons of the deposits'
+  ///                   energies; throws InputError, without a place, for a scintillator without composition
+  ScintillationSource(std::unique_ptr<EventSource> events, const Scene& scene, bool unpolarised,
+                      bool cherenkov = false);
 
   std::uint64_t events() const override { return events_->events(); }
   bool has_energy() const override { return true; }
@@ -27,8 +32,9 @@ class ScintillationSource : public LightSource {
 
  private:
   std::unique_ptr<EventSource> events_;
-  std::vector<CurveSampler> emission_;  ///< per medium of the scene
-  std::vector<std::uint32_t> regions_;  ///< that scintillate
+  std::vector<CurveSampler> emission_;                      ///< per medium of the scene
+  std::vector<std::optional<CherenkovEmitter>> cherenkov_;  ///< per medium; empty without that light
+  std::vector<std::uint32_t> regions_;                      ///< that scintillate
   bool unpolarised_;
 };
 

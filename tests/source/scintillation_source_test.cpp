@@ -100,17 +100,17 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
   EventLight light;
   Rng event_rng(1, StreamKind::event, 0);
   source.begin(scene, 0, event_rng, light);
-  REQUIRE(light.deposit_end.size() == 2);
-  CHECK(light.photons == light.deposit_end.back());
+  REQUIRE(light.deposits.size() == 2);
+  CHECK(light.photons == light.deposits.back().all);
   const double per_keV = scene.media[scene.regions[crystal].medium].medium().yield_per_keV;
-  CHECK(std::abs(static_cast<double>(light.deposit_end[0]) - 300.0 * per_keV) <
+  CHECK(std::abs(static_cast<double>(light.deposits[0].all) - 300.0 * per_keV) <
         kSigmas * std::sqrt(300.0 * per_keV));
 
   Moments first, second, along;
   for (std::uint64_t i = 0; i < light.photons; ++i) {
     Rng rng(1, StreamKind::photon, 0, i);
     const Photon photon = source.emit(scene, light, i, rng);
-    const bool of_first = i < light.deposit_end[0];
+    const bool of_first = i < light.deposits[0].all;
     CHECK(photon.position == (of_first ? Vec3(1, 2, 3) : Vec3(-1, 0, 2)));
     CHECK(photon.region == crystal);
     (of_first ? first : second).add(photon.time_ns);
@@ -121,4 +121,42 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
   CHECK(std::abs(first.mean().value - 40.0) < kSigmas * first.mean().error);
   CHECK(std::abs(second.mean().value - 90.0) < kSigmas * second.mean().error);
   CHECK(std::abs(along.mean().value) < kSigmas * along.mean().error);
+}
+
+TEST_CASE("Cherenkov light is prompt, and as much as electrons of the deposits' energies make") {
+  const Scene scene = lso_cube(10.0);
+  class OneDeposit : public EventSource {
+   public:
+    explicit OneDeposit(std::uint32_t region) : region_(region) {}
+    std::uint64_t events() const override { return 2000; }
+    Event make(const Scene&, std::uint64_t, Rng&) const override {
+      Event event;
+      event.deposits = {{Vec3::Zero(), region_, 420.0, 3.0}};
+      return event;
+    }
+
+   private:
+    std::uint32_t region_;
+  };
+  const std::uint32_t crystal = scene.locate(Vec3::Zero());
+  const ScintillationSource source(std::make_unique<OneDeposit>(crystal), scene, false, true);
+  const CherenkovEmitter alone(scene.media[scene.regions[crystal].medium].medium(), scene.low_nm,
+                               scene.high_nm);
+  double photons = 0.0;
+  for (std::uint64_t number = 0; number < source.events(); ++number) {
+    EventLight light;
+    Rng event_rng(1, StreamKind::event, number);
+    source.begin(scene, number, event_rng, light);
+    photons += static_cast<double>(light.deposits[0].all - light.deposits[0].scintillation);
+    for (std::uint64_t i = light.deposits[0].scintillation; i < light.photons; ++i) {
+      Rng rng(1, StreamKind::photon, number, i);
+      const Photon photon = source.emit(scene, light, i, rng);
+      CHECK(photon.time_ns == 3.0);
+      CHECK(photon.wavelength_nm >= scene.low_nm);
+      CHECK(photon.wavelength_nm <= scene.high_nm);
+    }
+  }
+  const double expected = 2000.0 * alone.mean_photons(420.0);
+  CHECK(expected > 0.0);
+  CHECK(std::abs(photons - expected) < kSigmas * std::sqrt(expected));
 }
