@@ -1,6 +1,7 @@
 #include "scintray/io/response_file.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"

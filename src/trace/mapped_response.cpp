@@ -27,8 +27,12 @@ MappedResponse::MappedResponse(const ResponseMap& map) : map_(map) {
     std::uint64_t delays = 0;
     for (std::size_t cell = 0; cell < grid.size(); ++cell) {
       indexed.first_delay.push_back(delays);
-      for (std::size_t channel = 0; channel < channels; ++channel)
-        delays += map.kept(grid.detected[cell * channels + channel]);
+      for (std::size_t channel = 0; channel < channels; ++channel) {
+        const std::uint32_t kept = map.kept(grid.detected[cell * channels + channel]);
+        const std::span<const float> own(grid.delays_ns.data() + delays, kept);
+        indexed.earliest.push_back(own.empty() ? 0.0f : *std::min_element(own.begin(), own.end()));
+        delays += kept;
+      }
     }
   }
 }
@@ -91,6 +95,7 @@ void MappedResponse::at(const Vec3& position, std::uint32_t region,
       const std::uint32_t kept = map_.kept(detected);
       PlaceResponse& seen = response[channel];
       seen.probability_ += per_photon * detected;
+      seen.earliest_ = std::min(seen.earliest_, double{grid.earliest[corner.cell * channels + channel]});
       seen.cells_[seen.count_++] = {seen.probability_, {delay, kept}};
       delay += kept;
     }
@@ -109,7 +114,7 @@ double sample_first(std::uint64_t count, const std::vector<DecayComponent>& deca
     double decayed = 0.0;
     for (std::uint64_t left = photons; left > 0; --left) {
       decayed += component.decay_ns * sample_exponential(rng) / static_cast<double>(left);
-      if (decayed >= first) break;
+      if (decayed + response.earliest_delay() >= first) break;
       double time = decayed + response.sample_delay(rng);
       if (component.rise_ns > 0.0) time += component.rise_ns * sample_exponential(rng);
       first = std::min(first, time);

@@ -20,6 +20,8 @@ class PlaceResponse {
   double probability() const { return probability_; }
   /// Time from emission to detection of a detected photon, ns: one of those in the map, of a cell nearby.
   double sample_delay(Rng& rng) const;
+  /// No delay is shorter, ns.
+  double earliest_delay() const { return earliest_; }
 
  private:
   friend class MappedResponse;
@@ -28,6 +30,7 @@ class PlaceResponse {
     std::span<const float> delays_ns;
   };
   double probability_ = 0.0;
+  double earliest_ = std::numeric_limits<double>::infinity();
   std::size_t count_ = 0;
   std::array<Cell, 8> cells_;
 };
@@ -50,6 +53,7 @@ class MappedResponse {
   struct Grid {
     const ResponseGrid* data = nullptr;
     std::vector<std::uint64_t> first_delay;  ///< of each cell
+    std::vector<float> earliest;             ///< delay of each cell and channel; 0 without any
   };
   struct Corner {
     std::size_t cell = 0;
@@ -70,7 +74,7 @@ class MappedResponse {
 /// Time of the first of `count` photons (at least 1) that a channel detects of light emitted at time 0 with
 /// this decay. Photons are made in the order of their decay, whose steps are those of ordered exponentials
 /// (A. Renyi 1953, Acta Math. Acad. Sci. Hung. 4, 191), up to the one that comes out too late to be first
-/// whatever its way: exact, and quick where times of flight are short beside the decay.
+/// even by the shortest way: exact, and quick where times of flight are short beside the decay.
 double sample_first(std::uint64_t count, const std::vector<DecayComponent>& decay,
                     const PlaceResponse& response, Rng& rng);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Response maps: what sensors see of light from each place of a scene, traced once.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "scintray/core/count_sampling.hpp"
 #include "scintray/tally/event_tally.hpp"

@@ -2,6 +2,7 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/io/results.hpp"
 #include "support/shared.hpp"
+#include "support/small_crystal.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -9,24 +10,7 @@ using namespace scintray::test;
 
 TEST_CASE("A map is built, events are made from it, and its result is reported like any other") {
   const auto folder = scratch_folder("response_program");
-  std::ofstream(folder / "scene.toml") << R"(
-ambient = "vacuum"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "4 mm"]
-medium = "LSO"
-surface = "polished"
-[[part]]
-name = "pmt"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "ideal"
-[source]
-type = "gamma_events"
-events = 1000
-region = { part = "crystal" }
-energy = "100 keV"
-)";
+  std::ofstream(folder / "scene.toml") << kSmallCrystal;
   const auto did = [&](const std::vector<std::string>& command, int code, const std::string& words) {
     const Ended ended = run_program(command, folder);
     CAPTURE(ended.output);

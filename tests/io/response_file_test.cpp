@@ -9,32 +9,13 @@
 #include "scintray/io/results.hpp"
 #include "scintray/io/simulate_mapped.hpp"
 #include "support/shared.hpp"
+#include "support/small_crystal.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
 
 namespace {
-
-const std::string kScene = R"(
-title = "for maps"
-ambient = "vacuum"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "4 mm"]
-medium = "LSO"
-surface = "polished"
-[[part]]
-name = "pmt"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "ideal"
-[source]
-type = "gamma_events"
-events = 5
-region = { part = "crystal" }
-energy = "100 keV"
-)";
 
 SceneFile scene_file(const std::string& text) { return SceneFile::from_text(text, "scene.toml"); }
 
@@ -48,7 +29,7 @@ ResponseFile made_up_map() {
   ResponseFile file;
   file.version = "1.2.3";
   file.scene_file = "scene.toml";
-  file.scene_text = kScene;
+  file.scene_text = kSmallCrystal;
   file.map.channels = {"pmt", "other"};
   file.map.seed = ~0ull;
   file.map.photons_per_cell = 50;
@@ -146,22 +127,22 @@ TEST_CASE("A map serves scenes that differ in what does not touch the light's wa
   const auto complaint = [&](const std::string& text) {
     return complaint_of([&] { require_same_scene(scene_file(text), map); });
   };
-  CHECK(complaint(kScene).empty());
-  CHECK(complaint(with(kScene, "\"for maps\"", "\"else\"")).empty());
-  CHECK(complaint(with(kScene, "\"100 keV\"", "\"511 keV\"") + "[run]\nseed = 7\n").empty());
-  check_says(complaint(with(kScene, "\"polished\"", "\"lso_ground_30um\"")),
+  CHECK(complaint(kSmallCrystal).empty());
+  CHECK(complaint(with(kSmallCrystal, "\"A small crystal\"", "\"else\"")).empty());
+  CHECK(complaint(with(kSmallCrystal, "\"100 keV\"", "\"511 keV\"") + "[run]\nseed = 7\n").empty());
+  check_says(complaint(with(kSmallCrystal, "\"polished\"", "\"lso_ground_30um\"")),
              "\"part.crystal.surface\" differs");
-  check_says(complaint(with(kScene, "\"4 mm\"", "\"5 mm\"")), "\"part.crystal.box.3\" differs");
-  check_says(complaint(kScene + "[media.extra]\nindex = { n = 1.5 }\nabsorption = { none = true }\n"
-                                "scattering = { none = true }\n"),
+  check_says(complaint(with(kSmallCrystal, "\"4 mm\"", "\"5 mm\"")), "\"part.crystal.box.3\" differs");
+  check_says(complaint(kSmallCrystal + "[media.extra]\nindex = { n = 1.5 }\nabsorption = { none = true }\n"
+                                       "scattering = { none = true }\n"),
              "\"media\" differs");
-  check_says(complaint(with(kScene, "[source]", "[source]\npolarisation = \"unpolarised\"")),
+  check_says(complaint(with(kSmallCrystal, "[source]", "[source]\npolarisation = \"unpolarised\"")),
              "source.polarisation says otherwise");
 }
 
 TEST_CASE("Events from a map are a result that says where it comes from") {
   const auto folder = scratch_folder("response_run");
-  const SceneFile scene = scene_file(kScene);
+  const SceneFile scene = scene_file(kSmallCrystal);
   MapOptions options;
   options.settings = {2.0, 200, 8};
   const ResponseFile map = build_map(scene, options);
@@ -195,9 +176,9 @@ TEST_CASE("Scenes that no map can be of are refused in words") {
   const auto complaint = [](const std::string& text) {
     return complaint_of([&] { build_map(scene_file(text), {}); });
   };
-  check_says(complaint(kScene + "[[sweep]]\nkey = \"source.events\"\nvalues = [1, 2]\n"),
+  check_says(complaint(kSmallCrystal + "[[sweep]]\nkey = \"source.events\"\nvalues = [1, 2]\n"),
              "this one has a sweep");
-  std::string photons = kScene.substr(0, kScene.find("[source]"));
+  std::string photons = kSmallCrystal.substr(0, kSmallCrystal.find("[source]"));
   photons +=
       "[source]\ntype = \"photons\"\nregion = { part = \"crystal\" }\nwavelength = \"420 nm\"\nphotons = 1\n";
   check_says(complaint(photons), "this is a source of photons");
