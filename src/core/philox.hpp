@@ -22,6 +22,8 @@ enum class StreamKind : std::uint64_t {
   synthesis = 3,  ///< generating a height map
   other = 4,
   sensor = 5,  ///< (event, channel): what a sensor and its electronics add
+  cell = 6,    ///< (cell, photon) of a grid: building a response map
+  mapped = 7,  ///< (event, 0): what a response map makes of an event
 };
 
 /// A random stream addressed by (seed, kind, a, b, set). Streams with different addresses are

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 
+#include "scintray/core/count_sampling.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/medium/decay.hpp"
@@ -13,21 +12,6 @@
 namespace scintray {
 
 namespace {
-
-/// A stream of ours as the standard library's distributions want it.
-struct Bits {
-  using result_type = std::uint64_t;
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
-  result_type operator()() { return rng.bits(); }
-  Rng& rng;
-};
-
-std::uint64_t sample_poisson(double mean, Rng& rng) {
-  if (mean <= 0.0) return 0;
-  Bits bits{rng};
-  return std::poisson_distribution<std::uint64_t>(mean)(bits);
-}
 
 /// Full width at half maximum over standard deviation of a Gaussian.
 const double kFwhmPerSigma = 2.0 * std::sqrt(2.0 * std::log(2.0));

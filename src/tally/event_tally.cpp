@@ -38,16 +38,20 @@ void EventTally::begin(std::uint64_t event, std::uint32_t point, const EventLigh
 }
 
 void EventTally::detected(std::uint32_t channel, const Photon& photon) {
-  EventRecord& record = events_.back();
-  ++record.detected;
-  ChannelRecord& seen = record.channels[channel];
-  const auto time = static_cast<float>(photon.time_ns);
-  seen.first_ns = seen.detected == 0 ? time : std::min(seen.first_ns, time);
-  ++seen.detected;
-  if (arrivals_.empty()) return;
+  detected(channel, 1, photon.time_ns);
+  if (!wants_arrivals()) return;
   const ReadoutChannel& at = plan_.channels.list[channel];
   const Vec3 from = photon.position - at.position;
-  arrivals_[channel].push_back({photon.time_ns, from.dot(at.x), from.dot(at.y)});
+  arrived(channel, {photon.time_ns, from.dot(at.x), from.dot(at.y)});
+}
+
+void EventTally::detected(std::uint32_t channel, std::uint64_t count, double first_ns) {
+  EventRecord& record = events_.back();
+  record.detected += count;
+  ChannelRecord& seen = record.channels[channel];
+  const auto time = static_cast<float>(first_ns);
+  seen.first_ns = seen.detected == 0 ? time : std::min(seen.first_ns, time);
+  seen.detected += static_cast<std::uint32_t>(count);
 }
 
 void EventTally::read_out(std::uint32_t channel, Rng rng) {

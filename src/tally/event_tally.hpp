@@ -19,6 +19,11 @@ class EventTally {
   void begin(std::uint64_t event, std::uint32_t point, const EventLight& light);
   /// A photon of it that a sensor converted.
   void detected(std::uint32_t channel, const Photon& photon);
+  /// Photons of it that a sensor converted, at least one, the first of them at `first_ns`.
+  void detected(std::uint32_t channel, std::uint64_t count, double first_ns);
+  /// True when each of them is to be told as an arrival, too: there is a readout.
+  bool wants_arrivals() const { return !arrivals_.empty(); }
+  void arrived(std::uint32_t channel, const Arrival& arrival) { arrivals_[channel].push_back(arrival); }
   /// Ends it: its channels are read out, each with the random stream that `stream(channel)` gives.
   void end(const std::function<Rng(std::uint32_t)>& stream);
 

@@ -1,32 +1,15 @@
 #include "scintray/trace/run.hpp"
 
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
-#include <memory>
 
 #include "scintray/tally/event_tally.hpp"
+#include "scintray/trace/in_order.hpp"
 #include "scintray/trace/step.hpp"
 
 namespace scintray {
 
 namespace {
-
-/// Blocks in flight for each thread.
-constexpr std::size_t kBlocksPerThread = 4;
-
-std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings) {
-  if (photon.interactions >= settings.max_interactions) return Fate::cut_interactions;
-  if (settings.max_time_ns && photon.time_ns > *settings.max_time_ns) return Fate::cut_time;
-  return std::nullopt;
-}
-
-/// The random stream of what a sensor and its electronics add to an event.
-Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel) {
-  return Rng(settings.seed, StreamKind::sensor, event, channel, settings.point);
-}
 
 /// What one piece of work found.
 struct Block {
@@ -43,18 +26,18 @@ class BlockTracer {
               const RunSettings& settings)
       : scene_(scene), source_(source), plan_(plan), settings_(settings), energy_(source.has_energy()) {}
 
-  std::shared_ptr<Block> trace(std::uint64_t number) const {
-    auto block = std::make_shared<Block>(scene_, plan_);
+  Block trace(std::uint64_t number) const {
+    Block block(scene_, plan_);
     EventLight light;
     for (const PhotonSpan& span : source_.block(number)) {
       Rng rng = event_stream(settings_, span.event);
       source_.begin(scene_, span.event, rng, light);
-      if (energy_) block->events.begin(span.event, settings_.point, light);
+      if (energy_) block.events.begin(span.event, settings_.point, light);
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      for (std::uint64_t i = 0; i < count; ++i) trace_photon(light, span.event, span.first + i, *block);
-      block->started += count;
+      for (std::uint64_t i = 0; i < count; ++i) trace_photon(light, span.event, span.first + i, block);
+      block.started += count;
       if (energy_)
-        block->events.end(
+        block.events.end(
             [&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
     }
     return block;
@@ -105,6 +88,16 @@ Rng event_stream(const RunSettings& settings, std::uint64_t event) {
   return Rng(settings.seed, StreamKind::event, event, 0, settings.point);
 }
 
+Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel) {
+  return Rng(settings.seed, StreamKind::sensor, event, channel, settings.point);
+}
+
+std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings) {
+  if (photon.interactions >= settings.max_interactions) return Fate::cut_interactions;
+  if (settings.max_time_ns && photon.time_ns > *settings.max_time_ns) return Fate::cut_time;
+  return std::nullopt;
+}
+
 PointResult run_point(const Scene& scene, const LightSource& source, const TallyPlan& plan,
                       const RunSettings& settings, const RunHooks& hooks) {
   const auto start = std::chrono::steady_clock::now();
@@ -112,35 +105,18 @@ PointResult run_point(const Scene& scene, const LightSource& source, const Tally
   const BlockTracer tracer(scene, source, plan, settings);
   const bool energy = source.has_energy();
   const std::uint64_t blocks = source.blocks();
-  std::uint64_t next_block = 0, blocks_done = 0, started = 0;
+  std::uint64_t started = 0;
 
-  const auto give_block = [&](tbb::flow_control& control) -> std::uint64_t {
-    if (next_block == blocks || (hooks.stop && hooks.stop->load())) {
-      control.stop();
-      return 0;
-    }
-    return next_block++;
-  };
   const auto trace = [&](std::uint64_t block) { return tracer.trace(block); };
-  const auto collect = [&](const std::shared_ptr<Block>& block) {
-    block->photons.add_to(total);
-    block->events.add_to(total.energy);
-    ++blocks_done;
-    started += block->started;
-    if (hooks.detected && !block->photons.photons().empty()) hooks.detected(block->photons.photons());
-    if (hooks.events && !block->events.events().empty()) hooks.events(block->events.events());
+  const auto collect = [&](std::uint64_t, const Block& block) {
+    block.photons.add_to(total);
+    block.events.add_to(total.energy);
+    started += block.started;
+    if (hooks.detected && !block.photons.photons().empty()) hooks.detected(block.photons.photons());
+    if (hooks.events && !block.events.events().empty()) hooks.events(block.events.events());
     if (hooks.progress) hooks.progress(energy ? total.energy.events : started);
   };
-
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    const std::size_t in_flight = kBlocksPerThread * static_cast<std::size_t>(arena.max_concurrency());
-    tbb::parallel_pipeline(
-        in_flight,
-        tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, give_block) &
-            tbb::make_filter<std::uint64_t, std::shared_ptr<Block>>(tbb::filter_mode::parallel, trace) &
-            tbb::make_filter<std::shared_ptr<Block>, void>(tbb::filter_mode::serial_in_order, collect));
-  });
+  const std::uint64_t blocks_done = work_in_order(blocks, settings.threads, hooks.stop, trace, collect);
 
   check_every_photon_has_a_fate(total, started);
   total.complete = blocks_done == blocks;

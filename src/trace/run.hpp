@@ -33,6 +33,12 @@ Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_
 /// The random stream of what an event is before its first photon.
 Rng event_stream(const RunSettings& settings, std::uint64_t event);
 
+/// The random stream of what a sensor and its electronics add to an event.
+Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
+
+/// The fate of a photon that goes beyond the limits of a run; nothing within them.
+std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings);
+
 /// Traces all photons of a source. The result does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
 /// the photons of the blocks before the stop and says `complete = false`.

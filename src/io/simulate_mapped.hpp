@@ -1,0 +1,33 @@
+#pragma once
+/// Response maps of scene files, and events from them.
+
+#include "scintray/io/response_file.hpp"
+#include "scintray/io/simulate.hpp"
+
+namespace scintray {
+
+struct MapOptions {
+  ResponseSettings settings;
+  std::optional<int> threads;  ///< in place of the scene's
+  std::optional<std::uint64_t> seed;
+  ResponseHooks hooks;
+  SurfaceMaker::Hooks surface_hooks;  ///< told while surface tables are built
+};
+
+/// Builds the map of all parts that scintillate. The scene's [source] says whether light is polarised and,
+/// by being one of energy, which wavelengths are in use; its events are not asked for.
+/// @return without grids when stopped
+/// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map does
+ResponseFile build_map(const SceneFile& file, const MapOptions& options);
+
+/// Throws InputError unless the scene is the one that the map is of: everything must be written alike but
+/// the title, [source], [run], [readout], [analysis] and tallies, and light must be polarised or not as then.
+void require_same_scene(const SceneFile& file, const ResponseFile& response);
+
+/// Events of the scene from a map, in a results file as simulate() writes it. The file says in its note where
+/// they come from. Tallies of photons are left out, as no photon is traced.
+/// @throws InputError as require_same_scene does, and when parts are not where they were
+RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& map_file,
+                          const SimulationOptions& options);
+
+}  // namespace scintray

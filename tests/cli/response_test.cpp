@@ -1,0 +1,29 @@
+#include "cli/program.hpp"
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/io/results.hpp"
+#include "support/shared.hpp"
+#include "support/small_crystal.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+TEST_CASE("A map is built, events are made from it, and its result is reported like any other") {
+  const auto folder = scratch_folder("response_program");
+  std::ofstream(folder / "scene.toml") << kSmallCrystal;
+  const auto did = [&](const std::vector<std::string>& command, int code, const std::string& words) {
+    const Ended ended = run_program(command, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == code);
+    CHECK(contains(ended.output, words));
+  };
+  did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1 mm", "--photons", "100"},
+      cli::kSuccess, "crystal: 2 x 2 x 4 cells");
+  did({"response", "run", "scene.toml", "map.h5", "-o", "result.h5", "--events", "500"}, cli::kSuccess,
+      "500 events");
+  CHECK(read_events(folder / "result.h5", 0, 1'000).size() == 500);
+  did({"report", "result.h5", "--text"}, cli::kSuccess, "Lost photons: 0");
+  did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");
+  did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput,
+      "is not a response map");
+}

@@ -1,0 +1,121 @@
+#pragma once
+/// Scenes whose events are made by tracing and from a map.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "physics/traced.hpp"
+#include "scintray/trace/run_mapped.hpp"
+
+namespace scintray::test {
+
+/// A scene with what its [source] and sensors are bound to.
+struct MappedScene {
+  explicit MappedScene(const std::string& text) : spec(scene_spec(text)) {
+    SurfaceMaker::Hooks hooks;
+    hooks.cache.clear();
+    built = SceneBuilder(hooks).build(spec);
+    source = make_light_source(spec, built.scene);
+    settings.seed = spec.run.seed;
+  }
+
+  ResponseMap map(const ResponseSettings& fineness, int threads = 0) const {
+    RunSettings run = settings;
+    run.threads = threads;
+    run.seed = 20'000 + settings.seed;  // light of its own, not that of the events
+    return build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised, fineness, run);
+  }
+  std::vector<EventRecord> traced() const {
+    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
+      run_point(built.scene, *source, plan, settings, hooks);
+    });
+  }
+  std::vector<EventRecord> mapped(const ResponseMap& map, int threads = 0) const {
+    RunSettings run = settings;
+    run.threads = threads;
+    const MappedResponse response(map);
+    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
+      run_mapped(built.scene, *source, plan, response, run, hooks);
+    });
+  }
+
+  SceneSpec spec;
+  BuiltScene built;
+  std::unique_ptr<LightSource> source;
+  RunSettings settings;
+
+ private:
+  template <typename Run>
+  std::vector<EventRecord> gathered(const Run& run) const {
+    std::vector<EventRecord> all;
+    RunHooks hooks;
+    hooks.events = [&](const std::vector<EventRecord>& events) {
+      all.insert(all.end(), events.begin(), events.end());
+    };
+    const TallyPlan plan(built.scene, spec);
+    run(plan, hooks);
+    return all;
+  }
+};
+
+/// A crystal of 2 x 2 x `length` mm with a sensor at each end, "low" and "high".
+inline std::string two_ends(double length_mm, const std::string& more) {
+  return fmt::format(R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "{0} mm"]
+medium = "LSO_roncali2013"
+surface = "ground"
+[[part.face]]
+name = "ends"
+select = {{ normal = [0, 0, 1] }}
+surface = "flat"
+[[part.face]]
+name = "other_end"
+select = {{ normal = [0, 0, -1] }}
+surface = "flat"
+[[part]]
+name = "low"
+box = ["2 mm", "2 mm", "1 mm"]
+place = {{ touch = "crystal", side = "-z" }}
+sensor = "perfect"
+[[part]]
+name = "high"
+box = ["2 mm", "2 mm", "1 mm"]
+place = {{ touch = "crystal", side = "+z" }}
+sensor = "perfect"
+{1}
+[surfaces.ground]
+model = "unified"
+unified = {{ sigma_alpha = "18 deg", definition = "solid_angle", facets = "projected_area", lobe = 1.0 }}
+)",
+                     length_mm, more);
+}
+
+/// One deposit an event of 100 keV in a part of the crystal.
+inline std::string placed(int events, const std::string& slab = "") {
+  return fmt::format(R"(
+[source]
+type = "gamma_events"
+events = {}
+region = {{ part = "crystal"{} }}
+energy = "100 keV"
+)",
+                     events, slab);
+}
+
+/// Photons of events that a channel detected, and those emitted.
+inline std::uint64_t detected_in(const std::vector<EventRecord>& events, std::size_t channel) {
+  std::uint64_t sum = 0;
+  for (const EventRecord& event : events) sum += event.channels.at(channel).detected;
+  return sum;
+}
+inline std::uint64_t emitted_in(const std::vector<EventRecord>& events) {
+  std::uint64_t sum = 0;
+  for (const EventRecord& event : events) sum += event.emitted;
+  return sum;
+}
+
+}  // namespace scintray::test
