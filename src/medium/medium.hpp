@@ -39,7 +39,7 @@ struct Medium {
   double intrinsic_fwhm = 0.0;  ///< spread of the light beyond counting statistics, full width at half
                                 ///< maximum over mean, at `intrinsic_keV`; 0: none
   double intrinsic_keV = 0.0;
-  Curve emission;              ///< relative photon number per nm against wavelength (nm)
+  Curve emission;  ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given
   Composition composition;           ///< empty when not given; with it comes the density

@@ -2,8 +2,8 @@
 /// Scenes of the doctor's tests, and what is asked of them.
 
 #include "physics/traced.hpp"
-#include "support/words.hpp"
 #include "scintray/source/photon_source.hpp"
+#include "support/words.hpp"
 
 namespace scintray::test {
 

@@ -1,8 +1,8 @@
 #include <cstdlib>
 
 #include "doctor/doctor_scenes.hpp"
-#include "support/shared.hpp"
 #include "scintray/source/photon_source.hpp"
+#include "support/shared.hpp"
 
 using namespace scintray;
 using namespace scintray::test;

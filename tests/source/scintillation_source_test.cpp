@@ -124,7 +124,18 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
 }
 
 TEST_CASE("Cherenkov light is prompt, and as much as electrons of the deposits' energies make") {
-  const Scene scene = lso_cube(10.0);
+  // The wavelengths in use are those that LSO emits.
+  const std::string text = "ambient = \"vacuum\"\n" + box_part("crystal", "LSO", Vec3::Constant(10.0)) + R"(
+[source]
+type = "gamma_events"
+events = 1
+region = { part = "crystal" }
+energy = "420 keV"
+[surfaces.flat]
+model = "smooth"
+)";
+  const Scene scene = SceneBuilder().build(SceneFile::from_text(text, scene_path()).spec(0)).scene;
+  REQUIRE(scene.high_nm > scene.low_nm);
   class OneDeposit : public EventSource {
    public:
     explicit OneDeposit(std::uint32_t region) : region_(region) {}
