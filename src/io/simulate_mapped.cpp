@@ -30,6 +30,10 @@ void require_energy(const SceneSpec& spec) {
     throw InputError({spec.source.where,
                       "response maps are for sources of energy, and this is a source of photons",
                       "use type = \"gamma_events\", \"gammas\" or \"hits\" (docs/gamma_sources.md)"});
+  if (spec.energy_source->cherenkov)
+    throw InputError({spec.energy_source->where,
+                      "a response map is of scintillation light, and this source has Cherenkov light too",
+                      "remove cherenkov, or trace the scene with `scintray run`"});
 }
 
 RunSettings map_settings(const RunSpec& run) {

@@ -33,8 +33,8 @@ class EventMaker {
       tally.begin(event, settings_.point, light);
       Rng own(settings_.seed, StreamKind::mapped, event, 0, settings_.point);
       for (std::size_t i = 0; i < light.event.deposits.size(); ++i) {
-        const std::uint64_t before = i == 0 ? 0 : light.deposit_end[i - 1];
-        light_of(light.event.deposits[i], light.deposit_end[i] - before, seen, own, tally);
+        const std::uint64_t before = i == 0 ? 0 : light.deposits[i - 1].all;
+        light_of(light.event.deposits[i], light.deposits[i].all - before, seen, own, tally);
       }
       tally.end([&](std::uint32_t channel) { return sensor_stream(settings_, event, channel); });
     }
