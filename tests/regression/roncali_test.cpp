@@ -77,7 +77,7 @@ TEST_CASE("The paper's crystals give the light that a quick run printed, with an
     const double expected = kReference.value * known.relative.value;
     const double error =
         std::hypot(kReference.value * known.relative.error, kReference.error * known.relative.value);
-    CHECK(test::sigmas(light, {expected, error}) < test::kSigmas);
+    CHECK(sigmas(light, {expected, error}) < test::kSigmas);
   }
 }
 
