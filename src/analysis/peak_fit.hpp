@@ -6,9 +6,6 @@
 
 namespace scintray {
 
-/// Full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2).
-inline constexpr double kFwhmPerSigma = 2.3548200450309493;
-
 /// What lies under the peak.
 enum class PeakBackground {
   none,

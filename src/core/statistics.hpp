@@ -6,6 +6,9 @@
 
 namespace scintray {
 
+/// Full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2).
+inline constexpr double kFwhmPerSigma = 2.3548200450309493;
+
 /// A value with its one-sigma standard error.
 struct Estimate {
   double value = 0.0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scintray/core/statistics.hpp"
+
 namespace scintray {
 
 namespace {
@@ -13,8 +15,6 @@ constexpr double kHighestIndex = 5.0;
 constexpr double kMostSecondaries = 0.6;
 constexpr double kMostSpread = 3.0;
 constexpr std::int64_t kMostMicrocells = 100'000'000;
-/// FWHM of a normal distribution over its standard deviation, 2 sqrt(2 ln 2).
-const double kWidthOverSigma = 2.0 * std::sqrt(2.0 * std::numbers::ln2);
 
 /// A probability up to a limit; 0 when absent.
 double read_chance(const TomlTable& table, const std::string& key) {
@@ -84,7 +84,7 @@ double read_time_spread(const TomlTable& table) {
   if (!form) return 0.0;
   const double width_ns = table.quantity(*form, Dimension::time);
   expect_positive(table, *form, width_ns);
-  return form == "fwhm" ? width_ns / kWidthOverSigma : width_ns;
+  return form == "fwhm" ? width_ns / kFwhmPerSigma : width_ns;
 }
 
 SingleElectron read_single_electron(const TomlTable& table) {

@@ -6,17 +6,11 @@
 #include "scintray/core/count_sampling.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/core/statistics.hpp"
 #include "scintray/medium/decay.hpp"
 #include "scintray/source/scintillation.hpp"
 
 namespace scintray {
-
-namespace {
-
-/// Full width at half maximum over standard deviation of a Gaussian.
-const double kFwhmPerSigma = 2.0 * std::sqrt(2.0 * std::log(2.0));
-
-}  // namespace
 
 std::uint64_t sample_photon_number(const Medium& medium, double energy_keV, Rng& rng) {
   double mean = medium.yield_per_keV * medium.relative_yield(energy_keV) * energy_keV;

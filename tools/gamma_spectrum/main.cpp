@@ -7,6 +7,7 @@
 #include <exception>
 #include <vector>
 
+#include "scintray/core/statistics.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_gamma_source.hpp"
 #include "scintray/scene/read_scene.hpp"
@@ -50,8 +51,7 @@ double below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// Adds an energy to the bins as a detector blurs it: its variance goes with the energy.
 void add_blurred(double energy_keV, std::vector<double>& bins) {
-  const double fwhm_per_sigma = std::sqrt(8.0 * std::log(2.0));
-  const double sigma_keV = kResolution * kPeak_keV / fwhm_per_sigma * std::sqrt(energy_keV / kPeak_keV);
+  const double sigma_keV = kResolution * kPeak_keV / kFwhmPerSigma * std::sqrt(energy_keV / kPeak_keV);
   double before = 0.0;  // what would fall below zero goes to the first bin
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
     const double up_to = below((kBin_keV * static_cast<double>(bin + 1) - energy_keV) / sigma_keV);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/core/statistics.hpp"
 #include "scintray/source/scintillation.hpp"
 
 namespace scintray {
@@ -11,7 +12,6 @@ namespace scintray {
 namespace {
 
 constexpr int kLutetium = 71;
-const double kSigmaPerFwhm = 1.0 / std::sqrt(8.0 * std::log(2.0));  // of a normal distribution
 
 }  // namespace
 
@@ -19,7 +19,7 @@ GammaEventSource::GammaEventSource(const EmitterSpec& spec, std::uint64_t events
     : emission_(spec.emission),
       energy_keV_(spec.energy_keV),
       direction_(spec.direction),
-      acollinearity_sigma_rad_(spec.acollinearity_rad * kSigmaPerFwhm),
+      acollinearity_sigma_rad_(spec.acollinearity_rad / kFwhmPerSigma),
       decay_(spec.emission),
       transport_(scene, spec.matter, spec.fluorescence, spec.origin_where),
       events_(events) {
