@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "scintray/analysis/surface_study.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/trace/run.hpp"
@@ -185,6 +186,11 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
   RunResult result;
   result.header = make_header(file, first, survey);
   ResultsWriter writer(options.output, result.header, first.run.photon_list);
+  if (!first.benches.empty()) {
+    Library library = Library::shipped();
+    add_definitions(library, first);
+    writer.add_surfaces(study_surfaces(first.benches, library, builder.surfaces(), first.run.seed));
+  }
 
   SimulationProgress progress;
   progress.points = file.points();

@@ -125,7 +125,7 @@ std::string text_summary(const RunResult& run, const RunStudies& studies) {
           ? "Light of events at 511 keV\n" +
                 aligned(upright(light_table(*view, studies.points, studies.reference), kMostColumns))
           : sweep_table(run, *view);
-  return table + claim_lines(judge(run, studies.points, studies.claims)) + warnings(run);
+  return table + claim_lines(judge(run, studies)) + warnings(run);
 }
 
 }  // namespace scintray

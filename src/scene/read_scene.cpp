@@ -93,6 +93,7 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
   scene.claims = read_claims(root);
+  scene.benches = read_benches(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");

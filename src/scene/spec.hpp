@@ -17,6 +17,7 @@
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/analysis_spec.hpp"
+#include "scintray/scene/bench_spec.hpp"
 #include "scintray/scene/claim_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
@@ -165,6 +166,7 @@ struct SceneSpec {
   std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   AnalysisSpec analysis;
   std::vector<ClaimSpec> claims;
+  std::vector<BenchSpec> benches;
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
