@@ -92,7 +92,7 @@ std::string events(const RunResult& run, const RunStudies& studies) {
 
 std::string answer(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "<p>No point was finished.</p>\n";
-  if (run.points.size() == 1) return headline(run.points.front());
+  if (run.points.size() == 1) return run.traced_photons() ? headline(run.points.front()) : "";
   const auto view = view_sweep(run);
   if (!view) return "";
   if (studies.points.size() == run.points.size())
@@ -112,7 +112,7 @@ std::string html_report(const RunResult& run, const RunStudies& studies) {
           escape_html(run.header.scene_file) + "</p>\n";
   page += partial_banner(run) + answer(run, studies) + claim_section(judge(run, studies)) +
           bench_sections(studies.surfaces) + events(run, studies);
-  if (!run.points.empty())
+  if (run.traced_photons())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
   page += condition_section(run);

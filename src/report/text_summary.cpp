@@ -115,9 +115,11 @@ std::string energy_lines(const PointResult& point) {
 std::string text_summary(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
-    return fate_table(run.points.front()) + shift_lines(run.header, run.points.front()) +
-           tally_lines(run.points.front()) + energy_lines(run.points.front()) +
-           (studies.points.empty() ? "" : event_lines(studies.points.front())) + warnings(run);
+    return (run.traced_photons() ? fate_table(run.points.front()) : "") +
+           shift_lines(run.header, run.points.front()) + tally_lines(run.points.front()) +
+           energy_lines(run.points.front()) +
+           (studies.points.empty() ? "" : event_lines(studies.points.front())) +
+           claim_lines(judge(run, studies)) + warnings(run);
   const auto view = view_sweep(run);
   const std::string table =
       !view ? point_table(run)
