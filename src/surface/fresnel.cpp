@@ -62,4 +62,23 @@ bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
   return transmitted;
 }
 
+bool refract_only(Ray& ray, const Vec3& m, double n1, double n2) {
+  if (n1 == n2) return true;
+  const double cos_i = std::min(1.0, std::max(0.0, -ray.direction.dot(m)));
+  const double ratio = n1 / n2;
+  const double sin2_i = 1.0 - cos_i * cos_i;
+  const double sin2_t = ratio * ratio * sin2_i;
+  if (sin2_t >= 1.0) {
+    reflect(ray, m);
+    return false;
+  }
+  const Vec3 before = ray.direction;
+  refract(ray, m, ratio, cos_i, std::sqrt(1.0 - sin2_t));
+  if (ray.polarisation.isZero(0.0) || sin2_i < kNormalIncidence) return true;
+  const Vec3 s = before.cross(m).normalized();
+  const double e_s = ray.polarisation.dot(s), e_p = ray.polarisation.dot(s.cross(before));
+  ray.polarisation = (e_s * s + e_p * s.cross(ray.direction)).normalized();
+  return true;
+}
+
 }  // namespace scintray
