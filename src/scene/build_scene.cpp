@@ -201,7 +201,7 @@ class AssemblyMaker {
     part.rotation = placed.rotation;
     part.surface = placed.surface.name;
     if (!placed.surface.empty()) find_surface(placed.surface);
-    part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}};
+    part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}, placed.where};
     const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
     for (const PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);

@@ -58,7 +58,7 @@ std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, con
 }
 
 PlacedPart geometry_of(const PlacedMesh& part) {
-  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of};
+  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of, part.where};
 }
 
 }  // namespace scintray

@@ -214,10 +214,12 @@ void conform(PlacedMesh& first, PlacedMesh& second, const ContactSpec& spec, con
              double flat_mm, Problems& problems) {
   const double tolerance = *spec.tolerance_mm;
   const auto refuse = [&](const std::string& why, const std::string& hint, const Vec3& at) {
-    problems.add(spec.where,
-                 fmt::format("the contact of \"{}\" and \"{}\" cannot be closed within {:.4g} mm: {}",
-                             first.name, second.name, tolerance, why),
-                 hint, {{at.x(), at.y(), at.z()}});
+    problems.add(
+        spec.where,
+        fmt::format("the contact of \"{}\" and \"{}\" cannot be closed within {:.4g} mm: {}{}{}", first.name,
+                    second.name, tolerance, why, also_at(first.name, first.where, spec.where),
+                    also_at(second.name, second.where, spec.where)),
+        hint, {{at.x(), at.y(), at.z()}});
   };
   const Vec3 between = first.diagnosis.bounds.intersection(second.diagnosis.bounds).center();
   Conformer onto_first(first, second, tolerance, flat_mm), onto_second(second, first, tolerance, flat_mm);

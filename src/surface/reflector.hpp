@@ -22,7 +22,7 @@ struct Reflector {
   /// Share of the light that goes through to the other side, against wavelength (nm); nothing: none does.
   /// With `reflectance` at most 1 at every wavelength; what is left is absorbed. Of a volume-like
   /// reflector, that of the volume for diffuse light from within.
-  std::optional<Curve> transmittance;
+  std::optional<Curve> transmittance = std::nullopt;
 };
 
 /// Where light is after it met a reflector.
