@@ -141,12 +141,9 @@ reflectance = 0.9
 transmittance = 0.04
 specular_share = 0.0
 )");
-  double port = 0.0, total = 0.0;
-  for (const FaceInfo& face : traced.built.scene.faces) {
-    total += face.area_mm2;
-    if (face.name == "sphere:port") port += face.area_mm2;
-  }
-  const double f = port / total;
+  const Scene& scene = traced.built.scene;
+  const double port = face_area(scene, "sphere:port");
+  const double f = port / (port + face_area(scene, "sphere:other"));
   CHECK(f > 0.05);
   const double meetings = 1.0 / (1.0 - kReflectance * (1.0 - f));
   check_fraction(traced.result, Fate::absorbed_at_surface,
