@@ -160,16 +160,16 @@ TEST_CASE("GDML: a material without RINDEX is opaque, unless the user gives it a
 TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contacts") {
   GdmlText text;
   text.define = R"(<matrix name="R95" coldim="2" values="2*eV 0.95 4*eV 0.95"/>
-<matrix name="LOBE" coldim="2" values="2*eV 0.7 4*eV 0.7"/><matrix name="GAP" coldim="2" values="2*eV 1.1 4*eV 1.1"/>)";
+<matrix name="T04" coldim="2" values="2*eV 0.04 4*eV 0.04"/><matrix name="LOBE" coldim="2" values="2*eV 0.7 4*eV 0.7"/><matrix name="GAP" coldim="2" values="2*eV 1.1 4*eV 1.1"/>)";
   text.solids = R"(<box name="it" x="10" y="10" z="10"/>
 <opticalsurface name="rough" model="unified" finish="ground" type="dielectric_dielectric" value="0.2">
 <property name="SPECULARLOBECONSTANT" ref="LOBE"/></opticalsurface>
 <opticalsurface name="wrapped" model="1" finish="5" type="1" value="0"><property name="RINDEX" ref="GAP"/>
 <property name="REFLECTIVITY" ref="R95"/></opticalsurface>
 <opticalsurface name="mirror" model="glisur" finish="polished" type="dielectric_metal" value="1">
-<property name="REFLECTIVITY" ref="R95"/></opticalsurface>
+<property name="REFLECTIVITY" ref="R95"/><property name="TRANSMITTANCE" ref="T04"/></opticalsurface>
 <opticalsurface name="white" model="unified" finish="ground" type="dielectric_metal" value="0.1">
-<property name="REFLECTIVITY" ref="R95"/></opticalsurface>
+<property name="REFLECTIVITY" ref="R95"/><property name="TRANSMITTANCE" ref="T04"/></opticalsurface>
 <opticalsurface name="davis" model="3" finish="30" type="3" value="0"/>)";
   text.structure = gdml_volume("a", "it") + gdml_volume("b", "it") + gdml_volume("c", "it") +
                    gdml_volume("d", "it") +
@@ -193,6 +193,10 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   CHECK(spec.surfaces.at("wrapped")->find("gap")->number == doctest::Approx(1.1));
   CHECK(spec.surfaces.at("mirror")->find("base")->text == "geant4_polishedfrontpainted");
   CHECK(spec.surfaces.at("white")->find("base")->text == "geant4_groundfrontpainted");
+  // Light that passes goes straight on in Geant4: a film here, but no diffuser.
+  CHECK(spec.surfaces.at("mirror")->find("transmittance"));
+  CHECK_FALSE(spec.surfaces.at("white")->find("transmittance"));
+  check_says(scene.toml, "its property TRANSMITTANCE");
   CHECK_NOTHROW(built(scene));
 
   text.structure += R"(<skinsurface name="s5" surfaceproperty="davis"><volumeref ref="d"/></skinsurface>)";
