@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/polygon.hpp"
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/solids.hpp"
-#include "scintray/mesh/weld.hpp"
 
 namespace scintray::gdml {
 
@@ -108,26 +105,6 @@ class FlatSolid : public SolidReader {
 
   Vec3 vertex(Node node, const char* attribute) const {
     return definitions_.position_named(definitions_.name(node.attribute(attribute).value(), node), node);
-  }
-
-  /// Facets with corners in any order of rotation, welded and turned outwards.
-  static TriMesh from_facets(const std::vector<std::vector<Vec3>>& facets) {
-    TriMesh mesh;
-    mesh.groups = {"default"};
-    for (const std::vector<Vec3>& facet : facets) {
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      mesh.vertices.insert(mesh.vertices.end(), facet.begin(), facet.end());
-      bool simple = true;
-      for (const auto& [a, b, c] : triangulate_polygon(facet, simple)) {
-        mesh.triangles.push_back({first + a, first + b, first + c});
-        mesh.group.push_back(0);
-      }
-    }
-    const double length_mm = rounding_length(mesh);
-    weld_vertices(mesh, length_mm);
-    remove_degenerate(mesh, length_mm);
-    orient_outwards(mesh);
-    return mesh;
   }
 
   TriMesh tet() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/solids.hpp"
 
 namespace scintray::gdml {

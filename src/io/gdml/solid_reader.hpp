@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scintray/io/gdml/definitions.hpp"
 #include "scintray/mesh/shape_error.hpp"
@@ -32,6 +33,9 @@ class SolidReader {
     return definitions_.angle(solid_, attribute, fallback);
   }
   double unit() const { return definitions_.number(solid_, "lunit", 1.0); }
+
+  /// Facets with corners in any order of rotation, welded and turned outwards.
+  static TriMesh from_facets(const std::vector<std::vector<Vec3>>& facets);
 
   /// Makes the solid by the member function that has its element's name, if any has.
   template <typename Maker, typename Kinds>
