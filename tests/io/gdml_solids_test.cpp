@@ -94,22 +94,6 @@ TEST_CASE("GDML: every solid that is made is closed, outward, and has the volume
   }
 }
 
-TEST_CASE("GDML: tessellated solids and tetrahedra take their corners from <define>, in any rotation") {
-  GdmlText text = gdml_solid(R"(<tessellated name="it"><triangular vertex1="a" vertex2="b" vertex3="d"/>
-<triangular vertex1="b" vertex2="c" vertex3="d"/><triangular vertex1="a" vertex2="c" vertex3="d"/>
-<triangular vertex1="a" vertex2="b" vertex3="c"/></tessellated>)");
-  text.define = R"(<position name="a"/><position name="b" x="1" unit="cm"/><position name="c" y="20"/>
-<position name="d" z="30"/>)";
-  const SceneDraft tessellated = draft(text);
-  REQUIRE(tessellated.meshes.size() == 1);
-  CHECK(diagnose(tessellated.meshes.begin()->second).sound());
-  CHECK(tessellated.meshes.begin()->second.volume() == doctest::Approx(1000.0));
-  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="d"/>)";
-  CHECK(draft(text).meshes.begin()->second.volume() == doctest::Approx(1000.0));
-  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="e"/>)";
-  check_says(complaint(text), "no position is called \"e\"");
-}
-
 TEST_CASE("GDML: booleans turn and move their solids as Geant4 does") {
   const std::string boxes = R"(<box name="a" x="4" y="4" z="4"/><box name="b" x="2" y="2" z="10"/>)";
   const auto volume = [&](const std::string& boolean) { return solid(boxes + boolean).volume(); };

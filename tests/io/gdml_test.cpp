@@ -44,6 +44,22 @@ BuiltScene built(const SceneDraft& scene) { return SceneBuilder().build(written(
 
 }  // namespace
 
+TEST_CASE("GDML: tessellated solids and tetrahedra take their corners from <define>, in any rotation") {
+  GdmlText text = gdml_solid(R"(<tessellated name="it"><triangular vertex1="a" vertex2="b" vertex3="d"/>
+<triangular vertex1="b" vertex2="c" vertex3="d"/><triangular vertex1="a" vertex2="c" vertex3="d"/>
+<triangular vertex1="a" vertex2="b" vertex3="c"/></tessellated>)");
+  text.define = R"(<position name="a"/><position name="b" x="1" unit="cm"/><position name="c" y="20"/>
+<position name="d" z="30"/>)";
+  const SceneDraft tessellated = draft(text);
+  REQUIRE(tessellated.meshes.size() == 1);
+  CHECK(diagnose(tessellated.meshes.begin()->second).sound());
+  CHECK(tessellated.meshes.begin()->second.volume() == doctest::Approx(1000.0));
+  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="d"/>)";
+  CHECK(draft(text).meshes.begin()->second.volume() == doctest::Approx(1000.0));
+  text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="e"/>)";
+  check_says(complaint(text), "no position is called \"e\"");
+}
+
 TEST_CASE("GDML: a physical volume is turned by the inverse of its rotation, then moved") {
   GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");
   text.structure += gdml_volume("marker", "it", "Lead");
