@@ -131,8 +131,8 @@ class DegeneratePass {
                                 [](const EdgeUse& u, const auto& e) { return std::pair(u.low, u.high) < e; });
     for (; use != uses.end() && use->low == low && use->high == high; ++use) {
       const std::size_t other = use->triangle;
-      if (other == t || gone_[other]) continue;
-      if (cut_at_[other] != kNone) return;  // its turn comes in the next pass
+      if (other == t || has_equal_corners(mesh_.triangles[other])) continue;
+      if (gone_[other] || cut_at_[other] != kNone) return;  // its turn comes in the next pass
       // Of slivers along one line the longest goes first: cut at a shorter one's corner it would only become
       // two that are cut back.
       if (longest_[other] > longest_[t]) return;

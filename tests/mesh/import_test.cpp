@@ -7,6 +7,7 @@
 #include "mesh/box_files.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/polygon.hpp"
+#include "scintray/mesh/weld.hpp"
 
 using namespace scintray;
 using namespace scintray::test;
@@ -165,4 +166,35 @@ TEST_CASE("Polygons that are not convex are cut inside themselves") {
   std::swap(corners[1], corners[4]);
   triangulate_polygon(corners, simple);
   CHECK_FALSE(simple);
+}
+
+TEST_CASE("Triangles without area in a row along one edge go without leaving a slit") {
+  // A tetrahedron O X Y Z; points on its edge X Y belong to the face with O, and slivers join them to X Y Z.
+  for (const int points : {1, 2, 3, 7})
+    for (const bool from_far_end : {false, true}) {
+      CAPTURE(points);
+      CAPTURE(from_far_end);
+      TriMesh mesh;
+      mesh.vertices = {{0, 0, 3}, {0, 0, 0}, {4, 0, 0}, {0, 5, 0}};
+      const std::uint32_t o = 0, x = 1, y = 2, z = 3;
+      std::vector<std::uint32_t> line{x};
+      for (int i = 1; i <= points; ++i) {
+        line.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+        mesh.vertices.emplace_back(4.0 * i / (points + 1), 0, 0);
+      }
+      line.push_back(y);
+      mesh.triangles = {{x, z, y}, {x, o, z}, {y, z, o}};
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) mesh.triangles.push_back({line[i], line[i + 1], o});
+      for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        if (from_far_end)
+          mesh.triangles.push_back({y, line[i], line[i - 1]});
+        else
+          mesh.triangles.push_back({x, line[i + 1], line[i]});
+      }
+      REQUIRE(diagnose(mesh).closed());
+      remove_degenerate(mesh, 1e-6);
+      const MeshDiagnosis after = diagnose(mesh);
+      CHECK(after.sound());
+      CHECK(after.volume_mm3 == doctest::Approx(10.0));
+    }
 }
