@@ -44,6 +44,15 @@ direction = { specular_share = 1.0 }
 )";
 }
 
+/// How the outer ends of two rooms touch what is there.
+std::string ends(const std::string& left, const std::string& right) {
+  const auto contact = [](const std::string& room, const char* end, const char* surface) {
+    return fmt::format("[[contact]]\nbetween = [\"{}\", \"{}\"]\nkind = \"bonded\"\nsurface = \"{}\"\n", room,
+                       end, surface);
+  };
+  return contact(left, "mirror", "mirror") + contact(right, "eye", "flat");
+}
+
 /// Light to and fro before a mirror of 0.9 and a film of 0.7 that lets 0.2 through.
 constexpr double kDetected = 0.2 / (1.0 - 0.7 * 0.9);
 
@@ -65,15 +74,7 @@ surface = "flat"
 between = ["left", "right"]
 kind = "bonded"
 surface = "film"
-[[contact]]
-between = ["left", "mirror"]
-kind = "bonded"
-surface = "mirror"
-[[contact]]
-between = ["right", "eye"]
-kind = "bonded"
-surface = "flat"
-)"));
+)" + ends("left", "right")));
   check_fraction(traced.result, Fate::detected, kDetected);
   check_fraction(traced.result, Fate::absorbed_at_surface, 1.0 - kDetected);
 }
@@ -92,15 +93,7 @@ surface = "flat"
 reflector = "film"
 medium = "vacuum_n1"
 thickness = "0.1 mm"
-[[contact]]
-between = ["room[0,0]", "mirror"]
-kind = "bonded"
-surface = "mirror"
-[[contact]]
-between = ["room[1,0]", "eye"]
-kind = "bonded"
-surface = "flat"
-)"));
+)" + ends("room[0,0]", "room[1,0]")));
   check_fraction(traced.result, Fate::detected, kDetected);
   check_fraction(traced.result, Fate::absorbed_at_surface, 1.0 - kDetected);
 }
