@@ -129,12 +129,15 @@ class InterfaceMaker {
     } else if (back.surface.empty()) {
       set_surface(t, result, false, front.surface);
     } else {
-      problems_.add(contact ? contact->where : FileLocation{},
+      const PlacedPart &at_back = part(t.back).geometry, &at_front = part(t.front).geometry;
+      const FileLocation& where = contact ? contact->where : at_back.where;
+      problems_.add(where,
                     "faces \"" + back.name + "\" (surface \"" + name_or_smooth(back.surface) + "\") and \"" +
                         front.name + "\" (surface \"" + name_or_smooth(front.surface) +
-                        "\") are bonded, but an interface has one surface",
-                    "add [[contact]] between = [\"" + part(t.back).geometry.name + "\", \"" +
-                        part(t.front).geometry.name + "\"] with the surface of the joint, or kind = \"dry\"");
+                        "\") are bonded, but an interface has one surface" +
+                        also_at(at_front.name, at_front.where, where),
+                    "add [[contact]] between = [\"" + at_back.name + "\", \"" + at_front.name +
+                        "\"] with the surface of the joint, or kind = \"dry\"");
       set_surface(t, result, true, std::string());
     }
   }
