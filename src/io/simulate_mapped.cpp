@@ -12,8 +12,8 @@ namespace scintray {
 namespace {
 
 /// Keys of a scene that do not change how light goes from a place to a sensor.
-const std::vector<std::string> kFreeKeys = {"title",    "source", "run",  "readout",
-                                            "analysis", "tally",  "claim"};
+const std::vector<std::string> kFreeKeys = {"title",    "source", "run",   "readout",
+                                            "analysis", "tally",  "claim", "fit"};
 
 /// How far a part may be from where the map has it: what rounding of a scene's numbers makes.
 constexpr double kSamePlace_mm = 1e-6;

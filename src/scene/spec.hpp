@@ -18,6 +18,7 @@
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/analysis_spec.hpp"
 #include "scintray/scene/claim_spec.hpp"
+#include "scintray/scene/fit_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/source_spec.hpp"
@@ -165,6 +166,7 @@ struct SceneSpec {
   std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   AnalysisSpec analysis;
   std::vector<ClaimSpec> claims;
+  std::optional<FitSpec> fit;  ///< [fit]
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
