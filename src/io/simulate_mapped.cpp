@@ -36,15 +36,6 @@ void require_energy(const SceneSpec& spec) {
                       "remove cherenkov, or trace the scene with `scintray run`"});
 }
 
-RunSettings map_settings(const RunSpec& run) {
-  RunSettings settings;
-  settings.seed = run.seed;
-  settings.max_interactions = run.max_interactions;
-  settings.max_time_ns = run.max_time_ns;
-  settings.threads = run.threads.value_or(0);
-  return settings;
-}
-
 /// Gives the grids of a map their regions of a scene.
 void bind_grids(ResponseMap& map, const Scene& scene, const std::string& where) {
   const auto changed = [&](const std::string& what) {
@@ -104,7 +95,7 @@ ResponseFile build_map(const SceneFile& file, const MapOptions& options) {
   const BuiltScene built = builder.build(spec);
   const auto source = make_light_source(spec, built.scene);
   return {build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised,
-                             options.settings, map_settings(spec.run), options.hooks),
+                             options.settings, run_settings(spec.run), options.hooks),
           version(), spec.file.string(), file.text()};
 }
 
@@ -160,7 +151,7 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
     if (options.progress) options.progress(progress);
   };
   const MappedResponse mapped(response.map);
-  result.points.push_back(run_mapped(built.scene, *source, plan, mapped, map_settings(spec.run), hooks));
+  result.points.push_back(run_mapped(built.scene, *source, plan, mapped, run_settings(spec.run), hooks));
   writer.add_point(result.points.back());
   writer.commit(result.complete(), result.complete() ? "" : "stopped by the user");
   return result;

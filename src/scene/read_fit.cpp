@@ -43,9 +43,7 @@ std::optional<Written> written(const TomlNode& node) {
 TomlNode value_node(double value, const std::string& unit, const FileLocation& where) {
   TomlNode node;
   node.where = node.key_where = where;
-  std::array<char, 32> digits{};
-  const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  node.text.assign(digits.data(), end);
+  node.text = fmt::format("{}", value);
   if (unit.empty()) {
     node.kind = Kind::number;
     node.number = value;
