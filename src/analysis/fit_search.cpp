@@ -273,6 +273,14 @@ void FitSearch::settle_weights() {
     residuals_.reweigh(*curve_);
 }
 
+/// After a stop in the middle of a step: the best of all curves that were traced.
+void FitSearch::keep_best_known() {
+  const auto chi2_of = [&](const auto& entry) { return residuals_.chi2(entry.second); };
+  const auto least = std::min_element(known_.begin(), known_.end(),
+                                      [&](const auto& a, const auto& b) { return chi2_of(a) < chi2_of(b); });
+  if (chi2_of(*least) < residuals_.chi2(*curve_)) accept(least->first);
+}
+
 FitEnd FitSearch::run() {
   silence_gsl();
   curve_ = evaluate(best_);
@@ -292,10 +300,10 @@ FitEnd FitSearch::run() {
     const Eigen::ArrayXd change = residuals_.inverse_sigma().array() / before.array() - 1.0;
     if (change.abs().maxCoeff() < kSameErrors) break;
   }
+  if (stopped_) keep_best_known();
   if (slopes_ && slopes_at_ != best_) slopes_.reset();
-  // Under the weights of the end: the curves are known, so this traces nothing unless the search ended on noise.
-  if (!find_slopes(best_)) return FitEnd::stopped;
-  if (stopped_) return FitEnd::stopped;
+  // Under the weights of the end; the curves are known unless the search ended on noise.
+  if (!find_slopes(best_) || stopped_) return FitEnd::stopped;
   return outlook().fall < kNearlyRest ? FitEnd::converged : FitEnd::not_converged;
 }
 

@@ -47,6 +47,7 @@ class FitSearch {
   void settle_weights();
   void descend();
   void refine();
+  void keep_best_known();
   void accept(const std::vector<double>& at);
   void tell();
   std::vector<double> outer(const double* inner) const;
