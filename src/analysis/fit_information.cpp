@@ -81,17 +81,22 @@ FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre
 }
 
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
-  constexpr double kErrorOverRange = 10.0, kLeastShare = 1e-6;
-  const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope - slopes.summed_noise();
-  const Eigen::VectorXd least = (kErrorOverRange * range).array().square().inverse().matrix();
-  const Eigen::VectorXd unit = raw.diagonal().cwiseMax(least).cwiseSqrt();
-  Eigen::MatrixXd scaled = unit.cwiseInverse().asDiagonal() * raw * unit.cwiseInverse().asDiagonal();
-  scaled.diagonal().setOnes();
+  // Three times a squared range's inverse is the information of an error of twice what knowing nothing has.
+  const Eigen::VectorXd least = 3.0 * range.array().square().inverse().matrix();
+  const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope;
+  const Eigen::MatrixXd noise = slopes.summed_noise();
+  const Eigen::VectorXd unit = raw.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * raw * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::MatrixXd mended = eigen.eigenvectors() *
-                                 eigen.eigenvalues().cwiseMax(kLeastShare).asDiagonal() *
-                                 eigen.eigenvectors().transpose();
-  return unit.asDiagonal() * mended * unit.asDiagonal();
+  Eigen::VectorXd values = eigen.eigenvalues();
+  for (Index k = 0; k < values.size(); ++k) {
+    const Eigen::VectorXd direction = unit.cwiseProduct(eigen.eigenvectors().col(k));
+    values[k] -= direction.dot(noise * direction);
+    values[k] = std::max(values[k], direction.dot(least.cwiseProduct(direction)));
+  }
+  const Eigen::MatrixXd mended =
+      eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+  return unit.cwiseInverse().asDiagonal() * mended * unit.cwiseInverse().asDiagonal();
 }
 
 FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,

@@ -183,7 +183,9 @@ void FitSearch::choose_spans() {
 
 FitSearch::Outlook FitSearch::outlook() const {
   const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
-  const Eigen::MatrixXd information = information_of(*slopes_, range());
+  // Noise included, which only shortens steps; and as little of a range as nothing is known of anyway.
+  Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
+  information.diagonal() += range().array().square().inverse().matrix();
   // A parameter at a bound that would go beyond it stays.
   constexpr double kAtBound = 1e-3;
   std::vector<Index> free;

@@ -48,8 +48,8 @@ SceneFitOptions fit_options(const FitOptions& options, ProgressLine& line) {
 
 void run_fit(const FitOptions& options) {
   const SceneFile file = SceneFile::load(options.scene);
-  const std::filesystem::path output =
-      options.output.empty() ? options.scene.stem().string() + "_fit.h5" : options.output;
+  std::filesystem::path output = options.output;
+  if (output.empty()) output = options.scene.stem().string() + "_fit.h5";
   check_fit_path(output);
   ProgressLine line(!options.quiet);
   SceneFitOptions fit = fit_options(options, line);
