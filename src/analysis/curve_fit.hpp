@@ -17,10 +17,11 @@ struct FitParameter {
 };
 
 /// The simulated curve at given parameters, one point for each measured one; nothing when it was stopped.
-/// Called for nearby parameters, it should draw the same random numbers, so that differences of curves are
+/// Curves of one draw should come from the same random numbers, so that differences between nearby parameters are
 /// surer than curves (common random numbers: A. M. Law 2015, Simulation Modeling and Analysis, 5th edition,
-/// section 11.2).
-using CurveModel = std::function<std::optional<ModelCurve>(const std::vector<double>& parameters)>;
+/// section 11.2); curves of different draws from different ones.
+using CurveModel =
+    std::function<std::optional<ModelCurve>(const std::vector<double>& parameters, std::uint64_t draw)>;
 
 /// Where the search is.
 struct CurveFitStep {
@@ -55,7 +56,9 @@ struct CurveFit {
   Estimate scale{1.0, 0.0};               ///< error: with the parameters fitted along
   double start_scale = 1.0;               ///< that fits the curve of the start best
   std::optional<double> common_error;     ///< of a measured value, found from the scatter
-  ModelCurve start_curve, curve;          ///< of the simulation, not scaled
+  /// Of the simulation, not scaled; that of the result is carried on by slopes from less than a standard error
+  /// away (from the random numbers of the estimate).
+  ModelCurve start_curve, curve;
   std::vector<double> error;              ///< of each residual: measurement and Monte Carlo
   std::vector<double> residual;           ///< (measured - scale * curve) / error
   ChiSquare goodness;                     ///< without degrees of freedom, or with common_error, p means nothing
@@ -72,8 +75,10 @@ struct CurveFit {
 ///    where the measured noise of a difference is above a tenth of it;
 ///  - weights have the Monte Carlo errors in quadrature and are held during a search, which is repeated until
 ///    they stay;
-///  - it ends where the least squares expect to fall by less than a hundredth more, not where they can no
-///    longer fall: the noise of the curve makes steps of its own;
+///  - it ends where chi-square is expected to fall by less than a tenth, or where it no longer falls: the noise of
+///    the curve makes steps of its own;
+///  - a search goes where the noise happens to agree with the measurement; so the estimate is Newton's step from
+///    there with other random numbers, whose residuals are those of a fit;
 ///  - errors: see covariance_of. The scale is eliminated (G. H. Golub and V. Pereyra 1973, SIAM J. Numer. Anal.
 ///    10, 413).
 /// Deterministic for a deterministic model. @throws InputError for fewer points than parameters (and one more

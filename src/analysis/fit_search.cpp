@@ -19,15 +19,15 @@ namespace {
 
 using Eigen::Index;
 
-/// Expected fall of chi-square at which the search rests: parameters are then within a tenth of their error.
-constexpr double kRest = 0.01;
-/// What a step that ends the search on noise may leave: half a standard error would be 0.25.
-constexpr double kNearlyRest = 0.1;
+/// Expected fall of chi-square at which the search rests: parameters are then within a third of their error.
+constexpr double kRest = 0.1;
+/// The same for the estimate, within which the curve is taken to be straight, and at most.
+constexpr double kStraight = 1.0, kMostStraight = 9.0;
 /// Difference spans, as shares of the range of a parameter.
 constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
 /// Noise of a difference that is wanted, over the difference, and how much wider it may get for that.
 constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
-constexpr int kMostRefinements = 6, kMostRounds = 6;
+constexpr int kMostEstimates = 4, kMostRounds = 6;
 /// Shorter and shorter steps that GSL may try before one that goes down is given up on.
 constexpr int kMostTrials = 6;
 /// Values that a parameter can have: so many between its bounds, that going inside and out again does not make
@@ -132,7 +132,7 @@ std::vector<double> FitSearch::outer(const double* inner) const {
 std::optional<ModelCurve> FitSearch::evaluate(const std::vector<double>& at) {
   if (const auto found = known_.find(at); found != known_.end()) return found->second;
   if (stopped_) return std::nullopt;
-  std::optional<ModelCurve> curve = model_(at);
+  std::optional<ModelCurve> curve = model_(at, draw_);
   if (!curve) {
     stopped_ = true;
     return std::nullopt;
@@ -158,6 +158,7 @@ bool FitSearch::find_slopes(const std::vector<double>& at) {
   }
   slopes_ = slopes_of(residuals_, *centre, pairs);
   slopes_at_ = at;
+  pairs_ = pairs;
   scale_slopes_.resize(static_cast<Index>(pairs.size()));
   for (std::size_t j = 0; j < pairs.size(); ++j)
     scale_slopes_[static_cast<Index>(j)] =
@@ -183,7 +184,8 @@ void FitSearch::choose_spans() {
 
 FitSearch::Outlook FitSearch::outlook() const {
   const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
-  // Noise included, which only shortens steps; and as little of a range as nothing is known of anyway.
+  // The noise of the slopes, which information_of takes away, stays in: it shortens steps where they are unsure.
+  // To know as little of a parameter as its range is no knowledge, but keeps steps finite.
   Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
   information.diagonal() += range().array().square().inverse().matrix();
   // A parameter at a bound that would go beyond it stays.
@@ -252,22 +254,6 @@ void FitSearch::descend() {
   }
 }
 
-/// Gauss-Newton steps, which look at slopes and not at whether chi-square falls by less than its noise.
-void FitSearch::refine() {
-  for (int i = 0; i < kMostRefinements && find_slopes(best_); ++i) {
-    const Outlook next = outlook();
-    if (next.fall < kRest) return;
-    const double shorter = std::min(1.0, 1.0 / std::sqrt(next.fall));
-    std::vector<double> at = best_;
-    for (std::size_t j = 0; j < at.size(); ++j)
-      at[j] = snapped(j, at[j] + shorter * next.step[static_cast<Index>(j)]);
-    const auto curve = evaluate(at);
-    // One is what chi-square rises by at a standard error.
-    if (!curve || residuals_.chi2(*curve) > residuals_.chi2(*curve_) + 1.0) return;
-    accept(at);
-  }
-}
-
 void FitSearch::settle_weights() {
   if (options_.errors_from_scatter && degrees() > 0.0 && steps_.size() > 1)
     common_error_ = residuals_.match_common_error(*curve_, degrees());
@@ -280,7 +266,46 @@ void FitSearch::keep_best_known() {
   const auto chi2_of = [&](const auto& entry) { return residuals_.chi2(entry.second); };
   const auto least = std::min_element(known_.begin(), known_.end(),
                                       [&](const auto& a, const auto& b) { return chi2_of(a) < chi2_of(b); });
-  if (chi2_of(*least) < residuals_.chi2(*curve_)) accept(least->first);
+  if (least != known_.end() && chi2_of(*least) < residuals_.chi2(*curve_)) accept(least->first);
+}
+
+/// The curve beside the one at the best, by its slopes.
+ModelCurve FitSearch::carried_on(const std::vector<double>& to) const {
+  ModelCurve curve = *curve_;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    for (std::size_t j = 0; j < to.size(); ++j)
+      curve[i].value.value += (pairs_[j].high[i].value.value - pairs_[j].low[i].value.value) / pairs_[j].span *
+                              (to[j] - best_[j]);
+  return curve;
+}
+
+/// Search goes where noise happens to agree with the measurement, so that the curve found is too good. New
+/// random numbers around the place know nothing of that: Newton's step by them is the estimate, and the residuals
+/// left by it are those of a fit.
+bool FitSearch::estimate() {
+  draw_ = 1;
+  known_.clear();
+  for (int i = 0; i < kMostEstimates; ++i) {
+    const std::optional<ModelCurve> fresh = evaluate(best_);
+    if (!fresh) return false;
+    curve_ = fresh;
+    if (!options_.errors_from_scatter) residuals_.reweigh(*curve_);
+    if (!find_slopes(best_)) return false;
+    const Outlook next = outlook();
+    std::vector<double> at = best_;
+    for (std::size_t j = 0; j < at.size(); ++j) at[j] = snapped(j, at[j] + next.step[static_cast<Index>(j)]);
+    const bool last = next.fall < kStraight || i + 1 == kMostEstimates;
+    curve_ = carried_on(at);
+    best_ = at;
+    if (last) settle_weights();
+    tell();
+    if (last) {
+      converged_ = next.fall < kMostStraight;
+      slopes_at_ = best_;
+      return true;
+    }
+  }
+  return true;
 }
 
 FitEnd FitSearch::run() {
@@ -296,17 +321,15 @@ FitEnd FitSearch::run() {
   tell();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     descend();
-    refine();
     const Eigen::VectorXd before = residuals_.inverse_sigma();
     settle_weights();
     const Eigen::ArrayXd change = residuals_.inverse_sigma().array() / before.array() - 1.0;
     if (change.abs().maxCoeff() < kSameErrors) break;
   }
   if (stopped_) keep_best_known();
-  if (slopes_ && slopes_at_ != best_) slopes_.reset();
-  // Under the weights of the end; the curves are known unless the search ended on noise.
-  if (!find_slopes(best_) || stopped_) return FitEnd::stopped;
-  return outlook().fall < kNearlyRest ? FitEnd::converged : FitEnd::not_converged;
+  if (!stopped_ && estimate()) return converged_ ? FitEnd::converged : FitEnd::not_converged;
+  slopes_.reset();
+  return FitEnd::stopped;
 }
 
 }  // namespace scintray

@@ -18,10 +18,10 @@ class FitSearch {
   FitEnd run();
 
   const std::vector<double>& best() const { return best_; }
-  /// Of the best; nothing when the first one was stopped.
+  /// At the best: traced, or carried on by slopes from next to it. Nothing when the first one was stopped.
   const std::optional<ModelCurve>& curve() const { return curve_; }
   const ModelCurve& start_curve() const { return start_curve_; }
-  /// At the best, under the weights of the end; nothing when stopped before they were known.
+  /// Where the estimate was made; nothing when stopped before they were known.
   const std::optional<FitSlopes>& slopes() const { return slopes_; }
   /// Derivatives of the scale by the parameters there.
   const Eigen::VectorXd& scale_slopes() const { return scale_slopes_; }
@@ -46,8 +46,9 @@ class FitSearch {
   Outlook outlook() const;
   void settle_weights();
   void descend();
-  void refine();
+  bool estimate();
   void keep_best_known();
+  ModelCurve carried_on(const std::vector<double>& to) const;
   void accept(const std::vector<double>& at);
   void tell();
   std::vector<double> outer(const double* inner) const;
@@ -65,12 +66,15 @@ class FitSearch {
   ModelCurve start_curve_;
   std::vector<double> span_;   ///< to each side, of each parameter's differences
   std::vector<double> wider_;  ///< factor on one standard error, for the noise
+  std::vector<DifferencePair> pairs_;  ///< that the slopes are of
   std::optional<FitSlopes> slopes_;
   Eigen::VectorXd scale_slopes_;
   std::optional<double> common_error_;
   std::vector<CurveFitStep> steps_;
   std::size_t evaluations_ = 0;
   int trials_ = 0;
+  std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate
+  bool converged_ = false;
   bool stopped_ = false;
 };
 

@@ -68,13 +68,13 @@ class SceneCurve : public FitModel {
     check();
   }
 
-  std::optional<ModelCurve> trace(const std::vector<double>& parameters) override {
+  std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
     ModelCurve curve;
     std::optional<BuiltScene> built;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       const SceneSpec spec = spec_at(parameters, i);
       if (!built || !only_source_moves()) built = builder_.build(spec);
-      const std::optional<ModelPoint> point = trace_point(spec, built->scene, i);
+      const std::optional<ModelPoint> point = trace_point(spec, built->scene, i, draw);
       if (!point) return std::nullopt;
       curve.push_back(*point);
     }
@@ -133,7 +133,8 @@ class SceneCurve : public FitModel {
                   : "use quantity = \"light_per_keV\", or type = \"photons\" in [source]"});
   }
 
-  std::optional<ModelPoint> trace_point(const SceneSpec& spec, const Scene& scene, std::size_t point) const {
+  std::optional<ModelPoint> trace_point(const SceneSpec& spec, const Scene& scene, std::size_t point,
+                                        std::uint64_t draw) const {
     const std::unique_ptr<LightSource> source = make_light_source(spec, scene);
     const TallyPlan plan(scene, spec);
     RunHooks hooks;
@@ -155,8 +156,8 @@ class SceneCurve : public FitModel {
         shares[event.event % kParts].add(static_cast<double>(event.energy_keV), light);
       }
     };
-    const PointResult result =
-        run_point(scene, *source, plan, run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
+    const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + point);
+    const PointResult result = run_point(scene, *source, plan, run_settings(spec.run, stream), hooks);
     if (!result.complete) return std::nullopt;
     ModelPoint out;
     out.value = energy() ? all.ratio() : result.fraction(Fate::detected);
@@ -200,13 +201,13 @@ class ReflectanceCurve : public FitModel {
     check();
   }
 
-  std::optional<ModelCurve> trace(const std::vector<double>& parameters) override {
+  std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
     const BenchSurface bench = bench_at(parameters);
     tbb::task_arena arena(settings_.run.threads.value_or(tbb::task_arena::automatic));
     ModelCurve curve;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       if (settings_.run.stop && settings_.run.stop->load()) return std::nullopt;
-      arena.execute([&] { curve.push_back(reflectance(bench, i)); });
+      arena.execute([&] { curve.push_back(reflectance(bench, i, draw)); });
       if (settings_.progress) settings_.progress((i + 1) * rays_, measured_.points.size() * rays_);
     }
     return curve;
@@ -247,7 +248,7 @@ class ReflectanceCurve : public FitModel {
         if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
   }
 
-  ModelPoint reflectance(const BenchSurface& bench, std::size_t point) const {
+  ModelPoint reflectance(const BenchSurface& bench, std::size_t point, std::uint64_t draw) const {
     GoniometerSettings settings;
     settings.side = fit_.goniometer->from_inside ? Side::inside : Side::outside;
     settings.incidence_rad = angle_rad(point);
@@ -257,7 +258,7 @@ class ReflectanceCurve : public FitModel {
     ModelPoint out;
     std::uint64_t reflected = 0;
     for (std::uint64_t part = 0; part < parts; ++part) {
-      settings.stream = point * kParts + part;
+      settings.stream = (draw * measured_.points.size() + point) * kParts + part;
       settings.rays = (rays_ - part + parts - 1) / parts;
       const GoniometerReading reading = read_goniometer(bench.surface, bench.index, settings);
       reflected += reading.reflected;

@@ -15,13 +15,13 @@ struct FitModelSettings {
   std::function<void(std::uint64_t done, std::uint64_t of)> progress;  ///< within a curve
 };
 
-/// A curve of a scene that can be traced for any values of the fitted keys. Every curve has the same seed, and
-/// each point streams of its own, so that photons are the same ones for all values.
+/// A curve of a scene that can be traced for any values of the fitted keys. Every curve of one draw has the same
+/// seed, and each point streams of its own, so that photons are the same ones for all values.
 class FitModel {
  public:
   virtual ~FitModel() = default;
   /// In step with the measured points; nothing when it was stopped.
-  virtual std::optional<ModelCurve> trace(const std::vector<double>& parameters) = 0;
+  virtual std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) = 0;
   /// Photons, events or rays at each point, and which of these.
   virtual std::uint64_t count() const = 0;
   virtual std::string thing() const = 0;

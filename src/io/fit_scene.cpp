@@ -58,7 +58,10 @@ FitRecord fit_scene(const SceneFile& file, const SceneFitOptions& options) {
   fit.errors_from_scatter = record.spec.errors_from_scatter;
   fit.progress = options.step;
   record.fit = fit_curve(record.measured, parameters_of(record.spec),
-                         [&](const std::vector<double>& parameters) { return model->trace(parameters); }, fit);
+                         [&](const std::vector<double>& parameters, std::uint64_t draw) {
+                           return model->trace(parameters, draw);
+                         },
+                         fit);
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return record;
 }

@@ -110,15 +110,15 @@ TEST_CASE("Fitted keys and positions take their values in the scene, over those 
 TEST_CASE("Mistakes in [fit] are named with their place and how to mend them") {
   const auto with = [](const std::string& old, const std::string& by) { return replaced(kFitTable, old, by); };
   check_fit_problem(with("\"light.csv\"", "@@\"dark.csv\""), "dark.csv", "");
-  check_fit_problem(with("\"detected_fraction\"", "@@\"brightness\""), "brightness", "detected_fraction");
-  check_fit_problem(with("scale = \"free\"", "scale = @@\"loose\""), "loose", "fixed");
+  check_fit_problem(with("\"detected_fraction\"", "@@\"brightness\""), "brightness", "in quotes");
+  check_fit_problem(with("scale = \"free\"", "scale = @@\"loose\""), "loose", "in quotes");
   check_fit_problem(with("start = \"8 deg\"", "start = @@\"1 deg\""), "does not lie between low, 2, and high, 40",
                     "start within the bounds");
   check_fit_problem(with("low = \"2 deg\"", "low = @@\"0.03 rad\""), "\"low\" is in \"rad\", but \"start\" is in \"deg\"",
                     "in one unit");
   check_fit_problem(with("high = \"40 deg\"", "high = @@true"), "is not a number with its unit", "as \"12 deg\"");
   check_fit_problem(with("\"surfaces.ground.unified.sigma_alpha\"", "@@\"surfaces.ground.unify.sigma_alpha\""),
-                    "the fitted key \"surfaces.ground.unify.sigma_alpha\" leads nowhere", "did you mean \"unified\"");
+                    "the fitted key \"surfaces.ground.unify.sigma_alpha\" leads nowhere", "model, unified");
   check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.wrapped.mixture.grund.share\""),
                     "has no \"grund\"", "did you mean \"ground\"");
   check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"fit.unit\""), "cannot be set here",
@@ -131,7 +131,7 @@ TEST_CASE("Mistakes in [fit] are named with their place and how to mend them") {
   const std::string reflectance = complaint(with("\"detected_fraction\"", "\"reflectance\""));
   check_says(reflectance, "\"at\" is given, but a fit of reflectance has none");
   check_says(reflectance, "[fit] has no \"goniometer\"");
-  check_says(reflectance, "expected an angle");
+  check_says(reflectance, "is not a unit of angle");
   check_says(complaint(with("scale = \"free\"\n", "")), "scale");
   check_says(complaint(kFitTable.substr(0, kFitTable.find("[[fit.parameter]]"))), "nothing to find");
   check_says(complaint(with("unit = \"mm\"\n", "unit = \"mm\"\nsacle = 1\n")), "sacle");
