@@ -27,14 +27,14 @@ constexpr double kStraight = 1.0, kMostStraight = 9.0;
 constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
 /// Noise of a difference that is wanted, over the difference, and how much wider it may get for that.
 constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
-constexpr int kMostEstimates = 4, kMostRounds = 6;
+constexpr int kMostEstimates = 4, kMostRounds = 4;
 /// Shorter and shorter steps that GSL may try before one that goes down is given up on.
 constexpr int kMostTrials = 6;
 /// Values that a parameter can have: so many between its bounds, that going inside and out again does not make
 /// another curve by rounding.
 constexpr double kGrid = 0x1.0p40;
 /// Errors that change less than this need no new search.
-constexpr double kSameErrors = 0.01;
+constexpr double kSameErrors = 0.05;
 /// First guess of a common error, over the root mean square of the values.
 constexpr double kFirstCommonError = 0.05;
 

@@ -120,7 +120,7 @@ std::string fitted_crystal(const std::string& surfaces) {
   return crystal_scene({"crystal_medium", "sides", slab(10.0), 1000}) + R"(
 [media.crystal_medium]
 index = { n = 1.82 }
-absorption = { length = "150 mm" }
+absorption = { length = "60 mm" }
 scattering = { none = true }
 )" + surfaces;
 }
@@ -135,7 +135,7 @@ const FittedKey kSigmaAlpha{"surfaces.sides.unified.sigma_alpha", "\"6 deg\"", "
 FitCase ground_case() {
   FitCase c{"ground", fitted_crystal(kUnifiedSides), kAtDepth + "scale = \"fixed\"\n", kFitDepths,
           {kSigmaAlpha,
-           {"media.crystal_medium.absorption.length", "\"400 mm\"", "\"20 mm\"", "\"2000 mm\"", 150.0}}};
+           {"media.crystal_medium.absorption.length", "\"200 mm\"", "\"10 mm\"", "\"1000 mm\"", 60.0}}};
   c.photons = 40'000;
   return c;
 }
@@ -201,7 +201,7 @@ unit = "mm"
 scale = "fixed"
 )",
             {2, 6, 10, 14, 18},
-            {{"media.crystal_medium.absorption.length", "\"400 mm\"", "\"20 mm\"", "\"2000 mm\"", 150.0}}};
+            {{"media.crystal_medium.absorption.length", "\"200 mm\"", "\"10 mm\"", "\"1000 mm\"", 60.0}}};
   c.scene = replaced(c.scene, "scattering = { none = true }\n[surfaces.sides]", R"(scattering = { none = true }
 yield = { value = "2 1/keV" }
 emission = { spectrum = { wavelength = [400, 420, 440], wavelength_unit = "nm", value = [0, 1, 0] } }
@@ -218,7 +218,7 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1 }]
 TEST_CASE("Common random numbers lessen the noise of differences of curves") {
   const FitCase c = ground_case();
   // Curves less than an error of the fit above apart, of one seed and of two.
-  const std::vector<double> low{11.8, 147.0}, high{12.2, 153.0};
+  const std::vector<double> low{11.8, 59.0}, high{12.2, 61.0};
   constexpr std::uint64_t kSeeds = 12;
   const auto points = kFitDepths.size();
   std::vector<Moments> one_seed(points), two_seeds(points);
