@@ -97,16 +97,6 @@ class Renumbering {
   std::vector<std::uint32_t> media_, surfaces_, parts_, faces_;
 };
 
-RunSettings settings_of(const RunSpec& run, std::size_t point) {
-  RunSettings settings;
-  settings.seed = run.seed;
-  settings.point = static_cast<std::uint32_t>(point);
-  settings.max_interactions = run.max_interactions;
-  settings.max_time_ns = run.max_time_ns;
-  settings.threads = run.threads.value_or(0);
-  return settings;
-}
-
 /// Everything known before the first photon.
 struct Survey {
   NameLists names;
@@ -151,6 +141,16 @@ RunHeader make_header(const SceneFile& file, const SceneSpec& first, const Surve
 }
 
 }  // namespace
+
+RunSettings run_settings(const RunSpec& run, std::uint32_t point) {
+  RunSettings settings;
+  settings.seed = run.seed;
+  settings.point = point;
+  settings.max_interactions = run.max_interactions;
+  settings.max_time_ns = run.max_time_ns;
+  settings.threads = run.threads.value_or(0);
+  return settings;
+}
 
 SceneSpec with_options(SceneSpec spec, const SimulationOptions& options) {
   if (options.threads) spec.run.threads = options.threads;
@@ -221,7 +221,8 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
         writer.append_events(renumbering.applied(events));
       };
     }
-    PointResult traced = run_point(built.scene, *source, plan, settings_of(spec.run, point), hooks);
+    PointResult traced = run_point(built.scene, *source, plan,
+                                   run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
     traced.parameters = file.parameters(point);
     renumbering.apply(traced);
     done_before = progress.done;

@@ -17,26 +17,6 @@ namespace {
 using namespace report;
 using Table = std::vector<std::vector<std::string>>;
 
-/// Columns padded to their widest cell; the first to the left, the others to the right.
-std::string aligned(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : table) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
-  }
-  std::string text;
-  for (const auto& row : table) {
-    text += "  ";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string room(widths[i] - display_width(row[i]), ' ');
-      text += (i == 0 ? row[i] + room : "   " + room + row[i]);
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  }
-  return text;
-}
-
 /// Columns that fit a terminal.
 constexpr std::size_t kMostColumns = 6;
 

@@ -72,10 +72,8 @@ class InterfaceMaker {
       result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
     const std::int32_t only = result.back_surface != kNone ? result.back_surface : result.front_surface;
     const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
-    if (one && result.gap_medium == kNone) {
-      const Surface& s = scene_.surfaces[static_cast<std::size_t>(only)];
-      result.plain = std::holds_alternative<SmoothSurface>(s.microsurface) && !s.reflector;
-    }
+    if (one && result.gap_medium == kNone)
+      result.plain = scene_.surfaces[static_cast<std::size_t>(only)].plain();
     return result;
   }
 

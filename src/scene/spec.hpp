@@ -19,6 +19,7 @@
 #include "scintray/scene/analysis_spec.hpp"
 #include "scintray/scene/bench_spec.hpp"
 #include "scintray/scene/claim_spec.hpp"
+#include "scintray/scene/fit_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/source_spec.hpp"
@@ -167,6 +168,7 @@ struct SceneSpec {
   AnalysisSpec analysis;
   std::vector<ClaimSpec> claims;
   std::vector<BenchSpec> benches;
+  std::optional<FitSpec> fit;  ///< [fit]
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

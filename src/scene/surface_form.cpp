@@ -113,25 +113,39 @@ std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
   return tracing;
 }
 
-/// mixture = [{ surface = "NAME", share = 0.6 }, ...]
+/// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take what is left.
 std::vector<ShareSpec> read_mixture(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems) {
-  std::vector<ShareSpec> mixture;
+  constexpr double kRounding = 1e-9;
+  const std::vector<TomlTable> parts = table.tables("mixture");
+  std::vector<double> shares;
+  std::optional<std::size_t> rest;
   double sum = 0.0;
-  for (const TomlTable& part : table.tables("mixture")) {
-    const std::string name = part.string("surface");
-    const double share = read_share(part, "share", std::nullopt);
-    sum += share;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool given = parts[i].has("share");
+    shares.push_back(given ? read_share(parts[i], "share", std::nullopt) : 0.0);
+    sum += shares.back();
+    if (!given && rest)
+      parts[i].report("share", "two surfaces of a mixture have no share, but only one can take what is left",
+                      "give all but one their share");
+    if (!given) rest = i;
+  }
+  const bool whole = rest ? sum <= 1.0 + kRounding : std::abs(sum - 1.0) <= kRounding;
+  table.expect(
+      "mixture", parts.empty() || whole,
+      "the shares of a mixture sum to " + std::to_string(sum) + "; expected " + (rest ? "at most 1" : "1"),
+      "one surface without a share takes what the others leave");
+  if (rest) shares[*rest] = std::max(0.0, 1.0 - sum);
+  std::vector<ShareSpec> mixture;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = parts[i].string("surface");
     if (name.empty()) continue;
     try {
       mixture.push_back(
-          {share, std::make_shared<const SurfaceSpec>(lookup.surface(name, part.where("surface")))});
+          {shares[i], std::make_shared<const SurfaceSpec>(lookup.surface(name, parts[i].where("surface")))});
     } catch (const InputError& error) {
       problems.add(error);
     }
   }
-  constexpr double kRounding = 1e-9;
-  table.expect("mixture", mixture.empty() || std::abs(sum - 1.0) <= kRounding,
-               "the shares of a mixture sum to " + std::to_string(sum) + "; expected 1");
   return mixture;
 }
 

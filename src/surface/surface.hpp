@@ -90,6 +90,11 @@ struct Surface {
 
   /// True when no light passes to the other side.
   bool opaque() const;
+  /// True when it is nothing but a smooth boundary.
+  bool plain() const {
+    return mixture.empty() && std::holds_alternative<SmoothSurface>(microsurface) && !reflector &&
+           !gap_thickness_um;
+  }
   /// True when light may leave it at another wavelength.
   bool shifts() const { return mixture.empty() ? gap_shifter != nullptr : mixture_shifts(); }
 
