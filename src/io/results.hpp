@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scintray/detector/readout_spec.hpp"
+#include "scintray/io/history_table.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
@@ -38,8 +39,12 @@ class ResultsWriter {
                     const std::optional<ReadoutSpec>& readout);
   /// Adds to the table of events, as append_photons does.
   void append_events(const std::vector<EventRecord>& events);
-  /// Adds the result of the next point.
-  void add_point(const PointResult& point);
+  /// Prepares the table of photon histories, before the first of them; without it the file has none.
+  void begin_histories(HistoryColumns columns);
+  /// Adds histories of the point whose media and reflectors these are, as append_photons does.
+  void append_histories(const PhotonHistories& histories, const HistorySubjects& point);
+  /// Adds the result of the next point, and how it was traced where histories are kept.
+  void add_point(const PointResult& point, const HistorySubjects* history = nullptr);
   /// Replaces the warnings of the header, which may grow during the run.
   void set_note(const std::string& note);
   /// Puts the file in place. An interrupted run is committed with complete = false and the reason

@@ -13,34 +13,12 @@ namespace scintray {
 
 namespace {
 
+using results_format::damaged;
+using results_format::has_format;
+using results_format::open_results;
+
 InputError wrong(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
   return InputError({{path.string()}, what, hint});
-}
-
-InputError damaged(const std::filesystem::path& path, const std::string& what) {
-  return wrong(path, "this result contradicts itself: " + what,
-               "copy it again from where it was made, or run again");
-}
-
-bool has_format(const h5::Group& root) {
-  return root.has_attribute("", "format") && root.string_attribute("", "format") == results_format::kFormat;
-}
-
-/// Opens a result and checks that this program can read it.
-h5::File open_results(const std::filesystem::path& path) {
-  h5::File file = h5::File::open(path);
-  const h5::Group root = file.root();
-  if (!has_format(root))
-    throw wrong(path, "this HDF5 file is not a ScintRay result", "name a file that `scintray run` wrote");
-  const std::int64_t version = root.integer_attribute("", "version");
-  if (version != kResultsVersion)
-    throw wrong(path,
-                "this result has format version " + std::to_string(version) + " (written by ScintRay " +
-                    root.string_attribute("", "scintray_version") + "), but this program reads version " +
-                    std::to_string(kResultsVersion),
-                version > kResultsVersion ? "use a newer ScintRay"
-                                          : "run the scene again, or use the older ScintRay");
-  return file;
 }
 
 template <typename T>

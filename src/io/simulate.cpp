@@ -109,6 +109,7 @@ RunSettings settings_of(const RunSpec& run, std::size_t point) {
 /// Everything known before the first photon.
 struct Survey {
   NameLists names;
+  HistoryColumns histories;
   std::vector<std::string> notes;
   bool energy = false;     ///< some source is one of energy
   std::uint64_t work = 0;  ///< photons, or events, over all points
@@ -124,6 +125,7 @@ Survey survey_points(const SceneFile& file, const SimulationOptions& options, Sc
     const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene, &notes);
     const TallyPlan plan(built.scene, spec);
     survey.names.add(built.scene);
+    if (plan.history) survey.histories.add(plan.history->subjects());
     survey.energy = source->has_energy();
     survey.work += source->has_energy() ? source->events() : source->photons();
     for (const std::string& note : notes)
@@ -185,6 +187,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
   RunResult result;
   result.header = make_header(file, first, survey);
   ResultsWriter writer(options.output, result.header, first.run.photon_list);
+  if (first.run.photon_history) writer.begin_histories(survey.histories);
 
   SimulationProgress progress;
   progress.points = file.points();
@@ -209,6 +212,10 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
       hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
         writer.append_photons(renumbering.applied(photons));
       };
+    if (plan.history && first.run.photon_history)
+      hooks.histories = [&](const PhotonHistories& histories) {
+        writer.append_histories(histories, plan.history->subjects());
+      };
     if (source->has_energy()) {
       writer.begin_events(point, renumbering.applied(plan.channels.list), spec.readout);
       hooks.events = [&](const std::vector<EventRecord>& events) {
@@ -220,7 +227,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
     renumbering.apply(traced);
     done_before = progress.done;
     progress.segments += traced.segments;
-    writer.add_point(traced);
+    writer.add_point(traced, plan.history ? &plan.history->subjects() : nullptr);
     result.points.push_back(std::move(traced));
   }
   const bool complete = result.points.size() == file.points() && result.complete();

@@ -28,6 +28,7 @@ struct Photon {
   std::uint32_t interactions = 0;    ///< boundary interactions so far
   std::uint32_t scatterings = 0;     ///< bulk scatterings so far
   std::vector<PhotonShifts> shifts;  ///< so far, one entry for each medium or surface that shifted
+  ReflectionLog* reflections = nullptr;  ///< told of each survived reflection; null: nobody asks
 
   /// The entry of a medium or surface, made when there is none.
   ShiftCount& shifts_of(bool at_surface, std::uint32_t where) {

@@ -98,19 +98,21 @@ void scatter_lambertian(Ray& ray, const Vec3& normal, Rng& rng) {
 }
 
 /// Sends `ray`, in a medium of index `index`, back from a reflector whose normal towards the light is
-/// `normal`; false: absorbed.
+/// `normal`; false: absorbed. Light that a volume's boundary mirrors has not met its reflectance.
 bool reflect_from(const Reflector& reflector, Ray& ray, const Vec3& normal, double index,
-                  double wavelength_nm, Rng& rng) {
+                  double wavelength_nm, Rng& rng, ReflectionLog* log) {
   const double reflectance = reflector.reflectance(wavelength_nm);
   if (reflector.volume_index > 0.0) {
     if (!meet_facet(ray, normal, index, reflector.volume_index, rng)) return true;
     for (;;) {
       if (rng.uniform() >= reflectance) return false;
+      if (log) log->add(reflector, reflectance);
       scatter_lambertian(ray, normal, rng);
       if (meet_facet(ray, -normal, reflector.volume_index, index, rng)) return true;
     }
   }
   if (rng.uniform() >= reflectance) return false;
+  if (log) log->add(reflector, reflectance);
   if (reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share)
     reflect(ray, normal);
   else
@@ -133,17 +135,18 @@ struct FarFace {
   const Vec3& normal;
   double gap_index, beyond_index, wavelength_nm;
   Rng& rng;
+  ReflectionLog* log;
 
   enum class After { in_gap, beyond, absorbed };
   After from_gap(Ray& ray) const {
     if (reflector)
-      return reflect_from(*reflector, ray, -normal, gap_index, wavelength_nm, rng) ? After::in_gap
+      return reflect_from(*reflector, ray, -normal, gap_index, wavelength_nm, rng, log) ? After::in_gap
                                                                                    : After::absorbed;
     return meet_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
   }
   After from_beyond(Ray& ray) const {
     if (reflector)  // the back of the sheet
-      return reflect_from(*reflector, ray, normal, beyond_index, wavelength_nm, rng) ? After::beyond
+      return reflect_from(*reflector, ray, normal, beyond_index, wavelength_nm, rng, log) ? After::beyond
                                                                                      : After::absorbed;
     return meet_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
   }
@@ -152,8 +155,9 @@ struct FarFace {
 }  // namespace
 
 SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
-                             ShiftingLight* light, Rng& rng) const {
-  if (!mixture.empty()) return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng);
+                             ShiftingLight* light, Rng& rng, ReflectionLog* log) const {
+  if (!mixture.empty())
+    return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng, log);
   Meeting meeting(*this, normal, wavelength_nm, light, rng);
   if (!reflector && !gap_thickness_um) return meeting.scatter(ray, side, index);
 
@@ -161,7 +165,7 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair 
   const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
   IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
   const auto far = [&] {
-    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng};
+    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng, log};
   };
   bool at_far_face = side == Side::outside;
   if (at_far_face) {
