@@ -53,8 +53,7 @@ double greatest_ratio(const WantedProperty& wanted, const TracedRange& traced) {
 Reweighting::Reweighting(OpticalChange change, std::uint64_t detected) : change_(std::move(change)) {
   check_change(change_);
   for (std::size_t i = 0; i < change_.absorption_per_mm.size(); ++i)
-    gains_ =
-        gains_ || less_absorption(change_.absorption_per_mm[i], change_.traced_absorption_per_mm[i]);
+    gains_ = gains_ || less_absorption(change_.absorption_per_mm[i], change_.traced_absorption_per_mm[i]);
   for (std::size_t i = 0; i < change_.reflectance.size(); ++i) {
     log_wanted_.push_back(std::log(change_.reflectance[i].value));
     greatest_step_ =

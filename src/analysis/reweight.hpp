@@ -13,8 +13,8 @@ namespace scintray {
 
 /// The way of one detected photon, from its emission to its detection.
 struct PhotonHistory {
-  std::span<const float> path_mm;           ///< in each medium
-  std::span<const float> absorption_depth;  ///< there: integral of 1 / absorption length as traced
+  std::span<const float> path_mm;              ///< in each medium
+  std::span<const float> absorption_depth;     ///< there: integral of 1 / absorption length as traced
   std::span<const std::uint32_t> reflections;  ///< survived at each reflector
   std::span<const float> reflection_depth;     ///< there: sum of -ln(reflectance) as traced
 };
@@ -70,8 +70,8 @@ struct Reweighted {
 /// - one more reflection of the heaviest photon would not give it more than 2 % either;
 /// - the tail of the weights falls faster than the power law whose variance is infinite: its shape, Hill's
 ///   estimate (B. M. Hill 1975, Ann. Statist. 3, 1163) from the 3 sqrt(photons) largest weights, at most a
-///   fifth of them, is below 1/2 (A. Vehtari, D. Simpson, A. Gelman, Y. Yao and J. Gabry 2024, J. Mach. Learn.
-///   Res. 25(72), use that number and that limit for importance sampling);
+///   fifth of them, is below 1/2 (A. Vehtari, D. Simpson, A. Gelman, Y. Yao and J. Gabry 2024, J. Mach.
+///   Learn. Res. 25(72), use that number and that limit for importance sampling);
 /// - photons that the run cut are fewer than the error of the fraction.
 class Reweighting {
  public:

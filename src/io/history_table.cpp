@@ -160,10 +160,10 @@ void HistoryWriter::describe_point(h5::Group& point, const HistorySubjects& subj
   group.set_attribute(
       "", "description",
       std::string("absorption and reflectance as traced, in the order of the columns of /histories"));
-  put_ranges(group, "absorption_per_mm", subjects.absorption_per_mm, places_of(columns_.media, subjects.media),
-             columns_.media.size());
-  put_ranges(group, "reflectance", subjects.reflectance,
-             places_of(columns_.reflectors, subjects.reflectors), columns_.reflectors.size());
+  put_ranges(group, "absorption_per_mm", subjects.absorption_per_mm,
+             places_of(columns_.media, subjects.media), columns_.media.size());
+  put_ranges(group, "reflectance", subjects.reflectance, places_of(columns_.reflectors, subjects.reflectors),
+             columns_.reflectors.size());
 }
 
 namespace {
@@ -179,9 +179,7 @@ h5::Group open_histories(const std::filesystem::path& path, const h5::Group& roo
 }  // namespace
 
 HistoryReader::HistoryReader(const std::filesystem::path& path)
-    : path_(path),
-      file_(results_format::open_results(path)),
-      group_(open_histories(path, file_.root())) {
+    : path_(path), file_(results_format::open_results(path)), group_(open_histories(path, file_.root())) {
   columns_.media = group_.read_strings("history_media");
   columns_.gap_media = group_.read_strings("history_gap_media");
   const auto surfaces = group_.read_strings("reflector_surface"),

@@ -118,19 +118,23 @@ constexpr std::array kFields = {
     Field{"path_mm", "mm", "path length since emission"},
     Field{"interactions", "1", "boundary interactions since emission"},
     // histories, traced_optics
-    Field{"history_media", "", "media in which paths are recorded; columns with one number a medium are in "
-                               "this order"},
+    Field{"history_media", "",
+          "media in which paths are recorded; columns with one number a medium are in "
+          "this order"},
     Field{"history_gap_media", "", "media that fill gaps of surfaces too, where paths are not recorded"},
-    Field{"reflector_surface", "", "surface of each reflector, a mixture's own; columns with one number a "
-                                   "reflector are in this order"},
+    Field{"reflector_surface", "",
+          "surface of each reflector, a mixture's own; columns with one number a "
+          "reflector are in this order"},
     Field{"reflector_stack", "", "stack of each reflector: the surface, or what it is mixed of"},
     Field{"reflector_name", "", "name of each reflector"},
     Field{"medium_path_mm", "mm", "path length in each medium"},
     Field{"absorption_depth", "1", "integral of 1 / absorption length along the path in each medium"},
     Field{"reflections", "1", "reflections at each reflector that were survived by its reflectance"},
     Field{"reflection_depth", "1", "sum of -ln(reflectance) over these reflections"},
-    Field{"absorption_per_mm_least", "1/mm", "least 1 / absorption length of each medium in the wavelengths in use"},
-    Field{"absorption_per_mm_most", "1/mm", "most 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"absorption_per_mm_least", "1/mm",
+          "least 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"absorption_per_mm_most", "1/mm",
+          "most 1 / absorption length of each medium in the wavelengths in use"},
     Field{"reflectance_least", "1", "least reflectance of each reflector in the wavelengths in use"},
     Field{"reflectance_most", "1", "most reflectance of each reflector in the wavelengths in use"},
 };
@@ -159,8 +163,8 @@ h5::File open_results(const std::filesystem::path& path) {
   const std::int64_t version = root.integer_attribute("", "version");
   if (version != kResultsVersion)
     throw InputError({{path.string()},
-                      "this result has format version " + std::to_string(version) +
-                          " (written by ScintRay " + root.string_attribute("", "scintray_version") +
+                      "this result has format version " + std::to_string(version) + " (written by ScintRay " +
+                          root.string_attribute("", "scintray_version") +
                           "), but this program reads version " + std::to_string(kResultsVersion),
                       version > kResultsVersion ? "use a newer ScintRay"
                                                 : "run the scene again, or use the older ScintRay"});

@@ -203,7 +203,7 @@ struct ResultsWriter::State {
   results_format::RowWriter<DetectedPhoton> photons;
   results_format::RowWriter<results_format::EventRow> events;
   results_format::RowWriter<results_format::SignalRow> signals;
-  results_format::SampleWriter orders, pulses;                  ///< a row a signal
+  results_format::SampleWriter orders, pulses;  ///< a row a signal
   std::optional<HistoryWriter> histories;
   std::map<std::size_t, std::vector<ReadoutChannel>> channels;  ///< per point, until it is written
 };

@@ -6,21 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "scintray/analysis/reweight.hpp"
-#include "scintray/tally/result.hpp"
+#include "scintray/io/reweigh_plan.hpp"
 
 namespace scintray {
-
-enum class OpticalProperty { absorption_length, reflectance };
-
-/// Values that a property is wanted at, one after the other.
-struct PropertyScan {
-  OpticalProperty property = OpticalProperty::absorption_length;
-  /// Of a medium; or of a reflector, the stack or the surface that it is behind: all those of that name.
-  std::string name;
-  bool times = false;  ///< values are factors on what was traced, at every wavelength; else constants
-  std::vector<double> values;  ///< mm, infinity for no absorption; or a reflectance, 0 to 1; or factors
-};
 
 /// One point of the run under one choice of values.
 struct ReweighedPoint {
@@ -32,17 +20,13 @@ struct ReweighedPoint {
   std::optional<Estimate> traced_per_event, per_event;
 };
 
-/// Reads the histories once and reweights every point of the run for all combinations of the scans' values, the
-/// last scan's values fastest, points slowest. For a source of energy all errors are those of sums over events:
-/// photons of one event share its place and energy.
-/// @throws InputError without histories; for names that histories do not know, named with the nearest; for values
+/// Reads the histories once and reweights every point of the run for all combinations of the scans' values,
+/// the last scan's values fastest, points slowest. For a source of energy all errors are those of sums over
+/// events: photons of one event share its place and energy.
+/// @throws InputError without histories; for names that histories do not know, named with the nearest; for
+/// values
 ///         out of their range; for what reweighting cannot change
 std::vector<ReweighedPoint> reweigh_results(const std::filesystem::path& path, const RunResult& run,
                                             const std::vector<PropertyScan>& scans);
-
-/// "absorption length of LSO"
-std::string describe(const PropertyScan& scan);
-/// "200 mm", "none", "0.95", "x 2"
-std::string describe_value(const PropertyScan& scan, double value);
 
 }  // namespace scintray

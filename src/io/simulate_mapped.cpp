@@ -138,8 +138,7 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
   std::vector<std::string> notes{origin_note(map_file, response)};
   notes.insert(notes.end(), built.warnings.begin(), built.warnings.end());
   const auto source = make_light_source(spec, built.scene, &notes);
-  if (!spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list ||
-      spec.run.photon_history)
+  if (!spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list || spec.run.photon_history)
     notes.emplace_back("tallies, the list of photons and their histories are left out");
   spec.tallies.clear();
   spec.exit_angles.clear();

@@ -141,13 +141,13 @@ struct FarFace {
   After from_gap(Ray& ray) const {
     if (reflector)
       return reflect_from(*reflector, ray, -normal, gap_index, wavelength_nm, rng, log) ? After::in_gap
-                                                                                   : After::absorbed;
+                                                                                        : After::absorbed;
     return meet_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
   }
   After from_beyond(Ray& ray) const {
     if (reflector)  // the back of the sheet
       return reflect_from(*reflector, ray, normal, beyond_index, wavelength_nm, rng, log) ? After::beyond
-                                                                                     : After::absorbed;
+                                                                                          : After::absorbed;
     return meet_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
   }
 };

@@ -46,7 +46,7 @@ class BlockTally {
   const Scene& scene_;
   PointResult result_;
   std::vector<DetectedPhoton> photons_;
-  std::vector<Angles> last_crossing_;  ///< per exit-angle tally, of the photon under way
+  std::vector<Angles> last_crossing_;       ///< per exit-angle tally, of the photon under way
   std::optional<CountScorer> scorer_;       ///< when the plan has counts
   std::optional<HistoryRecorder> history_;  ///< when the plan has histories
   std::uint64_t event_ = 0, photon_ = 0;

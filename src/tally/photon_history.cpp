@@ -55,8 +55,7 @@ void HistoryPlan::add_surface(const Scene& scene, const Surface& surface, const 
   if (!surface.reflector) return;
   const ReflectorSite site{within, surface.definition, surface.reflector->name};
   const auto known = std::find(subjects_.reflectors.begin(), subjects_.reflectors.end(), site);
-  column_of_reflector_[&*surface.reflector] =
-      static_cast<std::size_t>(known - subjects_.reflectors.begin());
+  column_of_reflector_[&*surface.reflector] = static_cast<std::size_t>(known - subjects_.reflectors.begin());
   if (known != subjects_.reflectors.end()) return;
   subjects_.reflectors.push_back(site);
   subjects_.reflectance.push_back(range_of(surface.reflector->reflectance, scene.low_nm, scene.high_nm));

@@ -12,7 +12,8 @@
 
 namespace scintray {
 
-/// A reflector behind a surface. One definition of a surface is one reflector, whatever media it lies between.
+/// A reflector behind a surface. One definition of a surface is one reflector, whatever media it lies
+/// between.
 struct ReflectorSite {
   std::string surface;    ///< definition of the surface, a mixture's own
   std::string stack;      ///< definition of the stack with the reflector: the surface, or what it is mixed of
@@ -39,8 +40,8 @@ struct HistorySubjects {
 struct PhotonHistories {
   std::vector<std::uint32_t> point;
   std::vector<std::uint64_t> event, photon;
-  std::vector<float> path_mm;           ///< rows x media
-  std::vector<float> absorption_depth;  ///< rows x media: integral of 1 / absorption length along the path
+  std::vector<float> path_mm;              ///< rows x media
+  std::vector<float> absorption_depth;     ///< rows x media: integral of 1 / absorption length along the path
   std::vector<std::uint32_t> reflections;  ///< rows x reflectors: survived
   std::vector<float> reflection_depth;     ///< rows x reflectors: sum of -ln(reflectance)
 
