@@ -132,12 +132,16 @@ void add_reweigh_command(CLI::App& app) {
       ->add_option("RESULT", options->results,
                    "results file (HDF5) of a scene with photon_history = true in [run]")
       ->required();
-  command->add_option("--absorption-length", options->lengths,
-                      "\"MEDIUM=200 mm\", several \"MEDIUM=100,200,none mm\", or times what was traced "
-                      "\"MEDIUM=x0.5,x2\"");
-  command->add_option("--reflectance", options->reflectances,
-                      "\"REFLECTOR=0.95\" (or the surface it is behind), \"REFLECTOR=0.9,0.95\", "
-                      "\"REFLECTOR=x0.98\"");
+  command
+      ->add_option("--absorption-length", options->lengths,
+                   "\"MEDIUM=200 mm\", several \"MEDIUM=100,200 mm,none\", or times what was traced "
+                   "\"MEDIUM=x0.5,x2\"")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--reflectance", options->reflectances,
+                   "\"REFLECTOR=0.95\" (or the surface it is behind), \"REFLECTOR=0.9,0.95\", "
+                   "\"REFLECTOR=x0.98\"")
+      ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "write a table (CSV)");
   command->callback([options] { reweigh(*options); });
 }

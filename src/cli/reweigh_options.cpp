@@ -40,7 +40,7 @@ PropertyScan parse_scan(const std::string& option, OpticalProperty property, con
   const bool length = property == OpticalProperty::absorption_length;
   const auto refuse = [&](const std::string& what) {
     return CLI::ValidationError(option, "\"" + text + "\": " + what + "; write " +
-                                            (length ? "\"LSO=200 mm\", \"LSO=100,200,none mm\" or \"LSO=x2\""
+                                            (length ? "\"LSO=200 mm\", \"LSO=100,200 mm,none\" or \"LSO=x2\""
                                                     : "\"PTFE=0.95\", \"PTFE=0.9,0.95\" or \"PTFE=x0.98\""));
   };
   PropertyScan scan;
@@ -50,10 +50,12 @@ PropertyScan parse_scan(const std::string& option, OpticalProperty property, con
   if (equals == std::string::npos || scan.name.empty()) throw refuse("no name before a \"=\"");
   const std::vector<std::string> items = split(text.substr(equals + 1));
   scan.times = items.front().starts_with("x");
-  const std::string unit = unit_of(items.back());  // of those that have none of their own
+  std::string unit;  // of those that have none of their own: the last one given
+  for (const std::string& item : items)
+    if (item != "none" && !unit_of(item).empty()) unit = unit_of(item);
   for (std::string item : items) {
     if (item.starts_with("x") != scan.times) throw refuse("factors and values are mixed");
-    if (length && (item == "none" || item == "none " + unit)) {
+    if (length && item == "none" && !scan.times) {
       scan.values.push_back(std::numeric_limits<double>::infinity());
       continue;
     }
