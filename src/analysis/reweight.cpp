@@ -108,10 +108,19 @@ double Reweighting::add(const PhotonHistory& photon) {
 }
 
 double Reweighting::tail_shape() const {
-  if (largest_logs_.size() <= kLeastTail || std::isinf(largest_logs_.front())) return 0.0;
-  double sum = 0.0;
-  for (const double log : largest_logs_) sum += log - largest_logs_.front();
-  return sum / static_cast<double>(largest_logs_.size() - 1);
+  if (largest_logs_.empty() || std::isinf(largest_logs_.front())) return 0.0;
+  const double least = largest_logs_.front();
+  double sum = 0.0, next = std::numeric_limits<double>::infinity();
+  std::size_t above = 0;
+  for (const double log : largest_logs_) {
+    if (log <= least) continue;
+    sum += log - least;
+    next = std::min(next, log);
+    ++above;
+  }
+  if (above < kLeastTail) return 0.0;
+  // Weights of few reflections come in steps: the tail begins in the middle of one.
+  return sum / static_cast<double>(above) - 0.5 * (next - least);
 }
 
 std::string Reweighting::objection(const Reweighted& result, double cut_share) const {

@@ -95,10 +95,10 @@ class Reweighting {
   std::string objection(const Reweighted& result, double cut_share) const;
 
   OpticalChange change_;
-  std::vector<double> log_wanted_;    ///< per reflector: of the constant or the factor; -infinity for 0
-  bool gains_ = false;                ///< something is lost less than when traced
-  double greatest_step_ = 1.0;        ///< weight of one more reflection, at most
-  std::size_t tail_ = 0;              ///< number of the largest weights to keep, one more than the tail
+  std::vector<double> log_wanted_;  ///< per reflector: of the constant or the factor; -infinity for 0
+  bool gains_ = false;              ///< something is lost less than when traced
+  double greatest_step_ = 1.0;      ///< weight of one more reflection, at most
+  std::size_t tail_ = 0;            ///< number of the largest weights to keep: the tail and what it begins at
   std::vector<double> largest_logs_;  ///< a heap, the least on top
   std::uint64_t count_ = 0;
   double sum_ = 0.0, squares_ = 0.0, largest_ = 0.0;

@@ -162,7 +162,7 @@ TEST_CASE("Law: weighted by their logged reflections, survivors of one reflectan
                             SurfaceOutcome::absorbed;
       double weight = absorbed ? 0.0 : 1.0;
       for (const ReflectionLog::Entry& entry : log.entries()) {
-        CHECK(entry.depth == doctest::Approx(-entry.count * std::log(traced)));
+        CHECK(entry.depth == doctest::Approx(entry.count * -std::log(traced)));
         weight *= std::pow(wanted / traced, entry.count);
         most = std::max(most, entry.count);
       }

@@ -60,7 +60,11 @@ place = { touch = "crystal", side = "-z" }
 medium = "n15"
 surface = "wrapped"
 [[part.face]]
-name = "ends"
+name = "upper"
+select = { normal = [0, 0, 1] }
+surface = "flat"
+[[part.face]]
+name = "lower"
 select = { normal = [0, 0, -1] }
 surface = "flat"
 [[part]]
@@ -85,7 +89,7 @@ gap = 1.0
 reflector = "film"
 [surfaces.glued]
 model = "smooth"
-gap = 1.4
+gap = 1.6
 reflector = "film"
 [reflectors.film]
 reflectance = { value = 0.9 }
