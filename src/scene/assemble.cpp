@@ -74,7 +74,8 @@ class InterfaceMaker {
     const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
     if (one && result.gap_medium == kNone) {
       const Surface& s = scene_.surfaces[static_cast<std::size_t>(only)];
-      result.plain = std::holds_alternative<SmoothSurface>(s.microsurface) && !s.reflector;
+      result.plain = s.mixture.empty() && std::holds_alternative<SmoothSurface>(s.microsurface) &&
+                     !s.reflector && !s.gap_thickness_um;
     }
     return result;
   }

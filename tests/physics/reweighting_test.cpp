@@ -24,7 +24,7 @@ struct Optics {
 struct Bench {
   std::string side;  ///< definitions; {0} is the reflectance
   std::string source;
-  std::string medium = "absorption = { length = \"{0} mm\" }";
+  std::string medium = "absorption = {{ length = \"{0} mm\" }}";
 
   std::string text(const Optics& optics, std::uint64_t seed) const {
     return R"(

@@ -120,3 +120,33 @@ photons = 10
 )"),
                        doctest::Contains("no light from the source can reach sensor \"eye\""), InputError);
 }
+
+TEST_CASE("A mixture and a layer without a reflector are met as what they are, not as a bare smooth face") {
+  const auto escaped = [](const std::string& surfaces) {
+    return trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "cube"
+box = ["2 mm", "2 mm", "2 mm"]
+medium = "n15"
+surface = "side"
+[source]
+type = "photons"
+region = { part = "cube" }
+wavelength = "420 nm"
+photons = 5_000
+)" + surfaces)
+        .result.fraction(Fate::escaped);
+  };
+  CHECK(escaped(
+            "[surfaces.side]\nmixture = [{ surface = \"black\", share = 0.5 }, { surface = \"grey\", share = "
+            "0.5 }]\n[surfaces.black]\nmodel = \"painted\"\nreflectance = 0.0\nspecular_share = 0.0\n"
+            "[surfaces.grey]\nmodel = \"painted\"\nreflectance = 0.5\nspecular_share = 0.0\n")
+            .value == 0.0);
+  CHECK(
+      escaped(
+          "[surfaces.side]\nmodel = \"smooth\"\ngap = \"ink\"\ngap_thickness = \"1 mm\"\n"
+          "[media.ink]\nindex = { n = 1.5 }\nabsorption = { length = \"1 um\" }\nscattering = { none = true "
+          "}\n")
+          .value == 0.0);
+}
