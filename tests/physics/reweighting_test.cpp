@@ -62,7 +62,7 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
   /// Runs into a file of its own.
   std::filesystem::path run(const Optics& optics, std::uint64_t seed) const {
     SimulationOptions options;
-    options.output = scratch_folder("reweighting") / fmt::format("run_{}.h5", seed);
+    options.output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
     options.surface_hooks.cache.clear();
     simulate(SceneFile::from_text(text(optics, seed),
                                   (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
