@@ -77,9 +77,13 @@ std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std:
 /// What the events of a point are read out by; empty when it has none.
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
 
+/// Which photons the times of n-th photons are of, from 1; empty without such times.
+std::vector<std::uint64_t> read_photon_order(const std::filesystem::path& path);
+
 /// How much of events is read.
 enum class EventDetail {
-  numbers,  ///< without the times of n-th photons and the waveforms
+  numbers,       ///< without the times of n-th photons and the waveforms
+  photon_times,  ///< without the waveforms
   all,
 };
 

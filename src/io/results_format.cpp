@@ -62,6 +62,11 @@ constexpr std::array kFields = {
     Field{"deposited_keV", "keV", "energy left in scintillators, all events"},
     Field{"escaped_total_keV", "keV", "energy carried out of the scene, all events"},
     Field{"unseen_total_keV", "keV", "energy left in what does not scintillate, all events"},
+    // light_timing
+    Field{"decay_ns", "ns", "decay time of each exponential of the emission"},
+    Field{"rise_ns", "ns", "its rise time"},
+    Field{"decay_share", "1", "its share of the light"},
+    Field{"time_spread_ns", "ns", "standard deviation of the sensors' transit time or single photon time"},
     // events
     Field{"energy_keV", "keV", "energy left in scintillators"},
     Field{"escaped_keV", "keV", "energy carried out of the scene"},

@@ -148,6 +148,21 @@ void put_energy(h5::Group& point, const EnergyBalance& energy) {
               "photons detected per event that left energy in a scintillator", energy.detected);
 }
 
+void put_light_timing(h5::Group& point, const LightTiming& timing) {
+  h5::Group group = point.create_group("light_timing");
+  group.set_attribute("", "description", std::string("when one photon is detected, but for its way"));
+  std::vector<double> decay, rise, share;
+  for (const DecayComponent& component : timing.decay) {
+    decay.push_back(component.decay_ns);
+    rise.push_back(component.rise_ns);
+    share.push_back(component.fraction);
+  }
+  put(group, "decay_ns", decay);
+  put(group, "rise_ns", rise);
+  put(group, "decay_share", share);
+  put(group, "time_spread_ns", timing.time_spread_ns);
+}
+
 void put_channels(h5::Group& point, const std::vector<ReadoutChannel>& channels) {
   h5::Group group = point.create_group("channels");
   group.set_attribute("", "description", std::string("what the sensors are read out as"));
@@ -311,6 +326,7 @@ void ResultsWriter::add_point(const PointResult& point, const HistorySubjects* h
   put(group, "wall_seconds", point.wall_seconds);
   if (state_->histories && history) state_->histories->describe_point(group, *history);
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
+  if (point.light_timing) put_light_timing(group, *point.light_timing);
   if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
     put_channels(group, channels->second);
     state_->channels.erase(channels);

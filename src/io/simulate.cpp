@@ -5,6 +5,7 @@
 
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
+#include "scintray/trace/light_timing.hpp"
 #include "scintray/trace/run.hpp"
 
 namespace scintray {
@@ -224,6 +225,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
     }
     PointResult traced = run_point(built.scene, *source, plan, settings_of(spec.run, point), hooks);
     traced.parameters = file.parameters(point);
+    traced.light_timing = light_timing(built.scene, spec, *source, plan);
     renumbering.apply(traced);
     done_before = progress.done;
     progress.segments += traced.segments;

@@ -5,6 +5,7 @@
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/scene/scene_difference.hpp"
+#include "scintray/trace/light_timing.hpp"
 #include "scintray/trace/run_mapped.hpp"
 
 namespace scintray {
@@ -161,6 +162,7 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
   };
   const MappedResponse mapped(response.map);
   result.points.push_back(run_mapped(built.scene, *source, plan, mapped, map_settings(spec.run), hooks));
+  result.points.back().light_timing = light_timing(built.scene, spec, *source, plan);
   writer.add_point(result.points.back());
   writer.commit(result.complete(), result.complete() ? "" : "stopped by the user");
   return result;
