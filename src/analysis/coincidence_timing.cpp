@@ -116,24 +116,26 @@ OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size
 }
 
 std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
-                                             std::span<const OrderTimes> choices, std::size_t slices) {
+                                             std::span<const OrderTimes> choices,
+                                             std::span<const double> photons, std::size_t slices) {
   std::vector<double> numbers(depths_mm.size());
   std::iota(numbers.begin(), numbers.end(), 0.0);
   std::vector<OrderSlice> all;
   for (const DepthSlice& slice : slice_by_depth(depths_mm, numbers, slices, kLeastOfSlice)) {
+    const auto picked = [&](std::span<const double> of_events) {
+      if (of_events.size() != depths_mm.size())
+        throw std::invalid_argument("times of another number of events than depths");
+      std::vector<double> some;
+      for (const double number : slice.values) some.push_back(of_events[static_cast<std::size_t>(number)]);
+      return some;
+    };
     std::vector<OrderTimes> of_slice;
     for (const OrderTimes& choice : choices) {
-      const auto picked = [&](const std::vector<double>& times) {
-        if (!times.empty() && times.size() != depths_mm.size())
-          throw std::invalid_argument("times of another number of events than depths");
-        std::vector<double> some;
-        for (const double number : slice.values)
-          if (!times.empty()) some.push_back(times[static_cast<std::size_t>(number)]);
-        return some;
-      };
-      of_slice.push_back({choice.n, picked(choice.single), picked(choice.average)});
+      of_slice.push_back({choice.n, picked(choice.single), {}});
+      if (!choice.average.empty()) of_slice.back().average = picked(choice.average);
     }
-    OrderSlice found{slice.depth_mm, slice.values.size(), study_orders(of_slice)};
+    OrderSlice found{slice.depth_mm, slice.values.size(), mean_of(picked(photons)).value,
+                     study_orders(of_slice)};
     if (!found.orders.single.empty()) all.push_back(std::move(found));
   }
   return all;

@@ -61,8 +61,8 @@ struct OrderStudy {
   std::size_t best_average = 0;
 };
 
-/// CTR by each choice of photons, from independent events paired as in paired_differences. Choices that fewer than 50
-/// pairs have are left out.
+/// CTR by each choice of photons, from independent events paired as in paired_differences. Choices that fewer
+/// than 50 pairs have are left out.
 OrderStudy study_orders(std::span<const OrderTimes> choices);
 
 /// CTR by the n-th detected photon and by the mean of the first n, each for n = 1 to `most`, from independent
@@ -75,13 +75,15 @@ OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size
 struct OrderSlice {
   double depth_mm = 0.0;
   std::size_t count = 0;
+  double photons = 0.0;  ///< detected per event, mean
   OrderStudy orders;
 };
 
 /// Slices of equal thickness; those with fewer than 100 events are left out.
-/// @param choices  times of as many events as there are depths (std::invalid_argument)
+/// @param choices  times of as many events as there are depths and numbers of photons (std::invalid_argument)
 std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
-                                             std::span<const OrderTimes> choices, std::size_t slices = 10);
+                                             std::span<const OrderTimes> choices,
+                                             std::span<const double> photons, std::size_t slices = 10);
 
 struct TimingSlice {
   double depth_mm = 0.0;

@@ -9,9 +9,9 @@
 
 namespace scintray {
 
-/// Emission and time spread of the sensors, where all light of events has the same: one decay in all media that
-/// scintillate, sensors of one time spread behind a readout, no Cherenkov light and no wavelength shifter. Nothing
-/// otherwise.
+/// Emission and time spread of the sensors, where all light of events has the same: one decay in all media
+/// that scintillate, sensors of one time spread behind a readout, no Cherenkov light and no wavelength
+/// shifter. Nothing otherwise.
 std::optional<LightTiming> light_timing(const Scene& scene, const SceneSpec& spec, const LightSource& source,
                                         const TallyPlan& plan);
 

@@ -267,6 +267,7 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   const auto path = test::scratch_folder("results_documented") / "run.h5";
   RunResult run = test::made_up_run();
   run.points.resize(1);
+  run.points.front().light_timing = LightTiming{{{40.0, 0.1, 0.7}, {10.0, 0.0, 0.3}}, 0.12};
   {
     ResultsWriter writer(path, run.header, true);
     const HistorySubjects subjects{
@@ -279,6 +280,12 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
     writer.add_point(run.points.front(), &subjects);
     writer.commit(true);
   }
+  const auto timing = read_results(path).points.front().light_timing;
+  REQUIRE(timing);
+  CHECK(timing->time_spread_ns == 0.12);
+  REQUIRE(timing->decay.size() == 2);
+  CHECK((timing->decay[1].decay_ns == 10.0 && timing->decay[1].rise_ns == 0.0 &&
+         timing->decay[1].fraction == 0.3));
   const std::string document = text_of(test::source_file("docs/results.md"));
   const h5::File file = h5::File::open(path);
   int datasets = 0;
