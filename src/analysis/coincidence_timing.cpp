@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "scintray/analysis/depth_slices.hpp"
@@ -18,6 +19,14 @@ OrderTiming timing_of(std::size_t n, const std::vector<double>& times) {
   return {n, times.size(), mean_of(times), spread_of(paired_differences(times)).quantile_fwhm};
 }
 
+std::vector<double> finite(const std::vector<double>& times) {
+  std::vector<double> known;
+  for (const double time : times)
+    if (std::isfinite(time)) known.push_back(time);
+  return known;
+}
+
+/// 0 when there is none.
 std::size_t smallest(const std::vector<OrderTiming>& all) {
   return static_cast<std::size_t>(std::min_element(all.begin(), all.end(),
                                                    [](const OrderTiming& a, const OrderTiming& b) {
@@ -76,25 +85,60 @@ std::vector<std::vector<double>> FirstPhotons::times_ns() const {
   return all;
 }
 
-OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most) {
+OrderStudy study_orders(std::span<const OrderTimes> choices) {
   OrderStudy study;
-  std::vector<double> sums(times_ns.size(), 0.0);
-  for (std::size_t n = 1; n <= most; ++n) {
-    std::vector<double> single, average;
-    for (std::size_t event = 0; event < times_ns.size(); ++event) {
-      if (times_ns[event].size() < n) continue;
-      sums[event] += times_ns[event][n - 1];
-      single.push_back(times_ns[event][n - 1]);
-      average.push_back(sums[event] / static_cast<double>(n));
-    }
-    if (single.size() < 2 * kLeastPairs) break;
-    study.single.push_back(timing_of(n, single));
-    study.average.push_back(timing_of(n, average));
+  for (const OrderTimes& choice : choices) {
+    const std::vector<double> single = finite(choice.single), average = finite(choice.average);
+    if (single.size() >= 2 * kLeastPairs) study.single.push_back(timing_of(choice.n, single));
+    if (average.size() >= 2 * kLeastPairs) study.average.push_back(timing_of(choice.n, average));
   }
-  if (study.single.empty()) return study;
   study.best_single = smallest(study.single);
   study.best_average = smallest(study.average);
   return study;
+}
+
+OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most) {
+  std::vector<OrderTimes> choices;
+  std::vector<double> sums(times_ns.size(), 0.0);
+  for (std::size_t n = 1; n <= most; ++n) {
+    OrderTimes choice;
+    choice.n = n;
+    for (std::size_t event = 0; event < times_ns.size(); ++event) {
+      if (times_ns[event].size() < n) continue;
+      sums[event] += times_ns[event][n - 1];
+      choice.single.push_back(times_ns[event][n - 1]);
+      choice.average.push_back(sums[event] / static_cast<double>(n));
+    }
+    if (choice.single.empty()) break;
+    choices.push_back(std::move(choice));
+  }
+  return study_orders(choices);
+}
+
+std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
+                                             std::span<const OrderTimes> choices,
+                                             std::span<const double> photons, std::size_t slices) {
+  std::vector<double> numbers(depths_mm.size());
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  std::vector<OrderSlice> all;
+  for (const DepthSlice& slice : slice_by_depth(depths_mm, numbers, slices, kLeastOfSlice)) {
+    const auto picked = [&](std::span<const double> of_events) {
+      if (of_events.size() != depths_mm.size())
+        throw std::invalid_argument("times of another number of events than depths");
+      std::vector<double> some;
+      for (const double number : slice.values) some.push_back(of_events[static_cast<std::size_t>(number)]);
+      return some;
+    };
+    std::vector<OrderTimes> of_slice;
+    for (const OrderTimes& choice : choices) {
+      of_slice.push_back({choice.n, picked(choice.single), {}});
+      if (!choice.average.empty()) of_slice.back().average = picked(choice.average);
+    }
+    OrderSlice found{slice.depth_mm, slice.values.size(), mean_of(picked(photons)).value,
+                     study_orders(of_slice)};
+    if (!found.orders.single.empty()) all.push_back(std::move(found));
+  }
+  return all;
 }
 
 TimingDepth timing_against_depth(std::span<const double> depths_mm, std::span<const double> times_ns,

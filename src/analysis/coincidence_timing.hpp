@@ -47,6 +47,13 @@ struct OrderTiming {
   Estimate ctr_fwhm_ns;    ///< of pairs of events, between quantiles
 };
 
+/// Times of events by one choice of photons; not a number where an event has fewer.
+struct OrderTimes {
+  std::size_t n = 0;
+  std::vector<double> single;   ///< of the n-th photon
+  std::vector<double> average;  ///< mean of the first n; empty: not known
+};
+
 struct OrderStudy {
   std::vector<OrderTiming> single;   ///< time of the n-th photon
   std::vector<OrderTiming> average;  ///< mean time of the first n photons
@@ -54,11 +61,29 @@ struct OrderStudy {
   std::size_t best_average = 0;
 };
 
+/// CTR by each choice of photons, from independent events paired as in paired_differences. Choices that fewer
+/// than 50 pairs have are left out.
+OrderStudy study_orders(std::span<const OrderTimes> choices);
+
 /// CTR by the n-th detected photon and by the mean of the first n, each for n = 1 to `most`, from independent
 /// events paired as in paired_differences. Where fewer than 50 pairs have n photons the list ends. The best
 /// is the smallest of numbers with errors, so it is low by a part of its error.
 /// @param times_ns  of each event, rising
 OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most);
+
+/// Orders of photons at one depth.
+struct OrderSlice {
+  double depth_mm = 0.0;
+  std::size_t count = 0;
+  double photons = 0.0;  ///< detected per event, mean
+  OrderStudy orders;
+};
+
+/// Slices of equal thickness; those with fewer than 100 events are left out.
+/// @param choices  times of as many events as there are depths and numbers of photons (std::invalid_argument)
+std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
+                                             std::span<const OrderTimes> choices,
+                                             std::span<const double> photons, std::size_t slices = 10);
 
 struct TimingSlice {
   double depth_mm = 0.0;

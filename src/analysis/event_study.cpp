@@ -41,7 +41,7 @@ std::vector<double> column(const std::vector<const Row*>& rows, Member member) {
 
 }  // namespace
 
-EventCollector::EventCollector(StudySetup setup) : setup_(std::move(setup)) {
+EventCollector::EventCollector(StudySetup setup) : setup_(std::move(setup)), orders_(setup_.photon_order) {
   if (setup_.depth && std::abs(setup_.depth->direction.norm() - 1.0) > 1e-6)
     throw std::invalid_argument("the direction of depth has no unit length");
   layout_ = layout_of(setup_.channels_mm, setup_.depth);
@@ -98,11 +98,13 @@ void EventCollector::add(const EventRecord& event) {
   const bool placed = setup_.depth && event.part != EventRecord::kNoPart;
   row.depth_mm = placed ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
   row.part = event.part;
+  for (const ChannelRecord& channel : event.channels) row.detected += channel.detected;
   add_light(event, row);
   if (event.energy_keV > 0.0F) light_of_energy_.add(event.energy_keV, row.light);
   if (!(row.light > 0.0)) return;
   add_times(event, row);
   rows_.push_back(row);
+  if (!orders_.empty()) orders_.add(event);
 }
 
 void EventCollector::study_light(EventStudy& study) const {
@@ -226,6 +228,30 @@ void EventCollector::study_timing(const std::vector<const Row*>& rows, EventStud
   if (timing.slices.size() > 1) study.timing_against_depth = timing;
 }
 
+void EventCollector::study_photon_orders(const std::vector<const Row*>& rows, EventStudy& study) const {
+  if (orders_.empty()) return;
+  std::vector<std::size_t> events;
+  for (const Row* row : rows) events.push_back(static_cast<std::size_t>(row - rows_.data()));
+  const std::vector<OrderTimes> times = orders_.times(events);
+  OrderStudy orders = study_orders(times);
+  if (orders.single.empty()) {
+    study.left_out.emplace_back("timing by order of photons: too few events have so many photons");
+    return;
+  }
+  const std::vector<double> detected = column(rows, &Row::detected);
+  const auto bound = [&](double photons, const OrderStudy& of) {
+    return setup_.light_timing ? timing_bound(*setup_.light_timing, photons, of.single) : std::nullopt;
+  };
+  study.orders_bound = bound(mean_of(detected).value, orders);
+  study.orders = std::move(orders);
+  if (!setup_.depth) return;
+  std::vector<OrderSlice> slices =
+      orders_against_depth(column(rows, &Row::depth_mm), times, detected, setup_.slices);
+  if (slices.size() < 2) return;
+  for (const OrderSlice& slice : slices) study.depth_bounds.push_back(bound(slice.photons, slice.orders));
+  study.orders_against_depth = std::move(slices);
+}
+
 EventStudy EventCollector::finish() const {
   EventStudy study;
   study.events = events_;
@@ -239,6 +265,7 @@ EventStudy EventCollector::finish() const {
   study_flood(rows, study);
   study_ends(rows, study);
   study_timing(rows, study);
+  study_photon_orders(rows, study);
   return study;
 }
 

@@ -15,6 +15,7 @@
 #include "scintray/analysis/confusion.hpp"
 #include "scintray/analysis/depth_curve.hpp"
 #include "scintray/analysis/depth_of_interaction.hpp"
+#include "scintray/analysis/event_orders.hpp"
 #include "scintray/analysis/flood_map.hpp"
 #include "scintray/analysis/histogram.hpp"
 #include "scintray/analysis/photopeak.hpp"
@@ -33,7 +34,9 @@ struct StudySetup {
   FloodOptions flood;  ///< without `expected`: as many as parts were hit
   EndRatio ratio = EndRatio::share;
   DoiCalibrationKind calibration = DoiCalibrationKind::monotone;
-  std::size_t slices = 10;  ///< of depth
+  std::size_t slices = 10;                  ///< of depth
+  std::vector<std::uint64_t> photon_order;  ///< n of the n-th photon times of the events; empty: none
+  std::optional<LightTiming> light_timing;  ///< with it, bounds on timing
   bool photopeak_only =
       true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
 };
@@ -59,10 +62,14 @@ struct EventStudy {
   std::optional<Spread> first_photon_difference_ns;  ///< the same by the first photon
   std::optional<Spread> end_difference_ns;           ///< near end minus far end of one event
   std::optional<TimingDepth> timing_against_depth;
-  std::vector<std::string> left_out;  ///< "flood map: why not"
+  std::optional<OrderStudy> orders;  ///< CTR by the n-th photon, behind a readout that keeps their times
+  std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
+  std::vector<OrderSlice> orders_against_depth;
+  std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
+  std::vector<std::string> left_out;                     ///< "flood map: why not"
 };
 
-/// Takes events one after the other and keeps 56 bytes of each.
+/// Takes events one after the other and keeps 64 bytes of each, and 8 for each n-th photon.
 class EventCollector {
  public:
   /// @throws std::invalid_argument when a direction has no unit length
@@ -76,7 +83,7 @@ class EventCollector {
     double light = 0.0, time_ns = 0.0, first_ns = 0.0, end_difference_ns = 0.0;
     float depth_mm = 0.0F, near_light = 0.0F, far_light = 0.0F;
     std::array<float, 2> across_mm{};
-    std::uint32_t part = 0;
+    std::uint32_t part = 0, detected = 0;
   };
   void add_light(const EventRecord& event, Row& row) const;
   void add_times(const EventRecord& event, Row& row) const;
@@ -87,12 +94,14 @@ class EventCollector {
   void study_flood(const std::vector<const Row*>& rows, EventStudy& study) const;
   void study_ends(const std::vector<const Row*>& rows, EventStudy& study) const;
   void study_timing(const std::vector<const Row*>& rows, EventStudy& study) const;
+  void study_photon_orders(const std::vector<const Row*>& rows, EventStudy& study) const;
 
   StudySetup setup_;
   std::optional<ChannelLayout> layout_;
   std::vector<std::array<double, 2>> plane_mm_;  ///< across positions of the channels that make the flood map
   std::vector<std::size_t> plane_channels_;
   std::vector<Row> rows_;
+  OrderCollector orders_;  ///< of the same events as `rows_`
   RatioOfSums light_of_energy_;
   std::uint64_t events_ = 0;
   bool has_readout_ = false;

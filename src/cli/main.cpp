@@ -15,6 +15,7 @@
 #include "scintray/cli/replay_command.hpp"
 #include "scintray/cli/report_command.hpp"
 #include "scintray/cli/response_command.hpp"
+#include "scintray/cli/reweigh_command.hpp"
 #include "scintray/cli/run_command.hpp"
 #include "scintray/cli/table_command.hpp"
 #include "scintray/core/version.hpp"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   scintray::cli::add_replay_command(app);
   scintray::cli::add_response_command(app);
   scintray::cli::add_fit_command(app);
+  scintray::cli::add_reweigh_command(app);
   app.failure_message(CLI::FailureMessage::help);
 
   try {

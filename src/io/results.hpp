@@ -10,6 +10,7 @@
 
 #include "scintray/analysis/surface_study.hpp"
 #include "scintray/detector/readout_spec.hpp"
+#include "scintray/io/history_table.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
@@ -41,8 +42,12 @@ class ResultsWriter {
                     const std::optional<ReadoutSpec>& readout);
   /// Adds to the table of events, as append_photons does.
   void append_events(const std::vector<EventRecord>& events);
-  /// Adds the result of the next point.
-  void add_point(const PointResult& point);
+  /// Prepares the table of photon histories, before the first of them; without it the file has none.
+  void begin_histories(HistoryColumns columns);
+  /// Adds histories of the point whose media and reflectors these are, as append_photons does.
+  void append_histories(const PhotonHistories& histories, const HistorySubjects& point);
+  /// Adds the result of the next point, and how it was traced where histories are kept.
+  void add_point(const PointResult& point, const HistorySubjects* history = nullptr);
   /// Replaces the warnings of the header, which may grow during the run.
   void set_note(const std::string& note);
   /// Puts the file in place. An interrupted run is committed with complete = false and the reason
@@ -78,9 +83,13 @@ std::vector<SurfaceStudy> read_surfaces(const std::filesystem::path& path);
 /// What the events of a point are read out by; empty when it has none.
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
 
+/// Which photons the times of n-th photons are of, from 1; empty without such times.
+std::vector<std::uint64_t> read_photon_order(const std::filesystem::path& path);
+
 /// How much of events is read.
 enum class EventDetail {
-  numbers,  ///< without the times of n-th photons and the waveforms
+  numbers,       ///< without the times of n-th photons and the waveforms
+  photon_times,  ///< without the waveforms
   all,
 };
 

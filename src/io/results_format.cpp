@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "scintray/core/error.hpp"
+#include "scintray/io/results.hpp"
 
 namespace scintray::results_format {
 
@@ -62,6 +62,11 @@ constexpr std::array kFields = {
     Field{"deposited_keV", "keV", "energy left in scintillators, all events"},
     Field{"escaped_total_keV", "keV", "energy carried out of the scene, all events"},
     Field{"unseen_total_keV", "keV", "energy left in what does not scintillate, all events"},
+    // light_timing
+    Field{"decay_ns", "ns", "decay time of each exponential of the emission"},
+    Field{"rise_ns", "ns", "its rise time"},
+    Field{"decay_share", "1", "its share of the light"},
+    Field{"time_spread_ns", "ns", "standard deviation of the sensors' transit time or single photon time"},
     // events
     Field{"energy_keV", "keV", "energy left in scintillators"},
     Field{"escaped_keV", "keV", "energy carried out of the scene"},
@@ -143,6 +148,26 @@ constexpr std::array kFields = {
     Field{"time_ns", "ns", "time of detection since the event"},
     Field{"path_mm", "mm", "path length since emission"},
     Field{"interactions", "1", "boundary interactions since emission"},
+    // histories, traced_optics
+    Field{"history_media", "",
+          "media in which paths are recorded; columns with one number a medium are in "
+          "this order"},
+    Field{"history_gap_media", "", "media that fill gaps of surfaces too, where paths are not recorded"},
+    Field{"reflector_surface", "",
+          "surface of each reflector, a mixture's own; columns with one number a "
+          "reflector are in this order"},
+    Field{"reflector_stack", "", "stack of each reflector: the surface, or what it is mixed of"},
+    Field{"reflector_name", "", "name of each reflector"},
+    Field{"medium_path_mm", "mm", "path length in each medium"},
+    Field{"absorption_depth", "1", "integral of 1 / absorption length along the path in each medium"},
+    Field{"reflections", "1", "reflections at each reflector that were survived by its reflectance"},
+    Field{"reflection_depth", "1", "sum of -ln(reflectance) over these reflections"},
+    Field{"absorption_per_mm_least", "1/mm",
+          "least 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"absorption_per_mm_most", "1/mm",
+          "most 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"reflectance_least", "1", "least reflectance of each reflector in the wavelengths in use"},
+    Field{"reflectance_most", "1", "most reflectance of each reflector in the wavelengths in use"},
 };
 
 }  // namespace
@@ -157,6 +182,34 @@ void describe(h5::Group& group, const std::string& name) {
   const Field& known = field(name);
   group.set_attribute(name, "description", std::string(known.description));
   group.set_attribute(name, "unit", std::string(known.unit));
+}
+
+h5::File open_results(const std::filesystem::path& path) {
+  h5::File file = h5::File::open(path);
+  const h5::Group root = file.root();
+  if (!has_format(root))
+    throw InputError({{path.string()},
+                      "this HDF5 file is not a ScintRay result",
+                      "name a file that `scintray run` wrote"});
+  const std::int64_t version = root.integer_attribute("", "version");
+  if (version != kResultsVersion)
+    throw InputError({{path.string()},
+                      "this result has format version " + std::to_string(version) + " (written by ScintRay " +
+                          root.string_attribute("", "scintray_version") +
+                          "), but this program reads version " + std::to_string(kResultsVersion),
+                      version > kResultsVersion ? "use a newer ScintRay"
+                                                : "run the scene again, or use the older ScintRay"});
+  return file;
+}
+
+bool has_format(const h5::Group& root) {
+  return root.has_attribute("", "format") && root.string_attribute("", "format") == kFormat;
+}
+
+InputError damaged(const std::filesystem::path& path, const std::string& what) {
+  return InputError({{path.string()},
+                     "this result contradicts itself: " + what,
+                     "copy it again from where it was made, or run again"});
 }
 
 std::string numbered(std::size_t index) {

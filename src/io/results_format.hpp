@@ -1,9 +1,11 @@
 #pragma once
 /// Names, units and descriptions of everything in a results file, for its writer and its reader.
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 
 namespace scintray::results_format {
@@ -23,6 +25,15 @@ const Field& field(std::string_view name);
 
 /// Sets `description` and `unit` on a dataset just written.
 void describe(h5::Group& group, const std::string& name);
+
+/// Opens a result and checks that this program can read it; InputError when it cannot.
+h5::File open_results(const std::filesystem::path& path);
+
+/// True when the root says that the file is a ScintRay result.
+bool has_format(const h5::Group& root);
+
+/// The error of a result that contradicts itself.
+InputError damaged(const std::filesystem::path& path, const std::string& what);
 
 /// "0007": name of the group of a point or tally.
 std::string numbered(std::size_t index);

@@ -14,34 +14,12 @@ namespace scintray {
 
 namespace {
 
+using results_format::damaged;
+using results_format::has_format;
+using results_format::open_results;
+
 InputError wrong(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
   return InputError({{path.string()}, what, hint});
-}
-
-InputError damaged(const std::filesystem::path& path, const std::string& what) {
-  return wrong(path, "this result contradicts itself: " + what,
-               "copy it again from where it was made, or run again");
-}
-
-bool has_format(const h5::Group& root) {
-  return root.has_attribute("", "format") && root.string_attribute("", "format") == results_format::kFormat;
-}
-
-/// Opens a result and checks that this program can read it.
-h5::File open_results(const std::filesystem::path& path) {
-  h5::File file = h5::File::open(path);
-  const h5::Group root = file.root();
-  if (!has_format(root))
-    throw wrong(path, "this HDF5 file is not a ScintRay result", "name a file that `scintray run` wrote");
-  const std::int64_t version = root.integer_attribute("", "version");
-  if (version != kResultsVersion)
-    throw wrong(path,
-                "this result has format version " + std::to_string(version) + " (written by ScintRay " +
-                    root.string_attribute("", "scintray_version") + "), but this program reads version " +
-                    std::to_string(kResultsVersion),
-                version > kResultsVersion ? "use a newer ScintRay"
-                                          : "run the scene again, or use the older ScintRay");
-  return file;
 }
 
 template <typename T>
@@ -116,6 +94,7 @@ class PointReader {
     point.lost = get<std::uint64_t>(group_, "lost");
     point.wall_seconds = get<double>(group_, "wall_seconds");
     if (group_.has("energy")) point.energy = energy();
+    if (group_.has("light_timing")) point.light_timing = light_timing();
     return point;
   }
 
@@ -143,6 +122,18 @@ class PointReader {
     energy.unseen = get<double>(group, "unseen_total_keV");
     energy.detected = get_moments(group, "detected_per_event");
     return energy;
+  }
+
+  LightTiming light_timing() const {
+    const h5::Group group = group_.open_group("light_timing");
+    const auto decay = group.read<double>("decay_ns"), rise = group.read<double>("rise_ns"),
+               share = group.read<double>("decay_share");
+    require(!decay.empty() && rise.size() == decay.size() && share.size() == decay.size(),
+            "the columns of light_timing differ in length");
+    LightTiming timing;
+    for (std::size_t i = 0; i < decay.size(); ++i) timing.decay.push_back({decay[i], rise[i], share[i]});
+    timing.time_spread_ns = get<double>(group, "time_spread_ns");
+    return timing;
   }
 
   /// Zeros from a file of before there were wavelength shifters.
@@ -299,9 +290,11 @@ void add_signals(const std::filesystem::path& path, const h5::Group& root, std::
   if (end < first) throw damaged(path, "the signals of events are out of order");
   const auto signals = results_format::read_rows<results_format::SignalRow>(group, first, end - first);
   if (!signals) throw damaged(path, "the columns of signals differ in length");
-  const std::uint64_t sampled = detail == EventDetail::all ? end - first : 0;
-  const std::vector<float> orders = samples_of(root, "photon_times", first, sampled);
-  const std::vector<float> pulses = samples_of(root, "pulses", first, sampled);
+  const auto samples = [&](const std::string& name, EventDetail from) {
+    return samples_of(root, name, first, detail >= from ? end - first : 0);
+  };
+  const std::vector<float> orders = samples("photon_times", EventDetail::photon_times);
+  const std::vector<float> pulses = samples("pulses", EventDetail::all);
   for (std::size_t i = 0; i < signals->size(); ++i) {
     const results_format::SignalRow& signal = (*signals)[i];
     if (signal.event_row < offset || signal.event_row - offset >= events.size() ||
@@ -375,6 +368,13 @@ std::vector<SurfaceStudy> read_surfaces(const std::filesystem::path& path) {
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point) {
   const h5::File file = open_results(path);
   return get_channels(path, file.root(), point);
+}
+
+std::vector<std::uint64_t> read_photon_order(const std::filesystem::path& path) {
+  const h5::File file = open_results(path);
+  const h5::Group root = file.root();
+  if (!root.has("photon_times")) return {};
+  return root.open_group("photon_times").read<std::uint64_t>("order");
 }
 
 std::vector<EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,

@@ -1,4 +1,5 @@
 #include <map>
+#include <optional>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
@@ -148,6 +149,21 @@ void put_energy(h5::Group& point, const EnergyBalance& energy) {
               "photons detected per event that left energy in a scintillator", energy.detected);
 }
 
+void put_light_timing(h5::Group& point, const LightTiming& timing) {
+  h5::Group group = point.create_group("light_timing");
+  group.set_attribute("", "description", std::string("when one photon is detected, but for its way"));
+  std::vector<double> decay, rise, share;
+  for (const DecayComponent& component : timing.decay) {
+    decay.push_back(component.decay_ns);
+    rise.push_back(component.rise_ns);
+    share.push_back(component.fraction);
+  }
+  put(group, "decay_ns", decay);
+  put(group, "rise_ns", rise);
+  put(group, "decay_share", share);
+  put(group, "time_spread_ns", timing.time_spread_ns);
+}
+
 void put_channels(h5::Group& point, const std::vector<ReadoutChannel>& channels) {
   h5::Group group = point.create_group("channels");
   group.set_attribute("", "description", std::string("what the sensors are read out as"));
@@ -203,7 +219,8 @@ struct ResultsWriter::State {
   results_format::RowWriter<DetectedPhoton> photons;
   results_format::RowWriter<results_format::EventRow> events;
   results_format::RowWriter<results_format::SignalRow> signals;
-  results_format::SampleWriter orders, pulses;                  ///< a row a signal
+  results_format::SampleWriter orders, pulses;  ///< a row a signal
+  std::optional<HistoryWriter> histories;
   std::map<std::size_t, std::vector<ReadoutChannel>> channels;  ///< per point, until it is written
 };
 
@@ -214,7 +231,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader&
   put_header(root, header);
   h5::Group points = root.create_group("points");
   points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
-  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}, {}, {}});
+  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}, {}, {}, {}});
   if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
 }
 
@@ -273,7 +290,16 @@ void ResultsWriter::append_events(const std::vector<EventRecord>& events) {
   }
 }
 
-void ResultsWriter::add_point(const PointResult& point) {
+void ResultsWriter::begin_histories(HistoryColumns columns) {
+  state_->histories.emplace(state_->root, std::move(columns));
+}
+
+void ResultsWriter::append_histories(const PhotonHistories& histories, const HistorySubjects& point) {
+  if (!state_->histories) throw InternalError("histories for a result that has none");
+  state_->histories->add(histories, point);
+}
+
+void ResultsWriter::add_point(const PointResult& point, const HistorySubjects* history) {
   const std::size_t number = state_->point_count++;
   h5::Group group = state_->points.create_group(numbered(number));
   group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
@@ -303,7 +329,9 @@ void ResultsWriter::add_point(const PointResult& point) {
   put(group, "resolved_misses", point.resolved_misses);
   put(group, "lost", point.lost);
   put(group, "wall_seconds", point.wall_seconds);
+  if (state_->histories && history) state_->histories->describe_point(group, *history);
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
+  if (point.light_timing) put_light_timing(group, *point.light_timing);
   if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
     put_channels(group, channels->second);
     state_->channels.erase(channels);
@@ -318,6 +346,7 @@ void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) 
   state_->signals.write_waiting();
   state_->orders.write_waiting();
   state_->pulses.write_waiting();
+  if (state_->histories) state_->histories->write_waiting();
   put_text(state_->root, "note", {state_->note});
   state_->root.set_attribute("", "complete", static_cast<std::int64_t>(complete));
   state_->root.set_attribute("", "partial_reason", complete ? std::string() : reason_if_partial);

@@ -6,6 +6,7 @@
 #include "scintray/analysis/surface_study.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
+#include "scintray/trace/light_timing.hpp"
 #include "scintray/trace/run.hpp"
 
 namespace scintray {
@@ -100,6 +101,7 @@ class Renumbering {
 /// Everything known before the first photon.
 struct Survey {
   NameLists names;
+  HistoryColumns histories;
   std::vector<std::string> notes;
   bool energy = false;     ///< some source is one of energy
   std::uint64_t work = 0;  ///< photons, or events, over all points
@@ -115,6 +117,7 @@ Survey survey_points(const SceneFile& file, const SimulationOptions& options, Sc
     const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene, &notes);
     const TallyPlan plan(built.scene, spec);
     survey.names.add(built.scene);
+    if (plan.history) survey.histories.add(plan.history->subjects());
     survey.energy = source->has_energy();
     survey.work += source->has_energy() ? source->events() : source->photons();
     for (const std::string& note : notes)
@@ -191,6 +194,7 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
     add_definitions(library, first);
     writer.add_surfaces(study_surfaces(first.benches, library, builder.surfaces(), first.run.seed));
   }
+  if (first.run.photon_history) writer.begin_histories(survey.histories);
 
   SimulationProgress progress;
   progress.points = file.points();
@@ -215,6 +219,10 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
       hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
         writer.append_photons(renumbering.applied(photons));
       };
+    if (plan.history && first.run.photon_history)
+      hooks.histories = [&](const PhotonHistories& histories) {
+        writer.append_histories(histories, plan.history->subjects());
+      };
     if (source->has_energy()) {
       writer.begin_events(point, renumbering.applied(plan.channels.list), spec.readout);
       hooks.events = [&](const std::vector<EventRecord>& events) {
@@ -224,10 +232,11 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
     PointResult traced = run_point(built.scene, *source, plan,
                                    run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
     traced.parameters = file.parameters(point);
+    traced.light_timing = light_timing(built.scene, spec, *source, plan);
     renumbering.apply(traced);
     done_before = progress.done;
     progress.segments += traced.segments;
-    writer.add_point(traced);
+    writer.add_point(traced, plan.history ? &plan.history->subjects() : nullptr);
     result.points.push_back(std::move(traced));
   }
   const bool complete = result.points.size() == file.points() && result.complete();

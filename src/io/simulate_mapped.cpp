@@ -5,6 +5,7 @@
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/scene/scene_difference.hpp"
+#include "scintray/trace/light_timing.hpp"
 #include "scintray/trace/run_mapped.hpp"
 
 namespace scintray {
@@ -129,11 +130,11 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
   std::vector<std::string> notes{origin_note(map_file, response)};
   notes.insert(notes.end(), built.warnings.begin(), built.warnings.end());
   const auto source = make_light_source(spec, built.scene, &notes);
-  if (!spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list)
-    notes.emplace_back("tallies and the list of photons are left out");
+  if (!spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list || spec.run.photon_history)
+    notes.emplace_back("tallies, the list of photons and their histories are left out");
   spec.tallies.clear();
   spec.exit_angles.clear();
-  spec.run.photon_list = false;
+  spec.run.photon_list = spec.run.photon_history = false;
   const TallyPlan plan(built.scene, spec);
 
   RunResult result;
@@ -152,6 +153,7 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
   };
   const MappedResponse mapped(response.map);
   result.points.push_back(run_mapped(built.scene, *source, plan, mapped, run_settings(spec.run), hooks));
+  result.points.back().light_timing = light_timing(built.scene, spec, *source, plan);
   writer.add_point(result.points.back());
   writer.commit(result.complete(), result.complete() ? "" : "stopped by the user");
   return result;

@@ -47,15 +47,20 @@ StudySetup setup_of(const AnalysisSpec& spec, const std::vector<ReadoutChannel>&
 std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run,
                                       const AnalysisSpec& spec) {
   if (read_results_status(path).listed_events == 0) return {};
+  const std::vector<std::uint64_t> photon_order = read_photon_order(path);
+  const EventDetail detail = photon_order.empty() ? EventDetail::numbers : EventDetail::photon_times;
   std::vector<EventStudy> studies;
   std::uint64_t row = 0;
   std::vector<EventRecord> events;
   std::size_t at = 0;
   for (std::size_t point = 0; point < run.points.size(); ++point) {
-    EventCollector collector(setup_of(spec, read_channels(path, point), run.header.parts));
+    StudySetup setup = setup_of(spec, read_channels(path, point), run.header.parts);
+    setup.photon_order = photon_order;
+    setup.light_timing = run.points[point].light_timing;
+    EventCollector collector(std::move(setup));
     for (;;) {
       if (at == events.size()) {
-        events = read_events(path, row, kPortion, EventDetail::numbers);
+        events = read_events(path, row, kPortion, detail);
         row += events.size();
         at = 0;
       }

@@ -11,8 +11,8 @@
 
 namespace scintray {
 
-/// Studies of the points of a run, in their order. Events are read in portions and 64 bytes kept of each.
-/// Empty when the file has no events.
+/// Studies of the points of a run, in their order. Events are read in portions and 64 bytes kept of each, and
+/// 8 for each n-th photon whose time the readout kept. Empty when the file has no events.
 /// @param run   of the same file
 /// @param spec  throws InputError for a part of a layer that the run does not have
 std::vector<EventStudy> study_results(const std::filesystem::path& path, const RunResult& run,

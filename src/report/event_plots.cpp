@@ -1,5 +1,7 @@
 #include "scintray/report/event_plots.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -144,12 +146,83 @@ Plot timing_depth_plot(const TimingDepth& timing) {
   return plot;
 }
 
-Plot order_plot(const OrderStudy& orders) {
+namespace {
+
+/// The timing of a study by one n; nothing when it has none.
+const OrderTiming* timing_by(const std::vector<OrderTiming>& all, std::size_t n) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const OrderTiming& one) { return one.n == n; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+PlotSeries depth_series(const std::string& label, const std::vector<OrderSlice>& slices,
+                        std::vector<OrderTiming> OrderStudy::*kind, std::size_t n) {
+  PlotSeries series;
+  series.label = label;
+  for (const OrderSlice& slice : slices) {
+    const OrderTiming* timing = timing_by(slice.orders.*kind, n);
+    if (!timing) continue;
+    series.x.push_back(slice.depth_mm);
+    series.y.push_back(kPicoseconds * timing->ctr_fwhm_ns.value);
+    series.error.push_back(kPicoseconds * timing->ctr_fwhm_ns.error);
+  }
+  return series;
+}
+
+PlotSeries bound_series(const std::string& label) {
+  PlotSeries series;
+  series.label = label;
+  series.marks = false;
+  series.dashed = true;
+  return series;
+}
+
+}  // namespace
+
+Plot order_plot(const OrderStudy& orders, const std::optional<TimingBound>& bound) {
   Plot plot = small_plot("timing by order of photons", "n", "CTR, FWHM (ps)");
   const auto n = [](const OrderTiming& timing) { return static_cast<double>(timing.n); };
   const auto ctr = [](const OrderTiming& timing) { return timing.ctr_fwhm_ns; };
   plot.series.push_back(points_series("n-th photon", orders.single, n, ctr, kPicoseconds));
-  plot.series.push_back(points_series("mean of the first n", orders.average, n, ctr, kPicoseconds));
+  if (!orders.average.empty())
+    plot.series.push_back(points_series("mean of the first n", orders.average, n, ctr, kPicoseconds));
+  if (!bound) return plot;
+  PlotSeries line = bound_series("bound by the first n");
+  for (std::size_t i = 0; i < orders.single.size(); ++i) {
+    line.x.push_back(static_cast<double>(orders.single[i].n));
+    line.y.push_back(kPicoseconds * bound->first_ns[i]);
+  }
+  plot.series.push_back(line);
+  return plot;
+}
+
+Plot order_depth_plot(const EventStudy& study) {
+  Plot plot = small_plot("timing by order of photons against depth", "depth (mm)", "CTR, FWHM (ps)");
+  const OrderStudy& whole = *study.orders;
+  const std::vector<OrderSlice>& slices = study.orders_against_depth;
+  const auto add = [&](const std::string& label, std::vector<OrderTiming> OrderStudy::*kind, std::size_t n) {
+    PlotSeries series = depth_series(fmt::format(fmt::runtime(label), n), slices, kind, n);
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  };
+  add("photon {}", &OrderStudy::single, whole.single.front().n);
+  if (whole.best_single > 0) add("photon {}", &OrderStudy::single, whole.single[whole.best_single].n);
+  if (!whole.average.empty())
+    add("mean of the first {}", &OrderStudy::average, whole.average[whole.best_average].n);
+  PlotSeries line = bound_series("bound by all");
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    if (!study.depth_bounds[i]) continue;
+    line.x.push_back(slices[i].depth_mm);
+    line.y.push_back(kPicoseconds * study.depth_bounds[i]->all_ns);
+  }
+  if (!line.x.empty()) plot.series.push_back(std::move(line));
+  return plot;
+}
+
+Plot orders_plot(const std::vector<std::pair<std::string, OrderStudy>>& points) {
+  Plot plot = small_plot("timing by order of photons", "n", "CTR by the n-th photon, FWHM (ps)");
+  for (const auto& [label, orders] : points)
+    plot.series.push_back(points_series(
+        label, orders.single, [](const OrderTiming& timing) { return static_cast<double>(timing.n); },
+        [](const OrderTiming& timing) { return timing.ctr_fwhm_ns; }, kPicoseconds));
   return plot;
 }
 

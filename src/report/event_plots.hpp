@@ -31,7 +31,15 @@ Plot difference_plot(const Spread& differences, const std::string& label);
 /// CTR against depth, and the delay against depth, both in ps.
 Plot timing_depth_plot(const TimingDepth& timing);
 
-/// CTR by the n-th photon and by the mean of the first n, in ps. The study is not empty.
-Plot order_plot(const OrderStudy& orders);
+/// CTR by the n-th photon and by the mean of the first n, in ps, and the bound by the first n where it is
+/// known. The study is not empty.
+Plot order_plot(const OrderStudy& orders, const std::optional<TimingBound>& bound);
+
+/// CTR against depth, in ps: by the first photon, by the n-th that is best in all, by the best mean of the
+/// first n, and the bound by all photons where it is known.
+Plot order_depth_plot(const EventStudy& study);
+
+/// CTR by the n-th photon of several points, in ps.
+Plot orders_plot(const std::vector<std::pair<std::string, OrderStudy>>& points);
 
 }  // namespace scintray::report

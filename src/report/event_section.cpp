@@ -13,7 +13,7 @@ namespace scintray::report {
 
 namespace {
 
-constexpr std::size_t kPointsShown = 4;
+constexpr std::size_t kPointsShown = 4, kCurvesTogether = 7;
 constexpr const char* kEventStyle =
     ".grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }\n"
     ".grid figure { max-width: 36rem; } details { margin-top: .75rem; } summary { cursor: pointer; }\n";
@@ -67,6 +67,13 @@ std::string figures(const PointStudy& point) {
   if (study.timing_against_depth)
     out += event_figure(svg_plot(timing_depth_plot(*study.timing_against_depth)), point.label,
                         "timing against depth", timing_depth_text(*study.timing_against_depth));
+  if (study.orders)
+    out += event_figure(svg_plot(order_plot(*study.orders, study.orders_bound)), point.label,
+                        "coincidence of two such detectors by order of photons",
+                        order_text(*study.orders, study.orders_bound));
+  if (!study.orders_against_depth.empty())
+    out += event_figure(svg_plot(order_depth_plot(study)), point.label,
+                        "coincidence by order of photons against depth", order_depth_text(study));
   if (study.layers_by_ratio)
     out += event_figure(layers_table(study.layers_by_ratio->confusion), point.label,
                         "layers by the ratio of the ends", layers_text(study.layers_by_ratio->confusion));
@@ -128,6 +135,21 @@ std::string curve_over_points(const std::vector<PointStudy>& points) {
   return event_figure(svg_plot(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
 }
 
+/// Timing by order of photons of all points, where several have it and the eye can tell them apart.
+std::string orders_over_points(const std::vector<PointStudy>& points) {
+  std::vector<std::pair<std::string, OrderStudy>> with_orders;
+  for (const PointStudy& point : points)
+    if (point.study.orders) with_orders.emplace_back(point.label, *point.study.orders);
+  if (with_orders.size() < 2 || with_orders.size() > kCurvesTogether) return "";
+  std::string text;
+  for (const auto& [label, orders] : with_orders)
+    text += (text.empty() ? "" : "; ") + label +
+            ": best n = " + std::to_string(orders.single[orders.best_single].n) + ", " +
+            picoseconds(orders.single[orders.best_single].ctr_fwhm_ns);
+  return event_figure(svg_plot(orders_plot(with_orders)), "all points",
+                      "coincidence of two such detectors by the n-th photon", text);
+}
+
 std::string left_out_list(const std::vector<PointStudy>& points) {
   std::string items;
   for (const PointStudy& point : points)
@@ -143,7 +165,7 @@ std::string event_section(const std::vector<PointStudy>& points) {
   const bool any = std::any_of(points.begin(), points.end(),
                                [](const PointStudy& point) { return point.study.events > 0; });
   if (!any) return "";
-  std::string first = curve_over_points(points), others;
+  std::string first = curve_over_points(points) + orders_over_points(points), others;
   for (std::size_t i = 0; i < points.size(); ++i) (i < kPointsShown ? first : others) += figures(points[i]);
   std::string body = numbers_table(points) + "<div class=\"grid\">\n" + first + "</div>\n";
   if (!others.empty())
@@ -180,17 +202,14 @@ std::string event_lines(const EventStudy& study) {
     lines += "one end minus the other: " + spread_text(*study.end_difference_ns) + "\n";
   if (study.timing_against_depth)
     lines += "timing against depth: " + timing_depth_text(*study.timing_against_depth) + "\n";
+  if (study.orders) {
+    lines += "timing by order of photons: " + order_text(*study.orders, study.orders_bound) + "\n";
+    lines += "CTR by the n-th photon: " + order_list(*study.orders, study.orders_bound) + "\n";
+  }
+  if (!study.orders_against_depth.empty())
+    lines += "timing by order of photons against depth: " + order_depth_text(study) + "\n";
   for (const std::string& line : study.left_out) lines += "left out: " + line + "\n";
   return lines;
-}
-
-std::string order_section(const OrderStudy& orders) {
-  if (orders.single.empty()) return "";
-  return section("Timing by order of photons",
-                 "<div class=\"grid\">\n" +
-                     event_figure(svg_plot(order_plot(orders)), "coincidence of two such detectors",
-                                  "by order of photons", order_text(orders)) +
-                     "</div>\n");
 }
 
 }  // namespace scintray::report

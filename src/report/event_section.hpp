@@ -26,7 +26,4 @@ std::string event_page(const std::string& title, const std::string& under,
 /// The same numbers for a terminal, one line a study; empty without events.
 std::string event_lines(const EventStudy& study);
 
-/// Timing by order of photons, where photon times were kept; empty for an empty study.
-std::string order_section(const OrderStudy& orders);
-
 }  // namespace scintray::report

@@ -105,14 +105,44 @@ std::string timing_depth_text(const TimingDepth& timing) {
   return "mean time changes by " + picoseconds(timing.line.slope) + " per mm";
 }
 
-std::string order_text(const OrderStudy& orders) {
-  const OrderTiming& single = orders.single[orders.best_single];
-  const OrderTiming& average = orders.average[orders.best_average];
-  return fmt::format(
-      "first photon at {}; CTR by it {}; best single photon n = {}: {}; best mean of the "
-      "first n = {}: {}",
-      picoseconds(orders.single.front().mean_ns), picoseconds(orders.single.front().ctr_fwhm_ns), single.n,
-      picoseconds(single.ctr_fwhm_ns), average.n, picoseconds(average.ctr_fwhm_ns));
+std::string order_text(const OrderStudy& orders, const std::optional<TimingBound>& bound) {
+  const OrderTiming& first = orders.single.front();
+  std::string text = fmt::format("photon {} at {}, CTR by it {}", first.n, picoseconds(first.mean_ns),
+                                 picoseconds(first.ctr_fwhm_ns));
+  const auto best = [&](const std::vector<OrderTiming>& all, std::size_t at, const std::string& what) {
+    if (!all.empty())
+      text += fmt::format("; best {} {}: {}", what, all[at].n, picoseconds(all[at].ctr_fwhm_ns));
+  };
+  best(orders.single, orders.best_single, "single photon");
+  best(orders.average, orders.best_average, "mean of the first");
+  if (bound)
+    text +=
+        fmt::format("; bound by all {:.0f} photons {:.3g} ps (emission and the sensors' time spread alone)",
+                    bound->photons, 1e3 * bound->all_ns);
+  return text;
+}
+
+std::string order_list(const OrderStudy& orders, const std::optional<TimingBound>& bound) {
+  std::string text;
+  for (std::size_t i = 0; i < orders.single.size(); ++i) {
+    text += fmt::format("{}n = {}: {}", i == 0 ? "" : ", ", orders.single[i].n,
+                        picoseconds(orders.single[i].ctr_fwhm_ns));
+    if (bound) text += fmt::format(" (bound {:.3g})", 1e3 * bound->first_ns[i]);
+  }
+  return text;
+}
+
+std::string order_depth_text(const EventStudy& study) {
+  std::string text;
+  for (std::size_t i = 0; i < study.orders_against_depth.size(); ++i) {
+    const OrderSlice& slice = study.orders_against_depth[i];
+    const OrderTiming& best = slice.orders.single[slice.orders.best_single];
+    text += fmt::format("{}{} mm: n = {} {}", i == 0 ? "" : ", ", compact(slice.depth_mm, 3), best.n,
+                        picoseconds(best.ctr_fwhm_ns));
+    if (study.depth_bounds[i])
+      text += fmt::format(" (bound by all {:.3g})", 1e3 * study.depth_bounds[i]->all_ns);
+  }
+  return "best photon at each depth: " + text;
 }
 
 std::string layers_text(const Confusion& confusion) {

@@ -173,6 +173,7 @@ RunSpec read_run(const TomlTable& scene) {
                     : accelerator == "planes" ? AcceleratorKind::planes
                                               : AcceleratorKind::automatic;
   run.photon_list = table->boolean("photon_list", false);
+  run.photon_history = table->boolean("photon_history", false);
   run.output = table->string("output", "");
   if (!run.output.empty() && run.output.is_relative())
     run.output = std::filesystem::path(table->where("output").file).parent_path() / run.output;

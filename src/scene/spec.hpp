@@ -146,6 +146,7 @@ struct RunSpec {
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
   bool photon_list = false;      ///< stream every detected photon to the results
+  bool photon_history = false;   ///< stream what each went through, for reweighting
   std::filesystem::path output;  ///< results file; empty: the command decides
   FileLocation where;
 };

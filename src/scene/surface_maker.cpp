@@ -227,7 +227,7 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
                                double reference_nm, double low_nm, double high_nm) {
   MadeSurface made;
   Surface& surface = made.surface;
-  surface.name = spec.name;
+  surface.name = surface.definition = spec.name;
   for (const ShareSpec& part : spec.mixture) {
     MadeSurface share = make(*part.surface, inside, outside, reference_nm, low_nm, high_nm);
     surface.mixture.push_back({part.share, std::make_shared<const Surface>(std::move(share.surface))});
@@ -238,6 +238,7 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const Medium& inside, co
   surface.reflector = spec.reflector;
   surface.gap_index = spec.gap_index;
   surface.gap_absorption_per_mm = spec.gap_absorption_per_mm;
+  surface.gap_medium = spec.gap;
   surface.gap_shifter = spec.gap_shifter;
   surface.gap_thickness_um = spec.gap_thickness_um;
   surface.direction = spec.direction;

@@ -23,11 +23,12 @@ struct Photon {
   double time_ns = 0.0;
   double path_mm = 0.0;
   std::uint32_t region = 0;
-  MediumOptics optics;               ///< of the region's medium at this wavelength
-  double optical_depth = 0.0;        ///< left until absorption or scattering in the bulk
-  std::uint32_t interactions = 0;    ///< boundary interactions so far
-  std::uint32_t scatterings = 0;     ///< bulk scatterings so far
-  std::vector<PhotonShifts> shifts;  ///< so far, one entry for each medium or surface that shifted
+  MediumOptics optics;                   ///< of the region's medium at this wavelength
+  double optical_depth = 0.0;            ///< left until absorption or scattering in the bulk
+  std::uint32_t interactions = 0;        ///< boundary interactions so far
+  std::uint32_t scatterings = 0;         ///< bulk scatterings so far
+  std::vector<PhotonShifts> shifts;      ///< so far, one entry for each medium or surface that shifted
+  ReflectionLog* reflections = nullptr;  ///< told of each survived reflection; null: nobody asks
 
   /// The entry of a medium or surface, made when there is none.
   ShiftCount& shifts_of(bool at_surface, std::uint32_t where) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/surface/reflection_log.hpp"
 
 namespace scintray {
 
@@ -33,10 +34,12 @@ SheetOutcome pass(const Reflector& reflector, Ray& ray, const Vec3& normal, doub
 
 /// Light that has been refracted into a volume-like reflector, until it is out again.
 SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const Vec3& normal, double index_here,
-                               double index_beyond, double reflectance, double transmittance, Rng& rng) {
+                               double index_beyond, double reflectance, double transmittance, Rng& rng,
+                               ReflectionLog* log) {
   for (bool from_here = true;;) {
     const double u = rng.uniform();
     if (u >= reflectance + transmittance) return SheetOutcome::absorbed;
+    if (log && u < reflectance) log->add(reflector, reflectance);
     const bool to_here = (u < reflectance) == from_here;
     const Vec3 out = to_here ? normal : Vec3(-normal);
     scatter_lambertian(ray, out, rng);
@@ -61,18 +64,19 @@ std::set<double> wavelengths_of(const Reflector& reflector) {
 }  // namespace
 
 SheetOutcome meet_reflector(const Reflector& reflector, Ray& ray, const Vec3& normal, double index_here,
-                            double index_beyond, double wavelength_nm, Rng& rng) {
+                            double index_beyond, double wavelength_nm, Rng& rng, ReflectionLog* log) {
   const double reflectance = reflector.reflectance(wavelength_nm);
   const double transmittance = reflector.transmittance ? (*reflector.transmittance)(wavelength_nm) : 0.0;
   if (reflector.volume_index > 0.0) {
     if (!meet_facet(ray, normal, index_here, reflector.volume_index, rng)) return SheetOutcome::back;
     return scatter_in_volume(reflector, ray, normal, index_here, index_beyond, reflectance, transmittance,
-                             rng);
+                             rng, log);
   }
   const double u = rng.uniform();
   if (u >= reflectance)
     return u < reflectance + transmittance ? pass(reflector, ray, normal, index_here, index_beyond, rng)
                                            : SheetOutcome::absorbed;
+  if (log) log->add(reflector, reflectance);
   if (is_specular(reflector, rng))
     reflect(ray, normal);
   else

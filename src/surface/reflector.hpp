@@ -25,6 +25,8 @@ struct Reflector {
   std::optional<Curve> transmittance = std::nullopt;
 };
 
+class ReflectionLog;
+
 /// Where light is after it met a reflector.
 enum class SheetOutcome { back, through, absorbed };
 
@@ -40,9 +42,12 @@ enum class SheetOutcome { back, through, absorbed };
 /// through its binder instead, and both faces refract.
 ///
 /// @param normal        unit normal of the sheet, against the ray
+/// @param log           told of every reflection that was survived by a draw against the reflectance; may be
+/// null
 /// @param index_here    of the medium the ray is in; @param index_beyond  of that behind the sheet
 SheetOutcome meet_reflector(const Reflector& reflector, Ray& ray, const Vec3& normal, double index_here,
-                            double index_beyond, double wavelength_nm, Rng& rng);
+                            double index_beyond, double wavelength_nm, Rng& rng,
+                            ReflectionLog* log = nullptr);
 
 /// Largest share of the light that is not absorbed, reflectance and transmittance together, over all
 /// wavelengths. At most 1 for a sheet that can be.

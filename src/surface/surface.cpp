@@ -106,12 +106,13 @@ struct FarFace {
   const Vec3& normal;
   double gap_index, beyond_index, wavelength_nm;
   Rng& rng;
+  ReflectionLog* log;
 
   enum class After { in_gap, beyond, absorbed };
   After from_gap(Ray& ray) const {
     if (reflector) {
       const SheetOutcome met =
-          meet_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng);
+          meet_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
       return after(met, After::in_gap, After::beyond);
     }
     return meet_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
@@ -119,7 +120,7 @@ struct FarFace {
   After from_beyond(Ray& ray) const {
     if (reflector) {  // the back of the sheet
       const SheetOutcome met =
-          meet_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng);
+          meet_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
       return after(met, After::beyond, After::in_gap);
     }
     return meet_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
@@ -132,8 +133,9 @@ struct FarFace {
 }  // namespace
 
 SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
-                             ShiftingLight* light, Rng& rng) const {
-  if (!mixture.empty()) return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng);
+                             ShiftingLight* light, Rng& rng, ReflectionLog* log) const {
+  if (!mixture.empty())
+    return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng, log);
   Meeting meeting(*this, normal, wavelength_nm, light, rng);
   if (!reflector && !gap_thickness_um) return meeting.scatter(ray, side, index);
 
@@ -141,7 +143,7 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const Vec3& normal, IndexPair 
   const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
   IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
   const auto far = [&] {
-    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng};
+    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng, log};
   };
   bool at_far_face = side == Side::outside;
   if (at_far_face) {

@@ -12,6 +12,7 @@
 #include "scintray/medium/wavelength_shifter.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/microsurface.hpp"
+#include "scintray/surface/reflection_log.hpp"
 #include "scintray/surface/reflector.hpp"
 #include "scintray/surface/table.hpp"
 #include "scintray/surface/unified.hpp"
@@ -52,12 +53,14 @@ struct ShiftingLight {
 /// The optical stack of a face. Light without a reflector goes on to the other side.
 struct Surface {
   std::string name;
+  std::string definition;  ///< its name in the scene or the library, whatever media it lies between
   Microsurface microsurface = SmoothSurface{};
 
   /// What lies under the reflector, or, with a thickness and no reflector, between the microsurface and the
   /// smooth boundary of the next medium.
   Curve gap_index = Curve::constant(1.0);
   Curve gap_absorption_per_mm = Curve::constant(0.0);  ///< for good, beside the shifter's
+  std::string gap_medium;  ///< name of the medium in the gap; empty: given by an index, or no gap
   /// A coating: gives light that it absorbs back in all directions, from where it absorbed it. Only in a
   /// gap with a thickness.
   std::shared_ptr<const WavelengthShifter> gap_shifter;
@@ -77,15 +80,17 @@ struct Surface {
   ///
   /// @param normal  outward normal of the part whose face it is
   /// @param index   indices of the media on the two sides
+  /// @param log     told of every reflection at a reflector that was survived; may be null
   ///
   /// What a wavelength shifter in the gap absorbs is absorbed.
   SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, const IndexPair& index, double wavelength_nm,
-                      Rng& rng) const {
-    return meet(ray, side, normal, index, wavelength_nm, nullptr, rng);
+                      Rng& rng, ReflectionLog* log = nullptr) const {
+    return meet(ray, side, normal, index, wavelength_nm, nullptr, rng, log);
   }
   /// As above, and a wavelength shifter gives light back: `light` is the photon's, and changes.
-  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, ShiftingLight& light, Rng& rng) const {
-    return meet(ray, side, normal, light.index(light.wavelength_nm), light.wavelength_nm, &light, rng);
+  SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, ShiftingLight& light, Rng& rng,
+                      ReflectionLog* log = nullptr) const {
+    return meet(ray, side, normal, light.index(light.wavelength_nm), light.wavelength_nm, &light, rng, log);
   }
 
   /// True when no light passes to the other side.
@@ -101,7 +106,7 @@ struct Surface {
  private:
   bool mixture_shifts() const;
   SurfaceOutcome meet(Ray& ray, Side side, const Vec3& normal, IndexPair index, double wavelength_nm,
-                      ShiftingLight* light, Rng& rng) const;
+                      ShiftingLight* light, Rng& rng, ReflectionLog* log) const;
 };
 
 }  // namespace scintray

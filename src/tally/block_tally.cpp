@@ -70,12 +70,14 @@ PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
 BlockTally::BlockTally(const Scene& scene, const TallyPlan& plan)
     : plan_(plan), scene_(scene), result_(empty_block(scene, plan)), last_crossing_(plan.exit_angles.size()) {
   if (!plan.counts.empty()) scorer_.emplace(scene, plan);
+  if (plan.history) history_.emplace(scene, *plan.history);
 }
 
-void BlockTally::start(const Photon& emitted, std::uint64_t event, std::uint64_t photon) {
+void BlockTally::start(Photon& emitted, std::uint64_t event, std::uint64_t photon) {
   event_ = event;
   photon_ = photon;
   if (scorer_) scorer_->start(emitted);
+  if (history_) history_->start(emitted);
   std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
 }
 
@@ -99,12 +101,14 @@ void BlockTally::note_crossing(const Step& step) {
 void BlockTally::record(const Photon& photon, const Step& step) {
   count_step(step);
   if (scorer_) scorer_->step(photon, step);
+  if (history_) history_->step(photon, step);
   if (step.kind == StepKind::crossed) note_crossing(step);
 }
 
 void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point) {
   count_step(step);
   if (scorer_) scorer_->step(photon, step);
+  if (history_) history_->step(photon, step);
   switch (step.kind) {
     case StepKind::absorbed_in_medium:
       ++result_.absorbed_in_medium[step.where];
@@ -139,6 +143,7 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
     ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
     ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
   }
+  if (history_) history_->keep(point, event_, photon_);
   if (plan_.photon_list) {
     const Vec3 &p = photon.position, &d = photon.ray.direction;
     photons_.push_back({point,

@@ -19,8 +19,8 @@ class BlockTally {
  public:
   explicit BlockTally(const Scene& scene, const TallyPlan& plan);
 
-  /// Begins a photon, as it was emitted.
-  void start(const Photon& emitted, std::uint64_t event, std::uint64_t photon);
+  /// Begins a photon, as it was emitted; where its history is wanted it is told to keep it.
+  void start(Photon& emitted, std::uint64_t event, std::uint64_t photon);
   /// A step that did not end it.
   void record(const Photon& photon, const Step& step);
   /// Its end: by a last step, or by a limit.
@@ -29,6 +29,8 @@ class BlockTally {
 
   const PointResult& result() const { return result_; }
   const std::vector<DetectedPhoton>& photons() const { return photons_; }
+  /// Histories of the detected photons; null when none are asked for.
+  const PhotonHistories* histories() const { return history_ ? &history_->kept() : nullptr; }
   /// Adds the block to the total of those before it.
   void add_to(PointResult& total) const;
 
@@ -44,8 +46,9 @@ class BlockTally {
   const Scene& scene_;
   PointResult result_;
   std::vector<DetectedPhoton> photons_;
-  std::vector<Angles> last_crossing_;  ///< per exit-angle tally, of the photon under way
-  std::optional<CountScorer> scorer_;  ///< when the plan has counts
+  std::vector<Angles> last_crossing_;       ///< per exit-angle tally, of the photon under way
+  std::optional<CountScorer> scorer_;       ///< when the plan has counts
+  std::optional<HistoryRecorder> history_;  ///< when the plan has histories
   std::uint64_t event_ = 0, photon_ = 0;
 };
 

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/medium/decay.hpp"
 #include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
@@ -87,6 +89,12 @@ struct EnergyBalance {
   Moments detected;                    ///< photons detected per event that left energy in a scintillator
 };
 
+/// When one photon of an event is detected, but for its way: emission and the sensors' time spread.
+struct LightTiming {
+  std::vector<DecayComponent> decay;
+  double time_spread_ns = 0.0;  ///< standard deviation
+};
+
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
@@ -94,6 +102,7 @@ struct PointResult {
   std::uint64_t photons = 0;            ///< traced to their end
   bool complete = false;                ///< false when interrupted
   EnergyBalance energy;
+  std::optional<LightTiming> light_timing;  ///< of a source of energy, where it is one for all light
   std::array<std::uint64_t, kFateCount> fates{};
   std::vector<std::uint64_t> absorbed_in_medium;   ///< per RunHeader::media
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces

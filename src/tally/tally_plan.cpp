@@ -31,6 +31,7 @@ std::vector<NameRef> source_parts(const SceneSpec& spec) {
 
 TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec)
     : channels(scene), photon_list(spec.run.photon_list) {
+  if (spec.run.photon_history) history.emplace(scene);
   for (const ExitAngleTallySpec& tally : spec.exit_angles)
     exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
   bind_ways(scene);

@@ -12,6 +12,7 @@
 #include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene/spec.hpp"
+#include "scintray/tally/photon_history.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -84,6 +85,7 @@ struct TallyPlan {
   bool follows_regions = false;  ///< some count asks which regions a photon visited
 
   bool photon_list = false;
+  std::optional<HistoryPlan> history;  ///< when histories are asked for
   static constexpr std::uint32_t kNoSensor = 0xffffffffu;
 
  private:

@@ -113,6 +113,7 @@ PointResult run_point(const Scene& scene, const LightSource& source, const Tally
     block.events.add_to(total.energy);
     started += block.started;
     if (hooks.detected && !block.photons.photons().empty()) hooks.detected(block.photons.photons());
+    if (hooks.histories && block.photons.histories()) hooks.histories(*block.photons.histories());
     if (hooks.events && !block.events.events().empty()) hooks.events(block.events.events());
     if (hooks.progress) hooks.progress(energy ? total.energy.events : started);
   };

@@ -24,6 +24,7 @@ struct RunHooks {
   /// Photons traced so far, or events of a source of energy.
   std::function<void(std::uint64_t done)> progress;
   std::function<void(const std::vector<DetectedPhoton>&)> detected;  ///< in the order of photons
+  std::function<void(const PhotonHistories&)> histories;             ///< of the detected, in the same order
   std::function<void(const std::vector<EventRecord>&)> events;       ///< of a source of energy, in order
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the blocks under way and return
 };

@@ -112,8 +112,8 @@ InterfaceIndex indices_at(const Scene& scene, const Interface& interface, double
     index = indices_at(scene, interface, wavelength_nm);
     return index.around(at_back);
   };
-  const SurfaceOutcome outcome =
-      scene.surfaces[static_cast<std::size_t>(id)].meet(photon.ray, side, outward, light, rng);
+  const SurfaceOutcome outcome = scene.surfaces[static_cast<std::size_t>(id)].meet(
+      photon.ray, side, outward, light, rng, photon.reflections);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
   if (light.count.absorbed > 0) photon.shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
@@ -134,9 +134,9 @@ Meeting meet_interface(const Scene& scene, const Interface& interface, bool from
     const Vec3 outward = at_back ? normal : Vec3(-normal);
     const Side side = came_from_back == at_back ? Side::inside : Side::outside;
     const SurfaceOutcome outcome =
-        surface.shifts()
-            ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng)
-            : surface.meet(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng);
+        surface.shifts() ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng)
+                         : surface.meet(photon.ray, side, outward, index.around(at_back),
+                                        photon.wavelength_nm, rng, photon.reflections);
     if (outcome == SurfaceOutcome::absorbed) return {false, id};
     if (outcome == SurfaceOutcome::inside) return {!at_back, kNone};
     if (!index.dry) return {at_back, kNone};

@@ -23,76 +23,133 @@ double detected_fraction(double mu, double reflectance) {
   return kExit * once / (1.0 - (1.0 - kExit) * reflectance * once * once);
 }
 
-std::vector<PhotonHistory> trace_rod(double mu, double reflectance, std::uint64_t stream) {
-  std::vector<PhotonHistory> detected;
+/// One photon of the rod.
+struct RodPhoton {
+  float path_mm = 0.0F, absorption_depth = 0.0F;
+  std::uint32_t reflections = 0;
+  float reflection_depth = 0.0F;
+};
+
+struct Rod {
+  double mu = 0.0, reflectance = 0.0;
+  std::vector<RodPhoton> detected;
+};
+
+Rod trace_rod(double mu, double reflectance, std::uint64_t stream) {
+  Rod rod{mu, reflectance, {}};
   for (std::uint64_t i = 0; i < kEmitted; ++i) {
     Rng rng = toy_rng(stream, i);
-    PhotonHistory photon{{static_cast<float>(kRod_mm)}, {0}};
+    int turns = 0;
     bool alive = rng.uniform() < std::exp(-mu * kRod_mm);
-    while (alive && rng.uniform() >= kExit) {
-      photon.path_mm[0] += static_cast<float>(2.0 * kRod_mm);
-      ++photon.bounces[0];
+    for (; alive && rng.uniform() >= kExit; ++turns)
       alive = rng.uniform() < reflectance * std::exp(-2.0 * mu * kRod_mm);
-    }
-    if (alive) detected.push_back(photon);
+    const double path_mm = (2 * turns + 1) * kRod_mm;
+    if (alive)
+      rod.detected.push_back({static_cast<float>(path_mm), static_cast<float>(mu * path_mm),
+                              static_cast<std::uint32_t>(turns),
+                              static_cast<float>(-turns * std::log(reflectance))});
   }
-  return detected;
+  return rod;
+}
+
+constexpr WantedProperty constant(double value) { return {WantedProperty::As::constant, value}; }
+constexpr WantedProperty times(double value) { return {WantedProperty::As::times, value}; }
+
+Reweighted reweight(const Rod& rod, std::uint64_t emitted, WantedProperty absorption,
+                    WantedProperty reflectance, double cut_share = 0.0) {
+  Reweighting reweighting(
+      {{{rod.mu, rod.mu}}, {absorption}, {{rod.reflectance, rod.reflectance}}, {reflectance}, {"\"mirror\""}},
+      rod.detected.size());
+  for (const RodPhoton& photon : rod.detected)
+    reweighting.add({std::span(&photon.path_mm, 1), std::span(&photon.absorption_depth, 1),
+                     std::span(&photon.reflections, 1), std::span(&photon.reflection_depth, 1)});
+  return reweighting.finish(emitted, cut_share);
 }
 
 }  // namespace
 
 TEST_CASE("Law: reweighted photons give the fraction of the wanted rod") {
   const double mu = 0.005, reflectance = 0.9;
-  const std::vector<PhotonHistory> photons = trace_rod(mu, reflectance, 80);
-  const auto wanted = [&](double other_mu, double other_reflectance) {
-    return reweight(photons, kEmitted, {{mu}, {other_mu}, {reflectance}, {other_reflectance}});
-  };
-  const Reweighted same = wanted(mu, reflectance);
+  const Rod rod = trace_rod(mu, reflectance, 80);
+  const Reweighted same = reweight(rod, kEmitted, constant(mu), constant(reflectance));
   CHECK(same.effective_share == doctest::Approx(1.0));
+  CHECK(same.relative.value == doctest::Approx(1.0));
   CHECK(sigmas(same.detected_fraction, {detected_fraction(mu, reflectance), 0.0}) < kSigmas);
   for (const double other_mu : {0.0, 0.002, 0.01, 0.03})
     for (const double other_reflectance : {0.7, 0.9, 0.97}) {
       CAPTURE(other_mu);
       CAPTURE(other_reflectance);
-      const Reweighted other = wanted(other_mu, other_reflectance);
+      const double expected = detected_fraction(other_mu, other_reflectance);
+      const Reweighted other = reweight(rod, kEmitted, constant(other_mu), constant(other_reflectance));
       CHECK(other.valid);
-      CHECK(sigmas(other.detected_fraction, {detected_fraction(other_mu, other_reflectance), 0.0}) < kSigmas);
+      CHECK(sigmas(other.detected_fraction, {expected, 0.0}) < kSigmas);
+      const Reweighted factors =
+          reweight(rod, kEmitted, times(other_mu / mu), times(other_reflectance / reflectance));
+      CHECK(factors.detected_fraction.value == doctest::Approx(other.detected_fraction.value));
     }
 }
 
 TEST_CASE("Pulls of reweighted fractions are normal") {
   Pulls pulls;
-  const std::vector<PhotonHistory> photons = trace_rod(0.005, 0.9, 81);
+  const Rod rod = trace_rod(0.005, 0.9, 81);
+  const double truth = reweight(rod, kEmitted, constant(0.002), constant(0.95)).detected_fraction.value;
   // Drawn from the photons of one run, with its own answer as the truth.
   for (std::uint64_t toy = 0; toy < 200; ++toy) {
-    std::vector<PhotonHistory> detected;
+    Rod drawn{rod.mu, rod.reflectance, {}};
     Rng rng = toy_rng(82, toy);
     for (int i = 0; i < 2000; ++i) {
       const auto pick = static_cast<std::size_t>(static_cast<double>(kEmitted) * rng.uniform());
-      if (pick < photons.size()) detected.push_back(photons[pick]);
+      if (pick < rod.detected.size()) drawn.detected.push_back(rod.detected[pick]);
     }
-    pulls.add(reweight(detected, 2000, {{0.005}, {0.002}, {0.9}, {0.95}}).detected_fraction,
-              reweight(photons, kEmitted, {{0.005}, {0.002}, {0.9}, {0.95}}).detected_fraction.value);
+    pulls.add(reweight(drawn, 2000, constant(0.002), constant(0.95)).detected_fraction, truth);
   }
   CHECK(sigmas(pulls.mean(), {0.0, 0.0}) < kSigmas);
   CHECK(sigmas(pulls.width(), {1.0, 0.0}) < kSigmas);
 }
 
-TEST_CASE("Where few photons carry the weight the answer is not valid") {
-  const std::vector<PhotonHistory> photons = trace_rod(0.1, 0.5, 83);
-  const Reweighted far = reweight(photons, kEmitted, {{0.1}, {0.0}, {0.5}, {0.99}});
+TEST_CASE("Where the photons that would matter are rare or missing the answer is not valid") {
+  const Rod dark = trace_rod(0.1, 0.5, 83);
+  const Reweighted far = reweight(dark, kEmitted, constant(0.0), constant(0.99));
   CHECK_FALSE(far.valid);
   CHECK(far.reason != "");
+
+  // Of 40,000 photons, those of four reflections and more are missing: each would weigh 90^4.
+  const Rod black = trace_rod(0.0, 0.01, 84);
+  const Reweighted white = reweight(black, kEmitted, constant(0.0), constant(0.9));
+  CHECK_FALSE(white.valid);
+  // A little of that: no photon has too much of the weight, but one more reflection would.
+  check_says(reweight(black, kEmitted, constant(0.0), constant(0.1)).reason, "one more reflection");
+
+  // Weights exp(mu path) of paths that end at the rate 2 mu have a tail of shape mu / (2 mu).
+  const double mu = 0.2;
+  Reweighting heavy({{{mu, mu}}, {constant(0.0)}, {}, {}, {}}, 100'000);
+  for (std::uint64_t i = 0; i < 100'000; ++i) {
+    Rng rng = toy_rng(85, i);
+    const auto path = static_cast<float>(sample_exponential(rng) / (2.0 * mu));
+    const auto depth = static_cast<float>(mu * static_cast<double>(path));
+    heavy.add({std::span(&path, 1), std::span(&depth, 1), {}, {}});
+  }
+  // Hill's estimate from 948 weights has the error 1/2 / sqrt(948).
+  CHECK(std::abs(heavy.finish(1'000'000).tail_shape - 0.5) < kSigmas * 0.5 / std::sqrt(948.0));
+  // Less light than when traced has no such tail.
+  CHECK(reweight(dark, kEmitted, constant(0.3), constant(0.4)).tail_shape == 0.0);
 }
 
 TEST_CASE("What cannot be reweighted is refused or said") {
-  const std::vector<PhotonHistory> photons(200, PhotonHistory{{10.0F}, {0}});
-  const Reweighted mirror = reweight(photons, 1000, {{0.1}, {0.1}, {0.0}, {0.5}});
+  const RodPhoton straight{10.0F, 1.0F, 0, 0.0F};
+  const Rod rod{0.1, 0.0, std::vector<RodPhoton>(200, straight)};
+  const Reweighted mirror = reweight(rod, 1000, constant(0.1), constant(0.5));
   CHECK_FALSE(mirror.valid);
-  check_says(mirror.reason, "reflected nothing when traced");
-  check_says(reweight({}, 1000, {{0.1}, {0.1}, {0.5}, {0.5}}).reason, "0 effective photons");
-  CHECK_THROWS_AS(reweight(photons, 100, {{0.1}, {0.1}, {0.5}, {0.5}}), std::invalid_argument);
-  CHECK_THROWS_AS(reweight(photons, 1000, {{0.1}, {0.1, 0.2}, {0.5}, {0.5}}), std::invalid_argument);
-  CHECK_THROWS_AS(reweight(photons, 1000, {{0.1}, {-0.1}, {0.5}, {0.5}}), std::invalid_argument);
-  CHECK_THROWS_AS(reweight(photons, 1000, {{}, {}, {0.5}, {0.5}}), std::invalid_argument);
+  check_says(mirror.reason, "\"mirror\" reflected nothing when traced");
+  check_says(reweight({0.1, 0.5, {}}, 1000, constant(0.1), constant(0.5)).reason, "0 effective photons");
+  const Rod grey{0.1, 0.5, rod.detected};
+  check_says(reweight(grey, 1000, constant(0.05), {}, 0.3).reason, "were cut at the limits");
+  CHECK(reweight(grey, 1000, constant(0.2), {}, 0.3).valid);  // those cut would have been lost all the more
+  CHECK_THROWS_AS(reweight(grey, 100, constant(0.1), {}), std::invalid_argument);
+  CHECK_THROWS_AS(reweight(grey, 1000, constant(-0.1), {}), std::invalid_argument);
+  CHECK_THROWS_AS(reweight(grey, 1000, {}, constant(1.1)), std::invalid_argument);
+  CHECK_THROWS_AS(reweight(grey, 1000, {}, times(2.1)), std::invalid_argument);
+  CHECK_THROWS_AS(Reweighting({{{0.1, 0.1}}, {}, {}, {}, {}}, 10), std::invalid_argument);
+  Reweighting other({{{0.1, 0.1}}, {constant(0.2)}, {}, {}, {}}, 10);
+  CHECK_THROWS_AS(other.add({}), std::invalid_argument);
 }

@@ -5,6 +5,7 @@
 
 #include "analysis/toys.hpp"
 #include "scintray/analysis/coincidence_timing.hpp"
+#include "scintray/analysis/event_study.hpp"
 #include "scintray/analysis/photon_time.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
@@ -207,4 +208,75 @@ TEST_CASE("Emission that makes no sense is refused") {
   CHECK(contains(complaint_of([] { PhotonTime({{40.0}}, -0.1); }), "jitter"));
   CHECK(contains(complaint_of([] { MostLikelyTime(PhotonTime({{40.0}}, 0.0)); }), "without jitter"));
   CHECK(contains(complaint_of([] { MostLikelyTime(PhotonTime({{40.0}}, 0.1))({}); }), "without photons"));
+}
+
+TEST_CASE(
+    "Orders of an event are the earliest of its channels', and means go as far as all photons are known") {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  OrderCollector collector({5, 1, 2});
+  EventRecord event;
+  event.channels.resize(2);
+  event.channels[0].order_ns = {9.0F, 1.0F, 3.0F};
+  event.channels[1].order_ns = {none, 2.0F, 1.5F};
+  collector.add(event);
+  event.channels[0].order_ns = {none, none, none};
+  event.channels[1].order_ns = {};
+  collector.add(event);
+  const std::vector<std::size_t> both{1, 0};
+  const std::vector<OrderTimes> times = collector.times(both);
+  REQUIRE(times.size() == 3);
+  CHECK((times[0].n == 1 && times[1].n == 2 && times[2].n == 5));
+  CHECK(times[0].single[1] == 1.0);
+  CHECK(times[1].single[1] == 1.5);
+  CHECK(times[2].single[1] == 9.0);
+  CHECK(times[1].average[1] == 1.75);  // of the second channel; the first one's is 2
+  CHECK(times[2].average.empty());
+  CHECK(std::isnan(times[0].single[0]));
+}
+
+TEST_CASE("Recorded orders give the CTR of the photons they are of, in all and by depth, above the bound") {
+  const double photons = 1000.0;
+  const LightTiming timing{{{40.0, 0.1, 1.0}}, 0.12};
+  const auto events = emit(2000, photons, 40.0, 0.1, 0.12, 4);
+  const OrderStudy all = study_orders(events, 10);
+  StudySetup setup;
+  setup.channels_mm = {Vec3::Zero()};
+  setup.depth = DepthAxis{Vec3::Zero(), Vec3::UnitZ()};
+  setup.photon_order = {1, 2, 3, 10};
+  setup.light_timing = timing;
+  EventCollector collector(setup);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    EventRecord event;
+    event.event = i;
+    event.part = 0;
+    event.position_mm = {0.0F, 0.0F, static_cast<float>(i % 20)};
+    ChannelRecord channel;
+    channel.detected = static_cast<std::uint32_t>(events[i].size());
+    channel.charge = static_cast<float>(events[i].size());
+    channel.time_ns = channel.first_ns = static_cast<float>(events[i].front());
+    for (const std::size_t n : {1, 2, 3, 10})
+      channel.order_ns.push_back(static_cast<float>(events[i][n - 1]));
+    event.channels = {channel};
+    collector.add(event);
+  }
+  setup.photopeak_only = false;
+  const EventStudy study = collector.finish();
+  REQUIRE(study.orders);
+  REQUIRE(study.orders->single.size() == 4);
+  CHECK(study.orders->average.size() == 3);
+  REQUIRE(study.orders_bound);
+  CHECK(study.orders_bound->photons == doctest::Approx(photons).epsilon(0.01));
+  CHECK(study.orders->single[3].n == 10);
+  if (study.selected == events.size())
+    CHECK(study.orders->single[3].ctr_fwhm_ns.value ==
+          doctest::Approx(all.single[9].ctr_fwhm_ns.value).epsilon(1e-3));
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Estimate& ctr = study.orders->single[i].ctr_fwhm_ns;
+    CHECK(ctr.value > study.orders_bound->first_ns[i] - kSigmas * ctr.error);
+    CHECK(study.orders_bound->first_ns[i] >= study.orders_bound->all_ns);
+  }
+  CHECK(study.orders_against_depth.size() == 10);
+  CHECK(study.depth_bounds.size() == 10);
+  CHECK_FALSE(timing_bound({{{40.0, 0.1, 1.0}}, 0.0}, photons, study.orders->single));
+  CHECK_FALSE(timing_bound(timing, 0.0, study.orders->single));
 }

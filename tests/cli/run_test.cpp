@@ -146,3 +146,36 @@ TEST_CASE("replay follows a photon to its end") {
   CHECK(ended.exit_code == cli::kSuccess);
   CHECK(contains(ended.output, "DETECTED"));
 }
+
+TEST_CASE("reweigh prints light under other optics and writes a table, and says what it cannot") {
+  std::string text = scene(5'000, false);
+  text.replace(text.find("reflectance = 1.0"), 17, "reflectance = 0.9");
+  text.replace(text.find("photon_list = false"), 19, "photon_history = true");
+  const auto folder = folder_with("reweigh", text);
+  CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
+  const auto did = [&](std::vector<std::string> arguments, int code, const std::string& words) {
+    arguments.insert(arguments.begin(), {"reweigh", "scene.h5"});
+    const Ended ended = run_program(arguments, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == code);
+    CHECK(contains(ended.output, words));
+  };
+  did({"--reflectance", "white=0.8,95 %", "-o", "table.csv"}, cli::kSuccess,
+      "reflectance of white 0.95: detected");
+  did({"--absorption-length", "glass=100,200 mm,none", "--reflectance", "white=x0.9"}, cli::kSuccess,
+      "absorption length of glass none, reflectance of white x 0.9: detected");
+  did({"--reflectance", "whit=0.8"}, cli::kBadInput, "did you mean \"white\"");
+  did({"--reflectance", "white"}, cli::kBadUsage, "no name before");
+  did({"--reflectance", "white=x0.9,0.8"}, cli::kBadUsage, "mixed");
+  did({"--absorption-length", "glass=100"}, cli::kBadUsage, "has no unit");
+  did({}, cli::kBadUsage, "nothing is wanted otherwise");
+  std::ifstream table(folder / "table.csv");
+  std::string line;
+  int lines = 0;
+  for (; std::getline(table, line); ++lines)
+    if (lines == 2) CHECK(line.starts_with("point,reflectance of white,traced_fraction"));
+  CHECK(lines == 5);
+  std::ofstream(folder / "scene.toml") << scene(1'000, false);
+  CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
+  did({"--reflectance", "white=0.8"}, cli::kBadInput, "photon_history = true");
+}

@@ -269,7 +269,25 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   const auto path = test::scratch_folder("results_documented") / "run.h5";
   RunResult run = test::made_up_run();
   run.points.resize(1);
-  write(path, run, made_up_photons(10));
+  run.points.front().light_timing = LightTiming{{{40.0, 0.1, 0.7}, {10.0, 0.0, 0.3}}, 0.12};
+  {
+    ResultsWriter writer(path, run.header, true);
+    const HistorySubjects subjects{
+        {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}};
+    HistoryColumns columns;
+    columns.add(subjects);
+    writer.begin_histories(columns);
+    writer.append_photons(made_up_photons(10));
+    writer.append_histories({{0}, {1}, {2}, {30.0f}, {0.1f}, {4}, {0.3f}}, subjects);
+    writer.add_point(run.points.front(), &subjects);
+    writer.commit(true);
+  }
+  const auto timing = read_results(path).points.front().light_timing;
+  REQUIRE(timing);
+  CHECK(timing->time_spread_ns == 0.12);
+  REQUIRE(timing->decay.size() == 2);
+  CHECK((timing->decay[1].decay_ns == 10.0 && timing->decay[1].rise_ns == 0.0 &&
+         timing->decay[1].fraction == 0.3));
   const std::string document = text_of(test::source_file("docs/results.md"));
   const h5::File file = h5::File::open(path);
   int datasets = 0;

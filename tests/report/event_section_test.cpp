@@ -74,13 +74,29 @@ TEST_CASE("Points of a sweep over depth become one curve") {
   CHECK_FALSE(contains(report::event_section(points), "all points"));
 }
 
-TEST_CASE("Timing by order of photons is drawn with its best n") {
+TEST_CASE("Timing by order of photons is drawn with its best n, the bound, against depth and over points") {
   std::vector<std::vector<double>> events;
   for (std::size_t event = 0; event < 400; ++event) {
     Rng rng = toy_rng(70, event);
     events.push_back(sample_photon_times(200.0, 40.0, 0.1, 0.1, rng));
   }
-  const std::string drawn = report::order_section(study_orders(events, 10));
-  check_says(drawn, "best single photon n = ");
-  CHECK(report::order_section({}).empty());
+  EventStudy study;
+  study.events = study.pulses = 400;
+  study.orders = study_orders(events, 10);
+  const std::string plain = report::event_section({{"alone", study}});
+  check_says(plain, "best single photon ");
+  CHECK_FALSE(contains(plain, "bound"));
+  CHECK_FALSE(contains(plain, "all points"));
+
+  study.orders_bound = timing_bound({{{40.0, 0.1, 1.0}}, 0.1}, 200.0, study.orders->single);
+  study.orders_against_depth = {{4.0, 200, 200.0, *study.orders}, {8.0, 200, 180.0, *study.orders}};
+  study.depth_bounds = {study.orders_bound, std::nullopt};
+  const std::string drawn = report::event_section({{"one", study}, {"two", study}});
+  check_says(drawn, "bound by all 200 photons");
+  check_says(drawn, "bound by the first n");
+  check_says(drawn, "by order of photons against depth");
+  check_says(drawn, "all points: coincidence of two such detectors by the n-th photon");
+  const std::string lines = report::event_lines(study);
+  check_says(lines, "CTR by the n-th photon: n = 1: ");
+  check_says(lines, "best photon at each depth: 4 mm: n = ");
 }

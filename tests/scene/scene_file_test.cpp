@@ -164,6 +164,7 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK(scene.run.contact_tolerance_mm == 1e-4);
   CHECK(scene.run.accelerator == AcceleratorKind::automatic);
   CHECK_FALSE(scene.run.photon_list);
+  CHECK_FALSE(scene.run.photon_history);
   REQUIRE(scene.exit_angles.size() == 1);
   CHECK(scene.exit_angles[0].bins == 18);
   CHECK(scene.exit_angles[0].name == "crystal:exit");

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <functional>
+
 #include "scintray/core/statistics.hpp"
 #include "scintray/surface/surface.hpp"
 #include "support/agreement.hpp"
@@ -131,4 +133,43 @@ TEST_CASE("A volume-like reflector: light refracted in, scattered, and refracted
         volume.meet(ray, Side::inside, Vec3::UnitZ(), {1.0, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
   }
   CHECK(sigmas(binomial_estimate(absorbed, kRays), {1.0 - law, 0.0}) < kSigmas);
+}
+
+TEST_CASE("Law: weighted by their logged reflections, survivors of one reflectance are those of another") {
+  const auto stack = [](double reflectance, double volume_index) {
+    Surface surface;
+    surface.reflector = Reflector{"sheet", Curve::constant(reflectance), 0.0, volume_index};
+    return surface;
+  };
+  const auto mixed = [&](double reflectance) {
+    Surface surface;
+    surface.mixture = {{0.4, std::make_shared<Surface>(stack(reflectance, 0.0))},
+                       {0.6, std::make_shared<Surface>(stack(reflectance, 1.35))}};
+    return surface;
+  };
+  const double traced = 0.8, wanted = 0.6, angle = 0.3;
+  for (const auto& make : {std::function<Surface(double)>([&](double r) { return stack(r, 0.0); }),
+                           std::function<Surface(double)>([&](double r) { return stack(r, 1.35); }),
+                           std::function<Surface(double)>(mixed)}) {
+    const Surface surface = make(traced);
+    Moments weights;
+    std::uint32_t most = 0;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+      Rng rng(4, StreamKind::other, i);
+      Ray ray{Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()};
+      ReflectionLog log;
+      const bool absorbed = surface.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng, &log) ==
+                            SurfaceOutcome::absorbed;
+      double weight = absorbed ? 0.0 : 1.0;
+      for (const ReflectionLog::Entry& entry : log.entries()) {
+        CHECK(entry.depth == doctest::Approx(entry.count * -std::log(traced)));
+        weight *= std::pow(wanted / traced, entry.count);
+        most = std::max(most, entry.count);
+      }
+      weights.add(weight);
+    }
+    CHECK(most > 3);  // to and fro under the face, several times in one meeting
+    const Estimate absorbed = absorbed_share(make(wanted), angle, Side::inside);
+    CHECK(sigmas(weights.mean(), {1.0 - absorbed.value, absorbed.error}) < kSigmas);
+  }
 }

@@ -1,0 +1,93 @@
+#pragma once
+/// What detected photons went through, as reweighting needs it (analysis/reweight.hpp).
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scintray/scene/scene.hpp"
+#include "scintray/source/photon.hpp"
+#include "scintray/tally/step.hpp"
+
+namespace scintray {
+
+/// A reflector behind a surface. One definition of a surface is one reflector, whatever media it lies
+/// between.
+struct ReflectorSite {
+  std::string surface;    ///< definition of the surface, a mixture's own
+  std::string stack;      ///< definition of the stack with the reflector: the surface, or what it is mixed of
+  std::string reflector;  ///< name of the reflector; the stack's when its reflectance is written there
+
+  bool operator==(const ReflectorSite&) const = default;
+};
+
+/// Least and most of a property over the wavelengths in use.
+struct TracedRange {
+  double least = 0.0, most = 0.0;
+};
+
+/// Which media and reflectors histories tell of, and how these were traced.
+struct HistorySubjects {
+  std::vector<std::string> media;  ///< of the regions that light can be in
+  std::vector<TracedRange> absorption_per_mm;
+  std::vector<ReflectorSite> reflectors;
+  std::vector<TracedRange> reflectance;
+  std::vector<std::string> gap_media;  ///< that also fill gaps with a thickness, where paths are not recorded
+};
+
+/// Histories of detected photons, a row each in the order of photons, row after row.
+struct PhotonHistories {
+  std::vector<std::uint32_t> point;
+  std::vector<std::uint64_t> event, photon;
+  std::vector<float> path_mm;              ///< rows x media
+  std::vector<float> absorption_depth;     ///< rows x media: integral of 1 / absorption length along the path
+  std::vector<std::uint32_t> reflections;  ///< rows x reflectors: survived
+  std::vector<float> reflection_depth;     ///< rows x reflectors: sum of -ln(reflectance)
+
+  std::size_t rows() const { return point.size(); }
+};
+
+/// The subjects of a scene, and where to write down what.
+class HistoryPlan {
+ public:
+  explicit HistoryPlan(const Scene& scene);
+
+  const HistorySubjects& subjects() const { return subjects_; }
+  /// Column of the medium of a region; kNone for what is opaque.
+  std::int32_t column_of_region(std::uint32_t region) const { return column_of_region_[region]; }
+  std::size_t column_of(const Reflector& reflector) const { return column_of_reflector_.at(&reflector); }
+
+ private:
+  void add_media(const Scene& scene);
+  void add_surface(const Scene& scene, const Surface& surface, const std::string& within);
+
+  HistorySubjects subjects_;
+  std::vector<std::int32_t> column_of_region_;
+  std::unordered_map<const Reflector*, std::size_t> column_of_reflector_;
+};
+
+/// Follows one photon after the other.
+class HistoryRecorder {
+ public:
+  HistoryRecorder(const Scene& scene, const HistoryPlan& plan);
+
+  /// Begins a photon, as it was emitted, which from now on tells of its reflections.
+  void start(Photon& emitted);
+  /// Any step, the last one included.
+  void step(const Photon& photon, const Step& step);
+  /// Keeps the photon under way: it was detected.
+  void keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon);
+
+  const PhotonHistories& kept() const { return kept_; }
+
+ private:
+  const Scene& scene_;
+  const HistoryPlan& plan_;
+  ReflectionLog log_;
+  double path_mm_ = 0.0, wavelength_nm_ = 0.0;  ///< at the end of the last step
+  std::vector<double> path_in_mm_, depth_in_;   ///< per medium
+  PhotonHistories kept_;
+};
+
+}  // namespace scintray

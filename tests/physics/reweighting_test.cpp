@@ -1,0 +1,203 @@
+// Results reweighted from their photon histories against runs retraced with the wanted optics.
+#include "scintray/io/reweigh.hpp"
+
+#include "physics/traced.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/simulate.hpp"
+#include "support/shared.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+using enum OpticalProperty;
+
+/// What is traced, and what is wanted of it.
+struct Optics {
+  double length_mm = 0.0;
+  double reflectance = 0.0;
+};
+
+/// A crystal whose free faces have the surface "side", with photons or events, on a detector.
+struct Bench {
+  std::string side;  ///< definitions; {0} is the reflectance
+  std::string source;
+  std::string medium = "absorption = {{ length = \"{0} mm\" }}";
+
+  std::string text(const Optics& optics, std::uint64_t seed) const {
+    return R"(
+title = "A crystal on a detector"
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["3 mm", "3 mm", "10 mm"]
+medium = "crystal_lso"
+surface = "side"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "flat"
+[[part]]
+name = "detector"
+box = ["3 mm", "3 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+medium = "n15"
+sensor = "perfect"
+[media.crystal_lso]
+index = { n = 1.82 }
+scattering = { none = true }
+density = { value = "7.4 g/cm3" }
+composition = { formula = "Lu2SiO5" }
+yield = { value = "10 1/keV" }
+emission = { spectrum = { wavelength = [390, 420, 480], wavelength_unit = "nm", value = [0, 1, 0] } }
+decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
+)" + fmt::format(fmt::runtime(medium), optics.length_mm) +
+           "\n[source]\nregion = { part = \"crystal\" }\n" + source +
+           fmt::format("\n[run]\nphoton_history = true\nseed = {}\n", seed) +
+           fmt::format(fmt::runtime(side), optics.reflectance) + kLibrary;
+  }
+
+  /// Runs into a file of its own.
+  std::filesystem::path run(const Optics& optics, std::uint64_t seed) const {
+    SimulationOptions options;
+    options.output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
+    options.surface_hooks.cache.clear();
+    simulate(SceneFile::from_text(text(optics, seed),
+                                  (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
+             options);
+    return options.output;
+  }
+};
+
+const std::string kPhotons = "type = \"photons\"\nwavelength = \"420 nm\"\nphotons = 60_000";
+const std::string kBare = "[surfaces.side]\nmodel = \"smooth\"\n";
+const std::string kRoughWrapped = R"([surfaces.side]
+model = "unified"
+unified = {{ sigma_alpha = "12 deg", definition = "solid_angle", facets = "projected_area", lobe = 0.8, spike = 0.1 }}
+gap = 1.0
+reflectance = {0}
+specular_share = 0.3
+)";
+const std::string kTableWrapped = R"([surfaces.side]
+base = "lso_ground_30um"
+gap = 1.0
+reflectance = {0}
+specular_share = 1.0
+tracing = {{ rays = 2000, incidence_step = "10 deg", refine = false }}
+)";
+const std::string kMixture = R"([surfaces.side]
+mixture = [{{ surface = "loose", share = 0.6 }}, {{ surface = "glued", share = 0.4 }}]
+[surfaces.loose]
+model = "smooth"
+gap = 1.0
+reflector = "film"
+[surfaces.glued]
+model = "smooth"
+gap = 1.5
+reflector = "film"
+[reflectors.film]
+reflectance = {{ value = {0} }}
+direction = {{ specular_share = 0.0 }}
+)";
+
+std::vector<ReweighedPoint> reweigh(const std::filesystem::path& path,
+                                    const std::vector<PropertyScan>& scans) {
+  return reweigh_results(path, read_results(path), scans);
+}
+
+PropertyScan length_of_crystal(double length_mm) {
+  return {absorption_length, "crystal_lso", false, {length_mm}};
+}
+
+/// Reweights one run to others, which are retraced; all must be valid and agree.
+void check_retraced(const Bench& bench, const Optics& traced, const std::vector<Optics>& wanted,
+                    const std::string& reflector, std::uint64_t seed) {
+  const auto path = bench.run(traced, seed);
+  for (const Optics& other : wanted) {
+    CAPTURE(other.length_mm);
+    CAPTURE(other.reflectance);
+    std::vector<PropertyScan> scans;
+    if (other.length_mm != traced.length_mm) scans.push_back(length_of_crystal(other.length_mm));
+    if (other.reflectance != traced.reflectance)
+      scans.push_back({reflectance, reflector, false, {other.reflectance}});
+    const ReweighedPoint point = reweigh(path, scans).at(0);
+    const RunResult retraced = read_results(bench.run(other, ++seed));
+    CAPTURE(point.light.reason);
+    CHECK(point.light.valid);
+    check_law("detected", point.light.detected_fraction, retraced.points[0].fraction(Fate::detected));
+    CHECK(sigmas(point.light.detected_fraction, point.traced_fraction) > kSigmas);  // something changed
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Law: a bare crystal reweighted to other absorption lengths is the one retraced") {
+  check_retraced({kBare, kPhotons}, {100.0, 0.0}, {{40.0, 0.0}, {400.0, 0.0}}, "", 9100);
+}
+
+TEST_CASE("Law: a rough wrapped crystal reweighted is the one retraced") {
+  check_retraced({kRoughWrapped, kPhotons}, {100.0, 0.9}, {{60.0, 0.95}, {300.0, 0.8}, {100.0, 0.5}}, "side",
+                 9200);
+}
+
+TEST_CASE("Law: a table with a reflector behind it, reweighted, is the one retraced") {
+  check_retraced({kTableWrapped, kPhotons}, {100.0, 0.9}, {{100.0, 0.96}, {200.0, 0.7}}, "side", 9300);
+}
+
+TEST_CASE("Law: a mixture whose parts share a reflector, reweighted, is the one retraced") {
+  check_retraced({kMixture, kPhotons}, {100.0, 0.9}, {{100.0, 0.95}, {60.0, 0.8}}, "film", 9400);
+}
+
+TEST_CASE("Law: an absorption against wavelength, times two, is the one retraced") {
+  Bench bench{
+      kBare, "type = \"photons\"\nwavelength = \"emission\"\nphotons = 60_000",
+      R"(absorption = {{ length = {{ wavelength = [300, 400, 450, 700], wavelength_unit = "nm", value = [{0}, {0}, 200, 400], value_unit = "mm" }} }})"};
+  const auto path = bench.run({30.0, 0.0}, 9500);
+  Bench longer = bench;
+  longer.medium =
+      R"(absorption = {{ coefficient = {{ wavelength = [300, 400, 450, 700], wavelength_unit = "nm", value = [{0}, {0}, 0.0025, 0.00125], value_unit = "1/mm" }} }})";
+  const RunResult retraced = read_results(longer.run({0.5 / 30.0, 0.0}, 9501));
+  Bench even{kBare, bench.source};
+  const RunResult constant = read_results(even.run({80.0, 0.0}, 9502));
+  const auto points = reweigh(path, {{absorption_length, "crystal_lso", true, {2.0}}});
+  CHECK(points.at(0).light.valid);
+  // Lengths are tabulated as coefficients, linear between wavelengths.
+  check_law("twice", points[0].light.detected_fraction, retraced.points[0].fraction(Fate::detected));
+  check_law("constant", reweigh(path, {length_of_crystal(80.0)}).at(0).light.detected_fraction,
+            constant.points[0].fraction(Fate::detected));
+}
+
+TEST_CASE("Law: light per event, reweighted, is that of events retraced") {
+  Bench bench{kRoughWrapped, "type = \"gamma_events\"\nenergy = \"20 keV\"\nevents = 150"};
+  const auto path = bench.run({100.0, 0.9}, 9600);
+  const auto point = reweigh(path, {length_of_crystal(200.0), {reflectance, "side", false, {0.95}}}).at(0);
+  const RunResult retraced = read_results(bench.run({200.0, 0.95}, 9601));
+  CHECK(point.light.valid);
+  REQUIRE(point.per_event);
+  check_law("per event", *point.per_event, retraced.points[0].energy.detected.mean());
+  check_law("fraction", point.light.detected_fraction, retraced.points[0].fraction(Fate::detected));
+  CHECK(sigmas(*point.per_event, *point.traced_per_event) > kSigmas);
+  // As traced, the weights are one: both means are the same number.
+  const auto same = reweigh(path, {{absorption_length, "crystal_lso", true, {1.0}}}).at(0);
+  CHECK(same.per_event->value == doctest::Approx(same.traced_per_event->value));
+  CHECK(same.per_event->error == doctest::Approx(same.traced_per_event->error).epsilon(1e-5));
+}
+
+TEST_CASE("Where reweighting would be wrong it says so") {
+  // Traced with an absorption length below the crystal's: the long ways of a clear one are missing.
+  const Bench bench{kRoughWrapped, kPhotons};
+  const auto dark = bench.run({3.0, 0.9}, 9700);
+  const auto clear = reweigh(dark, {length_of_crystal(1000.0)}).at(0);
+  CHECK_FALSE(clear.light.valid);
+  const Estimate truth = read_results(bench.run({1000.0, 0.9}, 9701)).points[0].fraction(Fate::detected);
+  CHECK(sigmas(clear.light.detected_fraction, truth) > kSigmas);  // it would have been wrong
+  const auto black = bench.run({100.0, 0.02}, 9702);
+  const auto white = reweigh(black, {{reflectance, "side", false, {0.98}}}).at(0);
+  CHECK_FALSE(white.light.valid);
+  const auto none = bench.run({100.0, 0.0}, 9703);
+  const auto some = reweigh(none, {{reflectance, "side", false, {0.5}}}).at(0);
+  CHECK_FALSE(some.light.valid);
+  check_says(some.light.reason, "reflected nothing when traced");
+}
