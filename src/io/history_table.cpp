@@ -162,8 +162,9 @@ void HistoryWriter::describe_point(h5::Group& point, const HistorySubjects& subj
       std::string("absorption and reflectance as traced, in the order of the columns of /histories"));
   put_ranges(group, "absorption_per_mm", subjects.absorption_per_mm,
              places_of(columns_.media, subjects.media), columns_.media.size());
-  put_ranges(group, "reflectance", subjects.reflectance, places_of(columns_.reflectors, subjects.reflectors),
-             columns_.reflectors.size());
+  const std::vector<std::size_t> places = places_of(columns_.reflectors, subjects.reflectors);
+  put_ranges(group, "reflectance", subjects.reflectance, places, columns_.reflectors.size());
+  put_ranges(group, "transmittance", subjects.transmittance, places, columns_.reflectors.size());
 }
 
 namespace {
@@ -212,9 +213,11 @@ std::optional<TracedOptics> HistoryReader::traced(std::size_t point) const {
   const std::string number = results_format::numbered(point);
   if (!points.has(number) || !points.open_group(number).has(kPointGroup)) return std::nullopt;
   const h5::Group group = points.open_group(number).open_group(kPointGroup);
-  TracedOptics optics{get_ranges(group, "absorption_per_mm"), get_ranges(group, "reflectance")};
+  TracedOptics optics{get_ranges(group, "absorption_per_mm"), get_ranges(group, "reflectance"),
+                      get_ranges(group, "transmittance")};
   if (optics.absorption_per_mm.size() != columns_.media.size() ||
-      optics.reflectance.size() != columns_.reflectors.size())
+      optics.reflectance.size() != columns_.reflectors.size() ||
+      optics.transmittance.size() != columns_.reflectors.size())
     throw damaged(path_, "traced_optics does not match histories");
   return optics;
 }

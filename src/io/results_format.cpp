@@ -168,6 +168,8 @@ constexpr std::array kFields = {
           "most 1 / absorption length of each medium in the wavelengths in use"},
     Field{"reflectance_least", "1", "least reflectance of each reflector in the wavelengths in use"},
     Field{"reflectance_most", "1", "most reflectance of each reflector in the wavelengths in use"},
+    Field{"transmittance_least", "1", "least transmittance of each reflector in the wavelengths in use"},
+    Field{"transmittance_most", "1", "most transmittance of each reflector in the wavelengths in use"},
 };
 
 }  // namespace

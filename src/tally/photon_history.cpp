@@ -59,6 +59,9 @@ void HistoryPlan::add_surface(const Scene& scene, const Surface& surface, const 
   if (known != subjects_.reflectors.end()) return;
   subjects_.reflectors.push_back(site);
   subjects_.reflectance.push_back(range_of(surface.reflector->reflectance, scene.low_nm, scene.high_nm));
+  const auto& through = surface.reflector->transmittance;
+  subjects_.transmittance.push_back(through ? range_of(*through, scene.low_nm, scene.high_nm)
+                                            : TracedRange{});
 }
 
 HistoryRecorder::HistoryRecorder(const Scene& scene, const HistoryPlan& plan)

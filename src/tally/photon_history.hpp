@@ -32,7 +32,7 @@ struct HistorySubjects {
   std::vector<std::string> media;  ///< of the regions that light can be in
   std::vector<TracedRange> absorption_per_mm;
   std::vector<ReflectorSite> reflectors;
-  std::vector<TracedRange> reflectance;
+  std::vector<TracedRange> reflectance, transmittance;  ///< of each reflector
   std::vector<std::string> gap_media;  ///< that also fill gaps with a thickness, where paths are not recorded
 };
 

@@ -28,8 +28,9 @@ struct MadeUp {
                         {{0.01, 0.01}, {0.0, 0.0}},
                         {{"rough", "rough", "PTFE"}, {"mixed", "glued", "paint"}},
                         {{0.8, 0.9}, {0.5, 0.5}},
+                        {{0.0, 0.0}, {0.2, 0.3}},
                         {"optical_grease"}};
-  HistorySubjects second{{"LSO"}, {{0.01, 0.02}}, {{"film", "film", "film"}}, {{0.9, 0.9}}, {}};
+  HistorySubjects second{{"LSO"}, {{0.01, 0.02}}, {{"film", "film", "film"}}, {{0.9, 0.9}}, {{0.0, 0.0}}, {}};
 
   MadeUp() {
     run.points.resize(2);
@@ -143,7 +144,10 @@ TEST_CASE("What a result cannot be reweighted for is refused in words") {
   says({reflectance, "PTFF", false, {0.9}}, "did you mean \"PTFE\"");
   says({reflectance, "bare", false, {0.9}}, "no reflectance of its own");
   says({reflectance, "PTFE", false, {1.2}}, "a reflectance is from 0 to 1");
-  says({reflectance, "PTFE", true, {1.2}}, "0.9 times 1.2 is above 1");
+  says({reflectance, "PTFE", true, {1.2}}, "a reflectance of 1.08 is above 1, of");
+  says({reflectance, "PTFE", true, {1.2}}, "give factors up to 1.11111");
+  says({reflectance, "paint", false, {0.75}}, "a reflectance of 0.75 is above 0.7, of");
+  says({reflectance, "paint", false, {0.75}}, "which lets the rest through");
   check_says(refusal(path, {}), "nothing is wanted");
   check_says(refusal(path, {{reflectance, "PTFE", false, {0.9}}, {reflectance, "rough", false, {0.8}}}),
              "ask for the reflectance of the same thing");
