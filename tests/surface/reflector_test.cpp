@@ -13,8 +13,8 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr std::uint64_t kRays = 200'000;
-const Vec3 kNormal = Vec3(0.48, -0.6, 0.64);
+constexpr std::uint64_t kSheetRays = 200'000;
+const Vec3 kSheetNormal = Vec3(0.48, -0.6, 0.64);
 
 Reflector sheet(double reflectance, double transmittance, double specular_share, double volume_index = 0.0) {
   return {"sheet", Curve::constant(reflectance), specular_share, volume_index,
@@ -30,7 +30,7 @@ Surface painted(Reflector reflector) {
 
 /// A ray at `angle` to the normal, towards the surface from `side`.
 Ray arriving(Side side, double angle, Rng& rng) {
-  const Vec3 into = side == Side::inside ? kNormal : Vec3(-kNormal);
+  const Vec3 into = side == Side::inside ? kSheetNormal : Vec3(-kSheetNormal);
   const Frame frame = Frame::about(into);
   Ray ray;
   ray.direction = std::sin(angle) * frame.x + std::cos(angle) * into;
@@ -44,10 +44,10 @@ struct Shares {
 
 Shares shares_of(const Surface& surface, Side side, double angle, const IndexPair& index) {
   Shares shares;
-  for (std::uint64_t i = 0; i < kRays; ++i) {
+  for (std::uint64_t i = 0; i < kSheetRays; ++i) {
     Rng rng(4, StreamKind::other, i);
     Ray ray = arriving(side, angle, rng);
-    const SurfaceOutcome outcome = surface.meet(ray, side, kNormal, index, 420.0, rng);
+    const SurfaceOutcome outcome = surface.meet(ray, side, kSheetNormal, index, 420.0, rng);
     ++(outcome == SurfaceOutcome::absorbed ? shares.absorbed
        : outcome == outcome_on(side)       ? shares.back
                                            : shares.through);
@@ -56,9 +56,9 @@ Shares shares_of(const Surface& surface, Side side, double angle, const IndexPai
 }
 
 void check_shares(const Shares& shares, double back, double through) {
-  CHECK(sigmas(binomial_estimate(shares.back, kRays), {back, 0.0}) < kSigmas);
-  CHECK(sigmas(binomial_estimate(shares.through, kRays), {through, 0.0}) < kSigmas);
-  CHECK(shares.back + shares.through + shares.absorbed == kRays);
+  CHECK(sigmas(binomial_estimate(shares.back, kSheetRays), {back, 0.0}) < kSigmas);
+  CHECK(sigmas(binomial_estimate(shares.through, kSheetRays), {through, 0.0}) < kSigmas);
+  CHECK(shares.back + shares.through + shares.absorbed == kSheetRays);
 }
 
 }  // namespace
@@ -77,18 +77,18 @@ TEST_CASE("What passes a film goes straight on with its polarisation; between tw
     Rng rng(5, StreamKind::other, i);
     const Ray before = arriving(Side::inside, 0.5, rng);
     Ray ray = before;
-    REQUIRE(film.meet(ray, Side::inside, kNormal, {1.3, 1.3}, 420.0, rng) == SurfaceOutcome::outside);
+    REQUIRE(film.meet(ray, Side::inside, kSheetNormal, {1.3, 1.3}, 420.0, rng) == SurfaceOutcome::outside);
     CHECK(ray.direction == before.direction);
     CHECK(ray.polarisation == before.polarisation);
 
-    REQUIRE(film.meet(ray, Side::inside, kNormal, {1.3, 1.7}, 420.0, rng) == SurfaceOutcome::outside);
-    const Vec3 across = ray.direction - ray.direction.dot(kNormal) * kNormal;
-    const Vec3 across_before = before.direction - before.direction.dot(kNormal) * kNormal;
+    REQUIRE(film.meet(ray, Side::inside, kSheetNormal, {1.3, 1.7}, 420.0, rng) == SurfaceOutcome::outside);
+    const Vec3 across = ray.direction - ray.direction.dot(kSheetNormal) * kSheetNormal;
+    const Vec3 across_before = before.direction - before.direction.dot(kSheetNormal) * kSheetNormal;
     CHECK((1.7 * across - 1.3 * across_before).norm() < 1e-12);
     CHECK(std::abs(ray.direction.norm() - 1.0) < 1e-12);
     CHECK(std::abs(ray.polarisation.dot(ray.direction)) < 1e-12);
     // The share of the polarisation across the plane of incidence is that of before.
-    const Vec3 s = before.direction.cross(kNormal).normalized();
+    const Vec3 s = before.direction.cross(kSheetNormal).normalized();
     CHECK(std::abs(ray.polarisation.dot(s) - before.polarisation.dot(s)) < 1e-12);
   }
 }
@@ -108,12 +108,12 @@ TEST_CASE("What passes a diffuser leaves by Lambert's law; from the denser side 
 
   std::array<std::uint64_t, 20> bins{};  // even in sin^2
   std::uint64_t through = 0;
-  for (std::uint64_t i = 0; i < kRays; ++i) {
+  for (std::uint64_t i = 0; i < kSheetRays; ++i) {
     Rng rng(6, StreamKind::other, i);
     Ray ray = arriving(Side::inside, 1.0, rng);
-    if (diffuser.meet(ray, Side::inside, kNormal, {1.0, 1.0}, 420.0, rng) != SurfaceOutcome::outside)
+    if (diffuser.meet(ray, Side::inside, kSheetNormal, {1.0, 1.0}, 420.0, rng) != SurfaceOutcome::outside)
       continue;
-    const double cosine = ray.direction.dot(kNormal);
+    const double cosine = ray.direction.dot(kSheetNormal);
     REQUIRE(cosine > 0.0);
     ++bins[static_cast<std::size_t>(std::min(19.0, 20.0 * (1.0 - cosine * cosine)))];
     ++through;
@@ -132,17 +132,17 @@ TEST_CASE("A leaking mirror behind a gap: the geometric series of passes through
   // Unpolarised at every facet: the ray below has a polarisation, of which the mean is taken over.
   const double r1 = fresnel(std::cos(angle), 1.82, 1.0).unpolarised();
   std::uint64_t through = 0, absorbed = 0;
-  for (std::uint64_t i = 0; i < kRays; ++i) {
+  for (std::uint64_t i = 0; i < kSheetRays; ++i) {
     Rng rng(7, StreamKind::other, i);
     Ray ray = arriving(Side::inside, angle, rng);
     ray.polarisation = Vec3::Zero();
-    const SurfaceOutcome outcome = stack.meet(ray, Side::inside, kNormal, {1.82, 1.0}, 420.0, rng);
+    const SurfaceOutcome outcome = stack.meet(ray, Side::inside, kSheetNormal, {1.82, 1.0}, 420.0, rng);
     through += outcome == SurfaceOutcome::outside;
     absorbed += outcome == SurfaceOutcome::absorbed;
   }
   const double arriving_share = (1.0 - r1) / (1.0 - 0.7 * r1);
-  CHECK(sigmas(binomial_estimate(through, kRays), {0.2 * arriving_share, 0.0}) < kSigmas);
-  CHECK(sigmas(binomial_estimate(absorbed, kRays), {0.1 * arriving_share, 0.0}) < kSigmas);
+  CHECK(sigmas(binomial_estimate(through, kSheetRays), {0.2 * arriving_share, 0.0}) < kSigmas);
+  CHECK(sigmas(binomial_estimate(absorbed, kSheetRays), {0.1 * arriving_share, 0.0}) < kSigmas);
 }
 
 TEST_CASE("A volume-like sheet lets light through its binder, refracted at both faces") {
