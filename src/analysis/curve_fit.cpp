@@ -39,8 +39,10 @@ void check(const MeasuredCurve& measured, const std::vector<FitParameter>& param
     if (options.errors_from_scatter) what += ", an error from the scatter";
     const FileLocation where =
         measured.points.empty() ? FileLocation{} : FileLocation{measured.points.front().where.file, 0, 0};
-    problems.add(where, fmt::format("{} measured points; expected {} at least, for {}", measured.points.size(), needed, what),
-                 "measure more points, or fit fewer parameters");
+    problems.add(
+        where,
+        fmt::format("{} measured points; expected {} at least, for {}", measured.points.size(), needed, what),
+        "measure more points, or fit fewer parameters");
   }
   if (!measured.has_errors && !options.errors_from_scatter)
     problems.add({}, "the measured values have no errors", "give them, or find one from the scatter");
@@ -54,17 +56,20 @@ void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen
     const FittedParameter& p = fit.parameters[j];
     const std::string& name = p.parameter.name;
     if (p.at_low || p.at_high)
-      warn(fmt::format("{} is at its {} bound, {:g}: the best value may lie beyond it, and its error is not "
-                       "that of a free parameter",
-                       name, p.at_low ? "lower" : "upper", p.at_low ? p.parameter.low : p.parameter.high));
+      warn(
+          fmt::format("{} is at its {} bound, {:g}: the best value may lie beyond it, and its error is not "
+                      "that of a free parameter",
+                      name, p.at_low ? "lower" : "upper", p.at_low ? p.parameter.low : p.parameter.high));
     if (!p.determined)
-      warn(fmt::format("the measurement does not determine {}: its error, {:.3g}, is as large as that of "
-                       "knowing nothing between {:g} and {:g}",
-                       name, p.value.error, p.parameter.low, p.parameter.high));
+      warn(
+          fmt::format("the measurement does not determine {}: its error, {:.3g}, is as large as that of "
+                      "knowing nothing between {:g} and {:g}",
+                      name, p.value.error, p.parameter.low, p.parameter.high));
     else if (p.monte_carlo_error * p.monte_carlo_error > 0.5 * p.value.error * p.value.error)
-      warn(fmt::format("more than half of the variance of {} is Monte Carlo noise: more photons would make it "
-                       "surer",
-                       name));
+      warn(
+          fmt::format("more than half of the variance of {} is Monte Carlo noise: more photons would make it "
+                      "surer",
+                      name));
     const auto k = static_cast<Index>(j);
     if (p.determined && slope_noise(k, k) > 0.1 * information(k, k))
       warn(fmt::format("the slope of the curve by {} is known to {:.0f} % only: take more photons", name,
@@ -72,17 +77,22 @@ void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen
     for (std::size_t other = 0; other < j; ++other) {
       const double correlation = fit.correlation(k, static_cast<Index>(other));
       if (std::abs(correlation) > kSameDirection)
-        warn(fmt::format("{} and {} have a correlation of {:.4f}: the measurement determines a combination of "
-                         "the two, hardly each",
-                         fit.parameters[other].parameter.name, name, correlation));
+        warn(
+            fmt::format("{} and {} have a correlation of {:.4f}: the measurement determines a combination of "
+                        "the two, hardly each",
+                        fit.parameters[other].parameter.name, name, correlation));
     }
   }
   if (fit.end == FitEnd::not_converged)
-    warn("the search did not come to rest: what is given is the best it found. Start nearer, narrow the bounds, "
-         "or take more photons");
+    warn(
+        "the search did not come to rest: what is given is the best it found. Start nearer, narrow the "
+        "bounds, "
+        "or take more photons");
   if (!errors_from_scatter && fit.goodness.degrees > 0.0 && fit.goodness.p_value < kLeastProbability)
-    warn("the fitted curve does not describe the measurement within its errors, so the errors of the parameters, "
-         "which take the model to be right, are too small");
+    warn(
+        "the fitted curve does not describe the measurement within its errors, so the errors of the "
+        "parameters, "
+        "which take the model to be right, are too small");
 }
 
 /// The scale's own error and that which it takes from the parameters.
@@ -117,8 +127,7 @@ void set_errors(CurveFit& fit, const FitSearch& search, bool errors_from_scatter
       covariance_of(slopes, information, residuals.of(fit.curve), residuals.monte_carlo_share(fit.curve));
   fit.has_errors = true;
   const Eigen::VectorXd sigma = covariance.total.diagonal().cwiseSqrt();
-  fit.correlation =
-      sigma.cwiseInverse().asDiagonal() * covariance.total * sigma.cwiseInverse().asDiagonal();
+  fit.correlation = sigma.cwiseInverse().asDiagonal() * covariance.total * sigma.cwiseInverse().asDiagonal();
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     FittedParameter& p = fit.parameters[j];
     p.value.error = sigma[static_cast<Index>(j)];
@@ -127,8 +136,7 @@ void set_errors(CurveFit& fit, const FitSearch& search, bool errors_from_scatter
     p.determined = p.value.error < (p.parameter.high - p.parameter.low) / std::sqrt(12.0);
   }
   fit.scale.error = scale_error(search, covariance, fit.curve);
-  if (slopes.common_variance > 0.0)
-    fit.variance_ratio = slopes.independent_variance / slopes.common_variance;
+  if (slopes.common_variance > 0.0) fit.variance_ratio = slopes.independent_variance / slopes.common_variance;
   add_warnings(fit, slopes.summed_noise(), information, errors_from_scatter);
 }
 

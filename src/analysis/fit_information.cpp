@@ -68,8 +68,9 @@ FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre
     for (Index j = 0; j < parameters; ++j) {
       const DifferencePair& pair = pairs[static_cast<std::size_t>(j)];
       span_squared[j] = pair.span * pair.span;
-      independent[j] = (std::pow(pair.low[point].value.error, 2) + std::pow(pair.high[point].value.error, 2)) /
-                       span_squared[j];
+      independent[j] =
+          (std::pow(pair.low[point].value.error, 2) + std::pow(pair.high[point].value.error, 2)) /
+          span_squared[j];
     }
     Eigen::MatrixXd noise = independent.asDiagonal();
     if (has_parts(pairs, point)) noise = parts_covariance(pairs, point);

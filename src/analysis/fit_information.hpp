@@ -31,10 +31,10 @@ struct FitSlopes {
 FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre,
                     const std::vector<DifferencePair>& pairs);
 
-/// Fisher information J^T J less what the noise of J adds to it (a square is never negative, so noise looks like
-/// information). The noise is taken away along the principal directions of J^T J; what then is left less than
-/// in an error of 1/sqrt(3) of the range of the parameters, twice that of knowing nothing between the bounds, is
-/// given that, so that there is an inverse.
+/// Fisher information J^T J less what the noise of J adds to it (a square is never negative, so noise looks
+/// like information). The noise is taken away along the principal directions of J^T J; what then is left less
+/// than in an error of 1/sqrt(3) of the range of the parameters, twice that of knowing nothing between the
+/// bounds, is given that, so that there is an inverse.
 /// @param range  of each parameter, high - low
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
 

@@ -30,8 +30,8 @@ constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
 constexpr int kMostEstimates = 4, kMostRounds = 4;
 /// Shorter and shorter steps that GSL may try before one that goes down is given up on.
 constexpr int kMostTrials = 6;
-/// Values that a parameter can have: so many between its bounds, that going inside and out again does not make
-/// another curve by rounding.
+/// Values that a parameter can have: so many between its bounds, that going inside and out again does not
+/// make another curve by rounding.
 constexpr double kGrid = 0x1.0p40;
 /// Errors that change less than this need no new search.
 constexpr double kSameErrors = 0.05;
@@ -184,8 +184,8 @@ void FitSearch::choose_spans() {
 
 FitSearch::Outlook FitSearch::outlook() const {
   const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
-  // The noise of the slopes, which information_of takes away, stays in: it shortens steps where they are unsure.
-  // To know as little of a parameter as its range is no knowledge, but keeps steps finite.
+  // The noise of the slopes, which information_of takes away, stays in: it shortens steps where they are
+  // unsure. To know as little of a parameter as its range is no knowledge, but keeps steps finite.
   Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
   information.diagonal() += range().array().square().inverse().matrix();
   // A parameter at a bound that would go beyond it stays.
@@ -274,14 +274,14 @@ ModelCurve FitSearch::carried_on(const std::vector<double>& to) const {
   ModelCurve curve = *curve_;
   for (std::size_t i = 0; i < curve.size(); ++i)
     for (std::size_t j = 0; j < to.size(); ++j)
-      curve[i].value.value += (pairs_[j].high[i].value.value - pairs_[j].low[i].value.value) / pairs_[j].span *
-                              (to[j] - best_[j]);
+      curve[i].value.value += (pairs_[j].high[i].value.value - pairs_[j].low[i].value.value) /
+                              pairs_[j].span * (to[j] - best_[j]);
   return curve;
 }
 
 /// Search goes where noise happens to agree with the measurement, so that the curve found is too good. New
-/// random numbers around the place know nothing of that: Newton's step by them is the estimate, and the residuals
-/// left by it are those of a fit.
+/// random numbers around the place know nothing of that: Newton's step by them is the estimate, and the
+/// residuals left by it are those of a fit.
 bool FitSearch::estimate() {
   draw_ = 1;
   known_.clear();

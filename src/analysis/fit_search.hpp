@@ -12,8 +12,8 @@ namespace scintray {
 
 class FitSearch {
  public:
-  FitSearch(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters, const CurveModel& model,
-            const CurveFitOptions& options);
+  FitSearch(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
+            const CurveModel& model, const CurveFitOptions& options);
 
   FitEnd run();
 
@@ -64,8 +64,8 @@ class FitSearch {
   std::vector<double> best_, slopes_at_;
   std::optional<ModelCurve> curve_;
   ModelCurve start_curve_;
-  std::vector<double> span_;   ///< to each side, of each parameter's differences
-  std::vector<double> wider_;  ///< factor on one standard error, for the noise
+  std::vector<double> span_;           ///< to each side, of each parameter's differences
+  std::vector<double> wider_;          ///< factor on one standard error, for the noise
   std::vector<DifferencePair> pairs_;  ///< that the slopes are of
   std::optional<FitSlopes> slopes_;
   Eigen::VectorXd scale_slopes_;

@@ -20,9 +20,8 @@ MeasuredCurve read_measured_curve(const std::filesystem::path& path) {
   MeasuredCurve curve;
   curve.has_errors = width == 3;
   for (const CsvTable::Row& row : table.rows) {
-    const MeasuredCurve::Point point{row.values[0],
-                                     {row.values[1], curve.has_errors ? row.values[2] : 0.0},
-                                     {table.file, row.line, 0}};
+    const MeasuredCurve::Point point{
+        row.values[0], {row.values[1], curve.has_errors ? row.values[2] : 0.0}, {table.file, row.line, 0}};
     if (!curve.points.empty() && point.x <= curve.points.back().x)
       problems.add(point.where,
                    fmt::format("a position of {:g} after {:g}; expected them to increase", point.x,

@@ -88,8 +88,9 @@ void add_fit_command(CLI::App& app) {
   command->add_option("-o,--output", options->output,
                       "results file (default: SCENE's name with _fit.h5, here)");
   command->add_option("--page", options->page, "HTML page (default: beside the results file)");
-  command->add_option("--photons", options->photons,
-                      "photons, or rays on a surface, at each point of a curve, in place of the scene's")
+  command
+      ->add_option("--photons", options->photons,
+                   "photons, or rays on a surface, at each point of a curve, in place of the scene's")
       ->check(CLI::PositiveNumber);
   command->add_option("--events", options->events, "events at each point, in place of the scene's")
       ->check(CLI::PositiveNumber);

@@ -70,13 +70,14 @@ void put_parameters(FitTable table, const FitRecord& record) {
   table.numbers("start", gathered(fitted, [](const auto& p) { return p.parameter.start; }), unit,
                 "where the search began");
   table.numbers("low", gathered(fitted, [](const auto& p) { return p.parameter.low; }), unit, "lower bound");
-  table.numbers("high", gathered(fitted, [](const auto& p) { return p.parameter.high; }), unit, "upper bound");
+  table.numbers("high", gathered(fitted, [](const auto& p) { return p.parameter.high; }), unit,
+                "upper bound");
   table.numbers("value", gathered(fitted, [](const auto& p) { return p.value.value; }), unit, "found");
   if (!record.fit.has_errors) return;
   table.numbers("error", gathered(fitted, [](const auto& p) { return p.value.error; }), unit,
                 "one standard error, of the measurement and of the Monte Carlo noise");
-  table.numbers("monte_carlo_error", gathered(fitted, [](const auto& p) { return p.monte_carlo_error; }), unit,
-                "what of it is Monte Carlo noise");
+  table.numbers("monte_carlo_error", gathered(fitted, [](const auto& p) { return p.monte_carlo_error; }),
+                unit, "what of it is Monte Carlo noise");
   std::vector<double> correlation;
   for (Eigen::Index i = 0; i < record.fit.correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < record.fit.correlation.cols(); ++j)
@@ -90,7 +91,8 @@ void put_curve(FitTable table, const FitRecord& record) {
   const auto& points = record.measured.points;
   table.numbers("position", gathered(points, [](const auto& p) { return p.x; }), record.spec.unit,
                 "where it was measured");
-  table.numbers("measured", gathered(points, [](const auto& p) { return p.y.value; }), "as measured", "measured");
+  table.numbers("measured", gathered(points, [](const auto& p) { return p.y.value; }), "as measured",
+                "measured");
   if (record.measured.has_errors)
     table.numbers("measured_error", gathered(points, [](const auto& p) { return p.y.error; }), "as measured",
                   "its standard error");
@@ -99,10 +101,12 @@ void put_curve(FitTable table, const FitRecord& record) {
   const std::string unit = record.spec.quantity == FitQuantity::light_per_keV ? "1/keV" : "1";
   table.numbers("start", gathered(fit.start_curve, value), unit, "simulated at the start, before any scale");
   table.numbers("start_error", gathered(fit.start_curve, error), unit, "its standard error");
-  table.numbers("fitted", gathered(fit.curve, value), unit, "simulated with what was found, before any scale");
+  table.numbers("fitted", gathered(fit.curve, value), unit,
+                "simulated with what was found, before any scale");
   table.numbers("fitted_error", gathered(fit.curve, error), unit, "its standard error");
   table.numbers("residual", fit.residual, "1", "(measured - scale fitted) / residual_error");
-  table.numbers("residual_error", fit.error, "as measured", "measurement and Monte Carlo error in quadrature");
+  table.numbers("residual_error", fit.error, "as measured",
+                "measurement and Monte Carlo error in quadrature");
 }
 
 void put_steps(FitTable table, const FitRecord& record) {
@@ -115,8 +119,9 @@ void put_steps(FitTable table, const FitRecord& record) {
   table.numbers("chi2", gathered(steps, [](const auto& s) { return s.chi2; }), "1",
                 "under the weights of the moment");
   table.numbers("scale", gathered(steps, [](const auto& s) { return s.scale; }), "1", "best for the step");
-  table.numbers("evaluations", gathered(steps, [](const auto& s) { return static_cast<double>(s.evaluations); }),
-                "1", "curves traced up to the step");
+  table.numbers("evaluations",
+                gathered(steps, [](const auto& s) { return static_cast<double>(s.evaluations); }), "1",
+                "curves traced up to the step");
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace scintray {
 
 namespace {
 
-/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons (or
-/// events) a share must have.
-constexpr std::uint64_t kParts = 20, kLeastInPart = 20;
+/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons or
+/// rays, or events of many photons, that a share must have.
+constexpr std::uint64_t kParts = 20, kLeastInPart = 20, kLeastEventsInPart = 2;
 
 /// The scene at given parameters, without a position.
 std::vector<KeySetting> settings_of(const FitSpec& fit, const std::vector<double>& parameters) {
@@ -64,7 +64,11 @@ class SceneCurve : public FitModel {
  public:
   SceneCurve(const SceneFile& file, const FitSpec& fit, const MeasuredCurve& measured,
              const FitModelSettings& settings)
-      : file_(file), fit_(fit), measured_(measured), settings_(settings), builder_(settings.run.surface_hooks) {
+      : file_(file),
+        fit_(fit),
+        measured_(measured),
+        settings_(settings),
+        builder_(settings.run.surface_hooks) {
     check();
   }
 
@@ -161,7 +165,7 @@ class SceneCurve : public FitModel {
     if (!result.complete) return std::nullopt;
     ModelPoint out;
     out.value = energy() ? all.ratio() : result.fraction(Fate::detected);
-    if (count_ < kParts * kLeastInPart) return out;
+    if (count_ < kParts * (energy() ? kLeastEventsInPart : kLeastInPart)) return out;
     for (std::uint64_t part = 0; part < kParts; ++part) {
       const std::uint64_t photons = (count_ - part + kParts - 1) / kParts;
       out.parts.push_back(energy() ? shares[part].ratio().value
@@ -227,8 +231,8 @@ class ReflectanceCurve : public FitModel {
     Library library = shipped_;
     add_definitions(library, file_.spec(0, settings_of(fit_, parameters)));
     const FitGoniometerSpec& place = *fit_.goniometer;
-    return make_bench_surface(library, maker_,
-                              {place.surface.name, place.inside.name, place.outside.name, place.wavelength_nm});
+    return make_bench_surface(
+        library, maker_, {place.surface.name, place.inside.name, place.outside.name, place.wavelength_nm});
   }
 
   void check() {
@@ -280,8 +284,8 @@ class ReflectanceCurve : public FitModel {
 
 }  // namespace
 
-std::unique_ptr<FitModel> make_fit_model(const SceneFile& file, const FitSpec& fit, const MeasuredCurve& measured,
-                                         const FitModelSettings& settings) {
+std::unique_ptr<FitModel> make_fit_model(const SceneFile& file, const FitSpec& fit,
+                                         const MeasuredCurve& measured, const FitModelSettings& settings) {
   refuse_open_sweeps(file, fit);
   if (fit.quantity == FitQuantity::reflectance)
     return std::make_unique<ReflectanceCurve>(file, fit, measured, settings);

@@ -15,8 +15,8 @@ struct FitModelSettings {
   std::function<void(std::uint64_t done, std::uint64_t of)> progress;  ///< within a curve
 };
 
-/// A curve of a scene that can be traced for any values of the fitted keys. Every curve of one draw has the same
-/// seed, and each point streams of its own, so that photons are the same ones for all values.
+/// A curve of a scene that can be traced for any values of the fitted keys. Every curve of one draw has the
+/// same seed, and each point streams of its own, so that photons are the same ones for all values.
 class FitModel {
  public:
   virtual ~FitModel() = default;
@@ -33,7 +33,7 @@ class FitModel {
 /// Checks the scene with every position, and with every parameter at its bounds.
 /// @throws InputError with what is wrong: a source that has no such quantity, a sweep that leaves open which
 ///         scene is meant, options that the source does not have, and what the scene itself refuses
-std::unique_ptr<FitModel> make_fit_model(const SceneFile& file, const FitSpec& fit, const MeasuredCurve& measured,
-                                         const FitModelSettings& settings);
+std::unique_ptr<FitModel> make_fit_model(const SceneFile& file, const FitSpec& fit,
+                                         const MeasuredCurve& measured, const FitModelSettings& settings);
 
 }  // namespace scintray

@@ -13,7 +13,8 @@ struct SceneFitOptions {
 
 /// Reads the measurement, and searches. What was found is in the record also after an early stop, and then
 /// marked by FitEnd::stopped.
-/// @throws InputError when the scene has no [fit], and what read_measured_curve, make_fit_model and fit_curve do
+/// @throws InputError when the scene has no [fit], and what read_measured_curve, make_fit_model and fit_curve
+/// do
 FitRecord fit_scene(const SceneFile& file, const SceneFitOptions& options);
 
 }  // namespace scintray

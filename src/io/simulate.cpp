@@ -215,7 +215,8 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
         writer.append_events(renumbering.applied(events));
       };
     }
-    PointResult traced = run_point(built.scene, *source, plan, run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
+    PointResult traced = run_point(built.scene, *source, plan,
+                                   run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
     traced.parameters = file.parameters(point);
     renumbering.apply(traced);
     done_before = progress.done;

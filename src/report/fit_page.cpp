@@ -63,7 +63,8 @@ std::string curve_figure(const FitRecord& record) {
   plot.x_label = position_label(record);
   plot.y_label = record.spec.free_scale ? "measured units" : quantity_words(record.spec.quantity);
   plot.legend_above = true;
-  plot.series = {measured, simulated_series("fitted", record, record.fit.curve, record.fit.scale.value), start};
+  plot.series = {measured, simulated_series("fitted", record, record.fit.curve, record.fit.scale.value),
+                 start};
   return "<figure><figcaption>Measured and simulated <span>one standard error" +
          std::string(record.spec.free_scale ? "; each simulated curve at the scale that fits it best" : "") +
          "</span></figcaption>\n" + svg_plot(plot) + "</figure>\n";
@@ -131,15 +132,17 @@ std::string fit_page(const FitRecord& record) {
   for (const std::string& warning : fit.warnings) found += paragraph("Warning: " + warning + ".");
   for (const std::string& note : record.notes) found += paragraph("Note: " + note + ".");
   std::string body = section("What was found", found);
-  body += section("Curves", curve_figure(record) + residual_figure(record) + fit_table_html(fit_curve_table(record), 0));
+  body += section(
+      "Curves", curve_figure(record) + residual_figure(record) + fit_table_html(fit_curve_table(record), 0));
   body += section("Steps of the search", fit_table_html(step_table(record), 0));
   body += section(
       "How to read this",
       paragraph(keys_of(record)) +
-          paragraph("Errors are one standard error, from the Fisher information of the residuals. They hold the "
-                    "measurement's errors, the Monte Carlo errors of the fitted curve, and what the noise of the "
-                    "curve's slopes does to the place of the minimum; the part that is Monte Carlo noise is given "
-                    "beside them and falls with more photons. They do not hold what the scene itself has wrong.") +
+          paragraph(
+              "Errors are one standard error, from the Fisher information of the residuals. They hold the "
+              "measurement's errors, the Monte Carlo errors of the fitted curve, and what the noise of the "
+              "curve's slopes does to the place of the minimum; the part that is Monte Carlo noise is given "
+              "beside them and falls with more photons. They do not hold what the scene itself has wrong.") +
           paragraph(fit_facts(record) + "."));
   const std::string title = record.title.empty() ? "Fit" : "Fit: " + record.title;
   return html_page(title,

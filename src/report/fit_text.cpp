@@ -60,8 +60,8 @@ TextTable fit_curve_table(const FitRecord& record) {
   TextTable table{{with_unit("at", record.spec.unit), "measured", "start", "fitted", "residual / error"}};
   for (std::size_t i = 0; i < fit.curve.size(); ++i)
     table.push_back({compact(record.measured.points[i].x, 6), measured_text(record.measured.points[i].y),
-                     scaled_text(fit.start_curve[i], fit.start_scale), scaled_text(fit.curve[i], fit.scale.value),
-                     fixed(fit.residual[i], 2)});
+                     scaled_text(fit.start_curve[i], fit.start_scale),
+                     scaled_text(fit.curve[i], fit.scale.value), fixed(fit.residual[i], 2)});
   return table;
 }
 
@@ -76,9 +76,10 @@ std::string fit_facts(const FitRecord& record) {
 std::string fit_goodness_text(const FitRecord& record) {
   const CurveFit& fit = record.fit;
   if (fit.common_error)
-    return fmt::format("{} degrees of freedom; the error of a measured value, found from the scatter, is {:.3g}, so "
-                       "chi-square says nothing",
-                       fit.goodness.degrees, *fit.common_error);
+    return fmt::format(
+        "{} degrees of freedom; the error of a measured value, found from the scatter, is {:.3g}, so "
+        "chi-square says nothing",
+        fit.goodness.degrees, *fit.common_error);
   if (!(fit.goodness.degrees > 0.0)) return "no degrees of freedom are left to judge the fit by";
   return fmt::format("chi-square {:.2f} for {} degrees of freedom, p = {:.3g}", fit.goodness.chi2,
                      fit.goodness.degrees, fit.goodness.p_value);
@@ -86,9 +87,10 @@ std::string fit_goodness_text(const FitRecord& record) {
 
 std::string fit_noise_text(const FitRecord& record) {
   if (!record.fit.has_errors || record.fit.variance_ratio == 1.0) return "";
-  return fmt::format("common random numbers: differences of curves have {:.2g} times less variance than with "
-                     "independent ones",
-                     record.fit.variance_ratio);
+  return fmt::format(
+      "common random numbers: differences of curves have {:.2g} times less variance than with "
+      "independent ones",
+      record.fit.variance_ratio);
 }
 
 std::string fit_end_text(const FitRecord& record) {
@@ -97,8 +99,8 @@ std::string fit_end_text(const FitRecord& record) {
                     : fit.end == FitEnd::stopped ? "stopped by the user: the best so far"
                                                  : "not converged";
   const std::size_t curves = fit.steps.empty() ? 0 : fit.steps.back().evaluations;
-  return fmt::format("{} after {} steps and {} curves, {:.3g} s", how, fit.steps.empty() ? 0 : fit.steps.size() - 1,
-                     curves, record.wall_seconds);
+  return fmt::format("{} after {} steps and {} curves, {:.3g} s", how,
+                     fit.steps.empty() ? 0 : fit.steps.size() - 1, curves, record.wall_seconds);
 }
 
 std::string fit_step_text(const CurveFitStep& step, const std::vector<FitParameterSpec>& parameters,
@@ -106,7 +108,8 @@ std::string fit_step_text(const CurveFitStep& step, const std::vector<FitParamet
   std::string text = step.number == 0 ? "start " : fmt::format("step {}", step.number);
   text += fmt::format("  chi-square {:>9.2f}", step.chi2);
   for (std::size_t j = 0; j < parameters.size(); ++j)
-    text += fmt::format(", {} {}", parameters[j].label, with_unit(compact(step.parameters[j], 5), parameters[j].unit));
+    text += fmt::format(", {} {}", parameters[j].label,
+                        with_unit(compact(step.parameters[j], 5), parameters[j].unit));
   if (free_scale) text += fmt::format(", scale {:.5g}", step.scale);
   return text;
 }

@@ -34,8 +34,8 @@ struct FitParameterSpec {
 struct FitGoniometerSpec {
   NameRef surface, inside, outside;
   double wavelength_nm = 0.0;
-  bool from_inside = true;    ///< where the light comes from
-  std::uint64_t rays = 0;     ///< at each angle
+  bool from_inside = true;  ///< where the light comes from
+  std::uint64_t rays = 0;   ///< at each angle
 };
 
 struct FitSpec {

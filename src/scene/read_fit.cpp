@@ -84,7 +84,8 @@ KeyPath read_path(const TomlTable& table, const std::string& key, const std::str
   path.key = table.string(key);
   path.where = table.where(key);
   path.role = role;
-  table.expect(key, may_be_set(path.key), "\"" + path.key + "\" says nothing of the scene and cannot be set here",
+  table.expect(key, may_be_set(path.key),
+               "\"" + path.key + "\" says nothing of the scene and cannot be set here",
                "name a key of the scene, as surfaces.ground.unified.sigma_alpha");
   return path;
 }
@@ -101,11 +102,12 @@ FitParameterSpec read_parameter(const TomlTable& table) {
   parameter.low = read_limit(table, "low", unit);
   parameter.high = read_limit(table, "high", unit);
   if (table.good("start") && table.good("low") && table.good("high")) {
-    table.expect("high", parameter.low < parameter.high,
-                 fmt::format("\"high\" is {:g}, which is not above \"low\" at {:g}", parameter.high, parameter.low));
+    table.expect(
+        "high", parameter.low < parameter.high,
+        fmt::format("\"high\" is {:g}, which is not above \"low\" at {:g}", parameter.high, parameter.low));
     table.expect("start", parameter.low < parameter.start && parameter.start < parameter.high,
-                 fmt::format("the start, {:g}, does not lie between low, {:g}, and high, {:g}", parameter.start,
-                             parameter.low, parameter.high),
+                 fmt::format("the start, {:g}, does not lie between low, {:g}, and high, {:g}",
+                             parameter.start, parameter.low, parameter.high),
                  "start within the bounds, not on them: the search begins there");
   }
   return parameter;
@@ -161,11 +163,12 @@ void read_place(const TomlTable& table, FitSpec& fit) {
                  fmt::format("remove it; {} says where the measurement was made",
                              reflectance ? "[fit.goniometer]" : "\"at\""));
   if (!table.has(wanted)) {
-    table.report(wanted, fmt::format("[fit] has no \"{}\", which a fit of {} needs", wanted,
-                                     quantity_name(fit.quantity)),
-                 reflectance ? "add [fit.goniometer] with surface, inside, outside, wavelength and side"
-                             : "name the key that takes the measured positions, as "
-                               "at = \"source.region.slab_z.center\"");
+    table.report(
+        wanted,
+        fmt::format("[fit] has no \"{}\", which a fit of {} needs", wanted, quantity_name(fit.quantity)),
+        reflectance ? "add [fit.goniometer] with surface, inside, outside, wavelength and side"
+                    : "name the key that takes the measured positions, as "
+                      "at = \"source.region.slab_z.center\"");
     return;
   }
   if (reflectance)
@@ -180,7 +183,8 @@ void check_unit(const TomlTable& table, const FitSpec& fit) {
   try {
     unit_factor(fit.unit, Dimension::angle);
   } catch (const InputError& error) {
-    table.expect("unit", false, error.problems().front().what, "a reflectance is against an angle, as unit = \"deg\"");
+    table.expect("unit", false, error.problems().front().what,
+                 "a reflectance is against an angle, as unit = \"deg\"");
   }
 }
 
@@ -214,7 +218,8 @@ std::optional<FitSpec> read_fit(const TomlTable& scene) {
   check_unit(*table, fit);
   read_place(*table, fit);
   fit.free_scale = table->choice("scale", {"fixed", "free"}) == "free";
-  fit.errors_from_scatter = table->choice("errors", {"measured", "from_scatter"}, "measured") == "from_scatter";
+  fit.errors_from_scatter =
+      table->choice("errors", {"measured", "from_scatter"}, "measured") == "from_scatter";
   fit.parameters = read_parameters(*table);
   return fit;
 }

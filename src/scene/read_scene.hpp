@@ -20,8 +20,8 @@ std::vector<std::string> scene_keys(const TomlNodePtr& document);
 /// A scene file with its sweeps; reads one scene per point.
 class SceneFile {
  public:
-  /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws InputError with every
-  /// distinct problem.
+  /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws
+  /// InputError with every distinct problem.
   static SceneFile load(const std::filesystem::path& path);
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
   static SceneFile from_text(const std::string& text, const std::string& file);

@@ -129,10 +129,10 @@ std::vector<ShareSpec> read_mixture(const TomlTable& table, const SurfaceLookup&
     if (!given) rest = i;
   }
   const bool whole = rest ? sum <= 1.0 + kRounding : std::abs(sum - 1.0) <= kRounding;
-  table.expect("mixture", parts.empty() || whole,
-               "the shares of a mixture sum to " + std::to_string(sum) + "; expected " +
-                   (rest ? "at most 1" : "1"),
-               "one surface without a share takes what the others leave");
+  table.expect(
+      "mixture", parts.empty() || whole,
+      "the shares of a mixture sum to " + std::to_string(sum) + "; expected " + (rest ? "at most 1" : "1"),
+      "one surface without a share takes what the others leave");
   if (rest) shares[*rest] = std::max(0.0, 1.0 - sum);
   std::vector<ShareSpec> mixture;
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -11,10 +11,10 @@ namespace scintray {
 
 /// A key of a scene file that something sets, and those that are set with it.
 struct KeyPath {
-  std::string key;                  ///< dotted path, "source.region.slab_z.center"
-  std::vector<std::string> also;    ///< keys that take the same value
-  FileLocation where;               ///< of the text that names the key
-  std::string role = "swept key";   ///< for messages: what the key is there
+  std::string key;                 ///< dotted path, "source.region.slab_z.center"
+  std::vector<std::string> also;   ///< keys that take the same value
+  FileLocation where;              ///< of the text that names the key
+  std::string role = "swept key";  ///< for messages: what the key is there
 };
 
 /// [[sweep]]: the values a key takes, one after the other.

@@ -50,7 +50,8 @@ class ToyDetector {
   }
 
   CurveModel model() const {
-    return [this](const std::vector<double>& parameters, std::uint64_t draw) { return trace(parameters, draw); };
+    return
+        [this](const std::vector<double>& parameters, std::uint64_t draw) { return trace(parameters, draw); };
   }
 
  private:
@@ -110,8 +111,8 @@ TEST_CASE("Errors of fitted parameters are right: pulls of 300 toys have mean 0 
 }
 
 TEST_CASE("Errors and chi-square are right, too, where photons soon go other ways") {
-  // Each photon's number turns with the parameter at a speed of its own, once round in some errors: noise that
-  // common random numbers hardly lessen, and that a search would follow to a curve that is too good.
+  // Each photon's number turns with the parameter at a speed of its own, once round in some errors: noise
+  // that common random numbers hardly lessen, and that a search would follow to a curve that is too good.
   const std::vector<double> truth{0.6, 12.0};
   constexpr std::size_t kPhotons = 2000;
   Pulls amplitude, length;
@@ -178,7 +179,8 @@ TEST_CASE("A free scale is fitted along, in any unit of the measured light") {
 
 TEST_CASE("Common random numbers lessen the noise of differences, and the fit says by how much") {
   const ToyDetector detector(kDepths, 2000, 1, falling);
-  const CurveFit fit = fit_curve(measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 1), kFalling, detector.model());
+  const CurveFit fit =
+      fit_curve(measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 1), kFalling, detector.model());
   // Here a photon changes its fate with the probability |difference of the law|, so that the variance of a
   // difference is that over N, against 2 p (1 - p) / N: over one error to each side a factor of ten or so.
   CHECK(fit.variance_ratio > 3.0);
@@ -225,9 +227,8 @@ TEST_CASE("What the data do not determine is said") {
   };
   const MeasuredCurve measured = measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 5);
 
-  const ToyDetector blind(kDepths, 2000, 5, [](double x, const std::vector<double>& p) {
-    return p[0] * std::exp(-x / 12.0);
-  });
+  const ToyDetector blind(kDepths, 2000, 5,
+                          [](double x, const std::vector<double>& p) { return p[0] * std::exp(-x / 12.0); });
   const CurveFit unseen = fit_curve(measured, kFalling, blind.model());
   REQUIRE(unseen.has_errors);
   CHECK(unseen.parameters[0].determined);
@@ -238,8 +239,8 @@ TEST_CASE("What the data do not determine is said") {
   const ToyDetector product(kDepths, 20000, 5, [](double x, const std::vector<double>& p) {
     return p[0] * p[1] * std::exp(-x / 12.0);
   });
-  const CurveFit twins = fit_curve(
-      measured, {{"one", 0.7, 0.3, 1.0}, {"other", 0.8, 0.3, 1.0}}, product.model());
+  const CurveFit twins =
+      fit_curve(measured, {{"one", 0.7, 0.3, 1.0}, {"other", 0.8, 0.3, 1.0}}, product.model());
   REQUIRE(twins.has_errors);
   CHECK(twins.correlation(0, 1) < -0.98);
   check_says(warnings_of(twins), "determines a combination");
@@ -303,7 +304,8 @@ TEST_CASE("A fit that is stopped keeps the best so far") {
   const ToyDetector detector(kDepths, 2000, 9, falling);
   const MeasuredCurve measured = measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 9);
   std::size_t left = 7;
-  const CurveModel stopping = [&](const std::vector<double>& p, std::uint64_t draw) -> std::optional<ModelCurve> {
+  const CurveModel stopping = [&](const std::vector<double>& p,
+                                  std::uint64_t draw) -> std::optional<ModelCurve> {
     if (left == 0) return std::nullopt;
     --left;
     return detector.trace(p, draw);

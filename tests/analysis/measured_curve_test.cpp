@@ -25,7 +25,8 @@ std::string curve_refusal(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a measured curve is read with or without heading, comments and errors") {
-  const MeasuredCurve full = read_measured_curve(curve_file("# a bar\ndepth,light,error\n2,310,5\n6,280,4\n"));
+  const MeasuredCurve full =
+      read_measured_curve(curve_file("# a bar\ndepth,light,error\n2,310,5\n6,280,4\n"));
   REQUIRE(full.points.size() == 2);
   CHECK(full.has_errors);
   CHECK(full.points[1].x == 6.0);

@@ -62,7 +62,8 @@ class DarkCrystal {
     arguments.insert(arguments.begin(), {"fit", "scene.toml"});
     return run_program(arguments, folder);
   }
-  void refuses(const std::string& what, const std::string& hint, const std::vector<std::string>& arguments = {}) const {
+  void refuses(const std::string& what, const std::string& hint,
+               const std::vector<std::string>& arguments = {}) const {
     const Ended ended = fit(arguments);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == cli::kBadInput);
@@ -85,9 +86,9 @@ TEST_CASE("A fit prints its steps and what it found, and writes a file and a pag
   CAPTURE(ended.output);
   REQUIRE(ended.exit_code == cli::kSuccess);
   for (const char* words :
-       {"start   chi-square", "step 1", "5 points, 1 parameter, a free scale, 1000 photons at each point", "seed 3",
-        "absorption length   8 mm", "2 to 50 mm", "chi-square", "degrees of freedom", "residual / error",
-        "results  scene_fit.h5", "report   scene_fit.html"})
+       {"start   chi-square", "step 1", "5 points, 1 parameter, a free scale, 1000 photons at each point",
+        "seed 3", "absorption length   8 mm", "2 to 50 mm", "chi-square", "degrees of freedom",
+        "residual / error", "results  scene_fit.h5", "report   scene_fit.html"})
     CHECK(contains(ended.output, words));
   const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
   const h5::Group root = file.root();
@@ -112,8 +113,9 @@ TEST_CASE("A fit prints its steps and what it found, and writes a file and a pag
 
   const Ended again = crystal.fit({"--seed", "3", "--threads", "1", "--quiet"});
   CHECK_FALSE(contains(again.output, "step 1"));
-  CHECK(h5::File::open(crystal.folder / "scene_fit.h5").root().open_group("parameters").read<double>("value") ==
-        parameters.read<double>("value"));
+  CHECK(
+      h5::File::open(crystal.folder / "scene_fit.h5").root().open_group("parameters").read<double>("value") ==
+      parameters.read<double>("value"));
 }
 
 TEST_CASE("A measurement that cannot be fitted is refused with its place and what to do") {
@@ -122,7 +124,8 @@ TEST_CASE("A measurement that cannot be fitted is refused with its place and wha
   crystal.refuses("light.csv:2: error: a position of 1 after 5; expected them to increase", "sort the rows");
   crystal.refuses("light.csv:3: error: an error of -8; expected more than 0", "standard deviation");
   crystal.write(kDarkFit, "1,310,9\n");
-  crystal.refuses("1 measured points; expected 2 at least, for 1 parameters, a scale", "fit fewer parameters");
+  crystal.refuses("1 measured points; expected 2 at least, for 1 parameters, a scale",
+                  "fit fewer parameters");
   crystal.write(kDarkFit, "1,310\n3,240\n5,180\n");
   crystal.refuses("has no errors", "errors = \"from_scatter\"");
   crystal.write(changed(kDarkFit, "scale = ", "errors = \"from_scatter\"\nscale = "), kRows);

@@ -108,23 +108,29 @@ TEST_CASE("Fitted keys and positions take their values in the scene, over those 
 }
 
 TEST_CASE("Mistakes in [fit] are named with their place and how to mend them") {
-  const auto with = [](const std::string& old, const std::string& by) { return replaced(kFitTable, old, by); };
+  const auto with = [](const std::string& old, const std::string& by) {
+    return replaced(kFitTable, old, by);
+  };
   check_fit_problem(with("\"light.csv\"", "@@\"dark.csv\""), "dark.csv", "");
   check_fit_problem(with("\"detected_fraction\"", "@@\"brightness\""), "brightness", "in quotes");
   check_fit_problem(with("scale = \"free\"", "scale = @@\"loose\""), "loose", "in quotes");
-  check_fit_problem(with("start = \"8 deg\"", "start = @@\"1 deg\""), "does not lie between low, 2, and high, 40",
-                    "start within the bounds");
-  check_fit_problem(with("low = \"2 deg\"", "low = @@\"0.03 rad\""), "\"low\" is in \"rad\", but \"start\" is in \"deg\"",
-                    "in one unit");
-  check_fit_problem(with("high = \"40 deg\"", "high = @@true"), "is not a number with its unit", "as \"12 deg\"");
-  check_fit_problem(with("\"surfaces.ground.unified.sigma_alpha\"", "@@\"surfaces.ground.unify.sigma_alpha\""),
-                    "the fitted key \"surfaces.ground.unify.sigma_alpha\" leads nowhere", "model, unified");
-  check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.wrapped.mixture.grund.share\""),
-                    "has no \"grund\"", "did you mean \"ground\"");
+  check_fit_problem(with("start = \"8 deg\"", "start = @@\"1 deg\""),
+                    "does not lie between low, 2, and high, 40", "start within the bounds");
+  check_fit_problem(with("low = \"2 deg\"", "low = @@\"0.03 rad\""),
+                    "\"low\" is in \"rad\", but \"start\" is in \"deg\"", "in one unit");
+  check_fit_problem(with("high = \"40 deg\"", "high = @@true"), "is not a number with its unit",
+                    "as \"12 deg\"");
+  check_fit_problem(
+      with("\"surfaces.ground.unified.sigma_alpha\"", "@@\"surfaces.ground.unify.sigma_alpha\""),
+      "the fitted key \"surfaces.ground.unify.sigma_alpha\" leads nowhere", "model, unified");
+  check_fit_problem(
+      with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.wrapped.mixture.grund.share\""),
+      "has no \"grund\"", "did you mean \"ground\"");
   check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"fit.unit\""), "cannot be set here",
                     "name a key of the scene");
-  check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.ground.unified.sigma_alpha\""),
-                    "is fitted twice", "one [[fit.parameter]]");
+  check_fit_problem(
+      with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.ground.unified.sigma_alpha\""),
+      "is fitted twice", "one [[fit.parameter]]");
   const auto complaint = [&](const std::string& fit) { return complaint_of([&] { fit_file(fit); }); };
   check_says(complaint(with("at = \"source.region.slab_z.center\"\n", "")),
              "[fit] has no \"at\", which a fit of detected_fraction needs");
