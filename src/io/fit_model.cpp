@@ -110,12 +110,8 @@ class SceneCurve : public FitModel {
 
   void check() {
     const std::vector<double> starts = starts_of(fit_);
-    for (std::size_t i = 0; i < measured_.points.size(); ++i) {
-      const SceneSpec spec = spec_at(starts, i);
-      check_quantity(spec);
-      if (i > 0 && only_source_moves()) continue;
-      builder_.build(spec);
-    }
+    check_quantity(spec_at(starts, 0));
+    for (std::size_t i = 0; i < measured_.points.size(); ++i) check_position(starts, i);
     for (const std::vector<double>& corner : corners_of(fit_)) {
       const SceneSpec spec = spec_at(corner, 0);
       const BuiltScene built = builder_.build(spec);
@@ -124,6 +120,22 @@ class SceneCurve : public FitModel {
       seed_ = spec.run.seed;
       for (const std::string& note : built.warnings)
         if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+    }
+  }
+
+  /// Light may start nowhere at a measured position: what is wrong then says which it is.
+  void check_position(const std::vector<double>& starts, std::size_t point) {
+    const MeasuredCurve::Point& measured = measured_.points[point];
+    try {
+      const SceneSpec spec = spec_at(starts, point);
+      if (!checked_ || !only_source_moves()) checked_ = builder_.build(spec);
+      make_light_source(spec, checked_->scene);
+    } catch (const InputError& error) {
+      std::vector<Problem> problems = error.problems();
+      for (Problem& problem : problems)
+        problem.what = fmt::format("at the measured position {:g} {} ({}): {}", measured.x, fit_.unit,
+                                   measured.where.text(), problem.what);
+      throw InputError(std::move(problems));
     }
   }
 
@@ -186,6 +198,7 @@ class SceneCurve : public FitModel {
   const MeasuredCurve& measured_;
   const FitModelSettings& settings_;
   SceneBuilder builder_;
+  std::optional<BuiltScene> checked_;  ///< of the last position that was checked
   std::uint64_t count_ = 0, seed_ = 0;
   std::vector<std::string> notes_;
 };
