@@ -217,6 +217,7 @@ void FitSearch::tell() {
   step.parameters = best_;
   step.scale = residuals_.scale(*curve_);
   step.chi2 = residuals_.chi2(*curve_);
+  step.estimate = draw_ > 0;
   steps_.push_back(step);
   if (options_.progress) options_.progress(steps_.back());
 }

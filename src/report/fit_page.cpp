@@ -116,7 +116,8 @@ TextTable step_table(const FitRecord& record) {
     table.front().push_back(p.unit.empty() ? p.label : p.label + " (" + p.unit + ")");
   if (record.spec.free_scale) table.front().emplace_back("scale");
   for (const CurveFitStep& step : record.fit.steps) {
-    table.push_back({std::to_string(step.number), std::to_string(step.evaluations), fixed(step.chi2, 2)});
+    table.push_back({std::to_string(step.number) + (step.estimate ? "*" : ""),
+                     std::to_string(step.evaluations), fixed(step.chi2, 2)});
     for (const double value : step.parameters) table.back().push_back(compact(value, 6));
     if (record.spec.free_scale) table.back().push_back(compact(step.scale, 6));
   }
@@ -144,7 +145,12 @@ std::string fit_page(const FitRecord& record) {
   std::string body = section("What was found", found);
   body += section(
       "Curves", curve_figure(record) + residual_figure(record) + fit_table_html(fit_curve_table(record), 0));
-  body += section("Steps of the search", fit_table_html(step_table(record), 0));
+  body += section(
+      "Steps of the search",
+      fit_table_html(step_table(record), 0) +
+          paragraph("* with other random numbers than the search's: the estimate. A search ends where "
+                    "the noise of the simulation agrees with the measurement, so that its chi-square "
+                    "is too small."));
   body += section(
       "How to read this",
       paragraph(keys_of(record)) +

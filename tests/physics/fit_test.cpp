@@ -258,3 +258,19 @@ TEST_CASE("Common random numbers lessen the noise of differences of curves") {
   INFO("variance of differences, independent over common: " << independent / common);
   CHECK(std::log(independent / common) > kSigmas * error);
 }
+
+TEST_CASE("The made-up measurement that is shipped is what its scene gives with the seed it names") {
+  const SceneFile file = SceneFile::load(source_file("scenes/fit_depth_curve.toml"));
+  SimulationOptions options;
+  options.output = scratch_folder("fit_shipped") / "run.h5";
+  options.seed = 7;
+  const RunResult run = simulate(file, options);
+  const MeasuredCurve measured = read_measured_curve(source_file("scenes/fit_depth_curve.csv"));
+  REQUIRE(run.points.size() == measured.points.size());
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
+    const Estimate light = run.points[i].fraction(Fate::detected);
+    // Five decimals are printed.
+    CHECK(std::abs(light.value - measured.points[i].y.value) < 0.51e-5);
+    CHECK(std::abs(light.error - measured.points[i].y.error) < 0.51e-5);
+  }
+}
