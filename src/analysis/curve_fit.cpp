@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-/// A parameter this near to a bound, as a share of its range, is at it.
-constexpr double kAtBound = 1e-3;
 /// Correlations above this leave only a combination of two parameters known.
 constexpr double kSameDirection = 0.98;
 constexpr double kLeastProbability = 1e-3;

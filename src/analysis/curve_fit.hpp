@@ -29,6 +29,7 @@ struct CurveFitStep {
   std::size_t evaluations = 0;  ///< curves traced so far
   std::vector<double> parameters;
   double scale = 1.0, chi2 = 0.0;
+  bool estimate = false;  ///< by new random numbers, with which chi-square begins anew
 };
 
 struct CurveFitOptions {

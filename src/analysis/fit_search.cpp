@@ -189,7 +189,6 @@ FitSearch::Outlook FitSearch::outlook() const {
   Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
   information.diagonal() += range().array().square().inverse().matrix();
   // A parameter at a bound that would go beyond it stays.
-  constexpr double kAtBound = 1e-3;
   std::vector<Index> free;
   for (std::size_t j = 0; j < best_.size(); ++j) {
     const FitParameter& p = parameters_[j];
@@ -217,6 +216,7 @@ void FitSearch::tell() {
   step.parameters = best_;
   step.scale = residuals_.scale(*curve_);
   step.chi2 = residuals_.chi2(*curve_);
+  step.estimate = draw_ > 0;
   steps_.push_back(step);
   if (options_.progress) options_.progress(steps_.back());
 }

@@ -10,6 +10,9 @@
 
 namespace scintray {
 
+/// A parameter this near to a bound, as a share of its range, is at it.
+inline constexpr double kAtBound = 1e-3;
+
 class FitSearch {
  public:
   FitSearch(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,

@@ -122,6 +122,8 @@ void put_steps(FitTable table, const FitRecord& record) {
   table.numbers("evaluations",
                 gathered(steps, [](const auto& s) { return static_cast<double>(s.evaluations); }), "1",
                 "curves traced up to the step");
+  table.numbers("estimate", gathered(steps, [](const auto& s) { return s.estimate ? 1.0 : 0.0; }), "1",
+                "1: with other random numbers than the search's");
 }
 
 }  // namespace

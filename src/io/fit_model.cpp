@@ -15,9 +15,9 @@ namespace scintray {
 
 namespace {
 
-/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons (or
-/// events) a share must have.
-constexpr std::uint64_t kParts = 20, kLeastInPart = 20;
+/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons or
+/// rays, or events of many photons, that a share must have.
+constexpr std::uint64_t kFitParts = 20, kLeastInPart = 20, kLeastEventsInPart = 2;
 
 /// The scene at given parameters, without a position.
 std::vector<KeySetting> settings_of(const FitSpec& fit, const std::vector<double>& parameters) {
@@ -110,12 +110,8 @@ class SceneCurve : public FitModel {
 
   void check() {
     const std::vector<double> starts = starts_of(fit_);
-    for (std::size_t i = 0; i < measured_.points.size(); ++i) {
-      const SceneSpec spec = spec_at(starts, i);
-      check_quantity(spec);
-      if (i > 0 && only_source_moves()) continue;
-      builder_.build(spec);
-    }
+    check_quantity(spec_at(starts, 0));
+    for (std::size_t i = 0; i < measured_.points.size(); ++i) check_position(starts, i);
     for (const std::vector<double>& corner : corners_of(fit_)) {
       const SceneSpec spec = spec_at(corner, 0);
       const BuiltScene built = builder_.build(spec);
@@ -124,6 +120,22 @@ class SceneCurve : public FitModel {
       seed_ = spec.run.seed;
       for (const std::string& note : built.warnings)
         if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+    }
+  }
+
+  /// Light may start nowhere at a measured position: what is wrong then says which it is.
+  void check_position(const std::vector<double>& starts, std::size_t point) {
+    const MeasuredCurve::Point& measured = measured_.points[point];
+    try {
+      const SceneSpec spec = spec_at(starts, point);
+      if (!checked_ || !only_source_moves()) checked_ = builder_.build(spec);
+      make_light_source(spec, checked_->scene);
+    } catch (const InputError& error) {
+      std::vector<Problem> problems = error.problems();
+      for (Problem& problem : problems)
+        problem.what = fmt::format("at the measured position {:g} {} ({}): {}", measured.x, fit_.unit,
+                                   measured.where.text(), problem.what);
+      throw InputError(std::move(problems));
     }
   }
 
@@ -146,18 +158,18 @@ class SceneCurve : public FitModel {
     hooks.progress = [&](std::uint64_t done) {
       if (settings_.progress) settings_.progress(point * count_ + done, measured_.points.size() * count_);
     };
-    std::vector<std::uint64_t> detected(kParts, 0);
+    std::vector<std::uint64_t> detected(kFitParts, 0);
     hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
       for (const DetectedPhoton& photon : photons)
-        ++detected[(photon.event * spec.source.photons_per_event + photon.photon) % kParts];
+        ++detected[(photon.event * spec.source.photons_per_event + photon.photon) % kFitParts];
     };
     RatioOfSums all;
-    std::vector<RatioOfSums> shares(kParts);
+    std::vector<RatioOfSums> shares(kFitParts);
     hooks.events = [&](const std::vector<EventRecord>& events) {
       for (const EventRecord& event : events) {
         const double light = light_of_event(event, spec.readout.has_value());
         all.add(static_cast<double>(event.energy_keV), light);
-        shares[event.event % kParts].add(static_cast<double>(event.energy_keV), light);
+        shares[event.event % kFitParts].add(static_cast<double>(event.energy_keV), light);
       }
     };
     const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + point);
@@ -165,9 +177,9 @@ class SceneCurve : public FitModel {
     if (!result.complete) return std::nullopt;
     ModelPoint out;
     out.value = energy() ? all.ratio() : result.fraction(Fate::detected);
-    if (count_ < kParts * kLeastInPart) return out;
-    for (std::uint64_t part = 0; part < kParts; ++part) {
-      const std::uint64_t photons = (count_ - part + kParts - 1) / kParts;
+    if (count_ < kFitParts * (energy() ? kLeastEventsInPart : kLeastInPart)) return out;
+    for (std::uint64_t part = 0; part < kFitParts; ++part) {
+      const std::uint64_t photons = (count_ - part + kFitParts - 1) / kFitParts;
       out.parts.push_back(energy() ? shares[part].ratio().value
                                    : static_cast<double>(detected[part]) / static_cast<double>(photons));
     }
@@ -186,6 +198,7 @@ class SceneCurve : public FitModel {
   const MeasuredCurve& measured_;
   const FitModelSettings& settings_;
   SceneBuilder builder_;
+  std::optional<BuiltScene> checked_;  ///< of the last position that was checked
   std::uint64_t count_ = 0, seed_ = 0;
   std::vector<std::string> notes_;
 };
@@ -258,11 +271,11 @@ class ReflectanceCurve : public FitModel {
     settings.incidence_rad = angle_rad(point);
     settings.wavelength_nm = bench.place.wavelength_nm;
     settings.seed = seed_;
-    const std::uint64_t parts = rays_ < kParts * kLeastInPart ? 1 : kParts;
+    const std::uint64_t parts = rays_ < kFitParts * kLeastInPart ? 1 : kFitParts;
     ModelPoint out;
     std::uint64_t reflected = 0;
     for (std::uint64_t part = 0; part < parts; ++part) {
-      settings.stream = (draw * measured_.points.size() + point) * kParts + part;
+      settings.stream = (draw * measured_.points.size() + point) * kFitParts + part;
       settings.rays = (rays_ - part + parts - 1) / parts;
       const GoniometerReading reading = read_goniometer(bench.surface, bench.index, settings);
       reflected += reading.reflected;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "scintray/report/fit_text.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/html_parts.hpp"
@@ -14,7 +16,7 @@ namespace {
 
 constexpr const char* kFitStyle = R"css(
 .note { color: var(--soft); font-size: .9rem; max-width: 48rem; }
-figure { margin-top: 1.25rem; }
+figure, .scroll { margin-top: 1.25rem; }
 )css";
 
 std::string fit_table_html(const TextTable& table, std::size_t first_number = 1) {
@@ -58,13 +60,15 @@ std::string curve_figure(const FitRecord& record) {
   start.dashed = true;
   start.marks = false;
   start.error.clear();
+  PlotSeries fitted = simulated_series("fitted", record, record.fit.curve, record.fit.scale.value);
+  fitted.marks = false;
+  fitted.error.clear();
   Plot plot;
   plot.title = "Measured and simulated curves";
   plot.x_label = position_label(record);
   plot.y_label = record.spec.free_scale ? "measured units" : quantity_words(record.spec.quantity);
   plot.legend_above = true;
-  plot.series = {measured, simulated_series("fitted", record, record.fit.curve, record.fit.scale.value),
-                 start};
+  plot.series = {measured, fitted, start};
   return "<figure><figcaption>Measured and simulated <span>one standard error" +
          std::string(record.spec.free_scale ? "; each simulated curve at the scale that fits it best" : "") +
          "</span></figcaption>\n" + svg_plot(plot) + "</figure>\n";
@@ -98,6 +102,12 @@ std::string residual_figure(const FitRecord& record) {
          svg_plot(plot) + "</figure>\n";
 }
 
+/// Begins with a capital letter.
+std::string sentence(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + ".";
+}
+
 std::string paragraph(const std::string& text) { return "<p class=\"note\">" + escape_html(text) + "</p>\n"; }
 
 TextTable step_table(const FitRecord& record) {
@@ -106,7 +116,8 @@ TextTable step_table(const FitRecord& record) {
     table.front().push_back(p.unit.empty() ? p.label : p.label + " (" + p.unit + ")");
   if (record.spec.free_scale) table.front().emplace_back("scale");
   for (const CurveFitStep& step : record.fit.steps) {
-    table.push_back({std::to_string(step.number), std::to_string(step.evaluations), fixed(step.chi2, 2)});
+    table.push_back({std::to_string(step.number) + (step.estimate ? "*" : ""),
+                     std::to_string(step.evaluations), fixed(step.chi2, 2)});
     for (const double value : step.parameters) table.back().push_back(compact(value, 6));
     if (record.spec.free_scale) table.back().push_back(compact(step.scale, 6));
   }
@@ -127,14 +138,19 @@ std::string fit_page(const FitRecord& record) {
   std::string found = fit_table_html(fit_parameter_table(record));
   if (const TextTable correlation = fit_correlation_table(record); !correlation.empty())
     found += fit_table_html(correlation);
-  found += paragraph(fit_end_text(record) + ". " + fit_goodness_text(record) + ".");
-  if (const std::string noise = fit_noise_text(record); !noise.empty()) found += paragraph(noise + ".");
+  found += paragraph(sentence(fit_end_text(record)) + " " + sentence(fit_goodness_text(record)));
+  if (const std::string noise = fit_noise_text(record); !noise.empty()) found += paragraph(sentence(noise));
   for (const std::string& warning : fit.warnings) found += paragraph("Warning: " + warning + ".");
   for (const std::string& note : record.notes) found += paragraph("Note: " + note + ".");
   std::string body = section("What was found", found);
   body += section(
       "Curves", curve_figure(record) + residual_figure(record) + fit_table_html(fit_curve_table(record), 0));
-  body += section("Steps of the search", fit_table_html(step_table(record), 0));
+  body += section(
+      "Steps of the search",
+      fit_table_html(step_table(record), 0) +
+          paragraph("* with other random numbers than the search's: the estimate. A search ends where "
+                    "the noise of the simulation agrees with the measurement, so that its chi-square "
+                    "is too small."));
   body += section(
       "How to read this",
       paragraph(keys_of(record)) +

@@ -111,7 +111,7 @@ std::string fit_step_text(const CurveFitStep& step, const std::vector<FitParamet
     text += fmt::format(", {} {}", parameters[j].label,
                         with_unit(compact(step.parameters[j], 5), parameters[j].unit));
   if (free_scale) text += fmt::format(", scale {:.5g}", step.scale);
-  return text;
+  return step.estimate ? text + " (new random numbers)" : text;
 }
 
 std::string fit_text(const FitRecord& record) {

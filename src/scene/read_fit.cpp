@@ -26,7 +26,7 @@ struct Written {
   std::string unit;
 };
 
-std::optional<Written> written(const TomlNode& node) {
+std::optional<Written> number_and_unit(const TomlNode& node) {
   if (node.kind == Kind::integer || node.kind == Kind::number) return Written{node.number, ""};
   if (node.kind != Kind::string) return std::nullopt;
   Written result;
@@ -63,7 +63,7 @@ double read_limit(const TomlTable& table, const std::string& key, const std::opt
                  "add start, low and high, as \"12 deg\" or 0.95");
     return 0.0;
   }
-  const auto value = written(*node);
+  const auto value = number_and_unit(*node);
   if (!value) {
     table.report(key, fmt::format("{} is not a number with its unit", node->as_written()),
                  "write it as \"12 deg\", or 0.95 where the key takes a plain number");
@@ -148,7 +148,7 @@ FitGoniometerSpec read_goniometer_spec(const TomlTable& table) {
 }
 
 /// Which of the keys belong to the quantity.
-void read_place(const TomlTable& table, FitSpec& fit) {
+void read_fit_place(const TomlTable& table, FitSpec& fit) {
   const bool reflectance = fit.quantity == FitQuantity::reflectance;
   const char* wanted = reflectance ? "goniometer" : "at";
   const char* other = reflectance ? "at" : "goniometer";
@@ -216,7 +216,7 @@ std::optional<FitSpec> read_fit(const TomlTable& scene) {
     if (chosen == word) fit.quantity = quantity;
   fit.unit = table->string("unit");
   check_unit(*table, fit);
-  read_place(*table, fit);
+  read_fit_place(*table, fit);
   fit.free_scale = table->choice("scale", {"fixed", "free"}) == "free";
   fit.errors_from_scatter =
       table->choice("errors", {"measured", "from_scatter"}, "measured") == "from_scatter";
