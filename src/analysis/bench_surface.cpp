@@ -59,18 +59,24 @@ BenchSurface make_bench_surface(const Library& library, SurfaceMaker& maker, con
   return bench;
 }
 
+bool has_facets(const Surface& surface) {
+  if (!surface.mixture.empty()) return false;
+  if (const auto* table = std::get_if<std::shared_ptr<const SurfaceTable>>(&surface.microsurface))
+    return (*table)->provenance().stack.empty();  // a table of a stack does not know
+  return std::holds_alternative<SmoothSurface>(surface.microsurface) ||
+         std::holds_alternative<std::shared_ptr<const HeightField>>(surface.microsurface);
+}
+
 Estimate mean_slope_met(const Surface& surface, Side side, double incidence_rad) {
-  if (surface.mixture.empty()) {
-    if (std::holds_alternative<SmoothSurface>(surface.microsurface)) return {};
-    if (const auto* map = std::get_if<std::shared_ptr<const HeightField>>(&surface.microsurface))
-      return mean_slope_met(**map, side, incidence_rad, kSlopeRays);
-    const auto* table = std::get_if<std::shared_ptr<const SurfaceTable>>(&surface.microsurface);
-    if (table && (*table)->provenance().stack.empty())  // a table of a stack does not know
-      return {slope_in_table(**table, side, incidence_rad), 0.0};
-  }
-  throw InputError({{},
-                    "surface \"" + surface.name + "\" has no facets whose slopes could be met",
-                    "slopes are those of a height map, a recipe, a table of one, or a smooth face"});
+  if (!has_facets(surface))
+    throw InputError({{},
+                      "surface \"" + surface.name + "\" has no facets whose slopes could be met",
+                      "slopes are those of a height map, a recipe, a table of one, or a smooth face"});
+  if (std::holds_alternative<SmoothSurface>(surface.microsurface)) return {};
+  if (const auto* map = std::get_if<std::shared_ptr<const HeightField>>(&surface.microsurface))
+    return mean_slope_met(**map, side, incidence_rad, kSlopeRays);
+  const auto& table = std::get<std::shared_ptr<const SurfaceTable>>(surface.microsurface);
+  return {slope_in_table(*table, side, incidence_rad), 0.0};
 }
 
 }  // namespace scintray

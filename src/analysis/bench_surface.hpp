@@ -31,10 +31,13 @@ struct BenchSurface {
 BenchSurface make_bench_surface(const Library& library, SurfaceMaker& maker, const BenchPlace& place,
                                 bool on_the_spot = false);
 
+/// True when the surface has facets of its own whose slopes can be met.
+bool has_facets(const Surface& surface);
+
 /// Mean angle (rad) between the mean normal and the first facet met, by light from `side` at an incidence
 /// angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's nodes (then
 /// without an error), 0 for a smooth surface.
-/// InputError for surfaces that have no facets of their own (UNIFIED, painted, mixtures, tables of stacks).
+/// InputError for surfaces without facets of their own (UNIFIED, painted, mixtures, tables of stacks).
 Estimate mean_slope_met(const Surface& surface, Side side, double incidence_rad);
 
 }  // namespace scintray

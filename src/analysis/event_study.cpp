@@ -133,8 +133,10 @@ void EventCollector::study_depth(const std::vector<double>& depths, const std::v
   const std::vector<DepthPoint> points = depth_points(depths, light, setup_.slices);
   const bool spread = std::all_of(points.begin(), points.end(),
                                   [](const DepthPoint& point) { return point.value.error > 0.0; });
-  if (known.front() == known.back() || points.size() < 2)
+  if (known.front() == known.back())
     study.left_out.emplace_back("light against depth: the events lie at one depth");
+  else if (points.size() < 2)
+    study.left_out.emplace_back("light against depth: too few events for two slices of depth");
   else if (!spread)
     study.left_out.emplace_back("light against depth: the light does not fluctuate, so it has no errors");
   else

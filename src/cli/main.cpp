@@ -7,6 +7,7 @@
 #include "scintray/cli/check_command.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/failures.hpp"
+#include "scintray/cli/fit_command.hpp"
 #include "scintray/cli/goniometer_command.hpp"
 #include "scintray/cli/import_command.hpp"
 #include "scintray/cli/map_command.hpp"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   scintray::cli::add_replay_command(app);
   scintray::cli::add_response_command(app);
   scintray::cli::add_reweigh_command(app);
+  scintray::cli::add_fit_command(app);
   app.failure_message(CLI::FailureMessage::help);
 
   try {

@@ -7,7 +7,7 @@
 
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/gltf_writer.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/ply_writer.hpp"
 #include "scintray/mesh/stl_writer.hpp"
 
 namespace scintray::cli {
@@ -39,35 +39,36 @@ void print_state(const std::string& when, const MeshDiagnosis& d) {
   std::cout << (found.empty() ? (d.sound() ? "sound" : "no volume") : found) << "\n";
 }
 
-void write(const std::filesystem::path& out, const TriMesh& mesh) {
-  if (lower_extension(out) == ".glb") {
-    write_glb(out, {{out.stem().string(), &mesh, std::nullopt}}, GltfAxes::as_they_are);
+void write(const std::filesystem::path& out, const std::string& name, const TriMesh& mesh) {
+  const std::string ending = lower_extension(out);
+  if (ending == ".glb") {
+    write_glb(out, {{name, &mesh, std::nullopt}}, GltfAxes::as_they_are);
     return;
   }
   const std::set<std::uint32_t> used(mesh.group.begin(), mesh.group.end());
   if (used.size() > 1)
-    std::cout << fmt::format("  note: STL has no groups, {} are lost; write .glb to keep them\n",
-                             used.size());
-  write_stl(out, mesh);
+    std::cout << fmt::format("  note: {} has no groups, {} are lost; write .glb to keep them\n",
+                             ending == ".ply" ? "PLY" : "STL", used.size());
+  ending == ".ply" ? write_ply(out, mesh) : write_stl(out, mesh);
 }
 
 }  // namespace
 
-const char* lossless_ending(const std::filesystem::path& in, double mm_per_unit) {
+const char* lossless_ending(const std::filesystem::path& in, const ImportOptions& options) {
   const std::string ending = lower_extension(in);
-  if (ending == ".gltf" || ending == ".glb") return ".glb";
-  return import_mesh(in, mm_per_unit).mesh.groups.size() > 1 ? ".glb" : ".stl";
+  if (ending == ".ply") return ".ply";
+  return ending == ".stl" && import_mesh(in, options).mesh.groups.size() <= 1 ? ".stl" : ".glb";
 }
 
-bool repair_file(const std::filesystem::path& in, double mm_per_unit, const std::filesystem::path& out,
-                 const RepairSettings& settings) {
+bool repair_file(const std::filesystem::path& in, const ImportOptions& options,
+                 const std::filesystem::path& out, const RepairSettings& settings) {
   const std::string ending = lower_extension(out);
-  if (ending != ".stl" && ending != ".glb")
+  if (ending != ".stl" && ending != ".ply" && ending != ".glb")
     throw InputError({{},
                       "a mended mesh cannot be written as \"" + out.string() + "\"",
-                      "choose a name that ends in .stl or, to keep groups, in .glb"});
-  MeshImport imported = import_mesh(in, mm_per_unit);
-  std::cout << in.string() << "\n";
+                      "choose a name that ends in .stl or .ply or, to keep groups, in .glb"});
+  MeshImport imported = import_mesh(in, options);
+  std::cout << in.string() << (options.body.empty() ? "" : ", body \"" + options.body + "\"") << "\n";
   for (const std::string& note : imported.notes) std::cout << "  on reading: " << note << "\n";
   const RepairedMesh repaired = repair_mesh(std::move(imported.mesh), settings);
   print_state("found", repaired.before);
@@ -76,7 +77,7 @@ bool repair_file(const std::filesystem::path& in, double mm_per_unit, const std:
   if (repaired.steps.empty()) std::cout << "  done: nothing\n";
   for (const std::string& reason : repaired.refused) std::cout << "  not done: " << reason << "\n";
 
-  write(out, repaired.mesh);
+  write(out, options.body.empty() ? out.stem().string() : options.body, repaired.mesh);
   const MeshDiagnosis written = diagnose(import_mesh(out, ending == ".glb" ? 0.0 : 1.0).mesh);
   print_state("written to " + out.string(), written);
   if (written.bodies > 1)

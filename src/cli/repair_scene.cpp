@@ -1,57 +1,99 @@
 #include "scintray/cli/repair_scene.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "scintray/cli/repair_report.hpp"
+#include "scintray/cli/scene_text.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/mesh/file_checks.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray::cli {
 
 namespace {
 
-/// A string value of the scene file that gets another content.
-struct Edit {
-  const TomlNode* node;
-  std::string content;
+using Kind = TomlNode::Kind;
+
+/// A table that says of which mesh a part, or the elements of an array, are.
+struct MeshUse {
+  const TomlNode* table = nullptr;
+  std::string path;                    ///< as sweeps call it; empty where they cannot
+  std::vector<const TomlNode*> swept;  ///< meshes that take the place of its own
+  std::string why_not;                 ///< why it cannot be mended; empty: it can
+
+  const TomlNode* find(const char* key, Kind kind) const {
+    const TomlNode* node = table->find(key);
+    return node != nullptr && node->kind == kind ? node : nullptr;
+  }
 };
 
-/// The scene file's text with strings replaced where they stand.
-class Text {
- public:
-  explicit Text(const std::string& text) {
-    std::size_t begin = 0;
-    for (std::size_t end = 0; end < text.size(); begin = end) {
-      end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-      lines_.push_back(text.substr(begin, end - begin));
-    }
-  }
+const std::vector<TomlNode>& items_of(const TomlNode& table, const char* key) {
+  static const std::vector<TomlNode> none;
+  const TomlNode* list = table.find(key);
+  return list != nullptr && list->kind == Kind::array ? list->items : none;
+}
 
-  void replace(const Edit& edit) {
-    std::string& line = lines_.at(static_cast<std::size_t>(edit.node->where.line - 1));
-    for (const char quote : {'"', '\''}) {
-      const std::string old = quote + edit.node->text + quote;
-      // Columns count characters, never more than bytes; an edit before this one may have moved it.
-      const std::size_t at = line.find(old);
-      if (at == std::string::npos) continue;
-      line.replace(at, old.size(), "\"" + edit.content + "\"");
-      return;
-    }
-    throw InputError({edit.node->where, "the string \"" + edit.node->text + "\" has escapes in it",
-                      "write the path plainly, with / between folders"});
-  }
+std::string text_of(const TomlNode& table, const char* key) {
+  const TomlNode* node = table.find(key);
+  return node != nullptr ? node->text : "";
+}
 
-  std::string whole() const {
-    std::string text;
-    for (const std::string& line : lines_) text += line;
-    return text;
+/// Notes what a sweep puts in the place of a mesh, or of what belongs to it.
+void apply_sweep(const TomlNode& sweep, MeshUse& use) {
+  if (use.path.empty()) return;
+  std::vector<std::string> keys{text_of(sweep, "key")};
+  for (const TomlNode& key : items_of(sweep, "also")) keys.push_back(key.text);
+  for (const std::string& key : keys) {
+    if (key == use.path + ".mesh")
+      for (const TomlNode& value : items_of(sweep, "values"))
+        if (value.kind == Kind::string) use.swept.push_back(&value);
+    for (const char* other : {"unit", "body", "tessellation"})
+      if (key == use.path + "." + other || key.starts_with(use.path + "." + other + "."))
+        use.why_not = fmt::format("its {} is swept", other);
   }
+}
 
- private:
-  std::vector<std::string> lines_;
-};
+/// Every mesh of the scene, in parts and in the elements of arrays.
+std::vector<MeshUse> meshes_of(const TomlNode& scene) {
+  std::vector<MeshUse> uses;
+  const auto add = [&](const TomlNode* table, const std::string& path) {
+    if (table == nullptr || table->find("mesh") == nullptr) return;
+    MeshUse use{table, path, {}, {}};
+    if (use.find("mesh", Kind::string) == nullptr) return;
+    for (const TomlNode& sweep : items_of(scene, "sweep")) apply_sweep(sweep, use);
+    uses.push_back(std::move(use));
+  };
+  for (const TomlNode& part : items_of(scene, "part")) add(&part, "part." + text_of(part, "name"));
+  for (const TomlNode& array : items_of(scene, "array")) {
+    add(array.find("element"), "array." + text_of(array, "name") + ".element");
+    for (const TomlNode& layer : items_of(array, "layer")) add(layer.find("element"), "");
+  }
+  return uses;
+}
+
+/// How a use reads its file; what is wrong with that is told where the scene is read.
+ImportOptions options_of(const MeshUse& use) {
+  ImportOptions options;
+  if (const TomlNode* unit = use.find("unit", Kind::string))
+    options.mm_per_unit = unit_factor(unit->text, Dimension::length);
+  if (const TomlNode* body = use.table->find("body")) options.body = body->text;
+  if (const TomlNode* tessellation = use.find("tessellation", Kind::table)) {
+    if (const TomlNode* deviation = tessellation->find("deviation"))
+      options.tessellation.deviation_mm = parse_quantity(deviation->text, Dimension::length);
+    if (const TomlNode* angle = tessellation->find("angle"))
+      options.tessellation.angle_rad = parse_quantity(angle->text, Dimension::angle);
+  }
+  // The scene's scale comes on top of the mended mesh; the deviation counts after it.
+  if (const TomlNode* scale = use.table->find("scale"); scale != nullptr && scale->number > 0.0)
+    options.tessellation.deviation_mm /= scale->number;
+  return options;
+}
 
 class SceneRepairer {
  public:
@@ -65,60 +107,106 @@ class SceneRepairer {
     if (std::filesystem::exists(out_ / scene_.filename()) &&
         std::filesystem::equivalent(out_ / scene_.filename(), scene_))
       throw InputError({{}, "the output folder is that of the scene itself", "name another folder"});
-    if (const TomlNode* parts = document->find("part"))
-      for (const TomlNode& part : parts->items) mend(part);
-    move_paths(*document);
-    Text text(read_text_file(scene_));
-    for (const Edit& edit : edits_) text.replace(edit);
+    SceneText text(read_text_file(scene_));
+    for (const MeshUse& use : meshes_of(*document)) mend(use, text);
+    move_paths(*document, text);
     write_whole_file(out_ / scene_.filename(), text.whole());
     std::cout << (out_ / scene_.filename()).string() << ": names " << mended_.size() << " mended "
               << (mended_.size() == 1 ? "mesh" : "meshes") << "\n";
-    return sound_;
+    for (const Problem& left : left_)
+      std::cout << "  left as it was: " << left.where.text() << ": " << left.what
+                << "\n        hint: " << left.hint << "\n";
+    return sound_ && left_.empty();
   }
 
  private:
-  struct Mended {
-    std::string name;
-    std::string unit;
-  };
+  /// A file as it was read: its name, unit (mm), body, tessellation, and the ending it gets.
+  using Reading = std::tuple<std::string, double, std::string, double, double, std::string>;
 
-  void mend(const TomlNode& part) {
-    const TomlNode *mesh = part.find("mesh"), *unit = part.find("unit");
-    if (mesh == nullptr || mesh->kind != TomlNode::Kind::string) return;
-    const double mm_per_unit = unit == nullptr ? 0.0 : unit_factor(unit->text, Dimension::length);
-    const std::filesystem::path in = folder_ / mesh->text;
-    const auto [known, is_new] = mended_.try_emplace({mesh->text, mm_per_unit});
-    if (is_new) {
-      const std::string ending = lossless_ending(in, mm_per_unit);
-      std::string name = in.stem().string() + "_mended" + ending;
-      for (int copy = 2; !names_.insert(name).second; ++copy)
-        name = in.stem().string() + "_mended" + std::to_string(copy) + ending;
-      sound_ = repair_file(in, mm_per_unit, out_ / name, settings_) && sound_;
-      known->second = {name, ending == ".glb" ? "m" : "mm"};
+  /// Mends the meshes of one table and makes the text name them; leaves all of them where one cannot be.
+  void mend(const MeshUse& use, SceneText& text) {
+    std::vector<const TomlNode*> files{use.find("mesh", Kind::string)};
+    files.insert(files.end(), use.swept.begin(), use.swept.end());
+    const TomlNode* tessellation = use.table->find("tessellation");
+    std::string why = use.why_not;
+    if (why.empty() && tessellation != nullptr && !text.on_lines_of_its_own(*tessellation))
+      why = "its tessellation, which a mended mesh no longer has, stands on one line with other keys";
+    if (!why.empty()) {
+      for (const TomlNode* file : files) leave(*file, why);
+      return;
     }
-    edits_.push_back({mesh, known->second.name});
-    if (unit != nullptr) edits_.push_back({unit, known->second.unit});
-    handled_.insert(mesh);
+    std::vector<std::string> names;
+    try {
+      const ImportOptions options = options_of(use);
+      // What shares one unit and one body in the scene shares a format.
+      const bool one_format = files.size() > 1 || !options.body.empty();
+      for (const TomlNode* file : files) names.push_back(mended_name(file->text, options, one_format));
+    } catch (const InputError& error) {
+      for (const TomlNode* file : files) leave(*file, error.problems().front().what);
+      return;
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      text.replace(*files[i], names[i]);
+      handled_.insert(files[i]);
+    }
+    if (const TomlNode* unit = use.find("unit", Kind::string))
+      text.replace(*unit, names.front().ends_with(".glb") ? "m" : "mm");
+    if (tessellation != nullptr) text.comment_out(*tessellation);
   }
 
-  /// Other files that the scene names by relative paths are found from the new folder too.
-  void move_paths(const TomlNode& node) {
-    for (const TomlNode& item : node.items) move_paths(item);
-    if (node.kind != TomlNode::Kind::string || handled_.count(&node) > 0) return;
+  /// Mends a file once for each way of reading it; the name of what was written.
+  std::string mended_name(const std::string& file, const ImportOptions& options, bool as_gltf) {
+    const std::filesystem::path in = folder_ / file;
+    const std::string ending = as_gltf ? ".glb" : lossless_ending(in, options);
+    const auto [known, is_new] = mended_.try_emplace(
+        Reading{file, options.mm_per_unit, options.body, options.tessellation.deviation_mm,
+                options.tessellation.angle_rad, ending},
+        "");
+    if (!is_new) return known->second;
+    std::string name = in.stem().string() + "_mended" + ending;
+    for (int copy = 2; !names_.insert(name).second; ++copy)
+      name = in.stem().string() + "_mended" + std::to_string(copy) + ending;
+    try {
+      sound_ = repair_file(in, options, out_ / name, settings_) && sound_;
+    } catch (const InputError&) {
+      mended_.erase(known);
+      throw;
+    }
+    return known->second = name;
+  }
+
+  void leave(const TomlNode& file, const std::string& why) {
+    left_.push_back({file.where, "\"" + file.text + "\" is not mended: " + why,
+                     "mend it by hand: scintray repair " + file.text +
+                         " -o MENDED.glb (--unit for STL, OBJ, PLY and OFF; --body NAME for one of several "
+                         "bodies), and name MENDED.glb here"});
+  }
+
+  /// Other files that the scene names by relative paths are found from the new folder too; meshes among them
+  /// were not mended.
+  void move_paths(const TomlNode& node, SceneText& text) {
+    for (const TomlNode& item : node.items) move_paths(item, text);
+    if (node.kind != Kind::string || handled_.contains(&node)) return;
     const std::filesystem::path path(node.text);
     std::error_code error;
-    if (path.is_absolute() || node.text.empty() || !std::filesystem::is_regular_file(folder_ / path, error))
-      return;
-    edits_.push_back({&node, std::filesystem::proximate(folder_ / path, out_).generic_string()});
+    if (node.text.empty() || !std::filesystem::is_regular_file(folder_ / path, error)) return;
+    const auto& endings = mesh_extensions();
+    const bool told = std::any_of(left_.begin(), left_.end(), [&](const Problem& left) {
+      return left.where.text() == node.where.text();
+    });
+    if (!told && std::find(endings.begin(), endings.end(), lower_extension(path)) != endings.end())
+      leave(node, "no part and no element of an array takes it as its mesh");
+    if (path.is_absolute()) return;
+    text.replace(node, std::filesystem::proximate(folder_ / path, out_).generic_string());
   }
 
   std::filesystem::path scene_, out_;
   RepairSettings settings_;
   std::filesystem::path folder_;
-  std::map<std::pair<std::string, double>, Mended> mended_;
+  std::map<Reading, std::string> mended_;  ///< and the name of what was written
   std::set<std::string> names_;
   std::set<const TomlNode*> handled_;
-  std::vector<Edit> edits_;
+  std::vector<Problem> left_;
   bool sound_ = true;
 };
 

@@ -1,13 +1,14 @@
 #include "scintray/core/count_sampling.hpp"
 
+#include <boost/random/binomial_distribution.hpp>
+#include <boost/random/poisson_distribution.hpp>
 #include <limits>
-#include <random>
 
 namespace scintray {
 
 namespace {
 
-/// A stream of ours as the standard library's distributions want it.
+/// A stream of ours as Boost's distributions want it.
 struct Bits {
   using result_type = std::uint64_t;
   static constexpr result_type min() { return 0; }
@@ -21,14 +22,15 @@ struct Bits {
 std::uint64_t sample_poisson(double mean, Rng& rng) {
   if (mean <= 0.0) return 0;
   Bits bits{rng};
-  return std::poisson_distribution<std::uint64_t>(mean)(bits);
+  return static_cast<std::uint64_t>(boost::random::poisson_distribution<std::int64_t>(mean)(bits));
 }
 
 std::uint64_t sample_binomial(std::uint64_t trials, double probability, Rng& rng) {
   if (trials == 0 || probability <= 0.0) return 0;
   if (probability >= 1.0) return trials;
   Bits bits{rng};
-  return std::binomial_distribution<std::uint64_t>(trials, probability)(bits);
+  return static_cast<std::uint64_t>(boost::random::binomial_distribution<std::int64_t>(
+      static_cast<std::int64_t>(trials), probability)(bits));
 }
 
 }  // namespace scintray

@@ -97,6 +97,7 @@ std::vector<TracedRange> get_ranges(const h5::Group& group, const std::string& n
 void HistoryColumns::add(const HistorySubjects& point) {
   add_new(media, point.media);
   add_new(reflectors, point.reflectors);
+  add_new(transmitting, point.transmitting);
   add_new(gap_media, point.gap_media);
 }
 
@@ -106,6 +107,7 @@ HistoryWriter::HistoryWriter(h5::Group& root, HistoryColumns columns)
                        std::string("what detected photons went through, one row a photon"));
   put_texts(group_, "history_media", columns_.media);
   put_texts(group_, "history_gap_media", columns_.gap_media);
+  put_texts(group_, "history_transmitting", columns_.transmitting);
   std::vector<std::string> surfaces, stacks, reflectors;
   for (const ReflectorSite& site : columns_.reflectors) {
     surfaces.push_back(site.surface);
@@ -182,6 +184,7 @@ HistoryReader::HistoryReader(const std::filesystem::path& path)
     : path_(path), file_(results_format::open_results(path)), group_(open_histories(path, file_.root())) {
   columns_.media = group_.read_strings("history_media");
   columns_.gap_media = group_.read_strings("history_gap_media");
+  columns_.transmitting = group_.read_strings("history_transmitting");
   const auto surfaces = group_.read_strings("reflector_surface"),
              stacks = group_.read_strings("reflector_stack"), names = group_.read_strings("reflector_name");
   if (stacks.size() != surfaces.size() || names.size() != surfaces.size())

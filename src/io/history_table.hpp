@@ -15,7 +15,7 @@ namespace scintray {
 struct HistoryColumns {
   std::vector<std::string> media;
   std::vector<ReflectorSite> reflectors;
-  std::vector<std::string> gap_media;
+  std::vector<std::string> transmitting, gap_media;
 
   /// Adds what is new in a point.
   void add(const HistorySubjects& point);

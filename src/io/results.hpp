@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/analysis/surface_study.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/io/history_table.hpp"
 #include "scintray/tally/event_record.hpp"
@@ -31,6 +32,8 @@ class ResultsWriter {
   /// Without commit() nothing stays.
   ~ResultsWriter();
 
+  /// Adds the surfaces that were read on the bench; once at most.
+  void add_surfaces(const std::vector<SurfaceStudy>& studies);
   /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
   void append_photons(const std::vector<DetectedPhoton>& photons);
   /// Says what the events of a point are read out by, before the first of them; without it the file has
@@ -73,6 +76,9 @@ ResultsStatus read_results_status(const std::filesystem::path& path);
 /// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
 std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                          std::uint64_t count);
+
+/// Surfaces that were read on the bench; empty when there are none.
+std::vector<SurfaceStudy> read_surfaces(const std::filesystem::path& path);
 
 /// What the events of a point are read out by; empty when it has none.
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);

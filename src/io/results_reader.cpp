@@ -4,6 +4,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/io/bench_columns.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
 #include "scintray/io/row_table.hpp"
@@ -353,6 +354,15 @@ std::vector<DetectedPhoton> read_photons(const std::filesystem::path& path, std:
   auto photons = results_format::read_rows<DetectedPhoton>(root.open_group("photons"), offset, count);
   if (!photons) throw damaged(path, "the columns of photons differ in length");
   return std::move(*photons);
+}
+
+std::vector<SurfaceStudy> read_surfaces(const std::filesystem::path& path) {
+  const h5::File file = open_results(path);
+  try {
+    return results_format::get_surface_studies(file.root());
+  } catch (const std::invalid_argument& contradiction) {
+    throw damaged(path, contradiction.what());
+  }
 }
 
 std::vector<ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point) {

@@ -3,6 +3,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/io/bench_columns.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
 #include "scintray/io/row_table.hpp"
@@ -237,6 +238,10 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const RunHeader&
 ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
+
+void ResultsWriter::add_surfaces(const std::vector<SurfaceStudy>& studies) {
+  results_format::put_surface_studies(state_->root, studies);
+}
 
 void ResultsWriter::append_photons(const std::vector<DetectedPhoton>& photons) {
   if (!state_->photons.exists()) throw InternalError("photons for a result that has no photon list");

@@ -50,6 +50,10 @@ class Targets {
       if (site.reflector == name || site.stack == name || site.surface == name) found.push_back(i);
       names.insert({site.reflector, site.stack, site.surface});
     }
+    const auto& transmitting = columns_.transmitting;
+    if (std::find(transmitting.begin(), transmitting.end(), name) != transmitting.end())
+      throw refused(path_, "\"" + name + "\" lets light through, so its reflectance does not change alone",
+                    "run the scene again with the other reflectance");
     if (!found.empty()) return found;
     for (const std::string& surface : run_.header.surfaces)
       if (surface == name || surface.starts_with(name + " ("))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "scintray/analysis/surface_study.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/trace/light_timing.hpp"
@@ -97,16 +98,6 @@ class Renumbering {
   std::vector<std::uint32_t> media_, surfaces_, parts_, faces_;
 };
 
-RunSettings settings_of(const RunSpec& run, std::size_t point) {
-  RunSettings settings;
-  settings.seed = run.seed;
-  settings.point = static_cast<std::uint32_t>(point);
-  settings.max_interactions = run.max_interactions;
-  settings.max_time_ns = run.max_time_ns;
-  settings.threads = run.threads.value_or(0);
-  return settings;
-}
-
 /// Everything known before the first photon.
 struct Survey {
   NameLists names;
@@ -154,6 +145,16 @@ RunHeader make_header(const SceneFile& file, const SceneSpec& first, const Surve
 
 }  // namespace
 
+RunSettings run_settings(const RunSpec& run, std::uint32_t point) {
+  RunSettings settings;
+  settings.seed = run.seed;
+  settings.point = point;
+  settings.max_interactions = run.max_interactions;
+  settings.max_time_ns = run.max_time_ns;
+  settings.threads = run.threads.value_or(0);
+  return settings;
+}
+
 SceneSpec with_options(SceneSpec spec, const SimulationOptions& options) {
   if (options.threads) spec.run.threads = options.threads;
   if (options.seed) spec.run.seed = *options.seed;
@@ -189,6 +190,11 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
   result.header = make_header(file, first, survey);
   ResultsWriter writer(options.output, result.header, first.run.photon_list);
   if (first.run.photon_history) writer.begin_histories(survey.histories);
+  if (!first.benches.empty()) {
+    Library library = Library::shipped();
+    add_definitions(library, first);
+    writer.add_surfaces(study_surfaces(first.benches, library, builder.surfaces(), first.run.seed));
+  }
 
   SimulationProgress progress;
   progress.points = file.points();
@@ -223,7 +229,8 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
         writer.append_events(renumbering.applied(events));
       };
     }
-    PointResult traced = run_point(built.scene, *source, plan, settings_of(spec.run, point), hooks);
+    PointResult traced = run_point(built.scene, *source, plan,
+                                   run_settings(spec.run, static_cast<std::uint32_t>(point)), hooks);
     traced.parameters = file.parameters(point);
     traced.light_timing = light_timing(built.scene, spec, *source, plan);
     renumbering.apply(traced);

@@ -10,6 +10,7 @@
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
 #include "scintray/tally/result.hpp"
+#include "scintray/trace/run.hpp"
 
 namespace scintray {
 
@@ -41,5 +42,8 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options);
 /// Settings of a run as its scene gives them, with the options in their place. Throws InputError for an
 /// option that the scene's source does not have.
 SceneSpec with_options(SceneSpec spec, const SimulationOptions& options);
+
+/// Settings of the tracer from [run], for a point of a sweep.
+RunSettings run_settings(const RunSpec& run, std::uint32_t point = 0);
 
 }  // namespace scintray

@@ -13,8 +13,8 @@ namespace scintray {
 namespace {
 
 /// Keys of a scene that do not change how light goes from a place to a sensor.
-const std::vector<std::string> kFreeKeys = {"title",    "source", "run",  "readout",
-                                            "analysis", "tally",  "claim"};
+const std::vector<std::string> kFreeKeys = {"title", "source", "run",   "readout", "analysis",
+                                            "tally", "claim",  "bench", "fit"};
 
 /// How far a part may be from where the map has it: what rounding of a scene's numbers makes.
 constexpr double kSamePlace_mm = 1e-6;
@@ -35,15 +35,6 @@ void require_energy(const SceneSpec& spec) {
     throw InputError({spec.energy_source->where,
                       "a response map is of scintillation light, and this source has Cherenkov light too",
                       "remove cherenkov, or trace the scene with `scintray run`"});
-}
-
-RunSettings map_settings(const RunSpec& run) {
-  RunSettings settings;
-  settings.seed = run.seed;
-  settings.max_interactions = run.max_interactions;
-  settings.max_time_ns = run.max_time_ns;
-  settings.threads = run.threads.value_or(0);
-  return settings;
 }
 
 /// Gives the grids of a map their regions of a scene.
@@ -105,7 +96,7 @@ ResponseFile build_map(const SceneFile& file, const MapOptions& options) {
   const BuiltScene built = builder.build(spec);
   const auto source = make_light_source(spec, built.scene);
   return {build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised,
-                             options.settings, map_settings(spec.run), options.hooks),
+                             options.settings, run_settings(spec.run), options.hooks),
           version(), spec.file.string(), file.text()};
 }
 
@@ -161,7 +152,7 @@ RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& ma
     if (options.progress) options.progress(progress);
   };
   const MappedResponse mapped(response.map);
-  result.points.push_back(run_mapped(built.scene, *source, plan, mapped, map_settings(spec.run), hooks));
+  result.points.push_back(run_mapped(built.scene, *source, plan, mapped, run_settings(spec.run), hooks));
   result.points.back().light_timing = light_timing(built.scene, spec, *source, plan);
   writer.add_point(result.points.back());
   writer.commit(result.complete(), result.complete() ? "" : "stopped by the user");

@@ -50,6 +50,23 @@ bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, Fac
   return CGAL::is_closed(surface) && pmp::does_bound_a_volume(surface);
 }
 
+/// Cleans a mesh whose groups are the numbers of the triangles that its triangles are pieces of, those of the
+/// first mesh first, and gives it the first mesh's groups.
+BooleanResult numbered(TriMesh mesh, const TriMesh& first, double clean_mm) {
+  const auto of_first = static_cast<std::uint32_t>(first.triangles.size());
+  BooleanResult result{std::move(mesh), {}};
+  weld_vertices(result.mesh, clean_mm);
+  remove_degenerate(result.mesh, clean_mm);
+  result.mesh.groups = first.groups;
+  result.mesh.group_tags = first.group_tags;
+  for (std::uint32_t& group : result.mesh.group) {
+    const bool of_second = group >= of_first;
+    result.origin.push_back({of_second, of_second ? group - of_first : group});
+    group = first.group.empty() ? 0 : first.group[of_second ? 0 : group];
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second, BooleanOperation operation,
@@ -77,17 +94,24 @@ std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second
     return std::nullopt;
   }
 
-  BooleanResult result{mesh_of(out, numbers[&out]), {}};
-  weld_vertices(result.mesh, clean_mm);
-  remove_degenerate(result.mesh, clean_mm);
-  result.mesh.groups = first.groups;
-  result.mesh.group_tags = first.group_tags;
-  for (std::uint32_t& group : result.mesh.group) {
-    const bool of_second = group >= of_first;
-    result.origin.push_back({of_second, of_second ? group - of_first : group});
-    group = first.group.empty() ? 0 : first.group[of_second ? 0 : group];
+  return numbered(mesh_of(out, numbers[&out]), first, clean_mm);
+}
+
+std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second, double clean_mm) {
+  Surface a, b;
+  NumberVisitor visitor;
+  std::map<Surface*, FaceNumbers> numbers;
+  for (Surface* surface : {&a, &b}) {
+    numbers[surface] = surface->add_property_map<Face, std::uint32_t>("f:number", 0U).first;
+    visitor.watch(*surface, numbers[surface]);
   }
-  return result;
+  if (!fill(first, 0, a, numbers[&a]) || !fill(second, 0, b, numbers[&b])) return std::nullopt;
+  try {
+    pmp::corefine(a, b, CGAL::parameters::visitor(visitor).throw_on_self_intersection(true));
+  } catch (const pmp::Corefinement::Self_intersection_exception&) {
+    return std::nullopt;
+  }
+  return numbered(mesh_of(a, numbers[&a]), first, clean_mm);
 }
 
 }  // namespace scintray

@@ -37,4 +37,9 @@ struct BooleanResult {
 std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second, BooleanOperation operation,
                                      double clean_mm);
 
+/// Cuts the triangles of the first of two sound meshes along their intersection with the second; the solid
+/// stays what it is. Cleaned and numbered as the result of boolean(), all origins being in the first.
+/// Nothing when CGAL refuses.
+std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second, double clean_mm);
+
 }  // namespace scintray

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -40,12 +41,12 @@ class ModelMaker {
     mesh.name = object.name;
     std::map<std::uint32_t, std::vector<std::uint32_t>> by_group;
     for (std::uint32_t t = 0; t < object.mesh->triangles.size(); ++t)
-      by_group[object.colour || object.mesh->group.empty() ? 0 : object.mesh->group[t]].push_back(t);
+      by_group[object.mesh->group.empty() ? 0 : object.mesh->group[t]].push_back(t);
     for (const auto& [group, triangles] : by_group) {
-      const bool named = !object.colour && group < object.mesh->groups.size();
+      const bool named = group < object.mesh->groups.size();
       mesh.primitives.push_back(primitive(*object.mesh, triangles));
-      mesh.primitives.back().material =
-          material(named ? object.mesh->groups[group] : object.name, object.colour);
+      mesh.primitives.back().material = material(named ? object.mesh->groups[group] : object.name,
+                                                 object.mesh->tags_of(group), object.colour);
     }
     tinygltf::Node node;
     node.name = object.name;
@@ -111,10 +112,10 @@ class ModelMaker {
     return result;
   }
 
-  int material(const std::string& name, const std::optional<std::array<double, 4>>& colour) {
-    // Objects of one colour share a material; groups have one for each name.
+  int material(const std::string& name, const FaceTags& tags,
+               const std::optional<std::array<double, 4>>& colour) {
     const auto [known, is_new] =
-        materials_.try_emplace({colour ? "" : name, colour}, static_cast<int>(model_.materials.size()));
+        materials_.try_emplace({name, tags, colour}, static_cast<int>(model_.materials.size()));
     if (!is_new) return known->second;
     constexpr std::array<double, 4> kGrey{0.7, 0.7, 0.7, 1.0};
     const auto& rgba = colour.value_or(kGrey);
@@ -125,12 +126,17 @@ class ModelMaker {
     result.pbrMetallicRoughness.metallicFactor = 0.0;
     result.pbrMetallicRoughness.roughnessFactor = 0.9;
     if (rgba[3] < 1.0) result.alphaMode = "BLEND";
+    if (!tags.empty()) {
+      tinygltf::Value::Object extras;
+      for (const auto& [key, value] : tags) extras.emplace(key, tinygltf::Value(value));
+      result.extras = tinygltf::Value(std::move(extras));
+    }
     model_.materials.push_back(std::move(result));
     return known->second;
   }
 
   tinygltf::Model model_;
-  std::map<std::pair<std::string, std::optional<std::array<double, 4>>>, int> materials_;
+  std::map<std::tuple<std::string, FaceTags, std::optional<std::array<double, 4>>>, int> materials_;
   bool has_root_ = false;
 };
 

@@ -15,8 +15,7 @@ namespace scintray {
 struct GltfObject {
   std::string name;
   const TriMesh* mesh = nullptr;
-  /// Red, green, blue and opacity, 0 to 1, of all its triangles. Without: grey, and one material for each
-  /// group, with the group's name, so that groups come back on import.
+  /// Red, green, blue and opacity, 0 to 1, of all its triangles. Without: grey.
   std::optional<std::array<double, 4>> colour;
 };
 
@@ -28,7 +27,9 @@ enum class GltfAxes {
 
 /// Writes a binary glTF file (.glb), whole or not at all: one node for each object, one primitive for
 /// each group, coordinates in metres and single precision (sections 3.4 and 3.6.2 of the
-/// specification). @throws SystemError when it cannot.
+/// specification). A group's material has its name, and its tags as extras (section 3.3), so that groups
+/// and tags come back on import; groups alike in name, tags and colour share a material.
+/// @throws SystemError when it cannot.
 void write_glb(const std::filesystem::path& path, const std::vector<GltfObject>& objects, GltfAxes axes);
 
 }  // namespace scintray

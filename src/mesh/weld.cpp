@@ -105,6 +105,13 @@ class DegeneratePass {
     gone_.assign(mesh_.triangles.size(), false);
     cut_at_.assign(mesh_.triangles.size(), kNone);
     cut_edge_.assign(mesh_.triangles.size(), 0);
+    longest_.assign(mesh_.triangles.size(), 0.0);
+    for (const std::size_t t : flat) {
+      const auto& corner = mesh_.triangles[t];
+      for (std::size_t side = 0; side < 3; ++side)
+        longest_[t] = std::max(
+            longest_[t], (mesh_.vertices[corner[side]] - mesh_.vertices[corner[(side + 1) % 3]]).norm());
+    }
     for (const std::size_t t : flat) {
       if (has_equal_corners(mesh_.triangles[t]) || !cut_neighbours) gone_[t] = true;
     }
@@ -124,8 +131,11 @@ class DegeneratePass {
                                 [](const EdgeUse& u, const auto& e) { return std::pair(u.low, u.high) < e; });
     for (; use != uses.end() && use->low == low && use->high == high; ++use) {
       const std::size_t other = use->triangle;
-      if (other == t || gone_[other]) continue;
-      if (cut_at_[other] != kNone) return;  // its turn comes in the next pass
+      if (other == t || has_equal_corners(mesh_.triangles[other])) continue;
+      if (gone_[other] || cut_at_[other] != kNone) return;  // its turn comes in the next pass
+      // Of slivers along one line the longest goes first: cut at a shorter one's corner it would only become
+      // two that are cut back.
+      if (longest_[other] > longest_[t]) return;
       cut_at_[other] = mesh_.triangles[t][middle];
       const auto& corner = mesh_.triangles[other];
       for (std::size_t side = 0; side < 3; ++side) {
@@ -167,6 +177,7 @@ class DegeneratePass {
   double length_mm_;
   std::vector<bool> gone_;
   std::vector<std::uint32_t> cut_at_;  ///< vertex to cut the triangle at
+  std::vector<double> longest_;        ///< longest edge of a degenerate triangle, 0 for others
   std::vector<std::size_t> cut_edge_;  ///< first corner of the edge that is cut
 };
 

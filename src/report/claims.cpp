@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scintray/report/format.hpp"
 #include "scintray/report/html_parts.hpp"
 #include "scintray/report/light_curves.hpp"
+#include "scintray/report/surface_claims.hpp"
 #include "scintray/report/sweep_view.hpp"
 
 namespace scintray::report {
@@ -34,9 +36,9 @@ struct Untold {
   std::string why;
 };
 
-class Judge {
+class CurveJudge {
  public:
-  Judge(const RunResult& run, const std::vector<EventStudy>& studies, const SweepView& view)
+  CurveJudge(const RunResult& run, const std::vector<EventStudy>& studies, const SweepView& view)
       : run_(run), studies_(studies), view_(view) {}
 
   Estimate value(const ClaimSpec& claim) const {
@@ -58,8 +60,9 @@ class Judge {
         return resolution(curve);
       case ClaimQuantity::time_ratio:
         return {time_per_photon(curve) / time_per_photon(series(claim.over)), 0.0};
+      default:
+        throw InternalError("a claim about a surface is judged as one about curves");
     }
-    return {};
   }
 
  private:
@@ -120,10 +123,26 @@ bool within(const ClaimSpec& claim, double value) {
   return (!claim.at_least || value >= *claim.at_least) && (!claim.at_most || value <= *claim.at_most);
 }
 
+/// A number as it is printed, angles in deg.
+std::string number_of(const ClaimSpec& claim, double value) {
+  return is_angle(claim.quantity) ? compact(value / kDegree, 4) + " deg" : compact(value, 4);
+}
+
 std::string bounds(const ClaimSpec& claim) {
   if (claim.at_least && claim.at_most)
-    return compact(*claim.at_least, 3) + " to " + compact(*claim.at_most, 3);
-  return claim.at_least ? "at least " + compact(*claim.at_least, 3) : "at most " + compact(*claim.at_most, 3);
+    return number_of(claim, *claim.at_least) + " to " + number_of(claim, *claim.at_most);
+  return claim.at_least ? "at least " + number_of(claim, *claim.at_least)
+                        : "at most " + number_of(claim, *claim.at_most);
+}
+
+bool is_about_curves(const ClaimSpec& claim) { return !is_of_surface(claim.quantity); }
+
+Verdict verdict_on(const ClaimSpec& claim, const Estimate& ours) {
+  Verdict verdict{claim, {}, ours, within(claim, ours.value), false};
+  const double margin = kCertain * ours.error;
+  verdict.certain = within(claim, ours.value - margin) == verdict.agrees &&
+                    within(claim, ours.value + margin) == verdict.agrees;
+  return verdict;
 }
 
 SweepView view_of(const RunResult& run, const FileLocation& where) {
@@ -137,7 +156,9 @@ SweepView view_of(const RunResult& run, const FileLocation& where) {
 
 std::string ours(const Verdict& verdict) {
   if (!verdict.untold.empty()) return verdict.untold;
-  return verdict.ours.error > 0.0 ? with_error(verdict.ours) : compact(verdict.ours.value, 3);
+  if (!(verdict.ours.error > 0.0)) return number_of(verdict.claim, verdict.ours.value);
+  if (!is_angle(verdict.claim.quantity)) return with_error(verdict.ours);
+  return with_error({verdict.ours.value / kDegree, verdict.ours.error / kDegree}) + " deg";
 }
 
 std::string words(const Verdict& verdict) {
@@ -146,16 +167,20 @@ std::string words(const Verdict& verdict) {
          (verdict.certain ? "" : ", within two errors of the bound");
 }
 
-std::string curves(const ClaimSpec& claim) {
+std::string subject(const ClaimSpec& claim) {
+  if (is_of_surface(claim.quantity))
+    return claim.surface.name + " to " + claim.outside.name + " at " +
+           compact(claim.incidence_rad / kDegree, 4) + " deg";
   return claim.curve.name + (claim.over.empty() ? "" : " over " + claim.over.name);
 }
 
 }  // namespace
 
 void check_curves(const RunResult& run, const NameRef& reference, const std::vector<ClaimSpec>& claims) {
-  if (claims.empty() && reference.empty()) return;
+  const auto about_curves = std::find_if(claims.begin(), claims.end(), is_about_curves);
+  if (about_curves == claims.end() && reference.empty()) return;
   Problems problems;
-  const SweepView view = view_of(run, claims.empty() ? reference.where : claims.front().where);
+  const SweepView view = view_of(run, about_curves == claims.end() ? reference.where : about_curves->where);
   const auto check = [&](const NameRef& name) {
     try {
       if (!name.empty()) named_series(view, name);
@@ -171,27 +196,20 @@ void check_curves(const RunResult& run, const NameRef& reference, const std::vec
   problems.throw_if_any();
 }
 
-std::vector<Verdict> judge(const RunResult& run, const std::vector<EventStudy>& studies,
-                           const std::vector<ClaimSpec>& claims) {
+std::vector<Verdict> judge(const RunResult& run, const RunStudies& studies) {
   std::vector<Verdict> verdicts;
-  if (claims.empty() || run.points.empty()) return verdicts;
-  const SweepView view = view_of(run, claims.front().where);
-  const Judge of(run, studies, view);
-  for (const ClaimSpec& claim : claims) {
-    Verdict verdict;
-    verdict.claim = claim;
+  if (run.points.empty()) return verdicts;
+  const auto about_curves = std::find_if(studies.claims.begin(), studies.claims.end(), is_about_curves);
+  std::optional<SweepView> view;
+  if (about_curves != studies.claims.end()) view = view_of(run, about_curves->where);
+  for (const ClaimSpec& claim : studies.claims) {
     try {
-      verdict.ours = of.value(claim);
+      verdicts.push_back(verdict_on(claim, is_about_curves(claim)
+                                               ? CurveJudge(run, studies.points, *view).value(claim)
+                                               : surface_value(claim, studies.surfaces)));
     } catch (const Untold& untold) {
-      verdict.untold = untold.why;
-      verdicts.push_back(verdict);
-      continue;
+      verdicts.push_back({claim, untold.why, {}, false, false});
     }
-    verdict.agrees = within(claim, verdict.ours.value);
-    const double margin = kCertain * verdict.ours.error;
-    verdict.certain = within(claim, verdict.ours.value - margin) == verdict.agrees &&
-                      within(claim, verdict.ours.value + margin) == verdict.agrees;
-    verdicts.push_back(verdict);
   }
   return verdicts;
 }
@@ -200,7 +218,7 @@ std::string claim_section(const std::vector<Verdict>& verdicts) {
   if (verdicts.empty()) return "";
   std::string rows;
   for (const Verdict& verdict : verdicts)
-    rows += "<tr>" + cell(verdict.claim.text, "th") + cell(curves(verdict.claim)) +
+    rows += "<tr>" + cell(verdict.claim.text, "th") + cell(subject(verdict.claim)) +
             cell(verdict.claim.published) + cell(bounds(verdict.claim)) + cell(ours(verdict)) +
             cell(words(verdict)) + cell(verdict.claim.note) + "</tr>\n";
   return section(
@@ -216,7 +234,7 @@ std::string claim_lines(const std::vector<Verdict>& verdicts) {
     lines += (!verdict.untold.empty() ? "NOT TOLD "
               : verdict.agrees        ? "agrees   "
                                       : "DIFFERS  ") +
-             verdict.claim.text + " [" + curves(verdict.claim) + "]: " + ours(verdict) + " (expected " +
+             verdict.claim.text + " [" + subject(verdict.claim) + "]: " + ours(verdict) + " (expected " +
              bounds(verdict.claim) +
              (verdict.claim.published.empty() ? "" : "; published " + verdict.claim.published) + ")\n";
   return lines;

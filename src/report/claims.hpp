@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/report/run_studies.hpp"
 #include "scintray/scene/claim_spec.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -19,13 +19,12 @@ struct Verdict {
 };
 
 /// Light is per keV of energy deposited, times 511 keV, for runs of events; else the detected fraction.
-/// @param studies  of the events of the points, in step with run.points; empty for a run of photons
-/// @throws InputError as check_curves does
-std::vector<Verdict> judge(const RunResult& run, const std::vector<EventStudy>& studies,
-                           const std::vector<ClaimSpec>& claims);
+/// @throws InputError as check_curves and surface_value do
+std::vector<Verdict> judge(const RunResult& run, const RunStudies& studies);
 
 /// @throws InputError when there is no curve of the name that a claim, or the reference, has, naming those
-///         there are, or there is no sweep over a number. Looks at the parameters of the points only.
+///         there are, or there is no sweep over a number. Looks at the parameters of the points only, and
+///         passes over claims about surfaces.
 void check_curves(const RunResult& run, const NameRef& reference, const std::vector<ClaimSpec>& claims);
 
 /// A table; empty without claims.

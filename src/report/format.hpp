@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scintray/core/statistics.hpp"
 
@@ -22,5 +23,7 @@ std::string fixed(double value, int decimals);
 std::string compact(double value, int digits = 4);
 /// Columns a terminal needs for UTF-8 text (code points; ScintRay writes no wide ones).
 std::size_t display_width(const std::string& text);
+/// Rows for a terminal: columns padded to their widest cell, the first to the left, the others to the right.
+std::string aligned(const std::vector<std::vector<std::string>>& table);
 
 }  // namespace scintray::report

@@ -15,15 +15,7 @@ namespace {
 
 constexpr const char* kGoniometerStyle = R"css(
 .pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 22rem)); gap: 1.5rem; }
-svg.hemisphere { display: block; width: 100%; height: auto; font: 13px system-ui, sans-serif; }
-svg.hemisphere .beyond { fill: var(--paper); }
-svg.hemisphere .ring { fill: none; stroke: #ffffff; stroke-opacity: .55; stroke-width: 1; }
-svg.hemisphere text { fill: #ffffff; fill-opacity: .85; }
-svg.hemisphere .cross { fill: none; stroke: #ff5a5a; stroke-width: 2; }
 figure { margin-top: 1.25rem; }
-.scale { display: flex; align-items: center; gap: .6rem; color: var(--soft); font-size: .85rem;
-  font-variant-numeric: tabular-nums; white-space: nowrap; margin: 0 5%; }
-.scale i { flex: 1; height: .7rem; }
 .note { color: var(--soft); font-size: .9rem; max-width: 48rem; }
 )css";
 
@@ -145,8 +137,8 @@ std::string goniometer_page(const BenchSurface& bench, const std::vector<Goniome
   const GoniometerSettings& settings = readings.front().settings;
   std::string body = "<h2>Where the light goes</h2>\n" + share_table(readings);
   for (const GoniometerReading& reading : readings) body += reading_section(bench, reading, overlay);
-  return html_page("Goniometer: " + bench.place.surface, bench_text(bench, settings.side), kGoniometerStyle,
-                   body + notes(bench, settings));
+  return html_page("Goniometer: " + bench.place.surface, bench_text(bench, settings.side),
+                   hemisphere_map_style() + kGoniometerStyle, body + notes(bench, settings));
 }
 
 }  // namespace scintray::report

@@ -88,4 +88,17 @@ std::string hemisphere_map(const DirectionCounts& counts, std::uint64_t rays, do
                    largest * std::pow(10.0, -kDecades), viridis_gradient(), largest);
 }
 
+std::string hemisphere_map_style() {
+  return R"css(
+svg.hemisphere { display: block; width: 100%; height: auto; font: 13px system-ui, sans-serif; }
+svg.hemisphere .beyond { fill: var(--paper); }
+svg.hemisphere .ring { fill: none; stroke: #ffffff; stroke-opacity: .55; stroke-width: 1; }
+svg.hemisphere text { fill: #ffffff; fill-opacity: .85; }
+svg.hemisphere .cross { fill: none; stroke: #ff5a5a; stroke-width: 2; }
+.scale { display: flex; align-items: center; gap: .6rem; color: var(--soft); font-size: .85rem;
+  font-variant-numeric: tabular-nums; white-space: nowrap; margin: 0 5%; }
+.scale i { flex: 1; height: .7rem; }
+)css";
+}
+
 }  // namespace scintray::report

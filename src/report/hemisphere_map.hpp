@@ -17,4 +17,7 @@ namespace scintray::report {
 std::string hemisphere_map(const DirectionCounts& counts, std::uint64_t rays, double mark_rad,
                            const std::string& alternative);
 
+/// CSS of these pictures, for a page with the colours of html_page or of a report.
+std::string hemisphere_map_style();
+
 }  // namespace scintray::report

@@ -4,10 +4,12 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/report/bench_section.hpp"
 #include "scintray/report/claims.hpp"
 #include "scintray/report/event_section.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/grid_map.hpp"
+#include "scintray/report/hemisphere_map.hpp"
 #include "scintray/report/light_curves.hpp"
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/shift_section.hpp"
@@ -90,7 +92,7 @@ std::string events(const RunResult& run, const RunStudies& studies) {
 
 std::string answer(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "<p>No point was finished.</p>\n";
-  if (run.points.size() == 1) return headline(run.points.front());
+  if (run.points.size() == 1) return run.traced_photons() ? headline(run.points.front()) : "";
   const auto view = view_sweep(run);
   if (!view) return "";
   if (studies.points.size() == run.points.size())
@@ -105,12 +107,12 @@ std::string html_report(const RunResult& run, const RunStudies& studies) {
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
   page += "<title>" + title + "</title>\n<style>" + kReportStyle + svg_plot_style() + grid_map_style() +
-          "</style>\n</head>\n<body>\n";
+          hemisphere_map_style() + "</style>\n</head>\n<body>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
           escape_html(run.header.scene_file) + "</p>\n";
-  page += partial_banner(run) + answer(run, studies) +
-          claim_section(judge(run, studies.points, studies.claims)) + events(run, studies);
-  if (!run.points.empty())
+  page += partial_banner(run) + answer(run, studies) + claim_section(judge(run, studies)) +
+          bench_sections(studies.surfaces) + events(run, studies);
+  if (run.traced_photons())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
   page += condition_section(run);

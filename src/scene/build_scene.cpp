@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "scintray/core/curve.hpp"
 #include "scintray/core/pattern.hpp"
@@ -200,7 +201,7 @@ class AssemblyMaker {
     part.rotation = placed.rotation;
     part.surface = placed.surface.name;
     if (!placed.surface.empty()) find_surface(placed.surface);
-    part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}};
+    part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}, placed.where};
     const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
     for (const PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);
@@ -209,7 +210,24 @@ class AssemblyMaker {
                                  sensor_index(face.sensor)});
     }
     for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(first_face + face);
+    check_sheet(placed);
     assembly_.parts.push_back(std::move(part));
+  }
+
+  /// Reports, once for each surface, a sheet that lets light through into a medium that keeps it.
+  void check_sheet(const PlacedMesh& placed) {
+    if (placed.medium.name != kOpaqueMedium) return;
+    for (const PlacedFace& face : placed.faces) {
+      if (face.surface.empty()) continue;
+      const SurfaceSpec& surface = surfaces_.at(face.surface.name);
+      if (!surface.face_of_sheet || !surface.reflector || !surface.reflector->transmittance) continue;
+      if (!leaking_.insert(face.surface.name).second) continue;
+      problems_.add(placed.medium.where,
+                    "light goes through the faces of the sheet \"" + placed.name + "\" (reflector \"" +
+                        surface.reflector->name + "\"), but its medium, \"" + kOpaqueMedium + "\", keeps it",
+                    "give the sheet the medium that fills the space between its faces, as medium = \"" +
+                        spec_.ambient.name + "\"");
+    }
   }
 
   /// Looks a surface up once; problems are reported where it was first named.
@@ -263,6 +281,7 @@ class AssemblyMaker {
   std::map<std::string, std::uint32_t> media_;
   std::map<std::string, std::int32_t> sensors_;
   std::map<std::string, SurfaceSpec> surfaces_;
+  std::set<std::string> leaking_;  ///< surfaces of opaque sheets that were reported
 };
 
 /// Regions that light from `start` can reach through interfaces that are not opaque both ways.

@@ -38,6 +38,9 @@ class SceneBuilder {
   /// can reach.
   BuiltScene build(const SceneSpec& spec);
 
+  /// What makes its surfaces, and keeps them.
+  SurfaceMaker& surfaces() { return surface_maker_; }
+
  private:
   SurfaceMaker surface_maker_;
 };

@@ -31,6 +31,27 @@ Eigen::AlignedBox3d bounds_of(const TriMesh& mesh) {
   return box;
 }
 
+/// What `combine(first, second, clean)` makes of both meshes, rounded in `axes` about the middle of `part`.
+template <typename Combine>
+std::optional<BooleanResult> on_common_grid(const TriMesh& part, const TriMesh& tool,
+                                            const Eigen::Matrix3d& axes, double tolerance_mm,
+                                            Combine&& combine) {
+  constexpr double kClean = 0.01;  // of the contact tolerance: shorter edges and heights are rounding
+  const Eigen::AlignedBox3d box = bounds_of(part);
+  const Vec3 origin = box.center();
+  std::map<Key, Vec3> own;
+  const TriMesh first = on_grid(part, axes, origin, own), second = on_grid(tool, axes, origin, own);
+  // Not below what diagnose() takes for rounding.
+  const double clean = std::max(kClean * tolerance_mm, 1.01 * std::ldexp(box.diagonal().norm(), -22));
+  std::optional<BooleanResult> result = combine(first, second, clean);
+  if (!result) return result;
+  for (Vec3& vertex : result->mesh.vertices) {
+    const auto known = own.find(key_of(vertex));
+    vertex = known != own.end() ? known->second : Vec3(origin + axes.transpose() * vertex);
+  }
+  return result;
+}
+
 }  // namespace
 
 Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts) {
@@ -41,24 +62,18 @@ Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts) {
 
 std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
                                    double tolerance_mm) {
-  constexpr double kClean = 0.01;  // of the contact tolerance: shorter edges and heights are rounding
-  const Eigen::AlignedBox3d box = bounds_of(part);
-  const Vec3 origin = box.center();
-  std::map<Key, Vec3> own;
-  const TriMesh first = on_grid(part, axes, origin, own), second = on_grid(tool, axes, origin, own);
-  // Not below what diagnose() takes for rounding.
-  const double clean = std::max(kClean * tolerance_mm, 1.01 * std::ldexp(box.diagonal().norm(), -22));
-  auto result = boolean(first, second, BooleanOperation::subtract, clean);
-  if (!result) return result;
-  for (Vec3& vertex : result->mesh.vertices) {
-    const auto known = own.find(key_of(vertex));
-    vertex = known != own.end() ? known->second : Vec3(origin + axes.transpose() * vertex);
-  }
-  return result;
+  return on_common_grid(part, tool, axes, tolerance_mm, [](const TriMesh& a, const TriMesh& b, double clean) {
+    return boolean(a, b, BooleanOperation::subtract, clean);
+  });
+}
+
+std::optional<BooleanResult> imprint_on_grid(const TriMesh& part, const TriMesh& tool,
+                                             const Eigen::Matrix3d& axes, double tolerance_mm) {
+  return on_common_grid(part, tool, axes, tolerance_mm, imprint);
 }
 
 PlacedPart geometry_of(const PlacedMesh& part) {
-  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of};
+  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of, part.where};
 }
 
 }  // namespace scintray

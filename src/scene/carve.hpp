@@ -17,6 +17,10 @@ Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts);
 std::optional<BooleanResult> carve(const TriMesh& part, const TriMesh& tool, const Eigen::Matrix3d& axes,
                                    double tolerance_mm);
 
+/// `part` with its triangles cut along its intersection with `tool`, both rounded as by carve().
+std::optional<BooleanResult> imprint_on_grid(const TriMesh& part, const TriMesh& tool,
+                                             const Eigen::Matrix3d& axes, double tolerance_mm);
+
 /// Geometry for the queries of contacts; faces are those of the part.
 PlacedPart geometry_of(const PlacedMesh& part);
 

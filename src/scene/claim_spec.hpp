@@ -11,7 +11,7 @@
 
 namespace scintray {
 
-/// What is taken from one or two curves of a sweep.
+/// What is taken from one or two curves of a sweep, or from a surface on the bench.
 enum class ClaimQuantity {
   range,            ///< (largest - smallest) / mean of the light of a curve
   fall,             ///< 1 - last / first light of a curve
@@ -20,7 +20,16 @@ enum class ClaimQuantity {
   maximum_ratio,    ///< largest light of a curve over that of another
   resolution,       ///< of the photopeak at the first point of a curve, full width at half maximum
   time_ratio,       ///< time per photon of a curve over that of another
+  mean_slope,       ///< mean angle of the facets met by light, rad
+  reflectance,
+  over_fresnel,  ///< reflectance minus Fresnel's of a flat face
+  lobe_width,    ///< rms width of the reflected light, in the plane of incidence, as the angle of that sine,
+                 ///< rad
 };
+/// Is about a surface of a [[bench]], not about curves.
+bool is_of_surface(ClaimQuantity quantity);
+/// Its numbers are angles.
+bool is_angle(ClaimQuantity quantity);
 
 struct ClaimSpec {
   std::string text;       ///< the claim in words
@@ -29,7 +38,9 @@ struct ClaimSpec {
   ClaimQuantity quantity = ClaimQuantity::light;
   NameRef curve,
       over;  ///< labels of curves: settings of all keys but the last swept number, "2 mm, polished"
-  std::optional<double> at_least, at_most;  ///< agreed within, both inclusive
+  NameRef surface, outside;                 ///< of a [[bench]]
+  double incidence_rad = 0.0;               ///< one of the bench's
+  std::optional<double> at_least, at_most;  ///< agreed within, both inclusive; rad when it is an angle
   FileLocation where;
 };
 

@@ -2,116 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/scene/carve.hpp"
-#include "scintray/scene/contact_geometry.hpp"
+#include "scintray/scene/contact_facing.hpp"
+#include "scintray/scene/stitch_parts.hpp"
 
 namespace scintray {
 
 namespace {
 
 using contact::Body;
-
-/// How a triangle of one part lies to the other part.
-enum class Facing {
-  none,     ///< nowhere within the tolerance
-  flat,     ///< in contact within the scene's own tolerance where it is in contact at all
-  partly,   ///< here within the tolerance and there not
-  covered,  ///< everywhere within it
-};
-
-/// Points of a triangle: a regular grid of 6 steps a side, its corners included.
-std::vector<Vec3> samples_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr int kSteps = 6;
-  std::vector<Vec3> points;
-  for (int i = 0; i <= kSteps; ++i)
-    for (int j = 0; i + j <= kSteps; ++j) points.push_back((i * a + j * b + (kSteps - i - j) * c) / kSteps);
-  return points;
-}
-std::vector<Vec3> samples_of(const Body& body, std::uint32_t t) {
-  return samples_of(body.corner(t, 0), body.corner(t, 1), body.corner(t, 2));
-}
-
-/// The triangle of `body` nearest to a point, of those within `reach` whose normal has at least (at most,
-/// when `opposed`) half a right angle's cosine with `normal`.
-struct Nearest {
-  std::uint32_t triangle = ~0U;
-  double distance = HUGE_VAL;
-  bool found() const { return triangle != ~0U; }
-};
-Nearest nearest(const Body& body, const Vec3& point, const Vec3& normal, bool opposed, double reach) {
-  constexpr double kAligned = 0.7;
-  Nearest best;
-  body.tree.visit(body.box_of(point, point).grown(reach), [&](std::uint32_t t) {
-    const double cosine = body.normal[t].dot(normal) * (opposed ? -1.0 : 1.0);
-    if (cosine < kAligned) return;
-    const double d = contact::distance(point, body.corner(t, 0), body.corner(t, 1), body.corner(t, 2));
-    if (d <= reach && std::pair(d, t) < std::pair(best.distance, best.triangle)) best = {t, d};
-  });
-  return best;
-}
-
-/// Which triangles of `body` face `other`.
-std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm) {
-  std::vector<Facing> result(body.triangles.size(), Facing::none);
-  std::vector<char> touched(body.triangles.size(), 0);
-  std::vector<double> farthest(body.triangles.size(), 0.0);
-  for (std::uint32_t t = 0; t < other.triangles.size(); ++t)
-    for (const Vec3& point : samples_of(other, t))
-      if (const Nearest n = nearest(body, point, other.normal[t], true, tolerance); n.found()) {
-        touched[n.triangle] = 1;
-        farthest[n.triangle] = std::max(farthest[n.triangle], n.distance);
-      }
-  for (std::uint32_t t = 0; t < body.triangles.size(); ++t) {
-    std::size_t near = 0;
-    const auto points = samples_of(body, t);
-    for (const Vec3& point : points)
-      if (const Nearest n = nearest(other, point, body.normal[t], true, tolerance); n.found()) {
-        ++near;
-        farthest[t] = std::max(farthest[t], n.distance);
-      }
-    if (near == points.size()) {
-      result[t] = Facing::covered;
-    } else if (near > 0 || touched[t]) {
-      result[t] = farthest[t] <= flat_mm ? Facing::flat : Facing::partly;
-    }
-  }
-  return result;
-}
-
-/// Moves vertices so that the planes of marked triangles go outwards by `by` and those of their neighbours
-/// stay (least squares, weighted by area so that slivers, whose normals are rounding, have no say; nearly
-/// parallel planes count as one).
-TriMesh pushed(const PlacedMesh& part, const Body& body, const std::vector<char>& marked, double by) {
-  constexpr double kRankThreshold = 1e-3;
-  TriMesh mesh = part.mesh;
-  const auto mesh_area = [&](std::uint32_t t) { return part.mesh.area_vector(t).norm(); };
-  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
-  for (std::uint32_t v = 0; v < around.size(); ++v) {
-    if (std::none_of(around[v].begin(), around[v].end(), [&](std::uint32_t t) { return marked[t]; }))
-      continue;
-    Eigen::MatrixX3d planes(around[v].size(), 3);
-    Eigen::VectorXd shifts(around[v].size());
-    double largest = 0.0;
-    for (const std::uint32_t t : around[v]) largest = std::max(largest, mesh_area(t));
-    for (std::size_t k = 0; k < around[v].size(); ++k) {
-      const std::uint32_t t = around[v][k];
-      const double weight = std::sqrt(mesh_area(t) / largest);
-      planes.row(static_cast<Eigen::Index>(k)) = weight * body.normal[t];
-      shifts(static_cast<Eigen::Index>(k)) = marked[t] ? weight * by : 0.0;
-    }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> solver;
-    solver.setThreshold(kRankThreshold);
-    solver.compute(planes);
-    mesh.vertices[v] += solver.solve(shifts);
-  }
-  return mesh;
-}
+using contact::facing;
+using contact::Facing;
+using contact::nearest;
+using contact::Nearest;
+using contact::pushed;
+using contact::samples_of;
 
 /// One contact: `keeper` keeps its shape and `taker` takes it over.
 class Conformer {
@@ -138,8 +46,8 @@ class Conformer {
     constexpr double kPush = 2.0;  // in tolerances: past the deepest sliver, with room
     std::vector<char> contact;
     for (const Facing f : facing_) contact.push_back(f == Facing::covered);
-    const TriMesh grown = pushed(taker_, taker_body_, contact, kPush * tolerance_);
-    const TriMesh tool = pushed(keeper_, keeper_body_, flush_ends(), kPush * tolerance_);
+    const TriMesh grown = pushed(taker_.mesh, taker_body_, contact, kPush * tolerance_);
+    const TriMesh tool = pushed(keeper_.mesh, keeper_body_, flush_ends(), kPush * tolerance_);
     const auto cut = carve(grown, tool, axes, flat_);
     if (!cut) return "the result would be no proper solid";
     std::vector<std::uint32_t> face_of;
@@ -214,10 +122,12 @@ void conform(PlacedMesh& first, PlacedMesh& second, const ContactSpec& spec, con
              double flat_mm, Problems& problems) {
   const double tolerance = *spec.tolerance_mm;
   const auto refuse = [&](const std::string& why, const std::string& hint, const Vec3& at) {
-    problems.add(spec.where,
-                 fmt::format("the contact of \"{}\" and \"{}\" cannot be closed within {:.4g} mm: {}",
-                             first.name, second.name, tolerance, why),
-                 hint, {{at.x(), at.y(), at.z()}});
+    problems.add(
+        spec.where,
+        fmt::format("the contact of \"{}\" and \"{}\" cannot be closed within {:.4g} mm: {}{}{}", first.name,
+                    second.name, tolerance, why, also_at(first.name, first.where, spec.where),
+                    also_at(second.name, second.where, spec.where)),
+        hint, {{at.x(), at.y(), at.z()}});
   };
   const Vec3 between = first.diagnosis.bounds.intersection(second.diagnosis.bounds).center();
   Conformer onto_first(first, second, tolerance, flat_mm), onto_second(second, first, tolerance, flat_mm);
@@ -225,11 +135,16 @@ void conform(PlacedMesh& first, PlacedMesh& second, const ContactSpec& spec, con
     return refuse("no faces of theirs face each other that closely",
                   "raise the tolerance, or remove it for flat faces", between);
   Conformer* chosen = onto_first.covered() ? &onto_first : &onto_second;
-  if (!chosen->covered())
-    return refuse("on either part a triangle lies partly within the tolerance and partly beyond it",
-                  "raise the tolerance; or, where each part's face ends within the other's, cut one of the "
-                  "faces with an edge where the other ends",
-                  onto_first.partly_at());
+  if (!chosen->covered()) {
+    const Vec3 at = onto_first.partly_at();
+    const std::string why = stitch(first, second, tolerance, flat_mm, axes);
+    if (!why.empty())
+      refuse("on either part a triangle lies partly within the tolerance and partly beyond it, and " + why,
+             "raise the tolerance; or, where each part's face ends within the other's, cut one of the faces "
+             "with an edge where the other ends",
+             at);
+    return;
+  }
   const std::string why = chosen->conform(axes);
   if (!why.empty())
     refuse(why, "make both parts with the same tessellation, or change the tolerance", between);

@@ -16,11 +16,13 @@ namespace scintray {
 /// twice that at a sharp rim. The first part named in `between` keeps its shape, unless only it is covered by
 /// the second.
 ///
+/// Where on either part a triangle lies partly within the tolerance and partly beyond it, each part's face
+/// ends within the other's: then both are stitched together there (stitch_parts.hpp), the first one keeping
+/// its shape.
+///
 /// What was done is in the notes of the part that changed. Adds to `problems`: contacts without facing
-/// triangles; contacts in which on either side a triangle lies partly within the tolerance and partly
-/// beyond it (each part's face ends within the other's, so neither can take the other's shape); and parts
-/// whose change CGAL refuses or leaves unsound. Faces flat on each other within `flat_mm` need none of
-/// this, and are left to the resolving of contacts.
+/// triangles, and parts whose change CGAL refuses or leaves unsound. Faces flat on each other within
+/// `flat_mm` need none of this, and are left to the resolving of contacts.
 void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ContactSpec>& contacts,
                       double flat_mm, Problems& problems);
 

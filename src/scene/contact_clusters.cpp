@@ -162,7 +162,7 @@ std::vector<BodyPair> near_pairs(const std::vector<Body>& bodies, double reach_m
   return pairs;
 }
 
-Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<std::string>& names,
+Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<PlacedPart>& parts,
                        const std::vector<BodyPair>& pairs, double tolerance_mm) {
   Clusters result;
   result.patch_of.resize(bodies.size());
@@ -201,10 +201,12 @@ Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<std::s
   for (const auto& [a, b] : touching) {
     const std::uint32_t body_a = result.patches[a].body, body_b = result.patches[b].body;
     if (result.cluster_of[a] == result.cluster_of[b] || !told.insert({body_a, body_b}).second) continue;
-    problems.add({},
-                 "faces of parts '" + names[body_a] + "' and '" + names[body_b] +
+    const PlacedPart &one = parts[body_a], &other = parts[body_b];
+    problems.add(one.where,
+                 "faces of parts '" + one.name + "' and '" + other.name +
                      "' touch within the contact tolerance, but other faces that touch them stray from "
-                     "their plane by more than twice the tolerance",
+                     "their plane by more than twice the tolerance" +
+                     also_at(other.name, other.where, one.where),
                  "lower the contact tolerance, or place the parts so that their faces share a plane");
   }
   problems.throw_if_any();

@@ -57,7 +57,7 @@ struct Clusters {
 /// Splits every surface into flat patches and joins the patches of different bodies that lie on each
 /// other: nearer than the tolerance over an overlap wider than the tolerance.
 /// @throws InputError when a chain of contacts strays more than twice the tolerance from one plane.
-Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<std::string>& names,
+Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<PlacedPart>& parts,
                        const std::vector<BodyPair>& pairs, double tolerance_mm);
 
 /// Moves the vertices of touching faces onto their common planes, and corners and edges of different

@@ -47,11 +47,12 @@ void check_parts(const std::vector<PlacedPart>& parts, const std::vector<Body>& 
   Problems problems;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!(bodies[i].volume > 0.0)) {
-      problems.add({}, fmt::format("part '{}' has a volume of {:.6g} mm3", parts[i].name, bodies[i].volume),
+      problems.add(parts[i].where,
+                   fmt::format("part '{}' has a volume of {:.6g} mm3", parts[i].name, bodies[i].volume),
                    "the mesh has to be closed, with its triangles counter-clockwise seen from outside");
     } else if (bodies[i].volume <= tolerance_mm * bodies[i].area) {
       problems.add(
-          {},
+          parts[i].where,
           fmt::format("part '{}' is about {:.3g} mm thick (twice its volume by its area), no more than "
                       "twice the contact tolerance of {:.3g} mm, so both its sides would touch",
                       parts[i].name, 2.0 * bodies[i].volume / bodies[i].area, tolerance_mm),
@@ -68,12 +69,13 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
     const OverlapVolume common = overlap_volume(parts[pair.a], parts[pair.b]);
     const std::string how =
         common.exact ? "" : fmt::format(" (counted on a grid of {} points)", kOverlapGridPoints);
+    const PlacedPart &a = parts[pair.a], &b = parts[pair.b];
     problems.add(
-        {},
+        a.where,
         fmt::format("parts '{}' and '{}' overlap by {}{:.6g} mm3{}, for example at ({:.6g}, {:.6g}, "
-                    "{:.6g}) mm; parts may touch or lie one wholly inside the other",
-                    parts[pair.a].name, parts[pair.b].name, common.exact ? "" : "about ", common.volume_mm3,
-                    how, common.inside.x(), common.inside.y(), common.inside.z()),
+                    "{:.6g}) mm; parts may touch or lie one wholly inside the other{}",
+                    a.name, b.name, common.exact ? "" : "about ", common.volume_mm3, how, common.inside.x(),
+                    common.inside.y(), common.inside.z(), also_at(b.name, b.where, a.where)),
         fmt::format("move one of them, or give the one that is to keep the space a higher priority; faces "
                     "meant to touch may miss each other by the contact tolerance, {:.3g} mm",
                     tolerance_mm),
@@ -333,22 +335,23 @@ class Resolver {
 
 }  // namespace
 
+std::string also_at(const std::string& name, const FileLocation& where, const FileLocation& told) {
+  const std::string place = where.text();
+  return place.empty() || place == told.text() ? "" : "; '" + name + "' is at " + place;
+}
+
 std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm) {
   const double rounding = rounding_length(parts);
   check_tolerance(tolerance_mm, rounding);
   const Eigen::Matrix3d axes = natural_axes(parts);
   std::vector<Body> bodies;
-  std::vector<std::string> names;
-  for (const PlacedPart& part : parts) {
-    bodies.emplace_back(part, axes);
-    names.push_back(part.name);
-  }
+  for (const PlacedPart& part : parts) bodies.emplace_back(part, axes);
   check_parts(parts, bodies, tolerance_mm);
 
   // Snapping moves a corner by up to twice the tolerance for each of the up to three faces it is on;
   // pairs found within this reach stay valid after it.
   const std::vector<BodyPair> pairs = near_pairs(bodies, 8.0 * tolerance_mm);
-  const Clusters clusters = find_clusters(bodies, names, pairs, tolerance_mm);
+  const Clusters clusters = find_clusters(bodies, parts, pairs, tolerance_mm);
   snap(bodies, clusters, tolerance_mm, rounding);
   const Nesting nesting = find_nesting(bodies, pairs, tolerance_mm);
   refuse_overlaps(parts, nesting.overlaps, tolerance_mm);

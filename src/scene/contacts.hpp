@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray {
@@ -15,7 +16,12 @@ struct PlacedPart {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> face;  ///< per triangle, scene-wide face id
+  FileLocation where = {};          ///< in the scene file
 };
+
+/// For a message about two parts whose place is that of the first, `told`: "; 'NAME' is at FILE:LINE:COLUMN"
+/// for the other one, or nothing when that is no other place.
+std::string also_at(const std::string& name, const FileLocation& where, const FileLocation& told);
 
 inline constexpr std::int32_t kAmbient = -1;
 inline constexpr std::int32_t kNoFace = -1;

@@ -44,10 +44,11 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
          Problems& problems) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
     const Vec3 at = part.diagnosis.bounds.intersection(by.diagnosis.bounds).center();
-    problems.add(part.where,
-                 fmt::format("part \"{}\" (priority {}) cannot be cut by \"{}\" (priority {}): {}", part.name,
-                             part.priority, by.name, by.priority, why),
-                 hint, {{at.x(), at.y(), at.z()}});
+    problems.add(
+        part.where,
+        fmt::format("part \"{}\" (priority {}) cannot be cut by \"{}\" (priority {}): {}{}", part.name,
+                    part.priority, by.name, by.priority, why, also_at(by.name, by.where, part.where)),
+        hint, {{at.x(), at.y(), at.z()}});
   };
   const auto cut = carve(part.mesh, by.mesh, axes, tolerance_mm);
   if (!cut) return refuse("the result would be no proper solid", "move one of them a little");

@@ -1,5 +1,7 @@
 #include "scintray/scene/material_forms.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "scintray/scene/light_response_form.hpp"
@@ -325,6 +327,17 @@ Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule r
   return sensor;
 }
 
+void expect_sheet(const TomlTable& table, const std::string& key, const Reflector& reflector) {
+  if (!table.good(key)) return;
+  constexpr double kRounding = 1e-9;
+  const double most = most_kept(reflector);
+  table.expect(key, most <= 1.0 + kRounding,
+               fmt::format("reflectance and transmittance of \"{}\" come to {:.6g}; together they are shares "
+                           "of one light, at most 1",
+                           reflector.name, most),
+               "lower one of them at the wavelengths where they exceed 1; what is left of 1 is absorbed");
+}
+
 Reflector read_reflector(const TomlTable& table, const std::string& name, SourceRule rule) {
   Reflector reflector;
   reflector.name = name;
@@ -334,6 +347,12 @@ Reflector read_reflector(const TomlTable& table, const std::string& name, Source
     read_source(reflectance, rule, sources);
     reflector.reflectance = reflectance.curve("value", Dimension::dimensionless);
     expect_share(reflectance, "value", reflector.reflectance, "a reflectance");
+  }
+  if (const auto transmittance = table.optional_table("transmittance")) {
+    read_source(*transmittance, rule, sources);
+    reflector.transmittance = transmittance->curve("value", Dimension::dimensionless);
+    expect_share(*transmittance, "value", *reflector.transmittance, "a transmittance");
+    if (reflectance.good("value")) expect_sheet(*transmittance, "value", reflector);
   }
   const TomlTable direction = table.table("direction");
   if (table.has("direction")) {

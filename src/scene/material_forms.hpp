@@ -25,6 +25,9 @@ Medium read_medium(const TomlTable& table, const std::string& name, SourceRule r
 Sensor read_sensor(const TomlTable& table, const std::string& name, SourceRule rule);
 Reflector read_reflector(const TomlTable& table, const std::string& name, SourceRule rule);
 
+/// Reports at `key`, the transmittance, a sheet that gives back and lets through more than it gets.
+void expect_sheet(const TomlTable& table, const std::string& key, const Reflector& reflector);
+
 /// Reads what something is made of from `formula` or `mass_fractions`; empty when wrong.
 Composition read_composition(const TomlTable& block);
 

@@ -13,11 +13,30 @@ constexpr std::array kQuantities{std::pair{"range", ClaimQuantity::range},
                                  std::pair{"light", ClaimQuantity::light},
                                  std::pair{"maximum_ratio", ClaimQuantity::maximum_ratio},
                                  std::pair{"resolution", ClaimQuantity::resolution},
-                                 std::pair{"time_ratio", ClaimQuantity::time_ratio}};
+                                 std::pair{"time_ratio", ClaimQuantity::time_ratio},
+                                 std::pair{"mean_slope", ClaimQuantity::mean_slope},
+                                 std::pair{"reflectance", ClaimQuantity::reflectance},
+                                 std::pair{"over_fresnel", ClaimQuantity::over_fresnel},
+                                 std::pair{"lobe_width", ClaimQuantity::lobe_width}};
 
 bool compares(ClaimQuantity quantity) {
   return quantity == ClaimQuantity::fall_difference || quantity == ClaimQuantity::maximum_ratio ||
          quantity == ClaimQuantity::time_ratio;
+}
+
+void read_subject_surface(const TomlTable& table, ClaimSpec& claim) {
+  claim.surface = {table.string("surface"), table.where("surface")};
+  claim.outside = {table.string("outside"), table.where("outside")};
+  claim.incidence_rad = table.quantity("incidence", Dimension::angle);
+}
+
+void read_subject_curves(const TomlTable& table, const std::string& quantity, ClaimSpec& claim) {
+  claim.curve = {table.string("curve", ""), table.where("curve")};
+  claim.over = {table.string("over", ""), table.where("over")};
+  const bool two = compares(claim.quantity);
+  if (table.good("quantity") && two != table.has("over"))
+    table.report("over", "\"" + quantity + (two ? "\" compares two curves" : "\" is of one curve"),
+                 two ? "name the second one with over" : "remove over");
 }
 
 ClaimSpec read_claim(const TomlTable& table) {
@@ -31,20 +50,28 @@ ClaimSpec read_claim(const TomlTable& table) {
   const std::string chosen = table.choice("quantity", words);
   for (const auto& [word, quantity] : kQuantities)
     if (chosen == word) claim.quantity = quantity;
-  claim.curve = {table.string("curve", ""), table.where("curve")};
-  claim.over = {table.string("over", ""), table.where("over")};
-  const bool two = compares(claim.quantity);
-  if (table.good("quantity") && two != table.has("over"))
-    table.report("over", "\"" + chosen + (two ? "\" compares two curves" : "\" is of one curve"),
-                 two ? "name the second one with over" : "remove over");
-  claim.at_least = table.optional_quantity("at_least", Dimension::dimensionless);
-  claim.at_most = table.optional_quantity("at_most", Dimension::dimensionless);
+  if (is_of_surface(claim.quantity))
+    read_subject_surface(table, claim);
+  else
+    read_subject_curves(table, chosen, claim);
+  const Dimension dimension = is_angle(claim.quantity) ? Dimension::angle : Dimension::dimensionless;
+  claim.at_least = table.optional_quantity("at_least", dimension);
+  claim.at_most = table.optional_quantity("at_most", dimension);
   if (!claim.at_least && !claim.at_most)
     table.report("at_least", "a claim without bounds cannot fail", "give at_least, at_most, or both");
   return claim;
 }
 
 }  // namespace
+
+bool is_of_surface(ClaimQuantity quantity) {
+  return is_angle(quantity) || quantity == ClaimQuantity::reflectance ||
+         quantity == ClaimQuantity::over_fresnel;
+}
+
+bool is_angle(ClaimQuantity quantity) {
+  return quantity == ClaimQuantity::mean_slope || quantity == ClaimQuantity::lobe_width;
+}
 
 std::vector<ClaimSpec> read_claims(const TomlTable& scene) {
   std::vector<ClaimSpec> claims;

@@ -6,6 +6,7 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/read_analysis.hpp"
+#include "scintray/scene/read_fit.hpp"
 #include "scintray/scene/read_parts.hpp"
 #include "scintray/scene/read_readout.hpp"
 
@@ -93,12 +94,14 @@ SceneSpec read_from(const TomlTable& root, const std::string& text) {
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
   scene.claims = read_claims(root);
+  scene.benches = read_benches(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
   scene.surfaces.merge(bodies.surfaces);
   scene.sensors = read_definitions(root, "sensors");
   scene.reflectors = read_definitions(root, "reflectors");
+  scene.fit = read_fit(root);
   read_sweeps(root);
   return scene;
 }
@@ -131,13 +134,18 @@ SceneFile SceneFile::from_text(const std::string& text, const std::string& file)
   Problems sweep_problems;
   scene.sweeps_ = read_sweeps(TomlTable(scene.document_, sweep_problems));
   expand_patterns(scene.sweeps_, scene.document_);
-  const auto try_point = [&](std::size_t point) {
+  const auto try_point = [&](std::size_t point, const std::vector<KeySetting>& settings = {}) {
     Problems problems;
-    scene.read_point(point, problems);
+    SceneSpec spec = scene.read_point(point, settings, problems);
     found.add(problems);
+    return spec;
   };
   // Every value once, not every combination: the number of combinations is a product.
-  try_point(0);
+  const SceneSpec first = try_point(0);
+  if (first.fit)
+    for (const FitParameterSpec& parameter : first.fit->parameters)
+      for (const double value : {parameter.start, parameter.low, parameter.high})
+        try_point(0, {parameter.setting(value)});
   std::size_t stride = scene.points();
   for (const SweepSpec& sweep : scene.sweeps_) {
     stride /= sweep.values.size();
@@ -152,6 +160,14 @@ std::size_t SceneFile::points() const {
   for (const SweepSpec& sweep : sweeps_) product *= sweep.values.size();
   return product;
 }
+
+std::vector<KeyPath> SceneFile::sweep_paths() const {
+  std::vector<KeyPath> paths;
+  for (const SweepSpec& sweep : sweeps_) paths.push_back(sweep.path);
+  return paths;
+}
+
+std::size_t SceneFile::sweep_values(std::size_t sweep) const { return sweeps_.at(sweep).values.size(); }
 
 std::vector<std::string> SceneFile::sweep_keys() const {
   std::vector<std::string> keys;
@@ -171,16 +187,20 @@ std::vector<std::string> SceneFile::parameters(std::size_t point) const {
   return values;
 }
 
-SceneSpec SceneFile::read_point(std::size_t point, Problems& problems) const {
+SceneSpec SceneFile::read_point(std::size_t point, const std::vector<KeySetting>& settings,
+                                Problems& problems) const {
   TomlNode edited = *document_;
   for (std::size_t i = 0; i < sweeps_.size(); ++i)
-    edited = with_value(edited, sweeps_[i], value_at(point, i), problems);
+    edited = with_value(edited, {sweeps_[i].path, value_at(point, i)}, problems);
+  for (const KeySetting& setting : settings) edited = with_value(edited, setting, problems);
   return read_scene(std::make_shared<const TomlNode>(std::move(edited)), text_, problems);
 }
 
-SceneSpec SceneFile::spec(std::size_t point) const {
+SceneSpec SceneFile::spec(std::size_t point) const { return spec(point, {}); }
+
+SceneSpec SceneFile::spec(std::size_t point, const std::vector<KeySetting>& settings) const {
   Problems problems;
-  SceneSpec scene = read_point(point, problems);
+  SceneSpec scene = read_point(point, settings, problems);
   problems.throw_if_any();
   return scene;
 }

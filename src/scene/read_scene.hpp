@@ -20,8 +20,8 @@ std::vector<std::string> scene_keys(const TomlNodePtr& document);
 /// A scene file with its sweeps; reads one scene per point.
 class SceneFile {
  public:
-  /// Reads the file, and every value of its sweeps at least once. Throws InputError with every
-  /// distinct problem.
+  /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws
+  /// InputError with every distinct problem.
   static SceneFile load(const std::filesystem::path& path);
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
   static SceneFile from_text(const std::string& text, const std::string& file);
@@ -32,13 +32,18 @@ class SceneFile {
   std::vector<std::string> sweep_keys() const;
   /// Value of each swept key at a point, as written ("2 mm").
   std::vector<std::string> parameters(std::size_t point) const;
+  /// The swept keys, slowest first, and how many values each takes.
+  std::vector<KeyPath> sweep_paths() const;
+  std::size_t sweep_values(std::size_t sweep) const;
   /// The scene at a point, 0 <= point < points().
   SceneSpec spec(std::size_t point) const;
+  /// The same with further keys set after those of the sweeps, which they may be.
+  SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
   const std::string& text() const { return text_; }
 
  private:
   const TomlNode& value_at(std::size_t point, std::size_t sweep) const;
-  SceneSpec read_point(std::size_t point, Problems& problems) const;
+  SceneSpec read_point(std::size_t point, const std::vector<KeySetting>& settings, Problems& problems) const;
 
   TomlNodePtr document_;
   std::vector<SweepSpec> sweeps_;

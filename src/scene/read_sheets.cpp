@@ -17,14 +17,23 @@ TomlNode string_node(const std::string& key, const std::string& text, const File
   return node;
 }
 
-/// A surface that is nothing but a reflector: what [surfaces.NAME] with model = "painted" says.
+TomlNode true_node(const std::string& key, const FileLocation& where) {
+  TomlNode node = string_node(key, "true", where);
+  node.kind = Kind::boolean;
+  node.boolean = true;
+  return node;
+}
+
+/// A surface that is nothing but one face of a sheet: what [surfaces.NAME] with model = "painted" and
+/// face_of_sheet = true says.
 NameRef sheet_of(const NameRef& reflector, InlineTables& surfaces) {
   const std::string name = "sheet of " + reflector.name;
   auto node = std::make_shared<TomlNode>();
   node->key = name;
   node->where = node->key_where = reflector.where;
   node->items = {string_node("model", "painted", reflector.where),
-                 string_node("reflector", reflector.name, reflector.where)};
+                 string_node("reflector", reflector.name, reflector.where),
+                 true_node("face_of_sheet", reflector.where)};
   surfaces.emplace(name, node);
   return {name, reflector.where};
 }

@@ -17,7 +17,9 @@
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/analysis_spec.hpp"
+#include "scintray/scene/bench_spec.hpp"
 #include "scintray/scene/claim_spec.hpp"
+#include "scintray/scene/fit_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/source_spec.hpp"
@@ -166,6 +168,8 @@ struct SceneSpec {
   std::optional<ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   AnalysisSpec analysis;
   std::vector<ClaimSpec> claims;
+  std::vector<BenchSpec> benches;
+  std::optional<FitSpec> fit;  ///< [fit]
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "scintray/scene/map_forms.hpp"
+#include "scintray/scene/material_forms.hpp"
 
 namespace scintray {
 
@@ -112,25 +113,39 @@ std::optional<TracingSpec> read_tracing(const TomlTable& surface) {
   return tracing;
 }
 
-/// mixture = [{ surface = "NAME", share = 0.6 }, ...]
+/// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take what is left.
 std::vector<ShareSpec> read_mixture(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems) {
-  std::vector<ShareSpec> mixture;
+  constexpr double kRounding = 1e-9;
+  const std::vector<TomlTable> parts = table.tables("mixture");
+  std::vector<double> shares;
+  std::optional<std::size_t> rest;
   double sum = 0.0;
-  for (const TomlTable& part : table.tables("mixture")) {
-    const std::string name = part.string("surface");
-    const double share = read_share(part, "share", std::nullopt);
-    sum += share;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool given = parts[i].has("share");
+    shares.push_back(given ? read_share(parts[i], "share", std::nullopt) : 0.0);
+    sum += shares.back();
+    if (!given && rest)
+      parts[i].report("share", "two surfaces of a mixture have no share, but only one can take what is left",
+                      "give all but one their share");
+    if (!given) rest = i;
+  }
+  const bool whole = rest ? sum <= 1.0 + kRounding : std::abs(sum - 1.0) <= kRounding;
+  table.expect(
+      "mixture", parts.empty() || whole,
+      "the shares of a mixture sum to " + std::to_string(sum) + "; expected " + (rest ? "at most 1" : "1"),
+      "one surface without a share takes what the others leave");
+  if (rest) shares[*rest] = std::max(0.0, 1.0 - sum);
+  std::vector<ShareSpec> mixture;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = parts[i].string("surface");
     if (name.empty()) continue;
     try {
       mixture.push_back(
-          {share, std::make_shared<const SurfaceSpec>(lookup.surface(name, part.where("surface")))});
+          {shares[i], std::make_shared<const SurfaceSpec>(lookup.surface(name, parts[i].where("surface")))});
     } catch (const InputError& error) {
       problems.add(error);
     }
   }
-  constexpr double kRounding = 1e-9;
-  table.expect("mixture", mixture.empty() || std::abs(sum - 1.0) <= kRounding,
-               "the shares of a mixture sum to " + std::to_string(sum) + "; expected 1");
   return mixture;
 }
 
@@ -205,10 +220,23 @@ void read_gap(const TomlTable& table, const SurfaceLookup& lookup, Problems& pro
   surface.gap_index = Curve::constant(index);
 }
 
+/// A face of a sheet is a painted one, and its light is not followed through a binder.
+void check_face_of_sheet(const TomlTable& table, const SurfaceSpec& surface, const Reflector& reflector) {
+  table.expect("face_of_sheet", std::holds_alternative<PaintedSpec>(surface.microsurface),
+               "only a painted surface is a face of a sheet: there is nothing else between the two faces",
+               "use model = \"painted\", or remove face_of_sheet and give this face's own reflectance and "
+               "transmittance");
+  table.expect("face_of_sheet", !reflector.transmittance || reflector.volume_index <= 0.0,
+               "reflector \"" + reflector.name +
+                   "\" is volume-like and lets light through, which cannot be shared between two faces with "
+                   "a space between them",
+               "use a reflector without [volume], or paint one face only with it");
+}
+
 void read_surface_reflector(const TomlTable& table, const SurfaceLookup& lookup, Problems& problems,
                             SurfaceSpec& surface) {
   const std::optional<std::string> form = table.one_of({"reflector", "reflectance"}, false);
-  table.has("specular_share");
+  for (const char* key : {"specular_share", "transmittance", "face_of_sheet"}) table.has(key);
   if (!form) return;
   Reflector reflector;
   if (*form == "reflector") {
@@ -228,7 +256,17 @@ void read_surface_reflector(const TomlTable& table, const SurfaceLookup& lookup,
                  "a reflectance lies between 0 and 1");
     reflector.specular_share = read_share(table, "specular_share", std::nullopt);
   }
-  surface.reflector = std::move(reflector);
+  if (table.has("transmittance")) {
+    reflector.transmittance = table.curve("transmittance", Dimension::dimensionless);
+    table.expect("transmittance",
+                 reflector.transmittance->min_y() >= 0.0 && reflector.transmittance->max_y() <= 1.0,
+                 "a transmittance lies between 0 and 1");
+    expect_sheet(table, "transmittance", reflector);
+  }
+  if (reflector.transmittance && reflector.transmittance->max_y() <= 0.0) reflector.transmittance.reset();
+  surface.face_of_sheet = table.boolean("face_of_sheet", false);
+  if (surface.face_of_sheet) check_face_of_sheet(table, surface, reflector);
+  surface.reflector = surface.face_of_sheet ? face_of_sheet(reflector) : std::move(reflector);
 }
 
 /// The parts of a stack that ask for or exclude each other.
@@ -271,6 +309,9 @@ TomlNode merge_over_base(const TomlNode& base, const TomlNode& over) {
   const TomlNode* model = over.find("model");
   for (const auto& [name, own] : kModels)
     if (model && *own && model->text != name) drop(merged, own);
+  // What a base says of its sheet's light goes with that sheet.
+  if (over.find("reflector") || (over.find("reflectance") && base.find("reflector")))
+    drop(merged, "transmittance");
   if (over.find("reflector")) drop(merged, "reflectance");
   if (over.find("reflectance")) drop(merged, "reflector");
   for (const TomlNode& member : over.items) {
@@ -314,7 +355,8 @@ SurfaceSpec read_surface(const TomlTable& table, const std::string& name, const 
   surface.direction = table.optional_direction("direction").value_or(Vec3::Zero());
   if (table.has("mixture")) {
     surface.mixture = read_mixture(table, lookup, problems);
-    for (const char* key : {"model", "gap", "gap_thickness", "reflector", "reflectance", "direction"})
+    for (const char* key :
+         {"model", "gap", "gap_thickness", "reflector", "reflectance", "transmittance", "direction"})
       if (table.has(key))
         table.report(key,
                      "a mixture is made of whole surfaces, and has no " + std::string(key) + " of its own",

@@ -75,9 +75,11 @@ struct SurfaceSpec {
   std::shared_ptr<const WavelengthShifter> gap_shifter;  ///< of the gap's medium, where it has one
   std::optional<double> gap_thickness_um;
   std::optional<Reflector> reflector;  ///< looked up, with the surface's own specular share
-  Vec3 direction = Vec3::Zero();       ///< of a map's x axis (Surface::direction)
-  std::vector<ShareSpec> mixture;      ///< shares of 1; empty: the surface is one
-  std::vector<std::string> sources;    ///< published sources, its own first, then its bases'
+  /// One of the two faces of a sheet: `reflector` is this face's share of it (surface/reflector.hpp).
+  bool face_of_sheet = false;
+  Vec3 direction = Vec3::Zero();     ///< of a map's x axis (Surface::direction)
+  std::vector<ShareSpec> mixture;    ///< shares of 1; empty: the surface is one
+  std::vector<std::string> sources;  ///< published sources, its own first, then its bases'
 };
 
 /// The surface, and those it is mixed of, with rays followed on height maps themselves, not by way of tables.

@@ -16,6 +16,9 @@ using Kind = TomlNode::Kind;
 /// Keys of the run as a whole, which cannot differ between the points of one results file.
 const std::set<std::string> kFixedKeys{"title", "run.output", "run.threads"};
 
+/// Tables that say what is done with the scene, not what the scene is.
+const std::set<std::string> kFixedTables{"sweep", "fit"};
+
 std::vector<std::string> segments_of(const std::string& path) {
   std::vector<std::string> segments;
   std::string segment;
@@ -25,8 +28,9 @@ std::vector<std::string> segments_of(const std::string& path) {
   return segments;
 }
 
-std::string name_of(const TomlNode& entry) {
-  const TomlNode* name = entry.find("name");
+/// What an entry of an array of tables is called in a path.
+std::string name_of(const TomlNode& array, const TomlNode& entry) {
+  const TomlNode* name = entry.find(array.key == "mixture" ? "surface" : "name");
   return name && name->kind == Kind::string ? name->text : "";
 }
 
@@ -35,7 +39,7 @@ std::vector<std::string> continuations(const TomlNode& node) {
   std::vector<std::string> names;
   if (node.kind != Kind::table && node.kind != Kind::array) return names;
   for (const TomlNode& item : node.items) {
-    const std::string name = node.kind == Kind::table ? item.key : name_of(item);
+    const std::string name = node.kind == Kind::table ? item.key : name_of(node, item);
     if (!name.empty()) names.push_back(name);
   }
   return names;
@@ -53,18 +57,18 @@ TomlNode* step_into(TomlNode& node, const std::string& segment) {
   if (const auto index = coordinate(node, segment)) return &node.items[*index];
   if (node.kind != Kind::array) return nullptr;
   for (TomlNode& entry : node.items)
-    if (!segment.empty() && name_of(entry) == segment) return &entry;
+    if (!segment.empty() && name_of(node, entry) == segment) return &entry;
   return nullptr;
 }
 
-void report_dead_end(const SweepSpec& sweep, const std::string& so_far, const std::string& segment,
+void report_dead_end(const KeyPath& path, const std::string& so_far, const std::string& segment,
                      const TomlNode& node, Problems& problems) {
   const std::vector<std::string> names = continuations(node);
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   const std::string near = nearest_word(segment, names);
-  problems.add(sweep.where,
-               "the swept key \"" + sweep.key + "\" leads nowhere: " +
+  problems.add(path.where,
+               "the " + path.role + " \"" + path.key + "\" leads nowhere: " +
                    (so_far.empty() ? "the scene" : "\"" + so_far + "\"") + " has no \"" + segment + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
                    (list.empty() ? "nothing can follow there" : "what can follow there: " + list));
@@ -77,7 +81,8 @@ std::string millimetres(double value) {
 }
 
 /// Moves [low, high] so that its middle is `value`; leaves what is wrong to the reader of the slab.
-void move_slab(TomlNode& slab, const TomlNode& value, const SweepSpec& sweep, Problems& problems) {
+void move_slab(TomlNode& slab, const KeySetting& setting, Problems& problems) {
+  const TomlNode& value = setting.value;
   std::array<double, 3> mm{};
   const std::array<const TomlNode*, 3> nodes{&slab.items[0], &slab.items[1], &value};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -90,7 +95,8 @@ void move_slab(TomlNode& slab, const TomlNode& value, const SweepSpec& sweep, Pr
     } catch (const InputError& error) {
       if (i < 2) return;
       for (const Problem& problem : error.problems())
-        problems.add(value.where, "a value of the sweep over \"" + sweep.key + "\": " + problem.what,
+        problems.add(value.where,
+                     "a value of the " + setting.path.role + " \"" + setting.path.key + "\": " + problem.what,
                      problem.hint);
       return;
     }
@@ -105,9 +111,10 @@ void move_slab(TomlNode& slab, const TomlNode& value, const SweepSpec& sweep, Pr
 
 std::optional<SweepSpec> read_sweep(const TomlTable& table) {
   SweepSpec sweep;
-  sweep.key = table.string("key");
-  sweep.label = table.string("label", sweep.key);
-  sweep.where = table.where("key");
+  KeyPath& path = sweep.path;
+  path.key = table.string("key");
+  path.where = table.where("key");
+  sweep.label = table.string("label", path.key);
   const TomlNodePtr values = table.take("values");
   if (!values) {
     table.report("values", "[sweep] has no \"values\", which is needed", "add values = [ ... ] there");
@@ -119,15 +126,19 @@ std::optional<SweepSpec> read_sweep(const TomlTable& table) {
     return std::nullopt;
   }
   sweep.values = values->items;
-  sweep.also = table.strings("also", 0, false);
-  table.expect("key", kFixedKeys.count(sweep.key) == 0 && sweep.key.rfind("sweep", 0) != 0,
-               "\"" + sweep.key + "\" is the same for a whole run and cannot be swept",
+  path.also = table.strings("also", 0, false);
+  table.expect("key", may_be_set(path.key),
+               "\"" + path.key + "\" is the same for a whole run and cannot be swept",
                "sweep a key of the scene, or make one scene file for each value");
   if (!table.good("key")) return std::nullopt;
   return sweep;
 }
 
 }  // namespace
+
+bool may_be_set(const std::string& key) {
+  return kFixedKeys.count(key) == 0 && kFixedTables.count(segments_of(key).front()) == 0;
+}
 
 std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
   /// Beyond this a sweep is surely a mistake, and its results would not fit in memory.
@@ -138,10 +149,10 @@ std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
   for (const TomlTable& table : scene.tables("sweep")) {
     const std::optional<SweepSpec> sweep = read_sweep(table);
     if (!sweep) continue;
-    std::vector<std::string> swept = sweep->also;
-    swept.push_back(sweep->key);
+    std::vector<std::string> swept = sweep->path.also;
+    swept.push_back(sweep->path.key);
     for (const std::string& key : swept)
-      table.expect(key == sweep->key ? "key" : "also", keys.insert(key).second,
+      table.expect(key == sweep->path.key ? "key" : "also", keys.insert(key).second,
                    "\"" + key + "\" is swept twice", "put all its values into one [[sweep]]");
     table.expect("key", sweep->values.size() <= kMostPoints / points,
                  "the sweeps together have more than " + std::to_string(kMostPoints) + " points",
@@ -155,17 +166,17 @@ std::vector<SweepSpec> read_sweeps(const TomlTable& scene) {
 
 namespace {
 
-/// The same for the sweep's first key alone.
-TomlNode with_one_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
-                        Problems& problems) {
+/// The same for the first key alone.
+TomlNode with_one_value(const TomlNode& document, const KeySetting& setting, Problems& problems) {
+  const KeyPath& path = setting.path;
   TomlNode edited = document;
-  const std::vector<std::string> segments = segments_of(sweep.key);
+  const std::vector<std::string> segments = segments_of(path.key);
   TomlNode* node = &edited;
   std::string so_far;
   for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
     TomlNode* next = step_into(*node, segments[i]);
     if (!next) {
-      report_dead_end(sweep, so_far, segments[i], *node, problems);
+      report_dead_end(path, so_far, segments[i], *node, problems);
       return edited;
     }
     node = next;
@@ -173,38 +184,37 @@ TomlNode with_one_value(const TomlNode& document, const SweepSpec& sweep, const 
   }
   const std::string& last = segments.back();
   if (last == "center" && node->key == "slab_z" && node->kind == Kind::array && node->items.size() == 2) {
-    move_slab(*node, value, sweep, problems);
+    move_slab(*node, setting, problems);
     return edited;
   }
   TomlNode* target = step_into(*node, last);
   const bool whole_entry = target && node->kind == Kind::array && target->kind == Kind::table;
   if (whole_entry) {
-    problems.add(sweep.where, "the swept key \"" + sweep.key + "\" names a whole table, not a key",
-                 "go on with one of its keys, as \"" + sweep.key + ".surface\"");
+    problems.add(path.where, "the " + path.role + " \"" + path.key + "\" names a whole table, not a key",
+                 "go on with one of its keys, as \"" + path.key + ".surface\"");
     return edited;
   }
   if (!target) {
     if (node->kind != Kind::table || last.empty()) {
-      report_dead_end(sweep, so_far, last, *node, problems);
+      report_dead_end(path, so_far, last, *node, problems);
       return edited;
     }
     target = &node->items.emplace_back();
   }
-  *target = value;
+  *target = setting.value;
   target->key = node->kind == Kind::table ? last : "";
-  target->key_where = value.where;
+  target->key_where = setting.value.where;
   return edited;
 }
 
 }  // namespace
 
-TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
-                    Problems& problems) {
-  TomlNode edited = with_one_value(document, sweep, value, problems);
-  SweepSpec other = sweep;
-  for (const std::string& key : sweep.also) {
-    other.key = key;
-    edited = with_one_value(edited, other, value, problems);
+TomlNode with_value(const TomlNode& document, const KeySetting& setting, Problems& problems) {
+  TomlNode edited = with_one_value(document, setting, problems);
+  KeySetting other = setting;
+  for (const std::string& key : setting.path.also) {
+    other.path.key = key;
+    edited = with_one_value(edited, other, problems);
   }
   return edited;
 }

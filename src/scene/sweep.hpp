@@ -9,26 +9,41 @@
 
 namespace scintray {
 
+/// A key of a scene file that something sets, and those that are set with it.
+struct KeyPath {
+  std::string key;                 ///< dotted path, "source.region.slab_z.center"
+  std::vector<std::string> also;   ///< keys that take the same value
+  FileLocation where;              ///< of the text that names the key
+  std::string role = "swept key";  ///< for messages: what the key is there
+};
+
 /// [[sweep]]: the values a key takes, one after the other.
 struct SweepSpec {
-  std::string key;                ///< dotted path, "source.region.slab_z.center"
-  std::string label;              ///< heading; the key when not given
-  std::vector<std::string> also;  ///< keys that take the same value
+  KeyPath path;
+  std::string label;  ///< heading; the key when not given
   std::vector<TomlNode> values;
-  FileLocation where;  ///< of the key's value
+};
+
+/// A key and the value that it takes.
+struct KeySetting {
+  KeyPath path;
+  TomlNode value;
 };
 
 /// The sweeps of a scene, slowest first. What is wrong is reported, and left out.
 std::vector<SweepSpec> read_sweeps(const TomlTable& scene);
 
-/// A copy of the document in which the keys at a sweep's paths have the given value, which keeps its
-/// own place in the file so that errors point at the sweep.
+/// False for keys of the run as a whole, which no point of a sweep can have for itself.
+bool may_be_set(const std::string& key);
+
+/// A copy of the document in which the keys at the paths have the given value, which keeps its own place in
+/// the file so that errors point at what gives it (a sweep, a fit).
 ///
 /// Entries of an array of tables are addressed by their `name`: "part.crystal.surface",
-/// "part.crystal.face.exit.surface". Elements of an array of three are x, y and z:
+/// "part.crystal.face.exit.surface", the shares of a mixture by their `surface`:
+/// "surfaces.wrapped.mixture.glued.share". Elements of an array of three are x, y and z:
 /// "source.position.z". "slab_z.center" moves a slab and keeps its thickness.
 /// A path that leads nowhere is added to `problems`, and the document returned as it was.
-TomlNode with_value(const TomlNode& document, const SweepSpec& sweep, const TomlNode& value,
-                    Problems& problems);
+TomlNode with_value(const TomlNode& document, const KeySetting& setting, Problems& problems);
 
 }  // namespace scintray

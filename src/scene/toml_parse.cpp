@@ -170,6 +170,19 @@ std::size_t key_offset(const std::string& text, std::size_t offset) {
   return i;
 }
 
+/// Where a value stands in the text, in bytes.
+struct Span {
+  std::size_t offset = 0, size = 0;
+};
+
+/// toml11 3's public location() counts the lines before every value anew, so that reading a scene takes time
+/// as the square of its length; the region that it counts in knows the offset.
+Span span_of(const toml::value& value) {
+  const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  if (region == nullptr) return {};
+  return {static_cast<std::size_t>(region->first() - region->begin()), region->size()};
+}
+
 class Converter {
  public:
   explicit Converter(const TextPlaces& places) : places_(places) {}
@@ -177,12 +190,11 @@ class Converter {
   TomlNode convert(const toml::value& value, const std::string& key) {
     TomlNode node;
     node.key = key;
-    const toml::source_location location = value.location();
-    const std::size_t offset = places_.offset(location.line(), location.column());
+    const auto [offset, size] = span_of(value);
     node.where = places_.at(offset);
     const std::size_t key_at = key_offset(places_.text(), offset);
     node.key_where = key.empty() || key_at == offset ? node.where : places_.at(key_at);
-    const std::string written = places_.text().substr(offset, location.region());
+    const std::string written = places_.text().substr(offset, size);
     switch (value.type()) {
       case toml::value_t::table:
         convert_members(value, node);

@@ -46,6 +46,9 @@ void check_cover(Problems& problems, const SurfaceSpec& surface, double low_nm, 
   if (surface.reflector)
     check_cover(problems, surface.where, surface.reflector->reflectance, low_nm, high_nm,
                 "reflector \"" + surface.reflector->name + "\"", "reflectances", hint);
+  if (surface.reflector && surface.reflector->transmittance)
+    check_cover(problems, surface.where, *surface.reflector->transmittance, low_nm, high_nm,
+                "reflector \"" + surface.reflector->name + "\"", "transmittances", hint);
   for (const ShareSpec& part : surface.mixture) check_cover(problems, *part.surface, low_nm, high_nm);
 }
 

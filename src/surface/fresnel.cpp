@@ -7,6 +7,16 @@ namespace {
 /// Incidence closer to the normal than this (sine squared) has no plane of incidence worth naming.
 constexpr double kNormalIncidence = 1e-20;
 
+/// A ray at a facet: Snell's law.
+struct Incidence {
+  double cos_i, ratio, sin2_i, sin2_t;
+  Incidence(const Ray& ray, const Vec3& m, double n1, double n2)
+      : cos_i(std::min(1.0, std::max(0.0, -ray.direction.dot(m)))),
+        ratio(n1 / n2),
+        sin2_i(1.0 - cos_i * cos_i),
+        sin2_t(ratio * ratio * sin2_i) {}
+};
+
 void refract(Ray& ray, const Vec3& m, double ratio, double cos_i, double cos_t) {
   ray.direction = (ratio * ray.direction + (ratio * cos_i - cos_t) * m).normalized();
 }
@@ -14,10 +24,7 @@ void refract(Ray& ray, const Vec3& m, double ratio, double cos_i, double cos_t) 
 }  // namespace
 
 bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
-  const double cos_i = std::min(1.0, std::max(0.0, -ray.direction.dot(m)));
-  const double ratio = n1 / n2;
-  const double sin2_i = 1.0 - cos_i * cos_i;
-  const double sin2_t = ratio * ratio * sin2_i;
+  const auto [cos_i, ratio, sin2_i, sin2_t] = Incidence(ray, m, n1, n2);
   if (sin2_t >= 1.0) {
     reflect(ray, m);
     return false;
@@ -60,6 +67,22 @@ bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
   // p is s x k on every side, so r_p's sign convention (Born & Wolf fig. 1.10) carries over.
   ray.polarisation = (out_s * s + out_p * s.cross(ray.direction)).normalized();
   return transmitted;
+}
+
+bool refract_only(Ray& ray, const Vec3& m, double n1, double n2) {
+  if (n1 == n2) return true;
+  const auto [cos_i, ratio, sin2_i, sin2_t] = Incidence(ray, m, n1, n2);
+  if (sin2_t >= 1.0) {
+    reflect(ray, m);
+    return false;
+  }
+  const Vec3 before = ray.direction;
+  refract(ray, m, ratio, cos_i, std::sqrt(1.0 - sin2_t));
+  if (ray.polarisation.isZero(0.0) || sin2_i < kNormalIncidence) return true;
+  const Vec3 s = before.cross(m).normalized();
+  const double e_s = ray.polarisation.dot(s), e_p = ray.polarisation.dot(s.cross(before));
+  ray.polarisation = (e_s * s + e_p * s.cross(ray.direction)).normalized();
+  return true;
 }
 
 }  // namespace scintray

@@ -62,4 +62,9 @@ inline void scatter_isotropic(Ray& ray, Rng& rng) {
 /// @return true when the ray was refracted into n2.
 bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng);
 
+/// Refracts `ray` by Snell's law without reflecting any of it, as a thin film with indices n1 and n2 on its
+/// sides does with what it lets through; the shares of the two polarisations stay. Beyond the critical
+/// angle it is reflected instead. Arguments and result as of meet_facet.
+bool refract_only(Ray& ray, const Vec3& m, double n1, double n2);
+
 }  // namespace scintray

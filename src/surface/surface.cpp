@@ -91,35 +91,6 @@ class Meeting {
   std::optional<MapPlace> place_;
 };
 
-void scatter_lambertian(Ray& ray, const Vec3& normal, Rng& rng) {
-  const bool polarised = !ray.polarisation.isZero(0.0);
-  ray.direction = sample_lambertian(normal, rng);
-  if (polarised) ray.polarisation = sample_polarisation(ray.direction, rng);  // diffuse light: none left
-}
-
-/// Sends `ray`, in a medium of index `index`, back from a reflector whose normal towards the light is
-/// `normal`; false: absorbed. Light that a volume's boundary mirrors has not met its reflectance.
-bool reflect_from(const Reflector& reflector, Ray& ray, const Vec3& normal, double index,
-                  double wavelength_nm, Rng& rng, ReflectionLog* log) {
-  const double reflectance = reflector.reflectance(wavelength_nm);
-  if (reflector.volume_index > 0.0) {
-    if (!meet_facet(ray, normal, index, reflector.volume_index, rng)) return true;
-    for (;;) {
-      if (rng.uniform() >= reflectance) return false;
-      if (log) log->add(reflector, reflectance);
-      scatter_lambertian(ray, normal, rng);
-      if (meet_facet(ray, -normal, reflector.volume_index, index, rng)) return true;
-    }
-  }
-  if (rng.uniform() >= reflectance) return false;
-  if (log) log->add(reflector, reflectance);
-  if (reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share)
-    reflect(ray, normal);
-  else
-    scatter_lambertian(ray, normal, rng);
-  return true;
-}
-
 const Surface& pick(const std::vector<SurfaceShare>& mixture, Rng& rng) {
   double u = rng.uniform();
   for (const SurfaceShare& part : mixture) {
@@ -139,16 +110,23 @@ struct FarFace {
 
   enum class After { in_gap, beyond, absorbed };
   After from_gap(Ray& ray) const {
-    if (reflector)
-      return reflect_from(*reflector, ray, -normal, gap_index, wavelength_nm, rng, log) ? After::in_gap
-                                                                                        : After::absorbed;
+    if (reflector) {
+      const SheetOutcome met =
+          meet_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
+      return after(met, After::in_gap, After::beyond);
+    }
     return meet_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
   }
   After from_beyond(Ray& ray) const {
-    if (reflector)  // the back of the sheet
-      return reflect_from(*reflector, ray, normal, beyond_index, wavelength_nm, rng, log) ? After::beyond
-                                                                                          : After::absorbed;
+    if (reflector) {  // the back of the sheet
+      const SheetOutcome met =
+          meet_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
+      return after(met, After::beyond, After::in_gap);
+    }
     return meet_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
+  }
+  static After after(SheetOutcome met, After back, After through) {
+    return met == SheetOutcome::back ? back : met == SheetOutcome::through ? through : After::absorbed;
   }
 };
 
@@ -212,7 +190,7 @@ bool Surface::opaque() const {
     return std::all_of(mixture.begin(), mixture.end(),
                        [](const SurfaceShare& part) { return part.surface->opaque(); });
   const auto* table = std::get_if<std::shared_ptr<const SurfaceTable>>(&microsurface);
-  return reflector.has_value() || (table && (*table)->opaque());
+  return (reflector && !reflector->transmittance) || (table && (*table)->opaque());
 }
 
 }  // namespace scintray

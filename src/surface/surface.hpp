@@ -12,7 +12,7 @@
 #include "scintray/medium/wavelength_shifter.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/microsurface.hpp"
-#include "scintray/surface/reflection_log.hpp"
+#include "scintray/surface/reflector.hpp"
 #include "scintray/surface/table.hpp"
 #include "scintray/surface/unified.hpp"
 
@@ -31,18 +31,6 @@ struct PaintedSurface {};
 
 using Microsurface = std::variant<SmoothSurface, UnifiedSurface, std::shared_ptr<const SurfaceTable>,
                                   std::shared_ptr<const HeightField>, PaintedSurface>;
-
-/// A sheet that reflects or absorbs, from either of its sides.
-struct Reflector {
-  std::string name;
-  Curve reflectance;            ///< against wavelength (nm)
-  double specular_share = 0.0;  ///< share of reflected light that is mirrored; the rest Lambertian
-  /// Volume-like reflectors (PTFE, paint): index of the binder, 0 for none. Light is refracted into it, and
-  /// the light scattered back, Lambertian inside, is refracted out or reflected in again; `reflectance` is
-  /// then that of the volume for diffuse light from within. After L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
-  /// 2956, "Diffuse-reflectance model for smooth dielectric surfaces".
-  double volume_index = 0.0;
-};
 
 struct Surface;
 
@@ -106,6 +94,11 @@ struct Surface {
 
   /// True when no light passes to the other side.
   bool opaque() const;
+  /// True when it is nothing but a smooth boundary.
+  bool plain() const {
+    return mixture.empty() && std::holds_alternative<SmoothSurface>(microsurface) && !reflector &&
+           !gap_thickness_um;
+  }
   /// True when light may leave it at another wavelength.
   bool shifts() const { return mixture.empty() ? gap_shifter != nullptr : mixture_shifts(); }
 

@@ -61,6 +61,11 @@ double PointResult::cut_bias_bound() const {
   return static_cast<double>(cut) / static_cast<double>(photons);
 }
 
+bool RunResult::traced_photons() const {
+  return std::any_of(points.begin(), points.end(),
+                     [](const PointResult& point) { return point.photons > 0; });
+}
+
 bool RunResult::complete() const {
   return partial_reason.empty() && !points.empty() &&
          std::all_of(points.begin(), points.end(), [](const PointResult& point) { return point.complete; });

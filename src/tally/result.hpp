@@ -165,6 +165,8 @@ struct RunResult {
   std::string partial_reason;  ///< why the run ended early; empty when it did not
   /// Every point was traced to its end and none is missing.
   bool complete() const;
+  /// False when its events come from a response map.
+  bool traced_photons() const;
 };
 
 }  // namespace scintray

@@ -113,6 +113,18 @@ TEST_CASE("septa that do not fit") {
                         "one of \"dry\", \"bonded\"", "words");
 }
 
+TEST_CASE("an opaque medium between the faces of septa that let light through") {
+  const std::string leaking =
+      replaced(kScene, "reflector = \"ESR\"\n", "reflector = \"thin\"\nmedium = @@\"opaque\"\n") +
+      "[reflectors.thin]\nreflectance = { value = 0.9 }\ntransmittance = { value = 0.08 "
+      "}\ndirection = { specular_share = 0 }\n";
+  const MarkedText input(leaking);
+  check_one_problem(input, problems_when_built(input.text),
+                    "light goes through the faces of the sheet \"block_septum_", "as medium = \"air\"");
+  const std::string clear = replaced(input.text, "medium = \"opaque\"\n", "medium = \"air\"\n");
+  CHECK(problems_when_built(clear).empty());
+}
+
 TEST_CASE("overrides of elements that are not there") {
   check_builder_mistake("columns = [0]", "columns = @@[4]", "there are only 4 columns", "from 0");
   check_builder_mistake("columns = [0]", "layers = @@[2]", "there are only 2 layers", "from 0");

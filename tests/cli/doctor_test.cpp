@@ -1,6 +1,8 @@
 #include "program.hpp"
 #include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/gltf_writer.hpp"
 #include "scintray/mesh/import.hpp"
+#include "scintray/mesh/ply_writer.hpp"
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/stl_writer.hpp"
 #include "support/shared.hpp"
@@ -136,7 +138,7 @@ TEST_CASE("repair writes what it has, says what is left, and returns 1, when it 
   CHECK(contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output,
                  "does not say in which unit"));
   CHECK(contains(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
-                 "ends in .stl or, to keep groups, in .glb"));
+                 "ends in .stl or .ply or, to keep groups, in .glb"));
 }
 
 TEST_CASE("repair of a scene mends every mesh and writes a scene that names them") {
@@ -163,6 +165,65 @@ TEST_CASE("repair of a scene mends every mesh and writes a scene that names them
   CHECK(contains(checked.output, "131097"));  // 8 cubic inches in mm3
   CHECK(contains(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
                  "the output folder is that of the scene itself"));
+}
+
+TEST_CASE("repair of a scene mends the meshes of arrays, of single bodies, and of sweeps") {
+  const auto folder = scratch_folder("repair_everywhere");
+  const TriMesh open = box_with_hole();
+  TriMesh beside = open;
+  for (Vec3& v : beside.vertices) v.x() += 5.0;
+  write_stl(folder / "open.stl", open);
+  write_ply(folder / "open.ply", open);
+  write_glb(folder / "two.glb", {{"left", &open, std::nullopt}, {"right", &beside, std::nullopt}},
+            GltfAxes::as_they_are);
+  const std::string end = "medium = \"LSO\"\nsurface = \"polished\"\n";
+  write(
+      folder / "scene.toml",
+      "ambient = \"air\"\n"
+      "[[part]]\nname = \"a\"\nmesh = \"two.glb\"\nbody = \"left\"\n" +
+          end + "[[part]]\nname = \"b\"\nmesh = \"two.glb\"\nbody = 2\n" + end +
+          "[[part]]\nname = \"c\"\nmesh = \"open.ply\"\nunit = \"mm\"\ntranslate = [\"20 mm\", \"0 mm\", \"0 "
+          "mm\"]\n" +
+          end +
+          "[[part]]\nname = \"d\"\nmesh = \"open.stl\"\nunit = \"mm\"\ntranslate = [\"30 mm\", \"0 mm\", \"0 "
+          "mm\"]\n" +
+          end +
+          "[[array]]\nname = \"block\"\ncount = [2, 1]\npitch = \"3 mm\"\ntranslate = [\"0 mm\", \"9 mm\", "
+          "\"0 "
+          "mm\"]\n[array.element]\nmesh = \"open.stl\"\nunit = \"mm\"\n" +
+          end + "[[sweep]]\nkey = \"part.d.mesh\"\nvalues = [\"open.stl\", \"open.ply\"]\n" + kSource);
+  CHECK(run_program({"check", "scene.toml"}, folder).exit_code == 1);
+  const Ended ended = run_program({"repair", "scene.toml", "--largest-hole", "3 mm", "-o", "mended"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == 0);
+  CHECK(contains(ended.output, "two.glb, body \"left\""));
+  CHECK(contains(ended.output, "names 6 mended meshes"));
+  const std::string text = content(folder / "mended/scene.toml");
+  CAPTURE(text);
+  CHECK(contains(text, "mesh = \"open_mended.ply\"\nunit = \"mm\""));
+  CHECK(contains(text, "body = 2\n"));
+  const Ended checked = run_program({"check", "mended/scene.toml", "--every-point"}, folder);
+  CAPTURE(checked.output);
+  CHECK(checked.exit_code == 0);
+}
+
+TEST_CASE("repair of a scene says which meshes it left, where, and how to mend them") {
+  const auto folder = scratch_folder("repair_left");
+  write_stl(folder / "open.stl", box_with_hole());
+  write(folder / "broken.stl", "solid nothing\nendsolid\n");
+  const std::string end = "medium = \"LSO\"\nsurface = \"polished\"\n";
+  write(folder / "scene.toml",
+        "ambient = \"air\"\n[[part]]\nname = \"a\"\nmesh = \"open.stl\"\nunit = \"mm\"\n" + end +
+            "[[part]]\nname = \"b\"\nmesh = \"broken.stl\"\nunit = \"mm\"\n" + end +
+            "[[sweep]]\nkey = \"part.a.unit\"\nvalues = [\"mm\", \"cm\"]\n" + kSource);
+  const Ended ended = run_program({"repair", "scene.toml", "--largest-hole", "3 mm", "-o", "mended"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == 1);
+  CHECK(contains(ended.output,
+                 "left as it was: scene.toml:4:8: \"open.stl\" is not mended: its unit is swept"));
+  CHECK(contains(ended.output, "left as it was: scene.toml:10:8: \"broken.stl\" is not mended: "));
+  CHECK(contains(ended.output, "scintray repair open.stl -o MENDED.glb"));
+  CHECK(contains(content(folder / "mended/scene.toml"), "mesh = \"../open.stl\""));
 }
 
 TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mistakes") {

@@ -17,13 +17,17 @@ constexpr double kRadius = 5.0;  // mm
 double polygon_area(int corners) { return 0.5 * corners * kRadius * kRadius * std::sin(kTwoPi / corners); }
 double polygon_perimeter(int corners) { return 2.0 * corners * kRadius * std::sin(kPi / corners); }
 
-/// A block of 12 x 12 x 10 mm with a bore of 64 flat sides along z, as a file.
-std::string bored_block() {
-  const auto path = scratch_folder("curved") / "holder.stl";
-  TriMesh bore = make_cylinder(kRadius, 12.0, 64);
+/// A block of 12 x 12 x 10 mm from z = low up with a bore of flat sides along z, as a file; or the half
+/// of it on the side of negative x.
+std::string bored_block(double low = 0.0, int sides = 64, bool half = false) {
+  const auto path = scratch_folder("curved") / fmt::format("holder{}_{}_{}.stl", low, sides, half);
+  TriMesh bore = make_cylinder(kRadius, 12.0, sides);
   for (Vec3& v : bore.vertices) v.z() -= 1.0;
-  const auto block = boolean(make_box({-6, -6, 0}, {6, 6, 10}), bore, BooleanOperation::subtract, 1e-9);
+  auto block = boolean(make_box({-6, -6, 0}, {6, 6, 10}), bore, BooleanOperation::subtract, 1e-9);
   REQUIRE(block);
+  if (half) block = boolean(block->mesh, make_box({0, -9, -1}, {9, 9, 11}), BooleanOperation::subtract, 1e-9);
+  REQUIRE(block);
+  for (Vec3& v : block->mesh.vertices) v.z() += low;
   write_stl(path, block->mesh);
   return path.string();
 }
@@ -45,6 +49,16 @@ std::string rod_in_bore(double low, double height, const std::string& tolerance,
                        part_text("holder", from_file(bored_block()) + turn + "\n", "n15") +
                        within("rod", "holder", tolerance),
                    "rod", 2000);
+}
+
+/// The rod from z = 0 to 10, half in the bore of a block from z = -5 to 5; `turn` is added to both.
+std::string half_entered(const std::string& turn) {
+  return lit_scene(
+      part_text("rod", "cylinder = { radius = \"5 mm\", height = \"10 mm\", segments = 48 }\n" + turn + "\n",
+                "lso") +
+          part_text("holder", from_file(bored_block(-5.0)) + turn + "\n", "n15") +
+          within("rod", "holder", "20 um"),
+      "rod", 2000);
 }
 
 }  // namespace
@@ -102,8 +116,61 @@ TEST_CASE("A ball in a hollow of other triangles") {
         doctest::Approx(kTwoPi * kRadius * (kRadius - 1.0)).epsilon(0.02));
 }
 
-TEST_CASE("What cannot be closed is said: faces that end within each other, tolerances too small, no faces") {
-  CHECK(contains(refusal(rod_in_bore(5.0, 10.0, "20 um")), "on either part a triangle lies partly within"));
+TEST_CASE("A rod that enters a bore halfway: each face ends within the other, and both are stitched there") {
+  for (const char* turn : {"", "rotate = { axis = [3, 1, 2], angle = \"40 deg\" }"}) {
+    CAPTURE(turn);
+    const Traced traced = trace(half_entered(turn));
+    const Scene& scene = traced.built.scene;
+    // The rod keeps its shape, and the contact is its sides from z = 0 to 5.
+    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
+    CHECK(area_between(scene, "rod", "holder") == doctest::Approx(5.0 * polygon_perimeter(48)).epsilon(1e-6));
+    CHECK(area_between(scene, "rod", "ambient") ==
+          doctest::Approx(5.0 * polygon_perimeter(48) + 2.0 * polygon_area(48)).epsilon(1e-6));
+    // Below, the bore leans from its own 64 sides to the rod's 48: its area there lies between the two.
+    const double above = 1440.0 - 5.0 * polygon_area(48);
+    const double smaller = std::min(polygon_area(48), polygon_area(64)), larger = kPi * kRadius * kRadius;
+    CHECK(scene.parts[1].volume_mm3 > above - 5.0 * larger);
+    CHECK(scene.parts[1].volume_mm3 < above - 5.0 * smaller);
+    REQUIRE(traced.built.parts[1].notes.size() == 1);
+    CHECK(contains(traced.built.parts[1].notes[0], "stitched to \"rod\""));
+    CHECK(contains(traced.built.parts[1].notes[0], "moved by up to 0.011 mm"));
+  }
+}
+
+TEST_CASE("Staggered contacts with other numbers of sides, in either order, and in half a bore") {
+  struct Case {
+    int rod_sides, bore_sides;
+    bool rod_first, half;
+    const char* tolerance;
+  };
+  for (const Case& c : {Case{64, 96, true, false, "7 um"}, Case{96, 64, true, false, "7 um"},
+                        Case{48, 64, false, false, "20 um"}, Case{31, 64, true, false, "30 um"},
+                        Case{48, 64, true, true, "20 um"}, Case{64, 96, false, true, "7 um"}}) {
+    CAPTURE(c.rod_sides);
+    CAPTURE(c.bore_sides);
+    CAPTURE(c.half);
+    const std::string first = c.rod_first ? "rod" : "holder", second = c.rod_first ? "holder" : "rod";
+    const std::string rod = fmt::format(
+        "cylinder = {{ radius = \"5 mm\", height = \"10 mm\", segments = {} }}\nrotate = {{ axis = [0, 0, "
+        "1], "
+        "angle = \"1.3 deg\" }}\n",
+        c.rod_sides);
+    const std::string text =
+        lit_scene(part_text("rod", rod, "lso") +
+                      part_text("holder", from_file(bored_block(-5.0, c.bore_sides, c.half)), "n15") +
+                      within(first, second, c.tolerance),
+                  "rod", 2000);
+    const Traced traced = trace(text);
+    const Scene& scene = traced.built.scene;
+    const int sides = c.rod_first ? c.rod_sides : c.bore_sides;
+    const double share = c.half ? 0.5 : 1.0;
+    CHECK(area_between(scene, "rod", "holder") ==
+          doctest::Approx(5.0 * share * polygon_perimeter(sides)).epsilon(c.half ? 2e-3 : 1e-6));
+    check_flights(scene, scene_spec(text).source, 300);
+  }
+}
+
+TEST_CASE("What cannot be closed is said: tolerances too small, no faces") {
   CHECK(contains(refusal(rod_in_bore(0.0, 10.0, "5 um")), "cannot be closed within 0.005 mm"));
   CHECK(
       contains(refusal(rod_in_bore(20.0, 10.0, "20 um")), "no faces of theirs face each other that closely"));

@@ -1,7 +1,6 @@
-#include <cstdlib>
-
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/source/photon_source.hpp"
+#include "support/long_run.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -10,34 +9,9 @@ using namespace scintray::test;
 // scenes/torture.toml: slivers, grazing rays, gaps of 1e-4 mm, ten metres from the origin, sensors along
 // partial faces. SCINTRAY_TORTURE_STEPS=1e9 makes it as long as one likes.
 
-namespace {
-
-double wanted_steps() {
-  const char* given = std::getenv("SCINTRAY_TORTURE_STEPS");
-  return given == nullptr ? 2e6 : std::atof(given);
-}
-
-}  // namespace
-
 TEST_CASE("No photon is lost in the torture scene") {
   const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
-  const BuiltScene built = SceneBuilder().build(spec);
-  const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, spec);
-  RunSettings settings;
-  settings.max_interactions = spec.run.max_interactions;
-  double steps = 0.0;
-  std::uint64_t photons = 0, resolved = 0;
-  for (settings.seed = 1; steps < wanted_steps(); ++settings.seed) {
-    const PointResult result = run_point(built.scene, source, plan, settings);
-    REQUIRE(result.lost == 0);
-    REQUIRE(result.photons == source.photons());
-    steps += static_cast<double>(result.segments);
-    photons += result.photons;
-    resolved += result.resolved_misses;
-  }
-  MESSAGE("torture: " << steps << " steps of " << photons << " photons, 0 lost, " << resolved
-                      << " ray queries settled by the exact search");
+  lose_no_photon("torture", spec, SceneBuilder().build(spec).scene, wanted_steps(2e6));
 }
 
 TEST_CASE("Beams that graze the crystal's long faces lose nothing") {

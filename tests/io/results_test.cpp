@@ -11,6 +11,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "support/made_up_result.hpp"
+#include "support/made_up_surface.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
@@ -66,6 +67,7 @@ bool same(const DetectedPhoton& a, const DetectedPhoton& b) {
 void write(const std::filesystem::path& path, const RunResult& run,
            const std::vector<DetectedPhoton>& photons) {
   ResultsWriter writer(path, run.header, !photons.empty());
+  writer.add_surfaces({test::made_up_surface("ground", "air")});
   if (!photons.empty()) writer.append_photons(photons);
   for (const PointResult& point : run.points) writer.add_point(point);
   writer.commit(run.partial_reason.empty(), run.partial_reason);
@@ -271,7 +273,7 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   {
     ResultsWriter writer(path, run.header, true);
     const HistorySubjects subjects{
-        {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}};
+        {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}, {}};
     HistoryColumns columns;
     columns.add(subjects);
     writer.begin_histories(columns);
@@ -338,4 +340,47 @@ TEST_CASE("The Python example of docs/results.md reads a result with h5py") {
   CHECK(contains(output, "0014 ground, UNIFIED 18 mm"));
   CHECK(contains(output, "  detected             0.45"));
   CHECK(contains(output, "5 photons, mean time 0.002 ns"));
+}
+
+TEST_CASE("Surfaces read on the bench come back from the file") {
+  const auto path = test::scratch_folder("results_benches") / "run.h5";
+  SurfaceStudy smooth = test::made_up_surface("unified", "grease");
+  smooth.slope_rad.clear();
+  const std::vector<SurfaceStudy> written{test::made_up_surface("ground", "air"), smooth};
+  const RunResult run = test::made_up_run();
+  ResultsWriter writer(path, run.header, false);
+  writer.add_surfaces(written);
+  for (const PointResult& point : run.points) writer.add_point(point);
+  writer.commit(true);
+  const std::vector<SurfaceStudy> read = read_surfaces(path);
+  REQUIRE(read.size() == 2);
+  const SurfaceStudy &a = read[0], &b = written[0];
+  CHECK(a.bench == b.bench);
+  CHECK(a.place.surface == "ground");
+  CHECK(a.place.inside == "LSO");
+  CHECK(a.place.outside == "air");
+  CHECK(a.place.wavelength_nm == 420.0);
+  CHECK(a.index.inside == 1.82);
+  CHECK(a.index.outside == 1.0);
+  CHECK(a.rays == 1000);
+  REQUIRE(a.incidence_rad.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(a.incidence_rad[i] == doctest::Approx(b.incidence_rad[i]).epsilon(1e-14));
+    CHECK(a.reflectance[i].value == b.reflectance[i].value);
+    CHECK(a.reflectance[i].error == b.reflectance[i].error);
+    CHECK(a.slope_rad[i].value == doctest::Approx(b.slope_rad[i].value).epsilon(1e-14));
+    CHECK(a.slope_rad[i].error == doctest::Approx(b.slope_rad[i].error).epsilon(1e-14));
+  }
+  CHECK(a.directions.settings.incidence_rad == doctest::Approx(45.0 * kDegree));
+  CHECK(a.directions.settings.rays == 1000);
+  CHECK(a.directions.reflected == 800);
+  CHECK(a.directions.transmitted == 190);
+  CHECK(a.directions.absorbed == 10);
+  CHECK(a.directions.reflected_directions.cells == b.directions.reflected_directions.cells);
+  CHECK(a.directions.reflected_directions.profile == b.directions.reflected_directions.profile);
+  CHECK(a.directions.transmitted_directions.cells == b.directions.transmitted_directions.cells);
+  CHECK(a.directions.transmitted_directions.profile == b.directions.transmitted_directions.profile);
+  CHECK(a.directions.reflected_lobe.width_in_plane == 0.5);
+  CHECK(read[1].slope_rad.empty());
+  CHECK(read[1].place.outside == "grease");
 }

@@ -180,3 +180,15 @@ TEST_CASE("efficiencies and reflectances stay below one") {
   CHECK(reports(problems, 2, "between 0 and 1"));
   CHECK(reports(problems, 4, "between 0 and 1"));
 }
+
+TEST_CASE("a reflector gives back and lets through no more than it gets, and says where it was published") {
+  const std::string text =
+      "[reflectance]\nvalue = 0.95\n[transmittance]\nvalue = \"6 %\"\n[direction]\nspecular_share = 0\n";
+  const Library library = library_with(LibraryKind::reflector, "mine", text);
+  CHECK(reports(problems_of([&] { library.reflector("mine"); }), 4, "come to 1.01; together"));
+
+  const TemporaryLibrary files("transmittance");
+  files.write("reflectors/mine.toml", text);
+  CHECK(reports(problems_of([&] { Library({files.folder()}).reflector("mine"); }), 3,
+                "[transmittance] does not say where its numbers were published"));
+}

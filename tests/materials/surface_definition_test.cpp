@@ -86,6 +86,50 @@ TEST_CASE("a stack has a gap and a reflector together, and paint has no gap") {
   CHECK(reports(surface_problems("model = \"smooth\"\nspecular_share = 0.9\n"), 2, "no meaning"));
 }
 
+TEST_CASE("a reflector may let light through, its own share or one that the surface gives") {
+  const SurfaceSpec own =
+      surface_of("model = \"painted\"\nreflectance = 0.9\ntransmittance = \"6 %\"\nspecular_share = 0\n");
+  REQUIRE(own.reflector->transmittance);
+  CHECK((*own.reflector->transmittance)(420.0) == doctest::Approx(0.06));
+  CHECK_FALSE(own.face_of_sheet);
+  const SurfaceSpec named =
+      surface_of("model = \"smooth\"\ngap = \"air\"\nreflector = \"lambertian_097\"\ntransmittance = 0.02\n");
+  CHECK((*named.reflector->transmittance)(420.0) == 0.02);
+  CHECK_FALSE(surface_of("model = \"painted\"\nreflector = \"lambertian_097\"\n").reflector->transmittance);
+  CHECK_FALSE(surface_of("model = \"painted\"\nreflector = \"lambertian_097\"\ntransmittance = 0\n")
+                  .reflector->transmittance);
+
+  const std::string paint = "model = \"painted\"\nspecular_share = 0\nreflectance = ";
+  CHECK(reports(surface_problems(paint + "0.9\ntransmittance = 0.2\n"), 4, "come to 1.1; together"));
+  CHECK(reports(surface_problems(paint + "0.9\ntransmittance = 1.2\n"), 4, "between 0 and 1"));
+  CHECK(reports(surface_problems(paint + "{ wavelength = [400, 500], wavelength_unit = \"nm\", value = [0.5, "
+                                         "0.99] }\ntransmittance = 0.05\n"),
+                4, "come to 1.04"));
+  CHECK(reports(surface_problems("model = \"smooth\"\ntransmittance = 0.1\n"), 2, "no meaning"));
+  // What a base's sheet lets through goes with that sheet.
+  CHECK_FALSE(
+      surface_of("base = \"polished_lambertian_097\"\nreflector = \"ESR\"\n").reflector->transmittance);
+}
+
+TEST_CASE("a face of a sheet is painted, and has its share of the sheet") {
+  const SurfaceSpec face = surface_of(
+      "model = \"painted\"\nreflectance = 0.8\ntransmittance = 0.2\nspecular_share = 0\nface_of_sheet = "
+      "true\n");
+  CHECK(face.face_of_sheet);
+  CHECK(face.reflector->reflectance(420.0) == doctest::Approx(0.8 / 1.2));
+  CHECK(reports(
+      surface_problems("model = \"smooth\"\ngap = \"air\"\nreflector = \"ESR\"\nface_of_sheet = true\n"), 4,
+      "only a painted surface"));
+  Library library = library_with(LibraryKind::reflector, "volume",
+                                 "[reflectance]\nvalue = 0.9\n[transmittance]\nvalue = 0.05\n[direction]\n"
+                                 "specular_share = 0\n[volume]\nindex = 1.35\n");
+  library.add(LibraryKind::surface,
+              {{"mine", parse_toml("model = \"painted\"\nreflector = \"volume\"\nface_of_sheet = "
+                                   "true\n",
+                                   "scene.toml")}});
+  CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "volume-like"));
+}
+
 TEST_CASE("a gap whose medium shifts wavelengths needs a thickness") {
   Library library = library_with(LibraryKind::medium, "dye", R"(
 index = { n = 1.5 }

@@ -123,6 +123,20 @@ mixture = [{ surface = "lso_polished_esr_air", share = 0.4 }, { surface = "lso_p
   };
   CHECK(complaint("mixture = [{ surface = \"polished\", share = 0.4 }]").find("sum to 0.4") !=
         std::string::npos);
+  const SurfaceSpec rest = library_with(
+                               "[surfaces.rest]\nmixture = [{ surface = \"polished\" }, { surface = "
+                               "\"lso_polished\", share = 0.3 }]\n")
+                               .surface("rest");
+  REQUIRE(rest.mixture.size() == 2);
+  CHECK(rest.mixture[0].share == doctest::Approx(0.7));
+  CHECK(rest.mixture[1].share == 0.3);
+  CHECK(
+      complaint(
+          "mixture = [{ surface = \"polished\", share = 0.6 }, { surface = \"lso_polished\", share = 0.7 }, "
+          "{ surface = \"lso_polished\" }]")
+          .find("sum to 1.3") != std::string::npos);
+  CHECK(complaint("mixture = [{ surface = \"polished\" }, { surface = \"lso_polished\" }]")
+            .find("only one can take") != std::string::npos);
   CHECK(complaint("mixture = [{ surface = \"half\", share = 1.0 }]").find("mixture of itself") !=
         std::string::npos);
   CHECK(complaint("model = \"smooth\"\nmixture = [{ surface = \"polished\", share = 1.0 }]")

@@ -223,13 +223,9 @@ model = "painted"
 reflectance = 0.95
 specular_share = 0.0
 )");
-  const auto& faces = traced.built.scene.faces;
-  double port = 0.0, total = 0.0;
-  for (const FaceInfo& face : faces) {
-    total += face.area_mm2;
-    if (face.name == "sphere:port") port += face.area_mm2;
-  }
-  const double f = port / total;
+  const Scene& scene = traced.built.scene;
+  const double port = face_area(scene, "sphere:port");
+  const double f = port / (port + face_area(scene, "sphere:other"));
   CHECK(f > 0.05);
   check_fraction(traced.result, Fate::escaped, f / (1.0 - 0.95 * (1.0 - f)));
 }

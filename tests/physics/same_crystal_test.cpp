@@ -6,6 +6,7 @@
 #include "scintray/mesh/primitives.hpp"
 #include "scintray/mesh/stl_writer.hpp"
 #include "support/evidence.hpp"
+#include "support/long_run.hpp"
 #include "support/shared.hpp"
 #ifdef SCINTRAY_TESTS_STEP
 #include "support/step_shapes.hpp"
@@ -161,4 +162,16 @@ TEST_CASE("Another crystal does not: the comparison sees a width of 2.04 mm") {
   std::string wider = scene_text("rough", "box = [\"2.04 mm\", \"2.04 mm\", \"20 mm\"]", 4301);
   const PointResult other = trace(wider).result;
   CHECK(chi_square_two_samples(box.fates, other.fates).p_value < kLeastP);
+}
+
+// SCINTRAY_TORTURE_STEPS=1e9 makes it as long as one likes.
+TEST_CASE("No photon is lost in the crystal, however it is written") {
+  std::vector<Shape> all = shapes();
+  all.push_back({"box", kBox});
+  for (const Shape& shape : all) {
+    std::string text = scene_text("flat", shape.keys, 1);
+    text.insert(text.find("[run]\n") + 6, "accelerator = \"embree\"\n");
+    const SceneSpec spec = scene_spec(text);
+    lose_no_photon(shape.name, spec, SceneBuilder().build(spec).scene, wanted_steps(2e6));
+  }
 }

@@ -96,6 +96,14 @@ inline Traced trace(const std::string& text, int threads = 0) {
   return traced;
 }
 
+/// Area of the triangles of a face ("part:face"), mm2.
+inline double face_area(const Scene& scene, const std::string& name) {
+  double area = 0.0;
+  for (const FaceInfo& face : scene.faces)
+    if (face.name == name) area += face.area_mm2;
+  return area;
+}
+
 /// Checks a fraction against an exact value.
 inline void check_fraction(const PointResult& result, Fate fate, double expected) {
   check_law(std::string(fate_name(fate)), result.fraction(fate), {expected, 0.0});

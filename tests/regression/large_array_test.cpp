@@ -1,17 +1,13 @@
-/// How long the largest arrays in use take to build.
+/// What the largest arrays in use share. How long they take to build is printed by tools/bench.
 
 #include <doctest/doctest.h>
-
-#include <chrono>
 
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
 
 using namespace scintray;
 
-TEST_CASE(
-    "40 x 40 crystals on 40 x 40 sensors are built in seconds, sharing one accelerator per surroundings") {
-  const auto start = std::chrono::steady_clock::now();
+TEST_CASE("40 x 40 crystals on 40 x 40 sensors share one accelerator per surroundings") {
   const SceneFile file = SceneFile::from_text(R"(
 ambient = "air"
 [[array]]
@@ -39,9 +35,6 @@ photons = 1
                                               "scene.toml");
   SceneBuilder builder;
   const BuiltScene built = builder.build(file.spec(0));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  MESSAGE("built in " << seconds << " s, " << built.scene.accelerators << " accelerators");
   CHECK(built.scene.parts.size() == 3201);
-  CHECK(seconds < 20.0);  // about a second on one core of 2020; slow machines and others' load have the rest
   CHECK(built.scene.accelerators < 30);
 }

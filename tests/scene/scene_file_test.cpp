@@ -53,6 +53,7 @@ SceneFile documented_scene() {
   const std::filesystem::path folder = scratch_folder("documented_scene");
   std::ofstream(folder / "crystal.stl") << "solid\nendsolid\n";
   std::ofstream(folder / "detector.step") << "ISO-10303-21;\n";
+  std::ofstream(folder / "reflectance.csv") << "0,0.1,0.01\n";
   return SceneFile::from_text(documented_example(), (folder / "scene.toml").string());
 }
 

@@ -72,6 +72,15 @@ class SurfaceImporter {
     return "reflectance = " + (values.empty() ? "1.0" : curve_toml(values, "", 0.0, 0.0)) + "\n";
   }
 
+  /// What goes through goes straight on in Geant4, as it does here through a film.
+  bool lets_through_as_film() const {
+    return polished() && (type_ == "dielectric_metal" || finish_.ends_with("frontpainted"));
+  }
+  std::string transmittance() const {
+    const EnergyTable values = lets_through_as_film() ? table("TRANSMITTANCE") : EnergyTable{};
+    return values.empty() ? "" : "transmittance = " + curve_toml(values, "", 0.0, 0.0) + "\n";
+  }
+
   /// Geant4 calls the number "value": sigma alpha of the unified model, polish of glisur.
   double roughness() const { return definitions_.number(surface_, "value", model_ == "glisur" ? 1.0 : 0.0); }
 
@@ -101,12 +110,12 @@ class SurfaceImporter {
     }
     const bool mirror = polished() || model_ == "glisur";
     result_.toml = std::string("base = \"geant4_") + (mirror ? "polished" : "ground") + "frontpainted\"\n" +
-                   reflectance();
+                   reflectance() + transmittance();
   }
 
   void dielectric() {
     if (finish_.ends_with("frontpainted")) {
-      result_.toml = "base = \"geant4_" + finish_ + "\"\n" + reflectance();
+      result_.toml = "base = \"geant4_" + finish_ + "\"\n" + reflectance() + transmittance();
       return;
     }
     if (finish_.ends_with("backpainted")) {
@@ -146,6 +155,8 @@ class SurfaceImporter {
       const std::string name = child.attribute("name").value();
       if (name == "EFFICIENCY")
         result_.notes.push_back("its EFFICIENCY: give the part, or one of its faces, a sensor instead");
+      else if (name == "TRANSMITTANCE" && lets_through_as_film())
+        continue;
       else if (!read.contains(name))
         result_.notes.push_back("its property " + name);
     }

@@ -1,0 +1,295 @@
+#include "scintray/io/fit_model.hpp"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "scintray/analysis/bench_surface.hpp"
+#include "scintray/analysis/goniometer.hpp"
+#include "scintray/analysis/ratio.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/trace/run.hpp"
+
+namespace scintray {
+
+namespace {
+
+/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons (or
+/// events) a share must have.
+constexpr std::uint64_t kParts = 20, kLeastInPart = 20;
+
+/// The scene at given parameters, without a position.
+std::vector<KeySetting> settings_of(const FitSpec& fit, const std::vector<double>& parameters) {
+  std::vector<KeySetting> settings;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    settings.push_back(fit.parameters[j].setting(parameters[j]));
+  return settings;
+}
+
+std::vector<double> starts_of(const FitSpec& fit) {
+  std::vector<double> starts;
+  for (const FitParameterSpec& parameter : fit.parameters) starts.push_back(parameter.start);
+  return starts;
+}
+
+/// The start, and the start with each parameter at each of its bounds.
+std::vector<std::vector<double>> corners_of(const FitSpec& fit) {
+  const std::vector<double> starts = starts_of(fit);
+  std::vector<std::vector<double>> corners{starts};
+  for (std::size_t j = 0; j < starts.size(); ++j)
+    for (const double bound : {fit.parameters[j].low, fit.parameters[j].high}) {
+      corners.push_back(starts);
+      corners.back()[j] = bound;
+    }
+  return corners;
+}
+
+void refuse_open_sweeps(const SceneFile& file, const FitSpec& fit) {
+  Problems problems;
+  const std::vector<KeyPath> paths = file.sweep_paths();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const bool no_matter = fit.quantity == FitQuantity::reflectance && paths[i].key.rfind("source.", 0) == 0;
+    if (paths[i].key == fit.at.key || no_matter || file.sweep_values(i) == 1) continue;
+    problems.add(paths[i].where,
+                 fmt::format("a fit is of one scene, but the sweep over \"{}\" makes {}", paths[i].key,
+                             file.sweep_values(i)),
+                 "leave it one value, or take the sweep away");
+  }
+  problems.throw_if_any();
+}
+
+/// What one share of the photons, or all of them, give at a point.
+class SceneCurve : public FitModel {
+ public:
+  SceneCurve(const SceneFile& file, const FitSpec& fit, const MeasuredCurve& measured,
+             const FitModelSettings& settings)
+      : file_(file),
+        fit_(fit),
+        measured_(measured),
+        settings_(settings),
+        builder_(settings.run.surface_hooks) {
+    check();
+  }
+
+  std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
+    ModelCurve curve;
+    std::optional<BuiltScene> built;
+    for (std::size_t i = 0; i < measured_.points.size(); ++i) {
+      const SceneSpec spec = spec_at(parameters, i);
+      if (!built || !only_source_moves()) built = builder_.build(spec);
+      const std::optional<ModelPoint> point = trace_point(spec, built->scene, i, draw);
+      if (!point) return std::nullopt;
+      curve.push_back(*point);
+    }
+    return curve;
+  }
+
+  std::uint64_t count() const override { return count_; }
+  std::string thing() const override { return energy() ? "events" : "photons"; }
+  std::uint64_t seed() const override { return seed_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  bool energy() const { return fit_.quantity == FitQuantity::light_per_keV; }
+
+  /// Where light starts does not change the scene that it meets.
+  bool only_source_moves() const {
+    return fit_.at.key.rfind("source.region.", 0) == 0 || fit_.at.key.rfind("source.position", 0) == 0;
+  }
+
+  SceneSpec spec_at(const std::vector<double>& parameters, std::size_t point) const {
+    std::vector<KeySetting> settings = settings_of(fit_, parameters);
+    settings.push_back(fit_.position(measured_.points[point].x, measured_.points[point].where));
+    SceneSpec spec = with_options(file_.spec(0, settings), settings_.run);
+    spec.tallies.clear();
+    spec.exit_angles.clear();
+    spec.run.photon_list = !energy();
+    return spec;
+  }
+
+  void check() {
+    const std::vector<double> starts = starts_of(fit_);
+    for (std::size_t i = 0; i < measured_.points.size(); ++i) {
+      const SceneSpec spec = spec_at(starts, i);
+      check_quantity(spec);
+      if (i > 0 && only_source_moves()) continue;
+      builder_.build(spec);
+    }
+    for (const std::vector<double>& corner : corners_of(fit_)) {
+      const SceneSpec spec = spec_at(corner, 0);
+      const BuiltScene built = builder_.build(spec);
+      const auto source = make_light_source(spec, built.scene);
+      count_ = energy() ? source->events() : source->photons();
+      seed_ = spec.run.seed;
+      for (const std::string& note : built.warnings)
+        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+    }
+  }
+
+  void check_quantity(const SceneSpec& spec) const {
+    if (energy() == spec.energy_source.has_value()) return;
+    throw InputError(
+        {fit_.where,
+         fmt::format("a fit of {}, but [source] is one of {}", quantity_name(fit_.quantity),
+                     energy() ? "photons" : "energy"),
+         energy() ? "use quantity = \"detected_fraction\", or a source of energy (docs/gamma_sources.md)"
+                  : "use quantity = \"light_per_keV\", or type = \"photons\" in [source]"});
+  }
+
+  std::optional<ModelPoint> trace_point(const SceneSpec& spec, const Scene& scene, std::size_t point,
+                                        std::uint64_t draw) const {
+    const std::unique_ptr<LightSource> source = make_light_source(spec, scene);
+    const TallyPlan plan(scene, spec);
+    RunHooks hooks;
+    hooks.stop = settings_.run.stop;
+    hooks.progress = [&](std::uint64_t done) {
+      if (settings_.progress) settings_.progress(point * count_ + done, measured_.points.size() * count_);
+    };
+    std::vector<std::uint64_t> detected(kParts, 0);
+    hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
+      for (const DetectedPhoton& photon : photons)
+        ++detected[(photon.event * spec.source.photons_per_event + photon.photon) % kParts];
+    };
+    RatioOfSums all;
+    std::vector<RatioOfSums> shares(kParts);
+    hooks.events = [&](const std::vector<EventRecord>& events) {
+      for (const EventRecord& event : events) {
+        const double light = light_of_event(event, spec.readout.has_value());
+        all.add(static_cast<double>(event.energy_keV), light);
+        shares[event.event % kParts].add(static_cast<double>(event.energy_keV), light);
+      }
+    };
+    const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + point);
+    const PointResult result = run_point(scene, *source, plan, run_settings(spec.run, stream), hooks);
+    if (!result.complete) return std::nullopt;
+    ModelPoint out;
+    out.value = energy() ? all.ratio() : result.fraction(Fate::detected);
+    if (count_ < kParts * kLeastInPart) return out;
+    for (std::uint64_t part = 0; part < kParts; ++part) {
+      const std::uint64_t photons = (count_ - part + kParts - 1) / kParts;
+      out.parts.push_back(energy() ? shares[part].ratio().value
+                                   : static_cast<double>(detected[part]) / static_cast<double>(photons));
+    }
+    return out;
+  }
+
+  static double light_of_event(const EventRecord& event, bool charge) {
+    if (!charge) return static_cast<double>(event.detected);
+    double sum = 0.0;
+    for (const ChannelRecord& channel : event.channels) sum += static_cast<double>(channel.charge);
+    return sum;
+  }
+
+  const SceneFile& file_;
+  const FitSpec& fit_;
+  const MeasuredCurve& measured_;
+  const FitModelSettings& settings_;
+  SceneBuilder builder_;
+  std::uint64_t count_ = 0, seed_ = 0;
+  std::vector<std::string> notes_;
+};
+
+/// The reflectance of a surface of the scene on the goniometer.
+class ReflectanceCurve : public FitModel {
+ public:
+  ReflectanceCurve(const SceneFile& file, const FitSpec& fit, const MeasuredCurve& measured,
+                   const FitModelSettings& settings)
+      : file_(file),
+        fit_(fit),
+        measured_(measured),
+        settings_(settings),
+        maker_(settings.run.surface_hooks),
+        shipped_(Library::shipped()),
+        rays_(settings.run.photons.value_or(fit.goniometer->rays)) {
+    check();
+  }
+
+  std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
+    const BenchSurface bench = bench_at(parameters);
+    tbb::task_arena arena(settings_.run.threads.value_or(tbb::task_arena::automatic));
+    ModelCurve curve;
+    for (std::size_t i = 0; i < measured_.points.size(); ++i) {
+      if (settings_.run.stop && settings_.run.stop->load()) return std::nullopt;
+      arena.execute([&] { curve.push_back(reflectance(bench, i, draw)); });
+      if (settings_.progress) settings_.progress((i + 1) * rays_, measured_.points.size() * rays_);
+    }
+    return curve;
+  }
+
+  std::uint64_t count() const override { return rays_; }
+  std::string thing() const override { return "rays"; }
+  std::uint64_t seed() const override { return seed_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  double angle_rad(std::size_t point) const {
+    return measured_.points[point].x * unit_factor(fit_.unit, Dimension::angle);
+  }
+
+  BenchSurface bench_at(const std::vector<double>& parameters) {
+    Library library = shipped_;
+    add_definitions(library, file_.spec(0, settings_of(fit_, parameters)));
+    const FitGoniometerSpec& place = *fit_.goniometer;
+    return make_bench_surface(
+        library, maker_, {place.surface.name, place.inside.name, place.outside.name, place.wavelength_nm});
+  }
+
+  void check() {
+    if (settings_.run.events)
+      throw InputError({fit_.where, "--events is given, but a reflectance is made of rays", "use --photons"});
+    Problems problems;
+    for (std::size_t i = 0; i < measured_.points.size(); ++i)
+      if (!(angle_rad(i) >= 0.0 && angle_rad(i) < 0.5 * kPi))
+        problems.add(measured_.points[i].where,
+                     fmt::format("an incidence of {:g} {}; expected at least 0 and less than 90 deg",
+                                 measured_.points[i].x, fit_.unit),
+                     "angles are from the surface's normal");
+    problems.throw_if_any();
+    seed_ = settings_.run.seed.value_or(file_.spec(0).run.seed);
+    for (const std::vector<double>& corner : corners_of(fit_))
+      for (const std::string& note : bench_at(corner).warnings)
+        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+  }
+
+  ModelPoint reflectance(const BenchSurface& bench, std::size_t point, std::uint64_t draw) const {
+    GoniometerSettings settings;
+    settings.side = fit_.goniometer->from_inside ? Side::inside : Side::outside;
+    settings.incidence_rad = angle_rad(point);
+    settings.wavelength_nm = bench.place.wavelength_nm;
+    settings.seed = seed_;
+    const std::uint64_t parts = rays_ < kParts * kLeastInPart ? 1 : kParts;
+    ModelPoint out;
+    std::uint64_t reflected = 0;
+    for (std::uint64_t part = 0; part < parts; ++part) {
+      settings.stream = (draw * measured_.points.size() + point) * kParts + part;
+      settings.rays = (rays_ - part + parts - 1) / parts;
+      const GoniometerReading reading = read_goniometer(bench.surface, bench.index, settings);
+      reflected += reading.reflected;
+      if (parts > 1) out.parts.push_back(reading.reflectance().value);
+    }
+    out.value = binomial_estimate(reflected, rays_);
+    return out;
+  }
+
+  const SceneFile& file_;
+  const FitSpec& fit_;
+  const MeasuredCurve& measured_;
+  const FitModelSettings& settings_;
+  SurfaceMaker maker_;
+  Library shipped_;
+  std::uint64_t rays_, seed_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+std::unique_ptr<FitModel> make_fit_model(const SceneFile& file, const FitSpec& fit,
+                                         const MeasuredCurve& measured, const FitModelSettings& settings) {
+  refuse_open_sweeps(file, fit);
+  if (fit.quantity == FitQuantity::reflectance)
+    return std::make_unique<ReflectanceCurve>(file, fit, measured, settings);
+  return std::make_unique<SceneCurve>(file, fit, measured, settings);
+}
+
+}  // namespace scintray

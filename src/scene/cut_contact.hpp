@@ -1,0 +1,49 @@
+#pragma once
+/// Cutting two parts where their curved contact ends.
+
+#include <optional>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+#include "scintray/scene/contact_geometry.hpp"
+#include "scintray/scene/place_parts.hpp"
+
+namespace scintray {
+
+/// How far facing triangles are pushed, in tolerances: past the deepest sliver, with room.
+inline constexpr double kContactPush = 2.0;
+
+using Loop = std::vector<std::uint32_t>;  ///< vertices, the first one after the last
+
+/// A part cut where its contact with another ends.
+struct CutPart {
+  TriMesh mesh;
+  std::vector<std::uint32_t> origin;  ///< per triangle, the part's own triangle that it is a piece of
+  std::vector<char> contact;          ///< per triangle
+  std::vector<Loop> outlines;         ///< of the contact, which lies to their left seen from outside
+};
+
+/// A part with what the cuts need.
+struct ContactSide {
+  const PlacedMesh& part;
+  contact::Body body;
+  std::vector<char> facing;  ///< per triangle: in part or wholly within the tolerance of the other part
+  TriMesh zone;              ///< pushed outwards there
+};
+
+ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, double tolerance, double flat_mm);
+
+/// Cuts a part where its contact with the other ends. Nothing when CGAL refuses, or the contact has no
+/// plain outline.
+std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide& other, double tolerance,
+                                      double flat_mm, const Eigen::Matrix3d& axes);
+
+/// Puts vertex `v` on the edge between two vertices: each triangle there becomes two. `origin` and `contact`
+/// follow.
+void split_edge(CutPart& part, std::uint32_t a, std::uint32_t b, std::uint32_t v);
+
+std::uint32_t add_vertex(TriMesh& mesh, const Vec3& position);
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b);
+
+}  // namespace scintray

@@ -1,0 +1,81 @@
+// Parts that do not go together: the message names them and says where both stand.
+#include "bad_input/marked_text.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene/read_scene.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+/// A scene of two boxes, a and b, with `of_a` and `of_b` among their keys, and `more` at the end.
+std::string boxes(const std::string& of_a, const std::string& of_b, const std::string& more = "") {
+  return "ambient = \"air\"\n@@[[part]]\nname = \"a\"\nmedium = \"thin\"\n" + of_a +
+         "[[part]]\nname = \"b\"\nmedium = \"thin\"\n" + of_b + R"([source]
+type = "photons"
+region = { part = "a" }
+wavelength = "420 nm"
+photons = 1
+[media.thin]
+index = { n = { wavelength = [400, 500], wavelength_unit = "nm", value = [1.5, 1.5] } }
+absorption = { none = true }
+scattering = { none = true }
+)" + more;
+}
+
+std::vector<Problem> problems_of_scene(const MarkedText& scene) {
+  return problems_of([&] { SceneBuilder().build(SceneFile::from_text(scene.text, "scene.toml").spec(0)); });
+}
+
+void check_scene(const std::string& marked, const std::string& what, const std::string& hint) {
+  const MarkedText scene(marked);
+  check_one_problem(scene, problems_of_scene(scene), what, hint);
+}
+
+const std::string kPolished = "surface = \"polished\"\n";
+
+/// A box of 2 x 2 x 2 mm3 with its low corner on x.
+std::string at(const std::string& x, const std::string& x_high) {
+  return "box = { low = [\"" + x + " mm\", \"0 mm\", \"0 mm\"], high = [\"" + x_high +
+         " mm\", \"2 mm\", \"2 mm\"] }\n";
+}
+
+}  // namespace
+
+TEST_CASE("Parts that overlap are told with the places of both") {
+  const std::string scene = boxes(at("0", "2") + kPolished, at("1", "3") + kPolished);
+  check_scene(scene, "parts 'a' and 'b' overlap by 4 mm3", "move one of them");
+  check_scene(scene, "; 'b' is at scene.toml:7:1", "higher priority");
+}
+
+TEST_CASE("Bonded faces of different surfaces are told with the places of both parts") {
+  check_scene(boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"lso_ground_30um\"\n"),
+              "an interface has one surface; 'b' is at scene.toml:7:1", "add [[contact]]");
+}
+
+TEST_CASE("With a contact, its place is told") {
+  std::string scene = boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"lso_ground_30um\"\n",
+                            "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
+  scene.erase(scene.find("@@"), 2);
+  check_scene(scene, "an interface has one surface; 'b' is at scene.toml:7:1", "the joint");
+}
+
+TEST_CASE("A part thinner than the contact tolerance is told with its place") {
+  check_scene(boxes(at("0", "2e-4") + kPolished, at("4", "6") + kPolished), "part 'a' is about",
+              "lower the contact tolerance");
+}
+
+TEST_CASE("A part that another one swallows is told with the places of both") {
+  check_scene(boxes(at("0", "2") + kPolished, at("-0.00000001", "2") + kPolished + "priority = 1\n"),
+              "nothing of it would be left; 'b' is at scene.toml:7:1", "change the priorities");
+}
+
+TEST_CASE("A medium without an index at the wavelengths in use is told where it is named") {
+  std::string scene =
+      replaced(boxes(at("0", "2") + kPolished, at("4", "6") + kPolished), "\"420 nm\"", "\"600 nm\"");
+  scene.erase(scene.find("@@"), 2);
+  scene.insert(scene.find("\"thin\""), "@@");
+  check_scene(scene,
+              "medium \"thin\" has refractive indices from 400 to 500 nm, but light of 600 nm is in use",
+              "extend its index table, or choose other wavelengths");
+}

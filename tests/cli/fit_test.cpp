@@ -1,0 +1,175 @@
+#include "cli/program.hpp"
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/h5.hpp"
+#include "support/shared.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+/// A crystal with an absorption length to be found: most light is lost in it.
+const std::string kDarkCrystal = R"(
+title = "A dark crystal"
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "10 mm"]
+medium = "dark"
+surface = "polished"
+[[part]]
+name = "sensor"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal", slab_z = ["1 mm", "2 mm"] }
+wavelength = "420 nm"
+photons = 1000
+[media.dark]
+index = { n = 1.8 }
+absorption = { length = "10 mm" }
+scattering = { none = true }
+)";
+
+const std::string kDarkFit = R"([fit]
+measurement = "light.csv"
+quantity = "detected_fraction"
+at = "source.region.slab_z.center"
+unit = "mm"
+scale = "free"
+[[fit.parameter]]
+key = "media.dark.absorption.length"
+label = "absorption length"
+start = "8 mm"
+low = "2 mm"
+high = "50 mm"
+)";
+
+const std::string kRows = "depth,light,error\n1,310,9\n3,240,8\n5,190,7\n7,150,6\n9,120,5\n";
+
+class DarkCrystal {
+ public:
+  explicit DarkCrystal(const std::string& name) : folder(scratch_folder(name)) { write(kDarkFit, kRows); }
+
+  void write(const std::string& fit, const std::string& rows) const {
+    std::ofstream(folder / "scene.toml") << kDarkCrystal << fit;
+    std::ofstream(folder / "light.csv") << rows;
+  }
+  Ended fit(std::vector<std::string> arguments = {}) const {
+    arguments.insert(arguments.begin(), {"fit", "scene.toml"});
+    return run_program(arguments, folder);
+  }
+  void refuses(const std::string& what, const std::string& hint,
+               const std::vector<std::string>& arguments = {}) const {
+    const Ended ended = fit(arguments);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kBadInput);
+    CHECK(contains(ended.output, what));
+    CHECK(contains(ended.output, hint));
+  }
+
+  std::filesystem::path folder;
+};
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("A fit prints its steps and what it found, and writes a file and a page") {
+  const DarkCrystal crystal("fit_program");
+  const Ended ended = crystal.fit({"--seed", "3", "--threads", "2"});
+  CAPTURE(ended.output);
+  REQUIRE(ended.exit_code == cli::kSuccess);
+  for (const char* words :
+       {"start   chi-square", "step 1", "5 points, 1 parameter, a free scale, 1000 photons at each point",
+        "seed 3", "absorption length   8 mm", "2 to 50 mm", "chi-square", "degrees of freedom",
+        "residual / error", "results  scene_fit.h5", "report   scene_fit.html"})
+    CHECK(contains(ended.output, words));
+  const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
+  const h5::Group root = file.root();
+  CHECK(root.string_attribute("", "format") == "scintray-fit");
+  CHECK(root.integer_attribute("", "complete") == 1);
+  const h5::Group parameters = root.open_group("parameters");
+  CHECK(parameters.read_strings("key") == std::vector<std::string>{"media.dark.absorption.length"});
+  CHECK(parameters.read_strings("unit") == std::vector<std::string>{"mm"});
+  CHECK(parameters.read<double>("value").at(0) > 2.0);
+  CHECK(parameters.read<double>("error").at(0) > 0.0);
+  CHECK(root.open_group("curve").read<double>("residual").size() == 5);
+  for (const std::string& group : {std::string("parameters"), std::string("curve"), std::string("steps")})
+    for (const std::string& name : root.open_group(group).members()) {
+      CAPTURE(name);
+      CHECK_FALSE(root.open_group(group).string_attribute(name, "description").empty());
+    }
+  std::ostringstream page;
+  page << std::ifstream(crystal.folder / "scene_fit.html").rdbuf();
+  for (const char* words : {"A dark crystal", "measured", "fitted", "Residuals", "absorption length"})
+    CHECK(contains(page.str(), words));
+  CHECK_FALSE(contains(page.str(), "nan"));
+
+  const Ended again = crystal.fit({"--seed", "3", "--threads", "1", "--quiet"});
+  CHECK_FALSE(contains(again.output, "step 1"));
+  CHECK(
+      h5::File::open(crystal.folder / "scene_fit.h5").root().open_group("parameters").read<double>("value") ==
+      parameters.read<double>("value"));
+}
+
+TEST_CASE("A measurement that cannot be fitted is refused with its place and what to do") {
+  const DarkCrystal crystal("fit_refusals");
+  crystal.write(kDarkFit, "5,190,7\n1,310,9\n3,240,-8\n");
+  crystal.refuses("light.csv:2: error: a position of 1 after 5; expected them to increase", "sort the rows");
+  crystal.refuses("light.csv:3: error: an error of -8; expected more than 0", "standard deviation");
+  crystal.write(kDarkFit, "1,310,9\n");
+  crystal.refuses("1 measured points; expected 2 at least, for 1 parameters, a scale",
+                  "fit fewer parameters");
+  crystal.write(kDarkFit, "1,310\n3,240\n5,180\n");
+  crystal.refuses("has no errors", "errors = \"from_scatter\"");
+  crystal.write(changed(kDarkFit, "scale = ", "errors = \"from_scatter\"\nscale = "), kRows);
+  crystal.refuses("has a column of errors", "remove errors");
+  crystal.write(kDarkFit, changed(kRows, "9,120", "25,120"));
+  crystal.refuses("light.csv:6", "slab");
+  std::filesystem::remove(crystal.folder / "light.csv");
+  crystal.refuses("scene.toml:28:15", "light.csv");
+}
+
+TEST_CASE("A scene that leaves a fit open is refused") {
+  const DarkCrystal crystal("fit_open");
+  crystal.write("", kRows);
+  crystal.refuses("this scene has no [fit]", "docs/fit.md");
+  crystal.write(changed(kDarkFit, "detected_fraction", "light_per_keV"), kRows);
+  crystal.refuses("a fit of light_per_keV, but [source] is one of photons", "detected_fraction");
+  crystal.write("[[sweep]]\nkey = \"source.photons\"\nvalues = [100, 200]\n" + kDarkFit, kRows);
+  crystal.refuses("the sweep over \"source.photons\" makes 2", "leave it one value");
+  crystal.write(changed(kDarkFit, "low = \"2 mm\"", "low = \"-2 mm\""), kRows);
+  crystal.refuses("a length must be positive", "");
+  crystal.write(changed(kDarkFit, "media.dark.absorption.length", "media.dark.absorption.lenght"), kRows);
+  crystal.refuses("lenght", "length");
+  crystal.write(kDarkFit, kRows);
+  crystal.refuses("--events is given", "use --photons", {"--events", "10"});
+  std::ofstream(crystal.folder / "scene_fit.h5") << "mine";
+  crystal.refuses("not a fit, so it is not written over", "another name");
+}
+
+TEST_CASE("A fit that is interrupted keeps the best so far and says that it is partial") {
+  const DarkCrystal crystal("fit_interrupted");
+  const Program program({"fit", "scene.toml", "--photons", "3000000", "--threads", "1"}, crystal.folder);
+  // The start is told once its curve is traced.
+  for (int i = 0; i < 600; ++i) {
+    std::ostringstream text;
+    text << std::ifstream(crystal.folder / "output.txt").rdbuf();
+    if (contains(text.str(), "chi-square")) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == cli::kInterrupted);
+  CHECK(contains(ended.output, "stopped by the user: the best so far"));
+  const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
+  CHECK(file.root().integer_attribute("", "complete") == 0);
+  CHECK(file.root().string_attribute("", "end") == "stopped");
+}

@@ -1,0 +1,34 @@
+#pragma once
+/// A surface read on a bench, with numbers that no two fields share.
+
+#include "scintray/analysis/surface_study.hpp"
+
+namespace scintray::test {
+
+inline SurfaceStudy made_up_surface(const std::string& surface, const std::string& outside) {
+  SurfaceStudy study;
+  study.bench = "Faces";
+  study.place = {surface, "LSO", outside, 420.0};
+  study.index = {1.82, 1.0};
+  study.rays = 1000;
+  study.incidence_rad = {0.0, 20.0 * kDegree, 45.0 * kDegree};
+  study.reflectance = {{0.15, 0.011}, {0.33, 0.015}, {0.8, 0.013}};
+  study.slope_rad = {{18.0 * kDegree, 0.1 * kDegree}, {19.0 * kDegree, 0.2 * kDegree}, {21.0 * kDegree, 0.0}};
+  GoniometerReading& reading = study.directions;
+  reading.settings.incidence_rad = 45.0 * kDegree;
+  reading.settings.wavelength_nm = 420.0;
+  reading.settings.rays = study.rays;
+  reading.reflected = 800;
+  reading.transmitted = 190;
+  reading.absorbed = 10;
+  reading.reflected_directions.cells[7] = 790;
+  reading.reflected_directions.cells[70] = 10;
+  reading.reflected_directions.profile[140] = 31;
+  reading.transmitted_directions.cells[3] = 190;
+  reading.transmitted_directions.profile[90] = 17;
+  reading.reflected_lobe.rays = reading.reflected;
+  reading.reflected_lobe.width_in_plane = 0.5;  // sine of 30 deg
+  return study;
+}
+
+}  // namespace scintray::test
