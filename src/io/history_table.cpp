@@ -13,7 +13,7 @@ namespace {
 using results_format::damaged;
 using results_format::describe;
 
-constexpr const char* kGroup = "histories";
+constexpr const char* kHistoryGroup = "histories";
 constexpr const char* kPointGroup = "traced_optics";
 /// Numbers of a column kept in memory before they go to disk, and compressed together.
 constexpr std::size_t kBlockNumbers = 65536;
@@ -102,7 +102,7 @@ void HistoryColumns::add(const HistorySubjects& point) {
 }
 
 HistoryWriter::HistoryWriter(h5::Group& root, HistoryColumns columns)
-    : group_(root.create_group(kGroup)), columns_(std::move(columns)) {
+    : group_(root.create_group(kHistoryGroup)), columns_(std::move(columns)) {
   group_.set_attribute("", "description",
                        std::string("what detected photons went through, one row a photon"));
   put_texts(group_, "history_media", columns_.media);
@@ -171,11 +171,11 @@ void HistoryWriter::describe_point(h5::Group& point, const HistorySubjects& subj
 namespace {
 
 h5::Group open_histories(const std::filesystem::path& path, const h5::Group& root) {
-  if (!root.has(kGroup))
+  if (!root.has(kHistoryGroup))
     throw InputError({{path.string()},
                       "this result has no photon histories, so it cannot be reweighted",
                       "write photon_history = true in [run] of the scene and run it again"});
-  return root.open_group(kGroup);
+  return root.open_group(kHistoryGroup);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint64_t kRows = 8192;
 
-InputError refused(const std::filesystem::path& path, const std::string& what, const std::string& hint) {
+InputError not_to_read_out(const std::filesystem::path& path, const std::string& what,
+                           const std::string& hint) {
   return InputError({{path.string()}, what, hint});
 }
 
@@ -57,8 +58,9 @@ class PointElectronics {
       numbers_[channel.name] = i;
     }
     if (numbers_.size() != recorded.size() || recorded.size() != plan.channels.list.size())
-      throw refused(path, "the scene of this result has other sensors than its events were read out by",
-                    "a file that the scene names has changed since; run it again");
+      throw not_to_read_out(path,
+                            "the scene of this result has other sensors than its events were read out by",
+                            "a file that the scene names has changed since; run it again");
     settings_.seed = run.header.seed;
     settings_.point = static_cast<std::uint32_t>(point);
   }
@@ -110,14 +112,14 @@ void read_out_again(const std::filesystem::path& path, const RunResult& run, con
                     const std::filesystem::path& output) {
   const ResultsStatus status = read_results_status(path);
   if (status.listed_events == 0)
-    throw refused(path, "this result has no events to read out",
-                  "run a scene whose [source] is one of energy");
+    throw not_to_read_out(path, "this result has no events to read out",
+                          "run a scene whose [source] is one of energy");
   if (!status.has_photon_list)
-    throw refused(path, "this result has no list of detected photons to read out again",
-                  "write photon_list = true in [run] of the scene and run it again");
+    throw not_to_read_out(path, "this result has no list of detected photons to read out again",
+                          "write photon_list = true in [run] of the scene and run it again");
   std::error_code ignored;
   if (std::filesystem::equivalent(path, output, ignored))
-    throw refused(output, "the new result would replace the one it is made of", "name another file");
+    throw not_to_read_out(output, "the new result would replace the one it is made of", "name another file");
   const SceneFile file = SceneFile::from_text(run.header.scene_text, run.header.scene_file);
   RunHeader header = run.header;
   header.note += (header.note.empty() ? "" : "\n") + std::string("electronics made again by ") +
