@@ -47,8 +47,8 @@ int main(int argc, char** argv) {
   scintray::cli::add_goniometer_command(app);
   scintray::cli::add_replay_command(app);
   scintray::cli::add_response_command(app);
-  scintray::cli::add_fit_command(app);
   scintray::cli::add_reweigh_command(app);
+  scintray::cli::add_fit_command(app);
   app.failure_message(CLI::FailureMessage::help);
 
   try {

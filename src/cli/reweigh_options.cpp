@@ -17,7 +17,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::vector<std::string> split(const std::string& list) {
+std::vector<std::string> items_of(const std::string& list) {
   std::vector<std::string> items;
   for (std::size_t start = 0; start <= list.size();) {
     const std::size_t end = std::min(list.find(',', start), list.size());
@@ -48,7 +48,7 @@ PropertyScan parse_scan(const std::string& option, OpticalProperty property, con
   const std::size_t equals = text.rfind('=');
   scan.name = trimmed(text.substr(0, std::min(equals, text.size())));
   if (equals == std::string::npos || scan.name.empty()) throw refuse("no name before a \"=\"");
-  const std::vector<std::string> items = split(text.substr(equals + 1));
+  const std::vector<std::string> items = items_of(text.substr(equals + 1));
   scan.times = items.front().starts_with("x");
   std::string unit;  // of those that have none of their own: the last one given
   for (const std::string& item : items)

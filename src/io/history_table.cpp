@@ -13,7 +13,7 @@ namespace {
 using results_format::damaged;
 using results_format::describe;
 
-constexpr const char* kGroup = "histories";
+constexpr const char* kHistoryGroup = "histories";
 constexpr const char* kPointGroup = "traced_optics";
 /// Numbers of a column kept in memory before they go to disk, and compressed together.
 constexpr std::size_t kBlockNumbers = 65536;
@@ -97,15 +97,17 @@ std::vector<TracedRange> get_ranges(const h5::Group& group, const std::string& n
 void HistoryColumns::add(const HistorySubjects& point) {
   add_new(media, point.media);
   add_new(reflectors, point.reflectors);
+  add_new(transmitting, point.transmitting);
   add_new(gap_media, point.gap_media);
 }
 
 HistoryWriter::HistoryWriter(h5::Group& root, HistoryColumns columns)
-    : group_(root.create_group(kGroup)), columns_(std::move(columns)) {
+    : group_(root.create_group(kHistoryGroup)), columns_(std::move(columns)) {
   group_.set_attribute("", "description",
                        std::string("what detected photons went through, one row a photon"));
   put_texts(group_, "history_media", columns_.media);
   put_texts(group_, "history_gap_media", columns_.gap_media);
+  put_texts(group_, "history_transmitting", columns_.transmitting);
   std::vector<std::string> surfaces, stacks, reflectors;
   for (const ReflectorSite& site : columns_.reflectors) {
     surfaces.push_back(site.surface);
@@ -162,19 +164,18 @@ void HistoryWriter::describe_point(h5::Group& point, const HistorySubjects& subj
       std::string("absorption and reflectance as traced, in the order of the columns of /histories"));
   put_ranges(group, "absorption_per_mm", subjects.absorption_per_mm,
              places_of(columns_.media, subjects.media), columns_.media.size());
-  const std::vector<std::size_t> places = places_of(columns_.reflectors, subjects.reflectors);
-  put_ranges(group, "reflectance", subjects.reflectance, places, columns_.reflectors.size());
-  put_ranges(group, "transmittance", subjects.transmittance, places, columns_.reflectors.size());
+  put_ranges(group, "reflectance", subjects.reflectance, places_of(columns_.reflectors, subjects.reflectors),
+             columns_.reflectors.size());
 }
 
 namespace {
 
 h5::Group open_histories(const std::filesystem::path& path, const h5::Group& root) {
-  if (!root.has(kGroup))
+  if (!root.has(kHistoryGroup))
     throw InputError({{path.string()},
                       "this result has no photon histories, so it cannot be reweighted",
                       "write photon_history = true in [run] of the scene and run it again"});
-  return root.open_group(kGroup);
+  return root.open_group(kHistoryGroup);
 }
 
 }  // namespace
@@ -183,6 +184,7 @@ HistoryReader::HistoryReader(const std::filesystem::path& path)
     : path_(path), file_(results_format::open_results(path)), group_(open_histories(path, file_.root())) {
   columns_.media = group_.read_strings("history_media");
   columns_.gap_media = group_.read_strings("history_gap_media");
+  columns_.transmitting = group_.read_strings("history_transmitting");
   const auto surfaces = group_.read_strings("reflector_surface"),
              stacks = group_.read_strings("reflector_stack"), names = group_.read_strings("reflector_name");
   if (stacks.size() != surfaces.size() || names.size() != surfaces.size())
@@ -213,11 +215,9 @@ std::optional<TracedOptics> HistoryReader::traced(std::size_t point) const {
   const std::string number = results_format::numbered(point);
   if (!points.has(number) || !points.open_group(number).has(kPointGroup)) return std::nullopt;
   const h5::Group group = points.open_group(number).open_group(kPointGroup);
-  TracedOptics optics{get_ranges(group, "absorption_per_mm"), get_ranges(group, "reflectance"),
-                      get_ranges(group, "transmittance")};
+  TracedOptics optics{get_ranges(group, "absorption_per_mm"), get_ranges(group, "reflectance")};
   if (optics.absorption_per_mm.size() != columns_.media.size() ||
-      optics.reflectance.size() != columns_.reflectors.size() ||
-      optics.transmittance.size() != columns_.reflectors.size())
+      optics.reflectance.size() != columns_.reflectors.size())
     throw damaged(path_, "traced_optics does not match histories");
   return optics;
 }

@@ -15,7 +15,7 @@ namespace scintray {
 struct HistoryColumns {
   std::vector<std::string> media;
   std::vector<ReflectorSite> reflectors;
-  std::vector<std::string> gap_media;
+  std::vector<std::string> transmitting, gap_media;
 
   /// Adds what is new in a point.
   void add(const HistorySubjects& point);
@@ -42,8 +42,8 @@ class HistoryWriter {
 /// How one point was traced, in the columns of the run: not a number where the point has no such medium or
 /// reflector.
 struct TracedOptics {
-  std::vector<TracedRange> absorption_per_mm;           ///< per medium
-  std::vector<TracedRange> reflectance, transmittance;  ///< per reflector
+  std::vector<TracedRange> absorption_per_mm;  ///< per medium
+  std::vector<TracedRange> reflectance;        ///< per reflector
 };
 
 /// Reads the histories of a results file.

@@ -153,6 +153,8 @@ constexpr std::array kFields = {
           "media in which paths are recorded; columns with one number a medium are in "
           "this order"},
     Field{"history_gap_media", "", "media that fill gaps of surfaces too, where paths are not recorded"},
+    Field{"history_transmitting", "",
+          "reflectors that let light through, and surfaces with them: they are not recorded"},
     Field{"reflector_surface", "",
           "surface of each reflector, a mixture's own; columns with one number a "
           "reflector are in this order"},
@@ -168,8 +170,6 @@ constexpr std::array kFields = {
           "most 1 / absorption length of each medium in the wavelengths in use"},
     Field{"reflectance_least", "1", "least reflectance of each reflector in the wavelengths in use"},
     Field{"reflectance_most", "1", "most reflectance of each reflector in the wavelengths in use"},
-    Field{"transmittance_least", "1", "least transmittance of each reflector in the wavelengths in use"},
-    Field{"transmittance_most", "1", "most transmittance of each reflector in the wavelengths in use"},
 };
 
 }  // namespace

@@ -50,6 +50,10 @@ class Targets {
       if (site.reflector == name || site.stack == name || site.surface == name) found.push_back(i);
       names.insert({site.reflector, site.stack, site.surface});
     }
+    const auto& transmitting = columns_.transmitting;
+    if (std::find(transmitting.begin(), transmitting.end(), name) != transmitting.end())
+      throw refused(path_, "\"" + name + "\" lets light through, so its reflectance does not change alone",
+                    "run the scene again with the other reflectance");
     if (!found.empty()) return found;
     for (const std::string& surface : run_.header.surfaces)
       if (surface == name || surface.starts_with(name + " ("))
@@ -172,16 +176,12 @@ OpticalChange ReweighPlan::change(const TracedOptics& traced, const std::vector<
         continue;
       }
       const double most = traced.reflectance[target].most;
-      if (std::isnan(most)) continue;                               // not in this point
-      const double room = 1.0 - traced.transmittance[target].most;  // what goes through stays what it was
-      const double largest = scans_[i].times ? most * chosen[i] : chosen[i];
-      if (largest > room)
-        throw refused(
-            path_,
-            fmt::format("a reflectance of {:.6g} is above {:.6g}, of {}{}", largest, room,
-                        reflector_names_[target], room < 1.0 ? ", which lets the rest through" : ""),
-            scans_[i].times ? fmt::format("give factors up to {:.6g}", room / most)
-                            : fmt::format("give reflectances up to {:.6g}", room));
+      if (std::isnan(most)) continue;  // not in this point
+      if (scans_[i].times && most * chosen[i] > 1.0)
+        throw refused(path_,
+                      fmt::format("a reflectance of {:.6g} times {:.6g} is above 1, of {}", most, chosen[i],
+                                  reflector_names_[target]),
+                      fmt::format("give factors up to {:.6g}", 1.0 / most));
       change.reflectance[target] = property;
     }
   return change;

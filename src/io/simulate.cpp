@@ -189,12 +189,12 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
   RunResult result;
   result.header = make_header(file, first, survey);
   ResultsWriter writer(options.output, result.header, first.run.photon_list);
+  if (first.run.photon_history) writer.begin_histories(survey.histories);
   if (!first.benches.empty()) {
     Library library = Library::shipped();
     add_definitions(library, first);
     writer.add_surfaces(study_surfaces(first.benches, library, builder.surfaces(), first.run.seed));
   }
-  if (first.run.photon_history) writer.begin_histories(survey.histories);
 
   SimulationProgress progress;
   progress.points = file.points();

@@ -137,7 +137,7 @@ std::string order_depth_text(const EventStudy& study) {
   for (std::size_t i = 0; i < study.orders_against_depth.size(); ++i) {
     const OrderSlice& slice = study.orders_against_depth[i];
     const OrderTiming& best = slice.orders.single[slice.orders.best_single];
-    text += fmt::format("{}{} mm: n = {} {}", i == 0 ? "" : ", ", compact(slice.depth_mm, 3), best.n,
+    text += fmt::format("{}{} mm: photon {}, {}", i == 0 ? "" : ", ", compact(slice.depth_mm, 3), best.n,
                         picoseconds(best.ctr_fwhm_ns));
     if (study.depth_bounds[i])
       text += fmt::format(" (bound by all {:.3g})", 1e3 * study.depth_bounds[i]->all_ns);

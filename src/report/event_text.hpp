@@ -21,7 +21,7 @@ std::string timing_depth_text(const TimingDepth& timing);
 std::string order_text(const OrderStudy& orders, const std::optional<TimingBound>& bound);
 /// "n = 1: 212.3 ± 4.1 ps (bound 150), n = 5: ..."
 std::string order_list(const OrderStudy& orders, const std::optional<TimingBound>& bound);
-/// "best photon at each depth: 2.1 mm: n = 3 190.1 ± 6.0 ps ..."
+/// "best photon at each depth: 2.1 mm: photon 3, 190.1 ± 6.0 ps ..."
 std::string order_depth_text(const EventStudy& study);
 /// "93.1 ± 0.2 % of the layers told rightly"
 std::string layers_text(const Confusion& confusion);

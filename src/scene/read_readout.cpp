@@ -142,4 +142,18 @@ std::optional<ReadoutSpec> read_readout(const TomlTable& scene) {
   return readout;
 }
 
+ReadoutSpec readout_of_text(const std::string& text, const std::string& file) {
+  Problems problems;
+  const TomlTable root(parse_toml(text, file), problems);
+  const std::optional<ReadoutSpec> readout = read_readout(root);
+  for (const std::string& key : root.keys())
+    if (key != "readout") root.take(key);
+  root.finish();
+  if (!readout)
+    problems.add({file}, "this file has no [readout]",
+                 "write one (docs/readout.md), or name a scene with one");
+  problems.throw_if_any();
+  return *readout;
+}
+
 }  // namespace scintray

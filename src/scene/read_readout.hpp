@@ -11,4 +11,8 @@ namespace scintray {
 /// @param scene  the outermost table
 std::optional<ReadoutSpec> read_readout(const TomlTable& scene);
 
+/// The same of a file's text, of which only [readout] is read. @throws InputError with all that is wrong, and
+/// without a [readout]
+ReadoutSpec readout_of_text(const std::string& text, const std::string& file);
+
 }  // namespace scintray

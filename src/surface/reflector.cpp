@@ -5,7 +5,6 @@
 #include <set>
 
 #include "scintray/core/sampling.hpp"
-#include "scintray/surface/reflection_log.hpp"
 
 namespace scintray {
 

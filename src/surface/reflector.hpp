@@ -6,6 +6,7 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/surface/fresnel.hpp"
+#include "scintray/surface/reflection_log.hpp"
 
 namespace scintray {
 
@@ -25,8 +26,6 @@ struct Reflector {
   std::optional<Curve> transmittance = std::nullopt;
 };
 
-class ReflectionLog;
-
 /// Where light is after it met a reflector.
 enum class SheetOutcome { back, through, absorbed };
 
@@ -42,9 +41,9 @@ enum class SheetOutcome { back, through, absorbed };
 /// through its binder instead, and both faces refract.
 ///
 /// @param normal        unit normal of the sheet, against the ray
-/// @param log           told of every reflection that was survived by a draw against the reflectance; may be
-/// null
 /// @param index_here    of the medium the ray is in; @param index_beyond  of that behind the sheet
+/// @param log           told of what was sent back by a draw against the reflectance, not of what a volume's
+///                      face mirrored or what passed; may be null
 SheetOutcome meet_reflector(const Reflector& reflector, Ray& ray, const Vec3& normal, double index_here,
                             double index_beyond, double wavelength_nm, Rng& rng,
                             ReflectionLog* log = nullptr);

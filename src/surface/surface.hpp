@@ -12,7 +12,6 @@
 #include "scintray/medium/wavelength_shifter.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/microsurface.hpp"
-#include "scintray/surface/reflection_log.hpp"
 #include "scintray/surface/reflector.hpp"
 #include "scintray/surface/table.hpp"
 #include "scintray/surface/unified.hpp"

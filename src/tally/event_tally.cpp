@@ -54,18 +54,20 @@ void EventTally::detected(std::uint32_t channel, std::uint64_t count, double fir
   seen.detected += static_cast<std::uint32_t>(count);
 }
 
-void EventTally::read_out(std::uint32_t channel, Rng rng) {
+void write_signal(ChannelSignal signal, ChannelRecord& record) {
   constexpr float kNone_ns = std::numeric_limits<float>::quiet_NaN();
   const auto time = [](const std::optional<double>& ns) { return ns ? static_cast<float>(*ns) : kNone_ns; };
-  ChannelSignal signal = plan_.readout[channel].respond(arrivals_[channel], rng);
-  arrivals_[channel].clear();
-  ChannelRecord& record = events_.back().channels[channel];
   record.charge = static_cast<float>(signal.charge);
   record.amplitude = static_cast<float>(signal.amplitude);
   record.first_ns = time(signal.first_photon_ns);
   record.time_ns = time(signal.time_ns);
   for (const std::optional<double>& ns : signal.order_times_ns) record.order_ns.push_back(time(ns));
   record.waveform = std::move(signal.waveform);
+}
+
+void EventTally::read_out(std::uint32_t channel, Rng rng) {
+  write_signal(plan_.readout[channel].respond(arrivals_[channel], rng), events_.back().channels[channel]);
+  arrivals_[channel].clear();
 }
 
 void EventTally::end(const std::function<Rng(std::uint32_t)>& stream) {

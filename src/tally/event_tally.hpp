@@ -9,6 +9,9 @@
 
 namespace scintray {
 
+/// What a channel's electronics say, in an event's record; its number of detected photons stays.
+void write_signal(ChannelSignal signal, ChannelRecord& record);
+
 /// Gathers one event after the other.
 class EventTally {
  public:

@@ -18,6 +18,10 @@ TracedRange range_of(const Curve& curve, double low, double high) {
   return range;
 }
 
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
 /// What a medium absorbs for good, as the tracer sees it: a wavelength shifter competes beside it.
 double absorption_per_mm(const SceneMedium& medium, double wavelength_nm) {
   return medium.medium().shifter ? medium.medium().absorption_per_mm(wavelength_nm)
@@ -48,20 +52,20 @@ void HistoryPlan::add_media(const Scene& scene) {
 
 void HistoryPlan::add_surface(const Scene& scene, const Surface& surface, const std::string& within) {
   for (const SurfaceShare& share : surface.mixture) add_surface(scene, *share.surface, within);
-  std::vector<std::string>& gaps = subjects_.gap_media;
-  if (surface.gap_thickness_um && !surface.gap_medium.empty() &&
-      std::find(gaps.begin(), gaps.end(), surface.gap_medium) == gaps.end())
-    gaps.push_back(surface.gap_medium);
+  if (surface.gap_thickness_um && !surface.gap_medium.empty())
+    add_once(subjects_.gap_media, surface.gap_medium);
   if (!surface.reflector) return;
+  if (surface.reflector->transmittance) {
+    for (const std::string& name : {within, surface.definition, surface.reflector->name})
+      add_once(subjects_.transmitting, name);
+    return;
+  }
   const ReflectorSite site{within, surface.definition, surface.reflector->name};
   const auto known = std::find(subjects_.reflectors.begin(), subjects_.reflectors.end(), site);
   column_of_reflector_[&*surface.reflector] = static_cast<std::size_t>(known - subjects_.reflectors.begin());
   if (known != subjects_.reflectors.end()) return;
   subjects_.reflectors.push_back(site);
   subjects_.reflectance.push_back(range_of(surface.reflector->reflectance, scene.low_nm, scene.high_nm));
-  const auto& through = surface.reflector->transmittance;
-  subjects_.transmittance.push_back(through ? range_of(*through, scene.low_nm, scene.high_nm)
-                                            : TracedRange{});
 }
 
 HistoryRecorder::HistoryRecorder(const Scene& scene, const HistoryPlan& plan)
@@ -101,7 +105,9 @@ void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64
   kept_.reflections.resize(first + reflectors);
   kept_.reflection_depth.resize(first + reflectors);
   for (const ReflectionLog::Entry& entry : log_.entries()) {
-    const std::size_t at = first + plan_.column_of(*entry.reflector);
+    const std::int32_t column = plan_.column_of(*entry.reflector);
+    if (column == kNone) continue;
+    const std::size_t at = first + static_cast<std::size_t>(column);
     kept_.reflections[at] += entry.count;
     kept_.reflection_depth[at] += static_cast<float>(entry.depth);
   }

@@ -32,7 +32,10 @@ struct HistorySubjects {
   std::vector<std::string> media;  ///< of the regions that light can be in
   std::vector<TracedRange> absorption_per_mm;
   std::vector<ReflectorSite> reflectors;
-  std::vector<TracedRange> reflectance, transmittance;  ///< of each reflector
+  std::vector<TracedRange> reflectance;
+  /// Names of reflectors that let light through, of their stacks and surfaces: not among `reflectors`, since
+  /// the reflectance of such a sheet does not change alone.
+  std::vector<std::string> transmitting;
   std::vector<std::string> gap_media;  ///< that also fill gaps with a thickness, where paths are not recorded
 };
 
@@ -56,7 +59,11 @@ class HistoryPlan {
   const HistorySubjects& subjects() const { return subjects_; }
   /// Column of the medium of a region; kNone for what is opaque.
   std::int32_t column_of_region(std::uint32_t region) const { return column_of_region_[region]; }
-  std::size_t column_of(const Reflector& reflector) const { return column_of_reflector_.at(&reflector); }
+  /// kNone for one that lets light through.
+  std::int32_t column_of(const Reflector& reflector) const {
+    const auto known = column_of_reflector_.find(&reflector);
+    return known == column_of_reflector_.end() ? kNone : static_cast<std::int32_t>(known->second);
+  }
 
  private:
   void add_media(const Scene& scene);

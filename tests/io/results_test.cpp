@@ -273,7 +273,7 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   {
     ResultsWriter writer(path, run.header, true);
     const HistorySubjects subjects{
-        {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}};
+        {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}, {}};
     HistoryColumns columns;
     columns.add(subjects);
     writer.begin_histories(columns);

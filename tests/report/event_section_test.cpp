@@ -98,5 +98,5 @@ TEST_CASE("Timing by order of photons is drawn with its best n, the bound, again
   check_says(drawn, "all points: coincidence of two such detectors by the n-th photon");
   const std::string lines = report::event_lines(study);
   check_says(lines, "CTR by the n-th photon: n = 1: ");
-  check_says(lines, "best photon at each depth: 4 mm: n = ");
+  check_says(lines, "best photon at each depth: 4 mm: photon ");
 }

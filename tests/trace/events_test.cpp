@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
+#include "scintray/trace/light_timing.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -150,4 +151,30 @@ medium = "glass"
 surface = "flat"
 )" + kPlaced;
   CHECK(contains(complaint_of([&] { SceneBuilder().build(scene_spec(glass)); }), "no part scintillates"));
+}
+
+TEST_CASE(
+    "The time of one photon is known where all light has one emission and all sensors one time spread") {
+  const auto timing = [](const std::string& text) {
+    const SceneSpec spec = scene_spec(text);
+    SceneBuilder builder;
+    const BuiltScene built = builder.build(spec);
+    return light_timing(built.scene, spec, *make_light_source(spec, built.scene),
+                        TallyPlan(built.scene, spec));
+  };
+  const std::string readout =
+      "[readout]\nperiod = \"1 ns\"\nbefore = \"5 ns\"\nwindow = \"100 ns\"\n"
+      "shaping = { order = 1, time_constant = \"4 ns\" }\nthreshold = 1\n";
+  const std::string spread = "[sensors.perfect.transit_time]\nsigma = \"0.2 ns\"\n";
+  const auto known = timing(scene_with(kPlaced) + readout + spread);
+  REQUIRE(known);
+  CHECK(known->time_spread_ns == doctest::Approx(0.2));
+  REQUIRE_FALSE(known->decay.empty());
+  CHECK(known->decay.front().decay_ns > 10.0);
+  CHECK_FALSE(timing(scene_with(kPlaced)));  // no electronics: no time spread either
+  CHECK_FALSE(timing(scene_with(kPlaced + "cherenkov = true\n") + readout + spread));
+  const std::string other =
+      "[[part]]\nname = \"side\"\nbox = [\"4 mm\", \"1 mm\", \"10 mm\"]\nplace = { touch = "
+      "\"crystal\", side = \"+y\" }\nsensor = \"ideal\"\n";
+  CHECK_FALSE(timing(scene_with(kPlaced, other) + readout + spread));
 }

@@ -1,0 +1,159 @@
+#include "scintray/io/read_out_again.hpp"
+
+#include <map>
+
+#include "scintray/core/error.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/results_format.hpp"
+#include "scintray/io/simulate.hpp"
+#include "scintray/tally/event_tally.hpp"
+#include "scintray/trace/light_timing.hpp"
+#include "scintray/trace/run.hpp"
+
+namespace scintray {
+
+namespace {
+
+constexpr std::uint64_t kRows = 8192;
+
+InputError not_to_read_out(const std::filesystem::path& path, const std::string& what,
+                           const std::string& hint) {
+  return InputError({{path.string()}, what, hint});
+}
+
+/// The photons of a result, event after event.
+class ListedPhotons {
+ public:
+  explicit ListedPhotons(const std::filesystem::path& path) : path_(path) {}
+
+  /// The next photon of this event; null after its last.
+  const DetectedPhoton* next(std::uint32_t point, std::uint64_t event) {
+    if (at_ == photons_.size()) {
+      offset_ += photons_.size();
+      photons_ = read_photons(path_, offset_, kRows);
+      at_ = 0;
+    }
+    if (at_ == photons_.size() || photons_[at_].point != point || photons_[at_].event != event)
+      return nullptr;
+    return &photons_[at_++];
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<DetectedPhoton> photons_;
+  std::uint64_t offset_ = 0;
+  std::size_t at_ = 0;
+};
+
+/// The channels of one point, with the electronics wanted.
+class PointElectronics {
+ public:
+  PointElectronics(const std::filesystem::path& path, const RunResult& run, const TallyPlan& plan,
+                   std::size_t point)
+      : path_(path), run_(run), plan_(plan), arrivals_(plan.channels.list.size()) {
+    const std::vector<ReadoutChannel> recorded = read_channels(path, point);
+    for (std::uint32_t i = 0; i < plan.channels.list.size(); ++i) {
+      const ReadoutChannel& channel = plan.channels.list[i];
+      if (i >= recorded.size() || recorded[i].name != channel.name) break;
+      numbers_[channel.name] = i;
+    }
+    if (numbers_.size() != recorded.size() || recorded.size() != plan.channels.list.size())
+      throw not_to_read_out(path,
+                            "the scene of this result has other sensors than its events were read out by",
+                            "a file that the scene names has changed since; run it again");
+    settings_.seed = run.header.seed;
+    settings_.point = static_cast<std::uint32_t>(point);
+  }
+
+  /// Gives an event the signals of its photons.
+  void read_out(EventRecord& event, ListedPhotons& photons) {
+    for (std::vector<Arrival>& arrivals : arrivals_) arrivals.clear();
+    std::uint64_t listed = 0;
+    for (; const DetectedPhoton* photon = photons.next(event.point, event.event); ++listed) add(*photon);
+    if (listed != event.detected)
+      throw results_format::damaged(path_, std::to_string(listed) + " photons listed of " +
+                                               std::to_string(event.detected) + " detected in event " +
+                                               std::to_string(event.event));
+    event.channels.assign(arrivals_.size(), {});
+    for (std::uint32_t channel = 0; channel < arrivals_.size(); ++channel) {
+      ChannelRecord& record = event.channels[channel];
+      record.detected = static_cast<std::uint32_t>(arrivals_[channel].size());
+      Rng rng = sensor_stream(settings_, event.event, channel);
+      write_signal(plan_.readout[channel].respond(arrivals_[channel], rng), record);
+    }
+  }
+
+ private:
+  void add(const DetectedPhoton& photon) {
+    if (photon.part >= run_.header.parts.size() || photon.face >= run_.header.faces.size())
+      throw results_format::damaged(path_, "a photon names a part or face that does not exist");
+    auto known = numbers_.find(run_.header.parts[photon.part]);
+    if (known == numbers_.end()) known = numbers_.find(run_.header.faces[photon.face]);
+    if (known == numbers_.end())
+      throw results_format::damaged(path_, "a photon was detected by no channel of its point");
+    const ReadoutChannel& channel = plan_.channels.list[known->second];
+    const Vec3 place(photon.position_mm[0], photon.position_mm[1], photon.position_mm[2]);
+    const Vec3 from = place - channel.position;
+    arrivals_[known->second].push_back(
+        {static_cast<double>(photon.time_ns), from.dot(channel.x), from.dot(channel.y)});
+  }
+
+  const std::filesystem::path& path_;
+  const RunResult& run_;
+  const TallyPlan& plan_;
+  RunSettings settings_;
+  std::map<std::string, std::uint32_t> numbers_;
+  std::vector<std::vector<Arrival>> arrivals_;
+};
+
+}  // namespace
+
+void read_out_again(const std::filesystem::path& path, const RunResult& run, const ReadoutSpec& readout,
+                    const std::filesystem::path& output) {
+  const ResultsStatus status = read_results_status(path);
+  if (status.listed_events == 0)
+    throw not_to_read_out(path, "this result has no events to read out",
+                          "run a scene whose [source] is one of energy");
+  if (!status.has_photon_list)
+    throw not_to_read_out(path, "this result has no list of detected photons to read out again",
+                          "write photon_list = true in [run] of the scene and run it again");
+  std::error_code ignored;
+  if (std::filesystem::equivalent(path, output, ignored))
+    throw not_to_read_out(output, "the new result would replace the one it is made of", "name another file");
+  const SceneFile file = SceneFile::from_text(run.header.scene_text, run.header.scene_file);
+  RunHeader header = run.header;
+  header.note += (header.note.empty() ? "" : "\n") + std::string("electronics made again by ") +
+                 readout.where.file + " from the photons of " + path.filename().string();
+  ResultsWriter writer(output, header, false);
+  SceneBuilder builder;
+  ListedPhotons photons(path);
+  std::vector<EventRecord> events;
+  std::uint64_t row = 0;
+  std::size_t at = 0;
+  for (std::size_t number = 0; number < run.points.size(); ++number) {
+    SceneSpec spec = file.spec(number);
+    spec.readout = readout;
+    spec.run.photon_list = spec.run.photon_history = false;
+    const BuiltScene built = builder.build(spec);
+    const TallyPlan plan(built.scene, spec);
+    writer.begin_events(number, read_channels(path, number), readout);
+    PointElectronics electronics(path, run, plan, number);
+    for (;;) {
+      if (at == events.size()) {
+        events = read_events(path, row, kRows, EventDetail::numbers);
+        row += events.size();
+        at = 0;
+      }
+      if (events.empty() || events[at].point != number) break;
+      electronics.read_out(events[at], photons);
+      writer.append_events({events[at++]});
+    }
+    PointResult point = run.points[number];
+    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene);
+    point.light_timing = light_timing(built.scene, spec, *source, plan);
+    writer.add_point(point);
+  }
+  writer.commit(run.complete(), run.partial_reason);
+}
+
+}  // namespace scintray

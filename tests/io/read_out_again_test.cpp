@@ -1,0 +1,103 @@
+// Electronics made again from the photons of a result.
+#include "scintray/io/read_out_again.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "scintray/core/error.hpp"
+#include "scintray/io/results.hpp"
+#include "scintray/io/simulate.hpp"
+#include "scintray/scene/read_readout.hpp"
+#include "support/shared.hpp"
+#include "support/small_crystal.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+const std::string kElectronics = R"(
+[readout]
+period = "0.5 ns"
+before = "5 ns"
+window = "200 ns"
+shaping = { order = 1, time_constant = "5 ns" }
+noise = 0.2
+threshold = 3
+pulses = true
+photon_order = [1, 3]
+)";
+
+struct Made {
+  std::filesystem::path path;
+  RunResult run;
+};
+
+Made made(const std::string& name, const std::string& more) {
+  SimulationOptions options;
+  options.output = scratch_folder("read_out_" + name) / "run.h5";
+  simulate(
+      SceneFile::from_text(kSmallCrystal + more, (scratch_folder("read_out_scene") / "scene.toml").string()),
+      options);
+  return {options.output, read_results(options.output)};
+}
+
+std::string refusal(const Made& of, const std::filesystem::path& output) {
+  try {
+    read_out_again(of.path, of.run, readout_of_text(kElectronics, "other.toml"), output);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("With the electronics of the run its own signals come back, with others theirs") {
+  const Made traced = made("same", kElectronics + "[run]\nphoton_list = true\n");
+  const auto again = traced.path.parent_path() / "again.h5";
+  read_out_again(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
+  const auto before = read_events(traced.path, 0, 100), after = read_events(again, 0, 100);
+  REQUIRE(after.size() == before.size());
+  REQUIRE(before.size() == 5);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK(after[i].energy_keV == before[i].energy_keV);
+    CHECK(after[i].detected == before[i].detected);
+    REQUIRE(after[i].channels.size() == 1);
+    const ChannelRecord &a = after[i].channels[0], &b = before[i].channels[0];
+    CHECK(b.charge > 100.0F);
+    CHECK(a.detected == b.detected);
+    // Arrivals are recorded in single precision, 1e-5 ns of times of some 100 ns.
+    CHECK(a.charge == doctest::Approx(b.charge).epsilon(1e-4));
+    CHECK(a.amplitude == doctest::Approx(b.amplitude).epsilon(1e-3));
+    CHECK(std::abs(a.time_ns - b.time_ns) < 1e-3F);
+    CHECK(std::abs(a.order_ns.at(1) - b.order_ns.at(1)) < 1e-4F);
+    REQUIRE(a.waveform.size() == b.waveform.size());
+    for (std::size_t k = 0; k < a.waveform.size(); ++k)
+      CHECK(std::abs(a.waveform[k] - b.waveform[k]) < 0.02F);
+  }
+  check_says(read_results(again).header.note, "electronics made again by same.toml");
+
+  // Half the gate, of a run without electronics: less charge of the same photons.
+  const Made bare = made("bare", "[run]\nphoton_list = true\n");
+  const auto gated = bare.path.parent_path() / "gated.h5";
+  read_out_again(bare.path, bare.run,
+                 readout_of_text(kElectronics + "gate = [\"-5 ns\", \"20 ns\"]\n", "gated.toml"), gated);
+  const auto short_gate = read_events(gated, 0, 100);
+  REQUIRE(short_gate.size() == before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    CHECK(short_gate[i].channels[0].detected == before[i].channels[0].detected);
+    CHECK(short_gate[i].channels[0].charge < 0.6F * before[i].channels[0].charge);
+    CHECK(short_gate[i].channels[0].charge > 0.1F * before[i].channels[0].charge);
+  }
+}
+
+TEST_CASE("What cannot be read out again is refused in words") {
+  const Made unlisted = made("unlisted", "");
+  check_says(refusal(unlisted, unlisted.path.parent_path() / "new.h5"), "photon_list = true");
+  const Made listed = made("listed", "[run]\nphoton_list = true\n");
+  check_says(refusal(listed, listed.path), "would replace");
+  CHECK_THROWS_AS(readout_of_text("title = \"x\"\n", "none.toml"), InputError);
+}
