@@ -189,3 +189,14 @@ fraction = 1.0
   }
   CHECK(shifted > followed.photons.size() / 4);
 }
+
+TEST_CASE("A reflector that lets light through is named, and its reflections are not recorded") {
+  std::string text = kWrappedPair;
+  const std::string value = "reflectance = { value = 0.9 }";
+  text.replace(text.find(value), value.size(), value + "\ntransmittance = { value = 0.05 }");
+  const Followed followed = follow(text, true);
+  CHECK(followed.histories.event.size() > 1'000);
+  CHECK(followed.subjects.reflectors.empty());
+  CHECK(followed.histories.reflections.empty());
+  CHECK(followed.subjects.transmitting == std::vector<std::string>{"wrapped", "loose", "film", "glued"});
+}
