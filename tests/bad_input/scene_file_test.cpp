@@ -34,7 +34,7 @@ TEST_CASE("unknown keys name the nearest known one") {
   check_mistake("gap = \"0.1 mm\"", "gap = \"0.1 mm\", @@gasp=1", "unknown key \"gasp\" in [part.place]",
                 "did you mean \"gap\"?");
   check_mistake("[run]", "@@[qqqqqqqq]\nx = 1\n[run]", "unknown key \"qqqqqqqq\" at the top of the file",
-                "known keys here: ambient, analysis, array, claim, contact,");
+                "known keys here: ambient, analysis, array, bench, claim, contact,");
   check_mistake("face = \"crystal:exit\"", "face = \"crystal:exit\"\n@@bims.x = 3\n", "unknown key \"bims\"",
                 "did you mean \"bins\"?");
 }

@@ -26,7 +26,7 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
   did({"analyze", "result.h5"}, cli::kSuccess, "pulses: 500 of 500 events");
   std::ifstream page(folder / "result.html");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
-  CHECK(contains(text, "keV"));
+  CHECK(contains(text, "<h2>Events"));
   CHECK_FALSE(contains(text, "Where every photon ended"));  // none was traced
   did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");
   did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput,
