@@ -54,8 +54,9 @@ class RowWriter {
   }
 
  private:
-  /// Rows kept in memory before they go to disk, and rows compressed together: 4 MB of photons.
-  static constexpr std::size_t kBlockRows = 65536;
+  /// Rows kept in memory before they go to disk, and rows compressed together. While they are compressed,
+  /// other threads make the next ones, and would wait for larger blocks.
+  static constexpr std::size_t kBlockRows = 8192;
 
   std::optional<h5::Group> group_;
   std::vector<Row> waiting_;
