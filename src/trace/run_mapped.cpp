@@ -12,8 +12,9 @@ namespace scintray {
 
 namespace {
 
-/// Events made by one thread before it takes the next.
-constexpr std::uint64_t kEventsPerPiece = 256;
+/// Events made by one thread before it takes the next: many where they are made in no time, so that threads
+/// seldom wait for each other; few where they have waveforms, which fill memory.
+constexpr std::uint64_t kQuickEvents = 2048, kReadOutEvents = 256;
 
 /// Makes events of one point.
 class EventMaker {
@@ -22,12 +23,15 @@ class EventMaker {
              const MappedResponse& response, const RunSettings& settings)
       : scene_(scene), source_(source), plan_(plan), response_(response), settings_(settings) {}
 
+  std::uint64_t pieces() const { return (source_.events() + events_a_piece() - 1) / events_a_piece(); }
+
   EventTally make(std::uint64_t piece) const {
     EventTally tally(scene_, plan_);
     EventLight light;
     std::vector<PlaceResponse> seen;
-    const std::uint64_t first = piece * kEventsPerPiece;
-    for (std::uint64_t event = first; event < std::min(first + kEventsPerPiece, source_.events()); ++event) {
+    const std::uint64_t first = piece * events_a_piece();
+    const std::uint64_t last = std::min(first + events_a_piece(), source_.events());
+    for (std::uint64_t event = first; event < last; ++event) {
       Rng rng = event_stream(settings_, event);
       source_.begin(scene_, event, rng, light);
       tally.begin(event, settings_.point, light);
@@ -42,6 +46,8 @@ class EventMaker {
   }
 
  private:
+  std::uint64_t events_a_piece() const { return plan_.readout.empty() ? kQuickEvents : kReadOutEvents; }
+
   void light_of(const Deposit& deposit, std::uint64_t photons, std::vector<PlaceResponse>& seen, Rng& rng,
                 EventTally& tally) const {
     if (photons == 0) return;
@@ -92,14 +98,14 @@ PointResult run_mapped(const Scene& scene, const LightSource& source, const Tall
   const auto start = std::chrono::steady_clock::now();
   PointResult total = empty_result(scene, plan);
   const EventMaker maker(scene, source, plan, response, settings);
-  const std::uint64_t pieces = (source.events() + kEventsPerPiece - 1) / kEventsPerPiece;
   const auto make = [&](std::uint64_t piece) { return maker.make(piece); };
   const auto collect = [&](std::uint64_t, const EventTally& tally) {
     tally.add_to(total.energy);
     if (hooks.events) hooks.events(tally.events());
     if (hooks.progress) hooks.progress(total.energy.events);
   };
-  total.complete = work_in_order(pieces, settings.threads, hooks.stop, make, collect) == pieces;
+  total.complete =
+      work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect) == maker.pieces();
   total.energy.events_requested = source.events();
   total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return total;
