@@ -220,7 +220,8 @@ class ReflectanceCurve : public FitModel {
 
   std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
     const BenchSurface bench = bench_at(parameters);
-    tbb::task_arena arena(settings_.run.threads.value_or(tbb::task_arena::automatic));
+    const int threads = settings_.run.threads ? *settings_.run.threads : int{tbb::task_arena::automatic};
+    tbb::task_arena arena(threads);
     ModelCurve curve;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       if (settings_.run.stop && settings_.run.stop->load()) return std::nullopt;
