@@ -27,7 +27,7 @@ height = ["2 mm", "10 mm"]
 height = "12 mm"
 [[array.override]]
 select = { columns = [0], checker = "even" }
-surface = "lso_ground_30um"
+surface = "roncali2013_unified_rough"
 
 [[light_guide]]
 name = "guide"

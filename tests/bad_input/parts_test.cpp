@@ -49,12 +49,12 @@ TEST_CASE("Parts that overlap are told with the places of both") {
 }
 
 TEST_CASE("Bonded faces of different surfaces are told with the places of both parts") {
-  check_scene(boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"lso_ground_30um\"\n"),
+  check_scene(boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n"),
               "an interface has one surface; 'b' is at scene.toml:7:1", "add [[contact]]");
 }
 
 TEST_CASE("With a contact, its place is told") {
-  std::string scene = boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"lso_ground_30um\"\n",
+  std::string scene = boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n",
                             "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
   scene.erase(scene.find("@@"), 2);
   check_scene(scene, "an interface has one surface; 'b' is at scene.toml:7:1", "the joint");
