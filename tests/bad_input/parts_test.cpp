@@ -54,8 +54,9 @@ TEST_CASE("Bonded faces of different surfaces are told with the places of both p
 }
 
 TEST_CASE("With a contact, its place is told") {
-  std::string scene = boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n",
-                            "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
+  std::string scene =
+      boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n",
+            "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
   scene.erase(scene.find("@@"), 2);
   check_scene(scene, "an interface has one surface; 'b' is at scene.toml:7:1", "the joint");
 }
