@@ -53,10 +53,7 @@ EventCollector::EventCollector(StudySetup setup) : setup_(std::move(setup)), ord
 }
 
 void EventCollector::add_light(const EventRecord& event, Row& row) const {
-  const auto light = [&](std::size_t channel) {
-    const ChannelRecord& record = event.channels[channel];
-    return has_readout_ ? static_cast<double>(record.charge) : static_cast<double>(record.detected);
-  };
+  const auto light = [&](std::size_t channel) { return light_of(event.channels[channel], has_readout_); };
   for (std::size_t i = 0; i < event.channels.size(); ++i) row.light += light(i);
   if (!layout_) return;
   for (const std::size_t i : layout_->near) row.near_light += static_cast<float>(light(i));

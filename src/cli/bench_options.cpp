@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
@@ -21,9 +21,7 @@ void add_bench_options(CLI::App& app, BenchOptions& options, std::uint64_t rays)
 }
 
 Library library_of(const BenchOptions& options) {
-  Library library = Library::shipped();
-  if (!options.scene.empty()) add_definitions(library, SceneFile::load(options.scene).spec(0));
-  return library;
+  return options.scene.empty() ? Library::shipped() : library_for(SceneFile::load(options.scene).spec(0));
 }
 
 BenchPlace place_of(const BenchOptions& options, const std::string& surface, const std::string& outside) {
@@ -32,14 +30,7 @@ BenchPlace place_of(const BenchOptions& options, const std::string& surface, con
 
 double angle_rad(const std::string& text) { return parse_quantity(text, Dimension::angle); }
 
-SurfaceMaker watched_maker(ProgressLine& line) {
-  SurfaceMaker::Hooks hooks;
-  hooks.table_progress = [&line](const std::string& surface, double done) {
-    line.show("building the table of " + surface, 100.0 * done, 100.0, "percent");
-  };
-  hooks.stop = [] { return InterruptGuard::requested().load(); };
-  return SurfaceMaker(hooks);
-}
+SurfaceMaker watched_maker(ProgressLine& line) { return SurfaceMaker(watched_surfaces(line)); }
 
 std::string share_text(const Estimate& share) {
   return fmt::format("{:.5f} +- {:.5f}", share.value, share.error);

@@ -8,7 +8,7 @@
 #include "scintray/cli/check_picture.hpp"
 #include "scintray/cli/check_report.hpp"
 #include "scintray/cli/interrupt.hpp"
-#include "scintray/cli/progress.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/io/simulate.hpp"
 #include "scintray/scene/small_gaps.hpp"
 #include "scintray/source/light_source.hpp"
@@ -55,12 +55,7 @@ void check_scene(const CheckOptions& options) {
   if (!options.picture.empty()) expect_picture_name(options.picture);
   const SceneFile file = SceneFile::load(path);
   ProgressLine line(true);
-  SurfaceMaker::Hooks hooks;
-  hooks.table_progress = [&line](const std::string& surface, double done) {
-    line.show("building the table of " + surface, done, 1.0, "");
-  };
-  hooks.stop = [] { return InterruptGuard::requested().load(); };
-  SceneBuilder builder(hooks);
+  SceneBuilder builder(watched_surfaces(line));
   for (std::size_t point = 0; point < file.points(); ++point) {
     const SceneSpec spec = file.spec(point);
     const bool shown = point == 0 || options.every_point;

@@ -7,7 +7,7 @@
 
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
-#include "scintray/cli/progress.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/fit_file.hpp"
 #include "scintray/io/fit_scene.hpp"
@@ -34,11 +34,7 @@ SceneFitOptions fit_options(const FitOptions& options, ProgressLine& line) {
   run.photons = options.photons;
   run.events = options.events;
   run.stop = &InterruptGuard::requested();
-  run.surface_hooks.stop = [] { return InterruptGuard::requested().load(); };
-  run.surface_hooks.table_progress = [&line](const std::string& surface, double done) {
-    line.show("building the table of " + surface, done, 1.0, "");
-    if (done >= 1.0) line.restart();
-  };
+  run.surface_hooks = watched_surfaces(line);
   result.model.progress = [&line](std::uint64_t done, std::uint64_t of) {
     line.show("curve", static_cast<double>(done), static_cast<double>(of), "");
     if (done >= of) line.restart();

@@ -7,7 +7,7 @@
 
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
-#include "scintray/cli/progress.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/io/simulate_mapped.hpp"
@@ -44,16 +44,6 @@ double pitch_of(const std::string& text) {
   throw CLI::ValidationError("--pitch", "\"" + text + "\" is not above zero");
 }
 
-SurfaceMaker::Hooks surface_hooks(ProgressLine& line) {
-  SurfaceMaker::Hooks hooks;
-  hooks.stop = [] { return InterruptGuard::requested().load(); };
-  hooks.table_progress = [&line](const std::string& surface, double done) {
-    line.show("building the table of " + surface, done, 1.0, "");
-    if (done >= 1.0) line.restart();
-  };
-  return hooks;
-}
-
 void print_map(const ResponseMap& map) {
   for (const ResponseGrid& grid : map.grids) {
     std::uint64_t emitted = 0, detected = 0, filled = 0;
@@ -78,7 +68,7 @@ void build(const BuildOptions& options) {
   ProgressLine line(!options.quiet);
   map_options.threads = options.threads;
   map_options.seed = options.seed;
-  map_options.surface_hooks = surface_hooks(line);
+  map_options.surface_hooks = watched_surfaces(line);
   map_options.hooks.stop = &InterruptGuard::requested();
   map_options.hooks.progress = [&line](std::uint64_t done, std::uint64_t of) {
     line.show("mapping", static_cast<double>(done), static_cast<double>(of), "cells");
@@ -113,7 +103,7 @@ void run(const MappedRunOptions& options) {
   simulation.seed = options.seed;
   simulation.events = options.events;
   simulation.stop = &InterruptGuard::requested();
-  simulation.surface_hooks = surface_hooks(line);
+  simulation.surface_hooks = watched_surfaces(line);
   simulation.progress = [&line](const SimulationProgress& p) {
     line.show("events", static_cast<double>(p.done), static_cast<double>(p.total), p.thing);
   };

@@ -9,6 +9,7 @@
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_studies.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/io/simulate.hpp"
 #include "scintray/report/html_report.hpp"
@@ -45,11 +46,7 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
   result.events = options.events;
   result.quick = options.quick;
   result.stop = &InterruptGuard::requested();
-  result.surface_hooks.stop = [] { return InterruptGuard::requested().load(); };
-  result.surface_hooks.table_progress = [&line](const std::string& surface, double done) {
-    line.show("building the table of " + surface, done, 1.0, "");
-    if (done >= 1.0) line.restart();
-  };
+  result.surface_hooks = watched_surfaces(line);
   result.progress = [&line](const SimulationProgress& p) {
     line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.done),
               static_cast<double>(p.total), p.thing);

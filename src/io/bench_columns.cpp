@@ -12,18 +12,6 @@ namespace {
 
 constexpr const char* kGroup = "benches";
 
-template <typename T>
-void put_column(h5::Group& group, const char* name, const std::vector<T>& values) {
-  group.write(name, values);
-  describe(group, name);
-}
-
-template <typename T>
-void put_number(h5::Group& group, const char* name, T value) {
-  group.write(name, std::vector<T>{value}, {});
-  describe(group, name);
-}
-
 std::vector<double> in_degrees(std::vector<double> angles_rad) {
   for (double& angle : angles_rad) angle /= kDegree;
   return angles_rad;
@@ -36,8 +24,8 @@ void put_estimates(h5::Group& group, const char* name, const char* error_name,
     values.push_back(one.value / unit);
     errors.push_back(one.error / unit);
   }
-  put_column(group, name, values);
-  put_column(group, error_name, errors);
+  put(group, name, values);
+  put(group, error_name, errors);
 }
 
 void put_cells(h5::Group& group) {
@@ -50,11 +38,11 @@ void put_cells(h5::Group& group) {
     azimuth_high.push_back(cell.azimuth_high / kDegree);
     solid_angle.push_back(cell.solid_angle_sr);
   }
-  put_column(group, "cell_polar_low_deg", polar_low);
-  put_column(group, "cell_polar_high_deg", polar_high);
-  put_column(group, "cell_azimuth_low_deg", azimuth_low);
-  put_column(group, "cell_azimuth_high_deg", azimuth_high);
-  put_column(group, "cell_solid_angle_sr", solid_angle);
+  put(group, "cell_polar_low_deg", polar_low);
+  put(group, "cell_polar_high_deg", polar_high);
+  put(group, "cell_azimuth_low_deg", azimuth_low);
+  put(group, "cell_azimuth_high_deg", azimuth_high);
+  put(group, "cell_solid_angle_sr", solid_angle);
 }
 
 void put_study(h5::Group group, const SurfaceStudy& study) {
@@ -62,24 +50,24 @@ void put_study(h5::Group group, const SurfaceStudy& study) {
   group.set_attribute("", "surface", study.place.surface);
   group.set_attribute("", "inside", study.place.inside);
   group.set_attribute("", "outside", study.place.outside);
-  put_number(group, "wavelength_nm", study.place.wavelength_nm);
-  put_number(group, "index_inside", study.index.inside);
-  put_number(group, "index_outside", study.index.outside);
-  put_number(group, "rays", study.rays);
-  put_column(group, "incidence_deg", in_degrees(study.incidence_rad));
+  put(group, "wavelength_nm", study.place.wavelength_nm);
+  put(group, "index_inside", study.index.inside);
+  put(group, "index_outside", study.index.outside);
+  put(group, "rays", study.rays);
+  put(group, "incidence_deg", in_degrees(study.incidence_rad));
   put_estimates(group, "reflectance", "reflectance_error", study.reflectance, 1.0);
   if (!study.slope_rad.empty())
     put_estimates(group, "mean_slope_deg", "mean_slope_error_deg", study.slope_rad, kDegree);
   const GoniometerReading& reading = study.directions;
-  put_number(group, "directions_at_deg", reading.settings.incidence_rad / kDegree);
-  put_number(group, "rays_reflected", reading.reflected);
-  put_number(group, "rays_transmitted", reading.transmitted);
-  put_number(group, "rays_absorbed", reading.absorbed);
-  put_number(group, "lobe_width", reading.reflected_lobe.width_in_plane);
-  put_column(group, "reflected_cells", reading.reflected_directions.cells);
-  put_column(group, "transmitted_cells", reading.transmitted_directions.cells);
-  put_column(group, "reflected_profile", reading.reflected_directions.profile);
-  put_column(group, "transmitted_profile", reading.transmitted_directions.profile);
+  put(group, "directions_at_deg", reading.settings.incidence_rad / kDegree);
+  put(group, "rays_reflected", reading.reflected);
+  put(group, "rays_transmitted", reading.transmitted);
+  put(group, "rays_absorbed", reading.absorbed);
+  put(group, "lobe_width", reading.reflected_lobe.width_in_plane);
+  put(group, "reflected_cells", reading.reflected_directions.cells);
+  put(group, "transmitted_cells", reading.transmitted_directions.cells);
+  put(group, "reflected_profile", reading.reflected_directions.profile);
+  put(group, "transmitted_profile", reading.transmitted_directions.profile);
 }
 
 template <typename T>

@@ -186,10 +186,9 @@ class SceneCurve : public FitModel {
     return out;
   }
 
-  static double light_of_event(const EventRecord& event, bool charge) {
-    if (!charge) return static_cast<double>(event.detected);
+  static double light_of_event(const EventRecord& event, bool readout) {
     double sum = 0.0;
-    for (const ChannelRecord& channel : event.channels) sum += static_cast<double>(channel.charge);
+    for (const ChannelRecord& channel : event.channels) sum += light_of(channel, readout);
     return sum;
   }
 

@@ -12,6 +12,8 @@ namespace {
 
 using results_format::damaged;
 using results_format::describe;
+using results_format::put;
+using results_format::put_text;
 
 constexpr const char* kHistoryGroup = "histories";
 constexpr const char* kPointGroup = "traced_optics";
@@ -67,11 +69,6 @@ void append_moved(std::vector<T>& to, const std::vector<T>& from, std::size_t ro
       to[first + row * width + places[i]] = from[row * places.size() + i];
 }
 
-void put_texts(h5::Group& group, const std::string& name, const std::vector<std::string>& values) {
-  group.write_strings(name, values);
-  describe(group, name);
-}
-
 void put_ranges(h5::Group& group, const std::string& name, const std::vector<TracedRange>& ranges,
                 const std::vector<std::size_t>& places, std::size_t width) {
   std::vector<double> least(width, std::numeric_limits<double>::quiet_NaN()), most = least;
@@ -79,10 +76,8 @@ void put_ranges(h5::Group& group, const std::string& name, const std::vector<Tra
     least[places[i]] = ranges[i].least;
     most[places[i]] = ranges[i].most;
   }
-  group.write(name + "_least", least);
-  describe(group, name + "_least");
-  group.write(name + "_most", most);
-  describe(group, name + "_most");
+  put(group, name + "_least", least);
+  put(group, name + "_most", most);
 }
 
 std::vector<TracedRange> get_ranges(const h5::Group& group, const std::string& name) {
@@ -105,18 +100,18 @@ HistoryWriter::HistoryWriter(h5::Group& root, HistoryColumns columns)
     : group_(root.create_group(kHistoryGroup)), columns_(std::move(columns)) {
   group_.set_attribute("", "description",
                        std::string("what detected photons went through, one row a photon"));
-  put_texts(group_, "history_media", columns_.media);
-  put_texts(group_, "history_gap_media", columns_.gap_media);
-  put_texts(group_, "history_transmitting", columns_.transmitting);
+  put_text(group_, "history_media", columns_.media);
+  put_text(group_, "history_gap_media", columns_.gap_media);
+  put_text(group_, "history_transmitting", columns_.transmitting);
   std::vector<std::string> surfaces, stacks, reflectors;
   for (const ReflectorSite& site : columns_.reflectors) {
     surfaces.push_back(site.surface);
     stacks.push_back(site.stack);
     reflectors.push_back(site.reflector);
   }
-  put_texts(group_, "reflector_surface", surfaces);
-  put_texts(group_, "reflector_stack", stacks);
-  put_texts(group_, "reflector_name", reflectors);
+  put_text(group_, "reflector_surface", surfaces);
+  put_text(group_, "reflector_stack", stacks);
+  put_text(group_, "reflector_name", reflectors);
 
   const std::size_t widest = std::max<std::size_t>({1, columns_.media.size(), columns_.reflectors.size()});
   block_rows_ = std::max<std::size_t>(1, kBlockNumbers / widest);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
@@ -34,6 +35,23 @@ bool has_format(const h5::Group& root);
 
 /// The error of a result that contradicts itself.
 InputError damaged(const std::filesystem::path& path, const std::string& what);
+
+/// Writes a dataset and describes it.
+inline void put_text(h5::Group& group, const std::string& name, const std::vector<std::string>& values) {
+  group.write_strings(name, values);
+  describe(group, name);
+}
+template <typename T>
+void put(h5::Group& group, const std::string& name, const std::vector<T>& values) {
+  group.write(name, values);
+  describe(group, name);
+}
+/// A scalar.
+template <typename T>
+void put(h5::Group& group, const std::string& name, T value) {
+  group.write(name, std::vector<T>{value}, {});
+  describe(group, name);
+}
 
 /// "0007": name of the group of a point or tally.
 std::string numbered(std::size_t index);

@@ -15,23 +15,8 @@ namespace {
 
 using results_format::describe;
 using results_format::numbered;
-
-void put_text(h5::Group& group, const std::string& name, const std::vector<std::string>& values) {
-  group.write_strings(name, values);
-  describe(group, name);
-}
-
-template <typename T>
-void put(h5::Group& group, const std::string& name, const std::vector<T>& values) {
-  group.write(name, values);
-  describe(group, name);
-}
-
-template <typename T>
-void put(h5::Group& group, const std::string& name, T value) {
-  group.write(name, std::vector<T>{value}, {});
-  describe(group, name);
-}
+using results_format::put;
+using results_format::put_text;
 
 void put_moments(h5::Group& point, const std::string& name, const std::string& unit,
                  const std::string& description, const Moments& moments) {

@@ -190,11 +190,9 @@ RunResult simulate(const SceneFile& file, const SimulationOptions& options) {
   result.header = make_header(file, first, survey);
   ResultsWriter writer(options.output, result.header, first.run.photon_list);
   if (first.run.photon_history) writer.begin_histories(survey.histories);
-  if (!first.benches.empty()) {
-    Library library = Library::shipped();
-    add_definitions(library, first);
-    writer.add_surfaces(study_surfaces(first.benches, library, builder.surfaces(), first.run.seed));
-  }
+  if (!first.benches.empty())
+    writer.add_surfaces(
+        study_surfaces(first.benches, library_for(first), builder.surfaces(), first.run.seed));
 
   SimulationProgress progress;
   progress.points = file.points();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "scintray/core/constants.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/html_parts.hpp"
 #include "scintray/report/svg_plot.hpp"
@@ -11,9 +12,6 @@
 namespace scintray::report {
 
 namespace {
-
-/// Energy at which light is given: that of annihilation photons.
-constexpr double kReference_keV = 510.99895;
 
 using LightOf = std::function<Estimate(const EventStudy&)>;
 
@@ -109,7 +107,7 @@ std::string figures(const SweepView& view, const std::vector<EventStudy>& studie
 }  // namespace
 
 Estimate light_of(const EventStudy& study) {
-  return {kReference_keV * study.light_per_keV.value, kReference_keV * study.light_per_keV.error};
+  return {kElectronMass_keV * study.light_per_keV.value, kElectronMass_keV * study.light_per_keV.error};
 }
 
 std::vector<std::vector<std::string>> light_table(const SweepView& view,

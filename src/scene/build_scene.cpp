@@ -26,6 +26,12 @@ void add_definitions(Library& library, const SceneSpec& spec) {
   library.add(LibraryKind::reflector, spec.reflectors);
 }
 
+Library library_for(const SceneSpec& spec) {
+  Library library = Library::shipped();
+  add_definitions(library, spec);
+  return library;
+}
+
 namespace {
 
 /// Wavelengths that photons of a scene can have, and the one tables are made for.
@@ -35,12 +41,6 @@ struct WavelengthRange {
 
 /// Stands for the wavelengths of a scene with a mistake, until all mistakes are found.
 constexpr WavelengthRange kNoLight{400.0, 400.0, 400.0};
-
-Library library_for(const SceneSpec& spec) {
-  Library library = Library::shipped();
-  add_definitions(library, spec);
-  return library;
-}
 
 /// The part of an emission spectrum that is not zero.
 WavelengthRange range_of(const Curve& emission) {

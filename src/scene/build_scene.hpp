@@ -47,5 +47,7 @@ class SceneBuilder {
 
 /// Adds a scene's own media, surfaces, sensors and reflectors to a library.
 void add_definitions(Library& library, const SceneSpec& spec);
+/// The shipped library with them.
+Library library_for(const SceneSpec& spec);
 
 }  // namespace scintray

@@ -21,6 +21,11 @@ struct ChannelRecord {
   std::vector<float> waveform;  ///< photoelectrons, when ReadoutSpec::pulses
 };
 
+/// Light of a channel: its charge behind a readout, else its photons.
+inline double light_of(const ChannelRecord& channel, bool readout) {
+  return readout ? static_cast<double>(channel.charge) : static_cast<double>(channel.detected);
+}
+
 /// One event of a source of energy.
 struct EventRecord {
   std::uint32_t point = 0;  ///< of the sweep

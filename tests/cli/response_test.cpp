@@ -23,6 +23,7 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
       "500 events");
   CHECK(read_events(folder / "result.h5", 0, 1'000).size() == 500);
   did({"report", "result.h5", "--text"}, cli::kSuccess, "Lost photons: 0");
+  did({"report", "result.h5"}, cli::kSuccess, "result.html");
   did({"analyze", "result.h5"}, cli::kSuccess, "pulses: 500 of 500 events");
   std::ifstream page(folder / "result.html");
   const std::string text{std::istreambuf_iterator<char>(page), {}};

@@ -7,11 +7,11 @@
 #include <array>
 #include <vector>
 
+#include "scintray/core/constants.hpp"
 #include "scintray/core/philox.hpp"
 
 namespace scintray {
 
-inline constexpr double kElectronMass_keV = 510.99895;      ///< CODATA 2018
 inline constexpr double kFineStructure = 1.0 / 137.035999;  ///< CODATA 2018
 
 /// What a gamma does to an atom.
