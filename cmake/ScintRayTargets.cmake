@@ -18,6 +18,8 @@ if(SCINTRAY_SANITIZE)
   target_compile_options(scintray_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+  # For files of CGAL's templates: optimising what the sanitizers add to them takes half of two minutes each.
+  set(scintray_slow_to_compile -O0)
 endif()
 if(SCINTRAY_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")

@@ -84,6 +84,12 @@ struct Region {
     const Vec3 shifted = p - centre;
     return rotated ? Vec3(rotation.transpose() * shifted) : shifted;
   }
+  /// Where a ray inside it leaves it.
+  Exit find_exit(const Vec3& p, const Vec3& d) const {
+    if (rotated) return accelerator->find_exit(point_to_local(p), direction_to_local(d));
+    return accelerator->find_exit(p.x() - centre.x(), p.y() - centre.y(), p.z() - centre.z(), d.x(), d.y(),
+                                  d.z());
+  }
   Vec3 direction_to_local(const Vec3& d) const { return rotated ? Vec3(rotation.transpose() * d) : d; }
   Vec3 direction_to_world(const Vec3& d) const { return rotated ? Vec3(rotation * d) : d; }
 };

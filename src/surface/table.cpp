@@ -3,46 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <thread>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/core/thread_slot.hpp"
 
 namespace scintray {
 
 namespace {
-
-/// Steps of the incidence lookup: finer than the nodes, so that at most a step or two remain.
-constexpr std::uint32_t kLookupSteps = 2048;
-
-/// A measure of the incidence angle between 0 and 1, increasing with it, that needs no arc function.
-double slant(double sine, double cosine) { return sine / (sine + cosine); }
-double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
 /// Sine of incidence below which the plane of incidence is drawn at random.
 constexpr double kNoPlane = 1e-9;
 
 constexpr double kLeastCosine = 1e-7;
 
+/// All copies of a table's samplers together take no more, unless one does.
+constexpr std::size_t kMostCopiedBytes = 16'000'000;
+
+std::size_t threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
 /// Rounding of angles stored in single precision.
 constexpr double kAngleRounding = 1e-6;
 
 /// Rounding of shares that sum to one.
 constexpr double kShareRounding = 1e-12;
-
-constexpr float kQuarterTurn = static_cast<float>(0.5 * kPi), kHalfTurn = static_cast<float>(kPi);
-
-/// Quantile of a sorted sample within [low, high]; order statistic k stands for the level (k + 1/2)/n. The
-/// half step beyond the first and the last goes on as steeply as the step before it: ending at the extreme
-/// rays of a small sample would leave the tails of the distribution empty.
-float quantile(std::span<const float> sorted, double level, float low, float high) {
-  const double n = static_cast<double>(sorted.size());
-  if (sorted.size() == 1) return sorted.front();
-  const double rank = std::clamp(level * n - 0.5, -0.5, n - 0.5);
-  const std::size_t k =
-      std::min(static_cast<std::size_t>(std::max(0.0, rank)), sorted.size() - 2);  // steps from k to k + 1
-  const float share = static_cast<float>(rank - static_cast<double>(k));           // -1/2 to 3/2
-  return std::clamp(sorted[k] + share * (sorted[k + 1] - sorted[k]), low, high);
-}
 
 /// A quantity of the nodes at an incidence angle, linear between them.
 double between_nodes(const std::vector<TableNode>& nodes, double incidence_rad, double TableNode::*what) {
@@ -127,35 +112,6 @@ class TableCheck {
 
 }  // namespace
 
-DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kind) {
-  DirectionQuantiles result;
-  result.rays = sample.size();
-  if (sample.empty()) return result;
-  // The azimuth breaks ties, so that the result depends on the sample as a set only.
-  std::sort(sample.begin(), sample.end(), [](const ExitAngles& a, const ExitAngles& b) {
-    return a.polar != b.polar ? a.polar < b.polar : a.azimuth < b.azimuth;
-  });
-  std::vector<float> values(sample.size());
-  std::transform(sample.begin(), sample.end(), values.begin(), [](const ExitAngles& e) { return e.polar; });
-  for (int k = 0; k <= kPolarBins; ++k)
-    result.polar.push_back(quantile(values, polar_level(k), 0.0f, kQuarterTurn));
-
-  const double n = static_cast<double>(sample.size());
-  for (int k = 0; k < kPolarBins; ++k) {
-    // Rays of the bin; a bin narrower than one ray borrows the nearest.
-    const auto first = std::min(static_cast<std::size_t>(polar_level(k) * n), sample.size() - 1);
-    const auto last = std::max(static_cast<std::size_t>(polar_level(k + 1) * n), first + 1);
-    values.clear();
-    for (std::size_t r = first; r < last; ++r) values.push_back(sample[r].azimuth);
-    std::sort(values.begin(), values.end());
-    for (int c = 0; c <= kAzimuthBins; ++c)
-      result.azimuth.push_back(kind == AzimuthKind::folded
-                                   ? quantile(values, azimuth_level(c), 0.0f, kHalfTurn)
-                                   : quantile(values, signed_azimuth_level(c), -kHalfTurn, kHalfTurn));
-  }
-  return result;
-}
-
 SurfaceTable::SurfaceTable(IndexPair index, std::vector<TableNode> from_inside,
                            std::vector<TableNode> from_outside, TableProvenance provenance)
     : SurfaceTable({TableSlice{0.0, 0.0, index, std::move(from_inside), std::move(from_outside), nullptr}},
@@ -171,13 +127,17 @@ SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, Tab
   }
   check.throw_if_any();
   opaque_ = true;
+  Samplers samplers;
   for (const TableSlice& slice : slices_) {
-    index_.push_back(make_index(slice.from_inside));
-    index_.push_back(make_index(slice.from_outside));
+    samplers.emplace_back(slice.from_inside, kind_);
+    samplers.emplace_back(slice.from_outside, kind_);
     for (const TableNode& node : slice.from_inside) opaque_ = opaque_ && node.transmitted.empty();
     for (const Side side : {Side::inside, Side::outside})
       for (const TableNode& node : slice.nodes(side)) absorbs_ = absorbs_ || node.absorptance > 0.0;
   }
+  std::size_t bytes = 0;
+  for (const TableSampler& sampler : samplers) bytes += sampler.bytes();
+  samplers_.assign(std::clamp<std::size_t>(kMostCopiedBytes / bytes, 1, threads()), samplers);
 }
 
 void SurfaceTable::check_grid() {
@@ -198,33 +158,6 @@ void SurfaceTable::check_grid() {
         !(std::abs(slices_[k].azimuth_rad - azimuth) < kAngleRounding))
       fault("are not at the same azimuths, evenly spaced from 0, for every wavelength");
   }
-}
-
-SurfaceTable::Index SurfaceTable::make_index(const std::vector<TableNode>& nodes) {
-  Index index;
-  for (const TableNode& node : nodes)
-    index.slants.push_back({slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad)), 0.0});
-  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    const double low = nodes[k].incidence_rad, high = nodes[k + 1].incidence_rad;
-    const double middle = 0.5 * (index.slants[k].value + index.slants[k + 1].value);
-    index.slants[k].bend = 4.0 * ((angle_of_slant(middle) - low) / (high - low) - 0.5);
-  }
-  std::uint32_t node = 0;
-  for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
-    while (node + 2 < nodes.size() && index.slants[node + 1].value * kLookupSteps <= step) ++node;
-    index.lookup.push_back(node);
-  }
-  return index;
-}
-
-SurfaceTable::Place SurfaceTable::place(const Index& index, double sine, double cosine) const {
-  const std::vector<Slant>& slants = index.slants;
-  const double value = slant(sine, cosine);
-  std::uint32_t node = index.lookup[std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
-  while (node + 2 < slants.size() && value >= slants[node + 1].value) ++node;
-  const double low = slants[node].value, high = slants[node + 1].value;
-  const double x = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return {node, x + slants[node].bend * x * (1.0 - x)};
 }
 
 double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {
@@ -255,43 +188,6 @@ std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_n
     azimuth %= azimuths_;
   }
   return spectral * azimuths_ + azimuth;
-}
-
-ExitAngles SurfaceTable::sample(const std::vector<TableNode>& nodes, const Place& place, bool reflected,
-                                Rng& rng) const {
-  const auto directions = [&](std::uint32_t node) -> const DirectionQuantiles& {
-    return reflected ? nodes[node].reflected : nodes[node].transmitted;
-  };
-  const DirectionQuantiles* low = &directions(place.node);
-  const DirectionQuantiles* high = &directions(place.node + 1);
-  // A node that light never leaves that way has no directions of its own.
-  if (low->empty()) low = high;
-  if (high->empty()) high = low;
-
-  const auto two_tails = [](double u) {
-    return u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
-  };
-  const bool folded = kind_ == AzimuthKind::folded;
-  const double s = two_tails(rng.uniform());
-  const std::uint64_t bits = rng.bits();
-  const double u = static_cast<double>(bits >> 11) * 0x1.0p-53;
-  const double t = folded ? 1.0 - std::sqrt(1.0 - u) : two_tails(u);
-  const int polar_bin = std::min(static_cast<int>(s * kPolarBins), kPolarBins - 1);
-  const int azimuth_bin = std::min(static_cast<int>(t * kAzimuthBins), kAzimuthBins - 1);
-  const auto polar_part = static_cast<float>(s * kPolarBins - polar_bin);
-  const auto azimuth_part = static_cast<float>(t * kAzimuthBins - azimuth_bin);
-  const auto share = static_cast<float>(place.share);
-
-  const auto angles = [&](const DirectionQuantiles& q) -> ExitAngles {
-    const float* polar = q.polar.data() + polar_bin;
-    const float* azimuth = q.azimuth.data() + polar_bin * (kAzimuthBins + 1) + azimuth_bin;
-    return {polar[0] + polar_part * (polar[1] - polar[0]),
-            azimuth[0] + azimuth_part * (azimuth[1] - azimuth[0])};
-  };
-  const ExitAngles a = angles(*low), b = angles(*high);
-  const float azimuth = a.azimuth + share * (b.azimuth - a.azimuth);
-  // A bit that u does not use: either side of the plane of incidence.
-  return {a.polar + share * (b.polar - a.polar), folded && (bits & 1) != 0 ? -azimuth : azimuth};
 }
 
 SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const Vec3& normal, const Vec3& along,
@@ -325,19 +221,16 @@ SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const Vec3& normal, const
     return leave(exit.side, std::sqrt(1.0 - cos2), std::sqrt(cos2),
                  (rng.bits() & 1) != 0 ? sin_turn : -sin_turn, std::cos(exit.turn));
   }
-  const std::vector<TableNode>& nodes = slices_[slice].nodes(side);
-  const Place at = place(index_[2 * slice + static_cast<std::size_t>(side)], sine, std::abs(cosine));
-  const TableNode &low = nodes[at.node], &high = nodes[at.node + 1];
-  const double reflectance = low.reflectance + at.share * (high.reflectance - low.reflectance);
+  const Samplers& samplers = samplers_[thread_slot() % samplers_.size()];
+  const TableSampler& sampler = samplers[2 * slice + static_cast<std::size_t>(side)];
+  const TableSampler::Place at = sampler.place(sine, std::abs(cosine));
+  const double reflectance = at.reflectance();
   const double u = rng.uniform();
   const bool reflected = u < reflectance;
-  if (absorbs_ && !reflected) {
-    const double absorptance = low.absorptance + at.share * (high.absorptance - low.absorptance);
-    // Rounding must not let light through where no node does.
-    const bool closed = low.transmitted.empty() && high.transmitted.empty();
-    if (closed || u < reflectance + absorptance) return SurfaceOutcome::absorbed;
-  }
-  const ExitAngles exit = sample(nodes, at, reflected, rng);
+  // Rounding must not let light through where no node does.
+  if (absorbs_ && !reflected && (!at.transmits() || u < reflectance + at.absorptance()))
+    return SurfaceOutcome::absorbed;
+  const ExitAngles exit = sampler.sample(at, reflected, rng);
 
   // Cosines in single precision, as the table holds the angles, and sines that go with them exactly. A
   // direction exactly in the surface would be on neither side.

@@ -81,11 +81,6 @@ void BlockTally::start(Photon& emitted, std::uint64_t event, std::uint64_t photo
   std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
 }
 
-void BlockTally::count_step(const Step& step) {
-  ++result_.segments;
-  if (step.resolved) ++result_.resolved_misses;
-}
-
 void BlockTally::note_crossing(const Step& step) {
   const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
   for (const std::uint32_t tally : plan_.exit_angles_at[way]) {
@@ -96,13 +91,6 @@ void BlockTally::note_crossing(const Step& step) {
     ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
     ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
   }
-}
-
-void BlockTally::record(const Photon& photon, const Step& step) {
-  count_step(step);
-  if (scorer_) scorer_->step(photon, step);
-  if (history_) history_->step(photon, step);
-  if (step.kind == StepKind::crossed) note_crossing(step);
 }
 
 void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point) {

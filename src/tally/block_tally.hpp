@@ -22,7 +22,12 @@ class BlockTally {
   /// Begins a photon, as it was emitted; where its history is wanted it is told to keep it.
   void start(Photon& emitted, std::uint64_t event, std::uint64_t photon);
   /// A step that did not end it.
-  void record(const Photon& photon, const Step& step);
+  void record(const Photon& photon, const Step& step) {
+    count_step(step);
+    if (scorer_) scorer_->step(photon, step);
+    if (history_) history_->step(photon, step);
+    if (step.kind == StepKind::crossed) note_crossing(step);
+  }
   /// Its end: by a last step, or by a limit.
   void end(const Photon& photon, const Step& step, std::uint32_t point);
   void cut(const Photon& photon, Fate fate);
@@ -38,7 +43,10 @@ class BlockTally {
   struct Angles {
     int inside = -1, outside = -1;
   };
-  void count_step(const Step& step);
+  void count_step(const Step& step) {
+    ++result_.segments;
+    if (step.resolved) ++result_.resolved_misses;
+  }
   void note_crossing(const Step& step);
   void finish(const Photon& photon, Fate fate);
 

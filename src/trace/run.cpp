@@ -92,12 +92,6 @@ Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_
   return Rng(settings.seed, StreamKind::sensor, event, channel, settings.point);
 }
 
-std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings) {
-  if (photon.interactions >= settings.max_interactions) return Fate::cut_interactions;
-  if (settings.max_time_ns && photon.time_ns > *settings.max_time_ns) return Fate::cut_time;
-  return std::nullopt;
-}
-
 PointResult run_point(const Scene& scene, const LightSource& source, const TallyPlan& plan,
                       const RunSettings& settings, const RunHooks& hooks) {
   const auto start = std::chrono::steady_clock::now();

@@ -38,7 +38,11 @@ Rng event_stream(const RunSettings& settings, std::uint64_t event);
 Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
 
 /// The fate of a photon that goes beyond the limits of a run; nothing within them.
-std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings);
+inline std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings) {
+  if (photon.interactions >= settings.max_interactions) return Fate::cut_interactions;
+  if (settings.max_time_ns && photon.time_ns > *settings.max_time_ns) return Fate::cut_time;
+  return std::nullopt;
+}
 
 /// Traces all photons of a source. The result does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds

@@ -149,7 +149,9 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
                    Rng& rng) {
   const BoundaryLink link = region.links[triangle];
   const Interface& interface = scene.interfaces[link.interface];
-  const Vec3 outward = region.direction_to_world(region.accelerator->normal(triangle));
+  Vec3 turned;
+  if (region.rotated) turned = region.direction_to_world(region.accelerator->normal(triangle));
+  const Vec3& outward = region.rotated ? turned : region.accelerator->normal(triangle);
   const std::uint32_t next = link.from_back ? interface.front : interface.back;
   const SceneMedium& next_medium = scene.media[scene.regions[next].medium];
 
@@ -164,6 +166,12 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
+  if (interface.plain && is_total(result.cos_before, here, there)) {  // as meet_facet does, without its price
+    reflect(photon.ray, outward);
+    result.cos_after = result.cos_before;
+    result.kind = StepKind::returned;
+    return result;
+  }
   if (interface.plain) {
     crossed = meet_facet(photon.ray, -outward, here, there, rng);
   } else {
@@ -213,8 +221,7 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
 Step step(const Scene& scene, Photon& photon, Rng& rng) {
   const std::uint32_t from = photon.region;
   const Region& region = scene.regions[from];
-  const Exit exit = region.accelerator->find_exit(region.point_to_local(photon.position),
-                                                  region.direction_to_local(photon.ray.direction));
+  const Exit exit = region.find_exit(photon.position, photon.ray.direction);
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   const bool leaves_scene = exit.triangle == kNoTriangle;
   const double depth = leaves_scene ? (attenuation > 0.0 ? HUGE_VAL : 0.0) : attenuation * exit.distance_mm;

@@ -93,8 +93,7 @@ void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
       return;
     }
     const Region& region = walk.scene.regions[gamma.region];
-    const Exit exit = region.accelerator->find_exit(region.point_to_local(gamma.position),
-                                                    region.direction_to_local(gamma.direction));
+    const Exit exit = region.find_exit(gamma.position, gamma.direction);
     if (exit.triangle == kNoTriangle) {
       walk.event.escaped_keV += gamma.energy_keV;
       return;
