@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <future>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
@@ -83,6 +84,57 @@ TEST_CASE("quantiles of the cosine law give the cosine law back, in both media")
   for (const double share : {0.25, 0.75})
     for (int k = 0; k < kPolar * kAzimuth; ++k) expected.push_back(share * kRays / (kPolar * kAzimuth));
   CHECK(chi_square_test(counts, expected).p_value > 1e-4);  // one false alarm in 10,000 seeds
+}
+
+TEST_CASE(
+    "light is sent where the quantiles say: exactly forward and back, elsewhere within 16 bits of azimuth") {
+  const Vec3 normal = Vec3(0.3, -0.5, 0.7).normalized();
+  const Frame frame = Frame::about(normal);
+  constexpr double kPolar = 0.7, kIncidence = 0.4;
+  for (const AzimuthKind kind : {AzimuthKind::folded, AzimuthKind::directional})
+    for (const double azimuth : {0.0, kPi, 0.3, 1.234567, 2.9, -0.3, -1.234567}) {
+      if (kind == AzimuthKind::folded && azimuth < 0.0) continue;
+      CAPTURE(azimuth);
+      TableNode straight = node(0, 1.0), grazing = node(90, 1.0);
+      for (TableNode* one : {&straight, &grazing}) {
+        one->transmitted = {};
+        std::fill(one->reflected.polar.begin(), one->reflected.polar.end(), static_cast<float>(kPolar));
+        std::fill(one->reflected.azimuth.begin(), one->reflected.azimuth.end(), static_cast<float>(azimuth));
+      }
+      const std::vector<TableNode> nodes{straight, grazing};
+      const SurfaceTable table({TableSlice{0.0, 0.0, {1.8, 1.0}, nodes, nodes, nullptr}}, kind, {});
+      const bool exact = azimuth == 0.0 || azimuth == kPi;
+      for (std::uint64_t k = 0; k < 20; ++k) {
+        Rng rng(23, StreamKind::other, 0, k);
+        Ray ray{std::sin(kIncidence) * frame.x + std::cos(kIncidence) * normal, Vec3::Zero()};
+        REQUIRE(table.scatter(ray, Side::inside, normal, {1.8, 1.0}, rng) == Side::inside);
+        const Vec3 local = frame.to_local(ray.direction);
+        CHECK(std::acos(-local.z()) == doctest::Approx(kPolar).epsilon(1e-6));
+        const double turn = std::atan2(local.y(), local.x());
+        const double off =
+            std::remainder(kind == AzimuthKind::folded ? std::abs(turn) - azimuth : turn - azimuth, kTwoPi);
+        CHECK(std::abs(off) < (exact ? 1e-6 : 5e-5));
+      }
+    }
+}
+
+TEST_CASE("every thread draws the same directions from a table") {
+  const SurfaceTable table = sample_table();
+  const auto directions = [&table] {
+    std::vector<Vec3> result;
+    for (std::uint64_t k = 0; k < 1000; ++k) {
+      Rng rng(24, StreamKind::other, 0, k);
+      Ray ray{Vec3(0.6, 0.0, 0.8), Vec3::Zero()};
+      table.scatter(ray, Side::inside, {0, 0, 1}, {1.8, 1.0}, rng);
+      result.push_back(ray.direction);
+    }
+    return result;
+  };
+  const std::vector<Vec3> here = directions();
+  for (int thread = 0; thread < 5; ++thread) {
+    auto there = std::async(std::launch::async, directions);
+    CHECK(there.get() == here);
+  }
 }
 
 TEST_CASE("unpolarised light stays unpolarised; polarised light stays across its direction") {
