@@ -1,5 +1,5 @@
 #pragma once
-/// Copies of what threads read all the time.
+/// A number for each thread.
 
 #include <atomic>
 

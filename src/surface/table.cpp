@@ -129,8 +129,10 @@ SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, Tab
   opaque_ = true;
   Samplers samplers;
   for (const TableSlice& slice : slices_) {
-    samplers.emplace_back(slice.from_inside, kind_);
-    samplers.emplace_back(slice.from_outside, kind_);
+    // Where a reciprocal kernel sends the light nobody asks the sampler.
+    static const std::vector<TableNode> kNone;
+    for (const Side side : {Side::inside, Side::outside})
+      samplers.emplace_back(slice.reciprocal ? kNone : slice.nodes(side), kind_);
     for (const TableNode& node : slice.from_inside) opaque_ = opaque_ && node.transmitted.empty();
     for (const Side side : {Side::inside, Side::outside})
       for (const TableNode& node : slice.nodes(side)) absorbs_ = absorbs_ || node.absorptance > 0.0;
