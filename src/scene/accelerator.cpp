@@ -67,23 +67,14 @@ void intersect(RTCScene scene, RTCRayHit& hit) {
 }
 #endif
 
-using FourFloats [[gnu::vector_size(16)]] = float;
-
-/// Writes four numbers at once. Embree reads them so: behind four single stores its first instruction
-/// would wait until these have left the processor's store buffer (3 % of a step in a box).
-void put(float* at, double x, double y, double z, double fourth) {
-  const FourFloats values{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-                          static_cast<float>(fourth)};
-  std::memcpy(at, &values, sizeof values);
-}
-
-RTCRayHit make_ray(double x, double y, double z, double direction_x, double direction_y, double direction_z,
-                   double start) {
+/// Embree reads the ray by fours: behind single stores its first instruction would wait until these have left
+/// the processor's store buffer (3 % of a step in a box).
+RTCRayHit make_ray(FourFloats origin_and_start, FourFloats direction_and_time) {
   static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) &&
                 offsetof(RTCRay, time) == offsetof(RTCRay, dir_x) + 3 * sizeof(float));
   RTCRayHit hit;
-  put(&hit.ray.org_x, x, y, z, start);                              // and tnear
-  put(&hit.ray.dir_x, direction_x, direction_y, direction_z, 0.0);  // and time
+  std::memcpy(&hit.ray.org_x, &origin_and_start, sizeof origin_and_start);
+  std::memcpy(&hit.ray.dir_x, &direction_and_time, sizeof direction_and_time);
   hit.ray.tfar = std::numeric_limits<float>::infinity();
   hit.ray.mask = 0xffffffffu;
   hit.ray.flags = 0;
@@ -93,7 +84,7 @@ RTCRayHit make_ray(double x, double y, double z, double direction_x, double dire
 }
 
 RTCRayHit make_ray(const Vec3& origin, const Vec3& direction, double start) {
-  return make_ray(origin.x(), origin.y(), origin.z(), direction.x(), direction.y(), direction.z(), start);
+  return make_ray(Lanes(origin, start).floats(), Lanes(direction, 0.0).floats());
 }
 
 }  // namespace
@@ -162,6 +153,7 @@ Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
     for (const Vec3& vertex : t) bounds.extend(vertex);
   }
   size_mm_ = triangles.empty() ? 0.0 : bounds.diagonal().norm();
+  start_mm_ = kStartAhead * size_mm_;
   if (kind != AcceleratorKind::embree && make_planes(labels)) return;
   if (kind == AcceleratorKind::planes && closed_)
     throw InputError(Problem{{},
@@ -207,11 +199,16 @@ bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
   return true;
 }
 
-Exit Accelerator::find_exit(double x, double y, double z, double direction_x, double direction_y,
-                            double direction_z) const {
-  if (!planes_.empty()) return exit_by_planes({x, y, z}, {direction_x, direction_y, direction_z});
+Exit Accelerator::find_exit(const Vec3& origin, const Vec3& direction) const {
+  if (!planes_.empty()) return exit_by_planes(origin, direction);
   if (!embree_) return {};
-  return exit_by_embree(x, y, z, direction_x, direction_y, direction_z);
+  const Lanes from(origin, -1.0), along(direction, 0.0);
+  const FirstHit hit = first_hit(Lanes(origin, start_mm_).floats(), along.floats());
+  if (hit.triangle != kNoTriangle) {
+    const Approach approach = approach_of(hit.triangle, from, along);
+    if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
+  }
+  return exit_after_doubt(origin, direction, hit);
 }
 
 Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) const {
@@ -242,25 +239,27 @@ Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) cons
   return {nearest, triangle, false};
 }
 
-Exit Accelerator::exit_by_embree(double x, double y, double z, double direction_x, double direction_y,
-                                 double direction_z) const {
-  double start = kStartAhead * size_mm_;
-  for (int self_hits = 0; self_hits <= kMostSelfHits; ++self_hits) {
-    RTCRayHit hit = make_ray(x, y, z, direction_x, direction_y, direction_z, start);
-    intersect(embree_->scene, hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+FirstHit Accelerator::first_hit(FourFloats origin_and_start, FourFloats direction) const {
+  RTCRayHit hit = make_ray(origin_and_start, direction);
+  intersect(embree_->scene, hit);
+  return {hit.ray.tfar, 0.0f, hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.hit.primID, 0};
+}
+
+Exit Accelerator::exit_after_doubt(const Vec3& origin, const Vec3& direction, FirstHit hit) const {
+  for (int self_hits = 0;; ++self_hits) {
+    if (hit.triangle == kNoTriangle) {
       if (!closed_) return {};
       break;
     }
-    const TrianglePlane& plane = triangle_planes_[hit.hit.primID];
-    const double nx = plane.normal.x(), ny = plane.normal.y(), nz = plane.normal.z();
-    const double along = nx * direction_x + ny * direction_y + nz * direction_z;
-    const double ahead = plane.offset - (nx * x + ny * y + nz * z);
-    if (along > 0.0) return {std::max(0.0, ahead / along), hit.hit.primID, false};
-    if (std::abs(ahead) > kStartAhead * size_mm_) break;
-    start = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity()) + kStartAhead * size_mm_;
+    const Approach approach = approach_of(hit.triangle, Lanes(origin, -1.0), Lanes(direction, 0.0));
+    if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
+    const TrianglePlane& plane = triangle_planes_[hit.triangle];
+    const double ahead = plane.offset - plane.normal.dot(origin);
+    if (self_hits == kMostSelfHits || std::abs(ahead) > start_mm_) break;
+    const double start = std::nextafter(hit.distance_mm, std::numeric_limits<float>::infinity()) + start_mm_;
+    hit = first_hit(Lanes(origin, start).floats(), Lanes(direction, 0.0).floats());
   }
-  return exit_by_search({x, y, z}, {direction_x, direction_y, direction_z});
+  return exit_by_search(origin, direction);
 }
 
 Exit Accelerator::exit_by_search(const Vec3& origin, const Vec3& direction) const {

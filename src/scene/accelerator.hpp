@@ -1,11 +1,13 @@
 #pragma once
 /// Finds where a photon leaves a region. Everything Embree is in accelerator.cpp.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "scintray/core/lanes.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray {
@@ -41,6 +43,20 @@ struct Exit {
   bool resolved = false;                 ///< settled by the exact search
 };
 
+/// What Embree says a ray meets first, in single precision.
+struct FirstHit {
+  float distance_mm = 0.0f;  ///< along the ray
+  float unused = 0.0f;       ///< so that the distance and the triangle come back in registers
+  std::uint32_t triangle = kNoTriangle;
+  std::uint32_t unused_too = 0;
+};
+
+/// How a ray comes to the plane of a triangle, in double precision.
+struct Approach {
+  double cosine = 0.0;  ///< of the angle between ray and normal; the ray leaves the region where positive
+  double distance_mm = 0.0;  ///< along the ray; 0 where the plane lies behind. Only for a positive cosine
+};
+
 /// The boundary of one region, immutable, shared by regions of the same shape.
 ///
 /// A photon is inside the region, so the boundary it meets next has its normal along the ray. An
@@ -62,18 +78,36 @@ class Accelerator {
 
   /// Where the ray from `origin` (inside the region or on its boundary) along the unit vector
   /// `direction` leaves the region.
-  Exit find_exit(const Vec3& origin, const Vec3& direction) const {
-    return find_exit(origin.x(), origin.y(), origin.z(), direction.x(), direction.y(), direction.z());
+  Exit find_exit(const Vec3& origin, const Vec3& direction) const;
+
+  /// find_exit in pieces, for what follows a photon from wall to wall and has the next ray in single
+  /// precision before it has it in double: the first hit, the approach to it, and where that does not leave
+  /// the region, or nothing is hit, exit_after_doubt.
+  bool uses_embree() const { return planes_.empty() && embree_ != nullptr; }
+  /// @param origin_and_start  fourth: start_mm(); the others mm
+  /// @param direction         fourth: 0
+  /// Only where Embree is used.
+  FirstHit first_hit(FourFloats origin_and_start, FourFloats direction) const;
+  /// Rays start this far ahead of their origin.
+  double start_mm() const { return start_mm_; }
+  /// @param origin  fourth: -1; @param direction  fourth: 0
+  Approach approach_of(std::uint32_t triangle, const Lanes& origin, const Lanes& direction) const {
+    const Lanes plane = this->plane(triangle);
+    const double cosine = dot(plane, direction);
+    return {cosine, std::max(0.0, -dot(plane, origin) / cosine)};
   }
-  /// The same from coordinates, which travel in registers: through memory a step in a box takes 4 % longer.
-  Exit find_exit(double x, double y, double z, double direction_x, double direction_y,
-                 double direction_z) const;
+  [[gnu::cold]] Exit exit_after_doubt(const Vec3& origin, const Vec3& direction, FirstHit hit) const;
 
   /// True when `point` is inside the (closed) boundary.
   bool contains(const Vec3& point) const;
 
   /// Unit normal of a triangle, out of the region.
   const Vec3& normal(std::uint32_t triangle) const { return triangle_planes_[triangle].normal; }
+  /// The normal, and as the fourth its product with any point of the plane, mm.
+  Lanes plane(std::uint32_t triangle) const {
+    static_assert(sizeof(TrianglePlane) == 4 * sizeof(double));
+    return Lanes::at(reinterpret_cast<const double*>(&triangle_planes_[triangle]));
+  }
   std::size_t size() const { return triangles_.size(); }
   BoundaryTriangle triangle(std::uint32_t i) const { return triangles_[i]; }
   bool uses_planes() const { return !planes_.empty(); }
@@ -98,8 +132,6 @@ class Accelerator {
 
   bool make_planes(const std::vector<std::uint32_t>& labels);
   Exit exit_by_planes(const Vec3& origin, const Vec3& direction) const;
-  Exit exit_by_embree(double x, double y, double z, double direction_x, double direction_y,
-                      double direction_z) const;
   Exit exit_by_search(const Vec3& origin, const Vec3& direction) const;
   Inside inside_by_embree(const Vec3& point, const Vec3& direction) const;
   bool inside_by_search(const Vec3& point, const Vec3& direction) const;
@@ -113,7 +145,8 @@ class Accelerator {
   std::vector<TrianglePlane> triangle_planes_;
   std::vector<Plane> planes_;
   std::unique_ptr<EmbreeScene> embree_;
-  double size_mm_ = 0.0;  ///< diagonal of the bounding box
+  double size_mm_ = 0.0;   ///< diagonal of the bounding box
+  double start_mm_ = 0.0;  ///< rays start this far ahead
   bool closed_ = true;
 };
 

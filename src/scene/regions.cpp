@@ -68,6 +68,16 @@ std::vector<std::vector<std::pair<std::uint32_t, bool>>> triangles_by_region(
   return by_region;
 }
 
+/// Fills in BoundaryLink::smooth_to, which needs all regions.
+void link_smooth_media(Scene& scene) {
+  for (Region& region : scene.regions)
+    for (BoundaryLink& link : region.links) {
+      const Interface& interface = scene.interfaces[link.interface];
+      if (interface.plain)
+        link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
+    }
+}
+
 }  // namespace
 
 void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle>& triangles,
@@ -94,7 +104,7 @@ void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle
       for (std::size_t i = 0; i < 3; ++i)
         local[i] = region.rotation.transpose() * (triangles[index].vertex[i] - region.centre);
       if (!is_back) std::swap(local[1], local[2]);
-      entries.push_back(make_entry(local, {interface_of[index], is_back}));
+      entries.push_back(make_entry(local, {interface_of[index], kNotSmooth, is_back}));
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.key < b.key; });
@@ -120,6 +130,7 @@ void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle
     }
     scene.regions.push_back(std::move(region));
   }
+  link_smooth_media(scene);
 }
 
 }  // namespace scintray

@@ -44,6 +44,21 @@ bool Scene::region_contains(std::uint32_t region, const Vec3& point) const {
   return candidate.accelerator->contains(candidate.point_to_local(point));
 }
 
+bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const {
+  if (region == kAmbientRegion || !region_contains(region, Vec3(box.center()))) return false;
+  constexpr double kRounding = 1e-9;  // of the box's size
+  const Vec3 slack = Vec3::Constant(kRounding * box.diagonal().norm());
+  const Eigen::AlignedBox3d inner(box.min() + slack, box.max() - slack);
+  const Region& candidate = regions[region];
+  for (std::uint32_t i = 0; i < candidate.accelerator->size(); ++i) {
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& vertex : candidate.accelerator->triangle(i))
+      bounds.extend(candidate.centre + candidate.direction_to_world(vertex));
+    if (inner.intersects(bounds)) return false;
+  }
+  return true;
+}
+
 std::uint32_t Scene::locate(const Vec3& point) const {
   for (std::uint32_t region = 0; region < regions.size(); ++region)
     if (region != kAmbientRegion && region_contains(region, point)) return region;

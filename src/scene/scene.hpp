@@ -63,9 +63,12 @@ struct Interface {
   bool plain = false;                                  ///< one smooth surface and nothing else
 };
 
+inline constexpr std::uint32_t kNotSmooth = 0xffffffffu;
+
 /// Which interface a boundary triangle belongs to, and from which side this region meets it.
 struct BoundaryLink {
   std::uint32_t interface = 0;
+  std::uint32_t smooth_to = kNotSmooth;  ///< medium behind a plain interface; kNotSmooth: it is not plain
   bool from_back = true;
 };
 
@@ -86,9 +89,7 @@ struct Region {
   }
   /// Where a ray inside it leaves it.
   Exit find_exit(const Vec3& p, const Vec3& d) const {
-    if (rotated) return accelerator->find_exit(point_to_local(p), direction_to_local(d));
-    return accelerator->find_exit(p.x() - centre.x(), p.y() - centre.y(), p.z() - centre.z(), d.x(), d.y(),
-                                  d.z());
+    return accelerator->find_exit(point_to_local(p), direction_to_local(d));
   }
   Vec3 direction_to_local(const Vec3& d) const { return rotated ? Vec3(rotation.transpose() * d) : d; }
   Vec3 direction_to_world(const Vec3& d) const { return rotated ? Vec3(rotation * d) : d; }
@@ -129,6 +130,9 @@ struct Scene {
   /// The region that contains a point (world, mm).
   std::uint32_t locate(const Vec3& point) const;
   bool region_contains(std::uint32_t region, const Vec3& point) const;
+  /// True when all of a box (world, mm) lies inside. A box that reaches beyond by rounding counts as inside;
+  /// one that a slanted boundary comes near may count as not inside.
+  bool region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const;
 };
 
 }  // namespace scintray

@@ -32,6 +32,7 @@ Origin::Origin(const std::variant<RegionSpec, Vec3>& spec, const Scene& scene) {
   double volume = 0.0;
   for (Box& box : boxes_) box.most = volume += box.box.volume();
   for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
+  for (Box& box : boxes_) box.inside = scene.region_contains(box.region, box.box);
   if (!point_) {  // shows now, not in the run, that positions can be found
     Rng rng(0, StreamKind::other, 0);
     sample(scene, rng);
@@ -87,7 +88,7 @@ Place Origin::sample(const Scene& scene, Rng& rng) const {
     const Box& box = sample_box(rng);
     const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
     const Vec3 position = box.box.min() + box.box.sizes().cwiseProduct(Vec3(x, y, z));
-    if (scene.region_contains(box.region, position)) return {position, box.region};
+    if (box.inside || scene.region_contains(box.region, position)) return {position, box.region};
   }
   throw InputError(Problem{
       {},

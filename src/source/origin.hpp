@@ -34,7 +34,8 @@ class Origin {
   struct Box {
     std::uint32_t region = 0;
     Eigen::AlignedBox3d box;
-    double most = 1.0;  ///< share of the volume of the boxes up to this one
+    bool inside = false;  ///< all of it: no position needs asking
+    double most = 1.0;    ///< share of the volume of the boxes up to this one
   };
   void add_parts(const RegionSpec& spec, const Scene& scene);
   void add_box(const RegionSpec& spec, const PartInfo& part);

@@ -32,12 +32,6 @@ inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
   return {r_s * r_s, r_p * r_p, cos_t};
 }
 
-/// True when light in index n1 is totally reflected by index n2 at incidence-angle cosine cos_i.
-inline bool is_total(double cos_i, double n1, double n2) {
-  const double ratio = n1 / n2;
-  return ratio * ratio * (1.0 - cos_i * cos_i) >= 1.0;
-}
-
 /// A travelling photon's direction and linear polarisation. A zero polarisation vector means
 /// unpolarised light: Fresnel then uses the mean of the two reflectances.
 struct Ray {

@@ -21,6 +21,9 @@ class BlockTally {
 
   /// Begins a photon, as it was emitted; where its history is wanted it is told to keep it.
   void start(Photon& emitted, std::uint64_t event, std::uint64_t photon);
+  /// A total reflection passed on the way to the next step. Only for those who want them.
+  void pass(const Photon& photon, const Step& step) { scorer_->step(photon, step); }
+  bool wants_reflections() const { return scorer_.has_value(); }
   /// A step that did not end it.
   void record(const Photon& photon, const Step& step) {
     count_step(step);
@@ -44,8 +47,8 @@ class BlockTally {
     int inside = -1, outside = -1;
   };
   void count_step(const Step& step) {
-    ++result_.segments;
-    if (step.resolved) ++result_.resolved_misses;
+    result_.segments += step.segments;
+    result_.resolved_misses += step.resolved;
   }
   void note_crossing(const Step& step);
   void finish(const Photon& photon, Fate fate);

@@ -25,7 +25,8 @@ inline bool is_end(StepKind kind) { return kind >= StepKind::detected; }
 struct Step {
   StepKind kind = StepKind::escaped;
   bool from_back = false;                ///< at a boundary: came from the interface's back region
-  bool resolved = false;                 ///< the exact search settled the ray query
+  std::uint32_t segments = 1;            ///< straight pieces: one more than total reflections passed
+  std::uint32_t resolved = 0;            ///< ray queries that the exact search settled
   std::uint32_t region = 0;              ///< in which the step was made
   std::uint32_t interface = 0;           ///< at a boundary
   std::uint32_t triangle = kNoTriangle;  ///< of the region's boundary; kNoTriangle: not at a boundary

@@ -92,7 +92,7 @@ class CellTracer {
     photon.optics = medium_->at(photon.wavelength_nm);
     photon.optical_depth = sample_exponential(rng);
     for (;;) {
-      const Step taken = step(scene_, photon, rng);
+      const Step taken = step(scene_, photon, rng, limits_of(run_));
       if (taken.kind == StepKind::detected) {
         const std::uint32_t channel = channels_.at(taken);
         if (response.detected[channel]++ < map_.delays_kept)

@@ -28,13 +28,19 @@ class BlockTracer {
 
   Block trace(std::uint64_t number) const {
     Block block(scene_, plan_);
+    const StepVisitor pass = [&](const Photon& photon, const Step& passed) {
+      block.photons.pass(photon, passed);
+    };
+    FlightLimits limits = limits_of(settings_);
+    if (block.photons.wants_reflections()) limits.passed = &pass;
     EventLight light;
     for (const PhotonSpan& span : source_.block(number)) {
       Rng rng = event_stream(settings_, span.event);
       source_.begin(scene_, span.event, rng, light);
       if (energy_) block.events.begin(span.event, settings_.point, light);
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      for (std::uint64_t i = 0; i < count; ++i) trace_photon(light, span.event, span.first + i, block);
+      for (std::uint64_t i = 0; i < count; ++i)
+        trace_photon(light, span.event, span.first + i, limits, block);
       block.started += count;
       if (energy_)
         block.events.end(
@@ -44,13 +50,14 @@ class BlockTracer {
   }
 
  private:
-  void trace_photon(const EventLight& light, std::uint64_t event, std::uint64_t number, Block& block) const {
+  void trace_photon(const EventLight& light, std::uint64_t event, std::uint64_t number,
+                    const FlightLimits& limits, Block& block) const {
     Rng rng = photon_stream(settings_, event, number);
     Photon photon = source_.emit(scene_, light, number, rng);
     BlockTally& tally = block.photons;
     tally.start(photon, event, number);
     for (;;) {
-      const Step taken = step(scene_, photon, rng);
+      const Step taken = step(scene_, photon, rng, limits);
       if (is_end(taken.kind)) {
         tally.end(photon, taken, settings_.point);
         if (energy_ && taken.kind == StepKind::detected)
@@ -122,7 +129,7 @@ PointResult run_point(const Scene& scene, const LightSource& source, const Tally
 }
 
 Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
-              std::uint64_t number, const std::function<void(const Photon&, const Step&)>& visit) {
+              std::uint64_t number, const StepVisitor& visit) {
   EventLight light;
   if (event < source.events()) {
     Rng rng = event_stream(settings, event);
@@ -137,8 +144,10 @@ Photon replay(const Scene& scene, const LightSource& source, const RunSettings& 
                 "both count from 0"});
   Rng rng = photon_stream(settings, event, number);
   Photon photon = source.emit(scene, light, number, rng);
+  FlightLimits limits = limits_of(settings);
+  limits.passed = &visit;
   for (;;) {
-    const Step taken = step(scene, photon, rng);
+    const Step taken = step(scene, photon, rng, limits);
     visit(photon, taken);
     if (is_end(taken.kind) || limit_reached(photon, settings)) return photon;
   }

@@ -8,6 +8,7 @@
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/trace/flight.hpp"
 
 namespace scintray {
 
@@ -44,6 +45,14 @@ inline std::optional<Fate> limit_reached(const Photon& photon, const RunSettings
   return std::nullopt;
 }
 
+/// The same as limits of a flight, so that a photon is cut at the reflection that reaches them.
+inline FlightLimits limits_of(const RunSettings& settings) {
+  FlightLimits limits;
+  limits.interactions = settings.max_interactions;
+  if (settings.max_time_ns) limits.time_ns = *settings.max_time_ns;
+  return limits;
+}
+
 /// Traces all photons of a source. The result does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
 /// the photons of the blocks before the stop and says `complete = false`.
@@ -51,9 +60,9 @@ inline std::optional<Fate> limit_reached(const Photon& photon, const RunSettings
 PointResult run_point(const Scene& scene, const LightSource& source, const TallyPlan& plan,
                       const RunSettings& settings, const RunHooks& hooks = {});
 
-/// Follows one photon again; `visit` sees every step. Returns the photon as it ended. Throws InputError
-/// when there is no such photon.
+/// Follows one photon again; `visit` sees every step, each total reflection among them. Returns the photon as
+/// it ended. Throws InputError when there is no such photon.
 Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
-              std::uint64_t photon, const std::function<void(const Photon&, const Step&)>& visit);
+              std::uint64_t photon, const StepVisitor& visit);
 
 }  // namespace scintray

@@ -166,12 +166,6 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
-  if (interface.plain && is_total(result.cos_before, here, there)) {  // as meet_facet does, without its price
-    reflect(photon.ray, outward);
-    result.cos_after = result.cos_before;
-    result.kind = StepKind::returned;
-    return result;
-  }
   if (interface.plain) {
     crossed = meet_facet(photon.ray, -outward, here, there, rng);
   } else {
@@ -218,26 +212,30 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
 
 }  // namespace
 
-Step step(const Scene& scene, Photon& photon, Rng& rng) {
+Step step(const Scene& scene, Photon& photon, Rng& rng, const FlightLimits& limits) {
   const std::uint32_t from = photon.region;
   const Region& region = scene.regions[from];
-  const Exit exit = region.find_exit(photon.position, photon.ray.direction);
-  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  const bool leaves_scene = exit.triangle == kNoTriangle;
-  const double depth = leaves_scene ? (attenuation > 0.0 ? HUGE_VAL : 0.0) : attenuation * exit.distance_mm;
+  const Flight flight = fly(scene, photon, limits);
   Step result;
-  if (depth > photon.optical_depth) {
-    advance(photon, photon.optical_depth / attenuation);
-    result = interact_in_bulk(region, scene.media[region.medium], photon, rng);
-  } else if (leaves_scene) {
-    result.kind = StepKind::escaped;
-  } else {
-    photon.optical_depth -= depth;
-    advance(photon, exit.distance_mm);
-    result = meet_boundary(scene, region, exit.triangle, photon, rng);
+  switch (flight.end) {
+    case FlightEnd::bulk:
+      advance(photon,
+              photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
+      result = interact_in_bulk(region, scene.media[region.medium], photon, rng);
+      break;
+    case FlightEnd::escape:
+      result.kind = StepKind::escaped;
+      break;
+    case FlightEnd::boundary:
+      result = meet_boundary(scene, region, flight.triangle, photon, rng);
+      break;
+    case FlightEnd::total:
+      result = total_reflection(scene, photon, flight.triangle, flight.cosine);
+      break;
   }
   result.region = from;
-  result.resolved = exit.resolved;
+  result.segments = flight.segments;
+  result.resolved = flight.resolved;
   return result;
 }
 

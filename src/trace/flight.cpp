@@ -1,0 +1,168 @@
+#include "scintray/trace/flight.hpp"
+
+#include <cmath>
+
+#include "scintray/core/lanes.hpp"
+
+namespace scintray {
+
+namespace {
+
+/// The matrix of a rotation times a vector, whose fourth number stays.
+Lanes rotate(const Eigen::Matrix3d& m, Lanes v) {
+  const Lanes x(TwoDoubles{m(0, 0), m(1, 0)}, TwoDoubles{m(2, 0), 0.0}),
+      y(TwoDoubles{m(0, 1), m(1, 1)}, TwoDoubles{m(2, 1), 0.0});
+  const Lanes z(TwoDoubles{m(0, 2), m(1, 2)}, TwoDoubles{m(2, 2), 0.0});
+  return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
+}
+Lanes rotate_back(const Eigen::Matrix3d& m, Lanes v) {
+  const Lanes x(TwoDoubles{m(0, 0), m(0, 1)}, TwoDoubles{m(0, 2), 0.0}),
+      y(TwoDoubles{m(1, 0), m(1, 1)}, TwoDoubles{m(1, 2), 0.0});
+  const Lanes z(TwoDoubles{m(2, 0), m(2, 1)}, TwoDoubles{m(2, 2), 0.0});
+  return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
+}
+
+/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.
+double critical_sin2(const Scene& scene, std::uint32_t medium, const Photon& photon) {
+  constexpr double kNever = 2.0;
+  if (medium == kNotSmooth || scene.media[medium].is_opaque()) return kNever;
+  const double ratio = scene.media[medium].index(photon.wavelength_nm) / photon.optics.index;
+  return ratio * ratio;
+}
+
+void put_back(Photon& photon, Lanes position, Lanes direction, Lanes polarisation, TwoDoubles path_and_time,
+              double depth_left, std::uint64_t interactions) {
+  photon.position = position.vec();
+  photon.ray.direction = direction.vec();
+  photon.ray.polarisation = polarisation.vec();
+  photon.path_mm = path_and_time[0];
+  photon.time_ns = path_and_time[1];
+  photon.optical_depth = depth_left;
+  photon.interactions = static_cast<std::uint32_t>(interactions);
+}
+
+}  // namespace
+
+Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t triangle, double cosine) {
+  const BoundaryLink& link = scene.regions[photon.region].links[triangle];
+  Step step;
+  step.kind = StepKind::returned;
+  step.from_back = link.from_back;
+  step.region = photon.region;
+  step.interface = link.interface;
+  step.triangle = triangle;
+  step.cos_before = step.cos_after = cosine;
+  return step;
+}
+
+// The loop waits for Embree and then for what the next ray needs, so the next ray starts from Embree's own
+// hit, in single precision, while the exact one is computed beside it; every piece starts from exact numbers
+// again. Nothing in it captures or takes the address of what changes, which would put it into memory.
+// tools/bench crystal shows what this is worth.
+Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
+  const Region& region = scene.regions[photon.region];
+  const Accelerator& accelerator = *region.accelerator;
+  const bool embree = accelerator.uses_embree(), rotated = region.rotated;
+  const double start_mm = accelerator.start_mm();
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  const TwoDoubles rates{1.0, photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns)};
+  const Lanes centre(region.centre, 1.0);
+
+  Lanes position(photon.position, 0.0), direction(photon.ray.direction, 0.0);
+  Lanes polarisation(photon.ray.polarisation, 0.0);
+  TwoDoubles path_and_time{photon.path_mm, photon.time_ns};
+  double depth_left = photon.optical_depth;
+  std::uint32_t known_medium = kNotSmooth;
+  double least_sin2 = critical_sin2(scene, known_medium, photon);
+
+  // In the region's frame, as the accelerator takes them: fourth -1 and 0.
+  Lanes local = position - centre, ahead = direction;
+  if (rotated) {
+    local = rotate_back(region.rotation, local);
+    ahead = rotate_back(region.rotation, ahead);
+  }
+  FourFloats ray_origin = local.with_fourth(start_mm).floats(), ray_direction = ahead.floats();
+
+  FlightEnd end;
+  std::uint32_t segments = 0, resolved = 0, triangle;
+  double cosine;
+  std::uint64_t interactions = photon.interactions;
+  const std::uint64_t most_interactions = limits.interactions;
+  const double latest_ns = limits.time_ns;
+  for (;;) {
+    ++segments;
+    FirstHit hit;
+    Approach approach;
+    triangle = kNoTriangle;
+    if (embree) [[likely]] {
+      hit = accelerator.first_hit(ray_origin, ray_direction);
+      triangle = hit.triangle;
+      if (triangle != kNoTriangle) [[likely]]
+        approach = accelerator.approach_of(triangle, local, ahead);
+    }
+    const bool sure = approach.cosine > 0.0;
+    cosine = approach.cosine;
+    double distance_mm = approach.distance_mm;
+    if (!sure) [[unlikely]] {
+      const Exit exit = embree ? accelerator.exit_after_doubt(local.vec(), ahead.vec(), hit)
+                               : accelerator.find_exit(local.vec(), ahead.vec());
+      resolved += exit.resolved ? 1 : 0;
+      triangle = exit.triangle;
+      if (triangle == kNoTriangle) {
+        end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
+        break;
+      }
+      distance_mm = exit.distance_mm;
+      cosine = dot(accelerator.plane(triangle), ahead);
+    }
+
+    const double depth = attenuation * distance_mm;
+    if (depth > depth_left) {
+      end = FlightEnd::bulk;
+      break;
+    }
+    depth_left -= depth;
+    path_and_time += distance_mm * rates;
+    position = position + distance_mm * direction;
+    const std::uint32_t medium = region.links[triangle].smooth_to;
+    if (medium != known_medium) {
+      known_medium = medium;
+      least_sin2 = critical_sin2(scene, medium, photon);
+    }
+    if (!(1.0 - cosine * cosine >= least_sin2)) {
+      end = FlightEnd::boundary;
+      break;
+    }
+
+    ++interactions;  // and from here as reflect()
+    Lanes normal = accelerator.plane(triangle).with_fourth(0.0);
+    if (rotated) normal = rotate(region.rotation, normal);
+    const Lanes twice = normal + normal;
+    direction = direction - cosine * twice;
+    polarisation = dot(normal, polarisation) * twice - polarisation;
+    if (!(interactions < most_interactions && path_and_time[1] <= latest_ns)) {
+      end = FlightEnd::total;
+      break;
+    }
+    if (limits.passed) [[unlikely]] {
+      put_back(photon, position, direction, polarisation, path_and_time, depth_left, interactions);
+      (*limits.passed)(photon, total_reflection(scene, photon, triangle, cosine));
+    }
+
+    ray_origin = local.with_fourth(start_mm).floats() + hit.distance_mm * ray_direction;
+    local = position - centre;
+    ahead = direction;
+    if (rotated) {
+      local = rotate_back(region.rotation, local);
+      ahead = rotate_back(region.rotation, ahead);
+    }
+    ray_direction = ahead.floats();
+    if (!sure) [[unlikely]]
+      ray_origin = local.with_fourth(start_mm).floats();
+  }
+
+  put_back(photon, position, direction, polarisation, path_and_time, depth_left, interactions);
+  return {end, triangle, cosine, segments, resolved};
+}
+
+}  // namespace scintray

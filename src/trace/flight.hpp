@@ -1,0 +1,48 @@
+#pragma once
+/// A photon's way through one region.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+#include "scintray/source/photon.hpp"
+#include "scintray/tally/step.hpp"
+
+namespace scintray {
+
+/// Told of a step and of the photon after it.
+using StepVisitor = std::function<void(const Photon&, const Step&)>;
+
+/// A flight goes on through total reflections at smooth boundaries, which nothing but geometry decides, as
+/// long as the photon is within these limits. By default it ends at the first.
+struct FlightLimits {
+  std::uint64_t interactions = 0;  ///< boundary interactions of the photon
+  double time_ns = std::numeric_limits<double>::infinity();
+  /// Told of every reflection passed, as of a step of its own, which changes nothing; null: nobody asks.
+  const StepVisitor* passed = nullptr;
+};
+
+enum class FlightEnd {
+  bulk,      ///< the photon is where its medium absorbs or scatters it
+  escape,    ///< it leaves the scene
+  boundary,  ///< it is at a boundary, which decides what happens
+  total,     ///< it was totally reflected, and the limits are reached
+};
+
+/// How a flight ended.
+struct Flight {
+  FlightEnd end = FlightEnd::escape;
+  std::uint32_t triangle = kNoTriangle;  ///< at a boundary: of the region's accelerator
+  double cosine = 0.0;                   ///< of incidence there
+  std::uint32_t segments = 0;            ///< straight pieces
+  std::uint32_t resolved = 0;            ///< ray queries that the exact search settled
+};
+
+/// Moves the photon through the region that it is in, up to the next event. Time advances with the group
+/// velocity. Depends on nothing but its arguments.
+Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits);
+
+/// What a total reflection at this boundary of the photon's region is as a step.
+Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t triangle, double cosine);
+
+}  // namespace scintray
