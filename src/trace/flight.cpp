@@ -55,14 +55,16 @@ Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t tr
   return step;
 }
 
+namespace {
+
 // The loop waits for Embree and then for what the next ray needs, so the next ray starts from Embree's own
 // hit, in single precision, while the exact one is computed beside it; every piece starts from exact numbers
 // again. Nothing in it captures or takes the address of what changes, which would put it into memory.
 // tools/bench crystal shows what this is worth.
-Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
+void fly_on_with_embree(const Scene& scene, Photon& photon, const FlightLimits& limits, Flight& flight) {
   const Region& region = scene.regions[photon.region];
   const Accelerator& accelerator = *region.accelerator;
-  const bool embree = accelerator.uses_embree(), rotated = region.rotated;
+  const bool rotated = region.rotated;
   const double start_mm = accelerator.start_mm();
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   const TwoDoubles rates{1.0, photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns)};
@@ -91,21 +93,16 @@ Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
   const double latest_ns = limits.time_ns;
   for (;;) {
     ++segments;
-    FirstHit hit;
+    const FirstHit hit = accelerator.first_hit(ray_origin, ray_direction);
     Approach approach;
-    triangle = kNoTriangle;
-    if (embree) [[likely]] {
-      hit = accelerator.first_hit(ray_origin, ray_direction);
-      triangle = hit.triangle;
-      if (triangle != kNoTriangle) [[likely]]
-        approach = accelerator.approach_of(triangle, local, ahead);
-    }
+    triangle = hit.triangle;
+    if (triangle != kNoTriangle) [[likely]]
+      approach = accelerator.approach_of(triangle, local, ahead);
     const bool sure = approach.cosine > 0.0;
     cosine = approach.cosine;
     double distance_mm = approach.distance_mm;
     if (!sure) [[unlikely]] {
-      const Exit exit = embree ? accelerator.exit_after_doubt(local.vec(), ahead.vec(), hit)
-                               : accelerator.find_exit(local.vec(), ahead.vec());
+      const Exit exit = accelerator.exit_after_doubt(local.vec(), ahead.vec(), hit);
       resolved += exit.resolved ? 1 : 0;
       triangle = exit.triangle;
       if (triangle == kNoTriangle) {
@@ -162,7 +159,51 @@ Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
   }
 
   put_back(photon, position, direction, polarisation, path_and_time, depth_left, interactions);
-  return {end, triangle, cosine, segments, resolved};
+  flight = {end, triangle, cosine, flight.segments + segments, flight.resolved + resolved};
+}
+
+}  // namespace
+
+// What is not Embree's, and the way to the first total reflection, which is all of it on rough faces, is
+// better served by the photon as it is.
+Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
+  const Region& region = scene.regions[photon.region];
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  Flight flight;
+  for (;;) {
+    ++flight.segments;
+    const Exit exit = region.find_exit(photon.position, photon.ray.direction);
+    flight.resolved += exit.resolved ? 1 : 0;
+    flight.triangle = exit.triangle;
+    if (exit.triangle == kNoTriangle) {
+      flight.end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
+      return flight;
+    }
+    const double depth = attenuation * exit.distance_mm;
+    if (depth > photon.optical_depth) {
+      flight.end = FlightEnd::bulk;
+      return flight;
+    }
+    photon.optical_depth -= depth;
+    advance(photon, exit.distance_mm);
+    flight.end = FlightEnd::boundary;
+    const std::uint32_t medium = region.links[exit.triangle].smooth_to;
+    if (medium == kNotSmooth) return flight;
+    const Vec3 normal = region.direction_to_world(region.accelerator->normal(exit.triangle));
+    flight.cosine = photon.ray.direction.dot(normal);
+    if (!(1.0 - flight.cosine * flight.cosine >= critical_sin2(scene, medium, photon))) return flight;
+
+    ++photon.interactions;
+    reflect(photon.ray, normal);
+    flight.end = FlightEnd::total;
+    if (!limits.allow(photon)) return flight;
+    if (limits.passed)
+      (*limits.passed)(photon, total_reflection(scene, photon, exit.triangle, flight.cosine));
+    if (region.accelerator->uses_embree()) {
+      fly_on_with_embree(scene, photon, limits, flight);
+      return flight;
+    }
+  }
 }
 
 }  // namespace scintray

@@ -20,6 +20,10 @@ struct FlightLimits {
   double time_ns = std::numeric_limits<double>::infinity();
   /// Told of every reflection passed, as of a step of its own, which changes nothing; null: nobody asks.
   const StepVisitor* passed = nullptr;
+
+  bool allow(const Photon& photon) const {
+    return photon.interactions < interactions && photon.time_ns <= time_ns;
+  }
 };
 
 enum class FlightEnd {
@@ -38,9 +42,16 @@ struct Flight {
   std::uint32_t resolved = 0;            ///< ray queries that the exact search settled
 };
 
-/// Moves the photon through the region that it is in, up to the next event. Time advances with the group
-/// velocity. Depends on nothing but its arguments.
+/// Moves the photon through the region that it is in, up to the next event. Depends on nothing but its
+/// arguments.
 Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits);
+
+/// Moves the photon straight on. Time advances with the group velocity.
+inline void advance(Photon& photon, double distance_mm) {
+  photon.position += distance_mm * photon.ray.direction;
+  photon.path_mm += distance_mm;
+  photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns);
+}
 
 /// What a total reflection at this boundary of the photon's region is as a step.
 Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t triangle, double cosine);

@@ -9,12 +9,6 @@ namespace scintray {
 
 namespace {
 
-void advance(Photon& photon, double distance_mm) {
-  photon.position += distance_mm * photon.ray.direction;
-  photon.path_mm += distance_mm;
-  photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns);
-}
-
 /// Turns the photon with the dipole pattern about its polarisation; for unpolarised light with
 /// 3/4 (1 + cos^2) (Born & Wolf, section 14.5.2).
 void scatter_rayleigh(Ray& ray, Rng& rng) {
