@@ -8,18 +8,15 @@ namespace scintray {
 
 namespace {
 
-/// The matrix of a rotation times a vector, whose fourth number stays.
-Lanes rotate(const Eigen::Matrix3d& m, Lanes v) {
-  const Lanes x(TwoDoubles{m(0, 0), m(1, 0)}, TwoDoubles{m(2, 0), 0.0}),
-      y(TwoDoubles{m(0, 1), m(1, 1)}, TwoDoubles{m(2, 1), 0.0});
-  const Lanes z(TwoDoubles{m(0, 2), m(1, 2)}, TwoDoubles{m(2, 2), 0.0});
+/// The sum of three vectors times the first three numbers of v, whose fourth number stays.
+Lanes combine(Lanes v, Lanes x, Lanes y, Lanes z) {
   return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
 }
+Lanes rotate(const Eigen::Matrix3d& m, Lanes v) {
+  return combine(v, {m.col(0), 0.0}, {m.col(1), 0.0}, {m.col(2), 0.0});
+}
 Lanes rotate_back(const Eigen::Matrix3d& m, Lanes v) {
-  const Lanes x(TwoDoubles{m(0, 0), m(0, 1)}, TwoDoubles{m(0, 2), 0.0}),
-      y(TwoDoubles{m(1, 0), m(1, 1)}, TwoDoubles{m(1, 2), 0.0});
-  const Lanes z(TwoDoubles{m(2, 0), m(2, 1)}, TwoDoubles{m(2, 2), 0.0});
-  return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
+  return combine(v, {m.row(0).transpose(), 0.0}, {m.row(1).transpose(), 0.0}, {m.row(2).transpose(), 0.0});
 }
 
 /// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.

@@ -10,7 +10,7 @@ namespace {
 
 /// A turned crystal and a cylinder beside it, polished, of a medium that scatters and absorbs; by planes
 /// where they apply or by Embree.
-std::string scene_text(const std::string& accelerator) {
+std::string two_bodies(const std::string& accelerator) {
   return R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -36,16 +36,16 @@ accelerator = ")" +
          accelerator + "\"\n";
 }
 
-struct Followed {
+struct Journey {
   Photon photon;
   Step last;
   std::uint64_t segments = 0;
 };
 
-Followed follow(const Scene& scene, const PhotonSource& source, std::uint64_t number,
-                const FlightLimits& limits) {
+Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t number,
+               const FlightLimits& limits) {
   Rng rng(3, StreamKind::photon, number);
-  Followed followed;
+  Journey followed;
   followed.photon = source.emit(scene, rng);
   do {
     followed.last = step(scene, followed.photon, rng, limits);
@@ -54,9 +54,9 @@ Followed follow(const Scene& scene, const PhotonSource& source, std::uint64_t nu
   return followed;
 }
 
-struct Prepared {
-  explicit Prepared(const std::string& accelerator)
-      : spec(scene_spec(scene_text(accelerator))),
+struct TwoBodies {
+  explicit TwoBodies(const std::string& accelerator)
+      : spec(scene_spec(two_bodies(accelerator))),
         built(builder.build(spec)),
         source(spec.source, built.scene) {}
   SceneSpec spec;
@@ -70,14 +70,14 @@ struct Prepared {
 TEST_CASE("A photon that passes over total reflections goes the way of one that stops at each") {
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
-    const Prepared scene(accelerator);
+    const TwoBodies scene(accelerator);
     FlightLimits far;
     far.interactions = 2'000;
     std::uint64_t passed = 0;
     for (std::uint64_t i = 0; i < scene.spec.source.photons; ++i) {
       CAPTURE(i);
-      const Followed stopping = follow(scene.built.scene, scene.source, i, {});
-      const Followed passing = follow(scene.built.scene, scene.source, i, far);
+      const Journey stopping = travel(scene.built.scene, scene.source, i, {});
+      const Journey passing = travel(scene.built.scene, scene.source, i, far);
       REQUIRE(passing.last.kind == stopping.last.kind);
       CHECK(passing.segments == stopping.segments);
       CHECK(passing.photon.interactions == stopping.photon.interactions);
@@ -99,12 +99,12 @@ TEST_CASE("A photon that passes over total reflections goes the way of one that 
 TEST_CASE("Who is told of the reflections passed is told of all, and changes nothing") {
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
-    const Prepared scene(accelerator);
+    const TwoBodies scene(accelerator);
     FlightLimits alone;
     alone.interactions = 2'000;
     for (std::uint64_t i = 0; i < scene.spec.source.photons / 4; ++i) {
       CAPTURE(i);
-      const Followed unseen = follow(scene.built.scene, scene.source, i, alone);
+      const Journey unseen = travel(scene.built.scene, scene.source, i, alone);
       std::uint64_t told = 0, segments = 0;
       double path_mm = 0.0;
       const StepVisitor visit = [&](const Photon& photon, const Step& passed) {
@@ -145,7 +145,7 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
 }
 
 TEST_CASE("A flight ends at the reflection that reaches a limit, and no sooner") {
-  const Prepared scene("embree");
+  const TwoBodies scene("embree");
   std::uint64_t by_count = 0, by_time = 0;
   for (std::uint64_t i = 0; i < 1'000; ++i) {
     for (const bool count : {true, false}) {
