@@ -61,7 +61,7 @@ double distance_outside(const BoundaryTriangle& triangle, const Vec3& normal, co
 void intersect(RTCScene scene, RTCRayHit& hit) { rtcIntersect1(scene, &hit); }
 #else
 void intersect(RTCScene scene, RTCRayHit& hit) {
-  RTCIntersectContext context;
+  RTCIntersectContext context;  // NOLINT(cppcoreguidelines-pro-type-member-init): the next line does it
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &hit);
 }
@@ -72,7 +72,7 @@ void intersect(RTCScene scene, RTCRayHit& hit) {
 RTCRayHit make_ray(FourFloats origin_and_start, FourFloats direction_and_time) {
   static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) &&
                 offsetof(RTCRay, time) == offsetof(RTCRay, dir_x) + 3 * sizeof(float));
-  RTCRayHit hit;
+  RTCRayHit hit;  // NOLINT(cppcoreguidelines-pro-type-member-init): what Embree does not read stays as it is
   std::memcpy(&hit.ray.org_x, &origin_and_start, sizeof origin_and_start);
   std::memcpy(&hit.ray.dir_x, &direction_and_time, sizeof direction_and_time);
   hit.ray.tfar = std::numeric_limits<float>::infinity();

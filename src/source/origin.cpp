@@ -15,6 +15,7 @@ constexpr int kMostDraws = 1'000'000;
 
 std::vector<std::string> names_of(const std::vector<PartInfo>& parts) {
   std::vector<std::string> names;
+  names.reserve(parts.size());
   for (const PartInfo& part : parts) names.push_back(part.name);
   return names;
 }
