@@ -33,9 +33,9 @@ Origin::Origin(const std::variant<RegionSpec, Vec3>& spec, const Scene& scene) {
   double volume = 0.0;
   for (Box& box : boxes_) box.most = volume += box.box.volume();
   for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
-  for (Box& box : boxes_) box.inside = scene.region_contains(box.region, box.box);
-  if (!point_) {  // shows now, not in the run, that positions can be found
-    Rng rng(0, StreamKind::other, 0);
+  if (!point_) {
+    for (Box& box : boxes_) box.inside = scene.region_contains(box.region, box.box);
+    Rng rng(0, StreamKind::other, 0);  // shows now, not in the run, that positions can be found
     sample(scene, rng);
   }
 }

@@ -86,8 +86,6 @@ void fly_on_with_embree(const Scene& scene, Photon& photon, const FlightLimits& 
   std::uint32_t segments = 0, resolved = 0, triangle;
   double cosine;
   std::uint64_t interactions = photon.interactions;
-  const std::uint64_t most_interactions = limits.interactions;
-  const double latest_ns = limits.time_ns;
   for (;;) {
     ++segments;
     const FirstHit hit = accelerator.first_hit(ray_origin, ray_direction);
@@ -134,7 +132,7 @@ void fly_on_with_embree(const Scene& scene, Photon& photon, const FlightLimits& 
     const Lanes twice = normal + normal;
     direction = direction - cosine * twice;
     polarisation = dot(normal, polarisation) * twice - polarisation;
-    if (!(interactions < most_interactions && path_and_time[1] <= latest_ns)) {
+    if (!limits.allow(interactions, path_and_time[1])) {
       end = FlightEnd::total;
       break;
     }
@@ -193,7 +191,7 @@ Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
     ++photon.interactions;
     reflect(photon.ray, normal);
     flight.end = FlightEnd::total;
-    if (!limits.allow(photon)) return flight;
+    if (!limits.allow(photon.interactions, photon.time_ns)) return flight;
     if (limits.passed)
       (*limits.passed)(photon, total_reflection(scene, photon, exit.triangle, flight.cosine));
     if (region.accelerator->uses_embree()) {

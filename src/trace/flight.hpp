@@ -21,8 +21,8 @@ struct FlightLimits {
   /// Told of every reflection passed, as of a step of its own, which changes nothing; null: nobody asks.
   const StepVisitor* passed = nullptr;
 
-  bool allow(const Photon& photon) const {
-    return photon.interactions < interactions && photon.time_ns <= time_ns;
+  bool allow(std::uint64_t photon_interactions, double photon_time_ns) const {
+    return photon_interactions < interactions && photon_time_ns <= time_ns;
   }
 };
 
@@ -37,7 +37,7 @@ enum class FlightEnd {
 struct Flight {
   FlightEnd end = FlightEnd::escape;
   std::uint32_t triangle = kNoTriangle;  ///< at a boundary: of the region's accelerator
-  double cosine = 0.0;                   ///< of incidence there
+  double cosine = 0.0;                   ///< of incidence, at a smooth boundary
   std::uint32_t segments = 0;            ///< straight pieces
   std::uint32_t resolved = 0;            ///< ray queries that the exact search settled
 };

@@ -91,8 +91,9 @@ class CellTracer {
     photon.wavelength_nm = emission_.sample(rng.uniform());
     photon.optics = medium_->at(photon.wavelength_nm);
     photon.optical_depth = sample_exponential(rng);
+    const FlightLimits limits = limits_of(run_);
     for (;;) {
-      const Step taken = step(scene_, photon, rng, limits_of(run_));
+      const Step taken = step(scene_, photon, rng, limits);
       if (taken.kind == StepKind::detected) {
         const std::uint32_t channel = channels_.at(taken);
         if (response.detected[channel]++ < map_.delays_kept)

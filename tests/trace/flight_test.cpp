@@ -10,13 +10,14 @@ namespace {
 
 /// A turned crystal and a cylinder beside it, polished, of a medium that scatters and absorbs; by planes
 /// where they apply or by Embree.
-std::string two_bodies(const std::string& accelerator) {
+std::string two_bodies(const std::string& accelerator, const std::string& turned) {
   return R"(
 ambient = "vacuum_n1"
 [[part]]
 name = "crystal"
 box = ["2 mm", "3 mm", "20 mm"]
-rotate = { axis = [1, 2, 3], angle = "40 deg" }
+rotate = { axis = [1, 2, 3], angle = ")" +
+         turned + R"(" }
 medium = "lso"
 surface = "flat"
 [[part]]
@@ -55,8 +56,8 @@ Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t num
 }
 
 struct TwoBodies {
-  explicit TwoBodies(const std::string& accelerator)
-      : spec(scene_spec(two_bodies(accelerator))),
+  explicit TwoBodies(const std::string& accelerator, const std::string& turned = "40 deg")
+      : spec(scene_spec(two_bodies(accelerator, turned))),
         built(builder.build(spec)),
         source(spec.source, built.scene) {}
   SceneSpec spec;
@@ -172,28 +173,8 @@ TEST_CASE("A flight ends at the reflection that reaches a limit, and no sooner")
 }
 
 TEST_CASE("A box is inside a region, or reaches into what bounds it") {
-  const SceneSpec spec = scene_spec(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "20 mm"]
-medium = "lso"
-surface = "flat"
-[[part]]
-name = "rod"
-cylinder = { radius = "2 mm", height = "12 mm", segments = 12 }
-translate = ["30 mm", "0 mm", "0 mm"]
-medium = "lso"
-surface = "flat"
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-time = "0 ns"
-photons = 10
-)");
-  SceneBuilder builder;
-  const BuiltScene built = builder.build(spec);
+  const TwoBodies straight("auto", "0 deg");
+  const BuiltScene& built = straight.built;
   const auto region_of = [&](const std::string& name) {
     for (const PartInfo& part : built.scene.parts)
       if (part.name == name) return part;
