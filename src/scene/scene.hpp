@@ -110,11 +110,19 @@ struct Region {
   PlainVec3 centre = Vec3(Vec3::Zero());             ///< origin of the region's frame, mm
   PlainMatrix3 rotation = PlainMatrix3::identity();  ///< world = centre + rotation * local
 
-  Vec3 point_to_local(const Vec3& p) const { return direction_to_local(p - centre); }
-  Vec3 direction_to_local(const Vec3& d) const {
-    return rotated ? Vec3(rotation.matrix().transpose() * d) : d;
+  Vec3 point_to_local(const PlainVec3& p) const {
+    const Vec3 shifted = p - centre;
+    if (rotated) return rotation.matrix().transpose() * shifted;
+    return shifted;
   }
-  Vec3 direction_to_world(const Vec3& d) const { return rotated ? Vec3(rotation.matrix() * d) : d; }
+  Vec3 direction_to_local(const PlainVec3& d) const {
+    if (rotated) return rotation.matrix().transpose() * d.vec();
+    return d.vec();
+  }
+  Vec3 direction_to_world(const PlainVec3& d) const {
+    if (rotated) return rotation.matrix() * d.vec();
+    return d.vec();
+  }
 };
 static_assert(std::is_trivially_copyable_v<Region>);
 
@@ -168,7 +176,7 @@ struct Scene : SceneRecords {
   const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
   /// Where a ray inside a region leaves it.
   /// @param p  world, mm; @param d  of unit length
-  Exit find_exit(const Region& region, const Vec3& p, const Vec3& d) const {
+  Exit find_exit(const Region& region, const PlainVec3& p, const PlainVec3& d) const {
     return accelerator(region).find_exit(region.point_to_local(p), region.direction_to_local(d));
   }
   /// Normal of a triangle of a region's boundary (world), out of the region.
