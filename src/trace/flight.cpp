@@ -170,55 +170,62 @@ class EmbreeFlight {
   bool sure_ = true;  ///< the last wall is Embree's own
 };
 
-/// From wall to wall until something other than a total reflection decides. Adds to `flight`.
+/// From wall to wall until something other than a total reflection decides. Inlined, as what each step does.
 template <typename State>
-void propagate(const Scene& scene, Photon& photon, const FlightLimits& limits, Flight& flight) {
+[[gnu::always_inline]] inline Flight propagate(const Scene& scene, Photon& photon,
+                                               const FlightLimits& limits) {
   const Region& region = scene.regions[photon.region];
   const BoundaryLink* const links = scene.links.data() + region.first_link;
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
   std::uint32_t known_medium = kNotSmooth;
   double least_sin2 = critical_sin2(scene, known_medium, photon);
-  FlightEnd end;
-  Wall wall;
-  double cosine = 0.0;
-  std::uint32_t segments = 0, resolved = 0;
+  Flight flight;
   for (;;) {
-    ++segments;
-    wall = state.next_wall();
-    resolved += wall.resolved ? 1 : 0;
+    ++flight.segments;
+    const Wall wall = state.next_wall();
+    flight.resolved += wall.resolved ? 1 : 0;
+    flight.triangle = wall.triangle;
     if (wall.triangle == kNoTriangle) [[unlikely]] {
-      end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
+      flight.end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
       break;
     }
     const double depth = attenuation * wall.distance_mm;
     if (depth > state.depth_left()) {
-      end = FlightEnd::bulk;
+      flight.end = FlightEnd::bulk;
       break;
     }
     state.move(wall.distance_mm, depth);
-    end = FlightEnd::boundary;
+    flight.end = FlightEnd::boundary;
     const std::uint32_t medium = links[wall.triangle].smooth_to;
     if (medium == kNotSmooth) break;
     if (medium != known_medium) {
       known_medium = medium;
       least_sin2 = critical_sin2(scene, medium, photon);
     }
-    cosine = state.incidence(wall);
-    if (!(1.0 - cosine * cosine >= least_sin2)) break;
+    flight.cosine = state.incidence(wall);
+    if (!(1.0 - flight.cosine * flight.cosine >= least_sin2)) break;
 
-    state.reflect_at(wall, cosine);
-    end = FlightEnd::total;
+    state.reflect_at(wall, flight.cosine);
+    flight.end = FlightEnd::total;
     if (!state.allowed_by(limits)) break;
     if (limits.passed) [[unlikely]] {
       state.store(photon);
-      limits.passed(photon, total_reflection(scene, photon, wall.triangle, cosine));
+      limits.passed(photon, total_reflection(scene, photon, wall.triangle, flight.cosine));
     }
     if (!state.goes_on()) break;
     state.turn();
   }
   state.store(photon);
-  flight = {end, wall.triangle, cosine, flight.segments + segments, flight.resolved + resolved};
+  return flight;
+}
+
+[[gnu::noinline]] void fly_on_with_embree(const Scene& scene, Photon& photon, const FlightLimits& limits,
+                                          Flight& flight) {
+  const Flight first = flight;
+  flight = propagate<EmbreeFlight>(scene, photon, limits);
+  flight.segments += first.segments;
+  flight.resolved += first.resolved;
 }
 
 }  // namespace
@@ -236,10 +243,9 @@ Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t tr
 }
 
 Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
-  Flight flight;
-  propagate<StoredFlight>(scene, photon, limits, flight);
+  Flight flight = propagate<StoredFlight>(scene, photon, limits);
   if (flight.end == FlightEnd::total && limits.allow(photon.interactions, photon.time_ns))
-    propagate<EmbreeFlight>(scene, photon, limits, flight);
+    fly_on_with_embree(scene, photon, limits, flight);
   return flight;
 }
 

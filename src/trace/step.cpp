@@ -148,8 +148,9 @@ Meeting meet_interface(const Scene& scene, const Interface& interface, bool from
   }
 }
 
-Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t triangle, Photon& photon, Rng& rng,
+Step meet_boundary(const Scene& scene, std::uint32_t triangle, Photon& photon, Rng& rng,
                    PhotonRecords* records) {
+  const Region& region = scene.regions[photon.region];
   const SceneOptics& optics = scene.optics;
   const BoundaryLink link = scene.link(region, triangle);
   const Interface& interface = scene.interfaces[link.interface];
@@ -216,20 +217,19 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
 
 Step step(const Scene& scene, Photon& photon, Rng& rng, const FlightLimits& limits, PhotonRecords* records) {
   const std::uint32_t from = photon.region;
-  const Region& region = scene.regions[from];
   const Flight flight = fly(scene, photon, limits);
   Step result;
   switch (flight.end) {
     case FlightEnd::bulk:
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
-      result = interact_in_bulk(scene, region.medium, photon, rng, records);
+      result = interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records);
       break;
     case FlightEnd::escape:
       result.event = StepEvent::escaped;
       break;
     case FlightEnd::boundary:
-      result = meet_boundary(scene, region, flight.triangle, photon, rng, records);
+      result = meet_boundary(scene, flight.triangle, photon, rng, records);
       break;
     case FlightEnd::total:
       result = total_reflection(scene, photon, flight.triangle, flight.cosine);
