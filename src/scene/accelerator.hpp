@@ -9,15 +9,9 @@
 
 #include "scintray/core/lanes.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/scene/accelerator_kind.hpp"
 
 namespace scintray {
-
-/// Which algorithm answers ray queries.
-enum class AcceleratorKind {
-  automatic,  ///< planes where they apply, else Embree
-  embree,     ///< Embree's bounding volume hierarchy, single rays, corrected in double precision
-  planes,     ///< the nearest plane ahead, for closed regions: all must be convex with few planes
-};
 
 /// A triangle of a region's boundary in the region's own frame; normals point out of the region.
 using BoundaryTriangle = std::array<Vec3, 3>;

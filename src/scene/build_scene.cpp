@@ -340,6 +340,16 @@ void check_sensors(const SceneSpec& spec, const std::vector<PlacedMesh>& placed,
           "touch (scintray check lists every interface)");
 }
 
+/// The contacts with a tolerance of their own.
+std::vector<ConformingContact> conforming_contacts(const SceneSpec& spec) {
+  std::vector<ConformingContact> result;
+  for (const ContactSpec& contact : spec.contacts)
+    if (contact.tolerance_mm)
+      result.push_back(
+          {contact.between[0].name, contact.between[1].name, *contact.tolerance_mm, contact.where});
+  return result;
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
@@ -348,7 +358,8 @@ BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;
   std::vector<PlacedMesh> placed = place_parts(spec, problems);
   if (problems.empty()) cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
-  if (problems.empty()) conform_contacts(placed, spec.contacts, spec.run.contact_tolerance_mm, problems);
+  if (problems.empty())
+    conform_contacts(placed, conforming_contacts(spec), spec.run.contact_tolerance_mm, problems);
   const Library library = library_for(spec);
   BuiltScene built;
   AssemblyMaker maker(spec, library, surface_maker_, problems);

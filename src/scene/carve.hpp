@@ -3,7 +3,7 @@
 
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/scene/contacts.hpp"
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 

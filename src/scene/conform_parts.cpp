@@ -118,9 +118,9 @@ class Conformer {
   std::vector<Facing> facing_;  ///< of the taker's triangles
 };
 
-void conform(PlacedMesh& first, PlacedMesh& second, const ContactSpec& spec, const Eigen::Matrix3d& axes,
-             double flat_mm, Problems& problems) {
-  const double tolerance = *spec.tolerance_mm;
+void conform(PlacedMesh& first, PlacedMesh& second, const ConformingContact& spec,
+             const Eigen::Matrix3d& axes, double flat_mm, Problems& problems) {
+  const double tolerance = spec.tolerance_mm;
   const auto refuse = [&](const std::string& why, const std::string& hint, const Vec3& at) {
     problems.add(
         spec.where,
@@ -152,15 +152,14 @@ void conform(PlacedMesh& first, PlacedMesh& second, const ContactSpec& spec, con
 
 }  // namespace
 
-void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ContactSpec>& contacts,
+void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
                       double flat_mm, Problems& problems) {
-  for (const ContactSpec& spec : contacts) {
-    if (!spec.tolerance_mm) continue;
-    const auto named = [&](std::size_t side) {
+  for (const ConformingContact& spec : contacts) {
+    const auto named = [&](const std::string& name) {
       return std::find_if(parts.begin(), parts.end(),
-                          [&](const PlacedMesh& part) { return part.name == spec.between[side].name; });
+                          [&](const PlacedMesh& part) { return part.name == name; });
     };
-    const auto first = named(0), second = named(1);
+    const auto first = named(spec.first), second = named(spec.second);
     if (first == parts.end() || second == parts.end()) continue;  // reported where names are looked up
     conform(*first, *second, spec, carving_axes({*first, *second}), flat_mm, problems);
   }

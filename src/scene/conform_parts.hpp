@@ -2,18 +2,25 @@
 /// Curved faces that touch: two tessellations of one surface made one.
 
 #include "scintray/core/error.hpp"
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 
-/// For every contact with a tolerance of its own, gives one of its parts the other's faces where both lie
+/// Two parts, by name, whose faces are made one where they lie within a tolerance of each other.
+struct ConformingContact {
+  std::string first, second;
+  double tolerance_mm = 0.0;
+  FileLocation where;
+};
+
+/// For every contact, gives one of its parts the other's faces where both lie
 /// within that tolerance of each other, facing each other.
 ///
 /// Two tessellations of one curved surface leave slivers, now gap, now overlap. One part takes all of
 /// them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
 /// neighbouring faces, and the other part is then cut out of it, pushed outwards itself where it ends
 /// flush. So the contact is the other part's own triangles, and nothing moves by more than the tolerance, or
-/// twice that at a sharp rim. The first part named in `between` keeps its shape, unless only it is covered by
+/// twice that at a sharp rim. The first part keeps its shape, unless only it is covered by
 /// the second.
 ///
 /// Where on either part a triangle lies partly within the tolerance and partly beyond it, each part's face
@@ -23,7 +30,7 @@ namespace scintray {
 /// What was done is in the notes of the part that changed. Adds to `problems`: contacts without facing
 /// triangles, and parts whose change CGAL refuses or leaves unsound. Faces flat on each other within
 /// `flat_mm` need none of this, and are left to the resolving of contacts.
-void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ContactSpec>& contacts,
+void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
                       double flat_mm, Problems& problems);
 
 }  // namespace scintray

@@ -6,7 +6,7 @@
 
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/contact_geometry.hpp"
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 

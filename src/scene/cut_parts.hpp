@@ -2,7 +2,7 @@
 /// Overlaps that are meant: the part with the higher priority keeps the space.
 
 #include "scintray/core/error.hpp"
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 

@@ -8,6 +8,7 @@
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/primitives.hpp"
+#include "scintray/scene/placement.hpp"
 
 namespace scintray {
 
@@ -310,13 +311,6 @@ class PartPlacer {
 };
 
 }  // namespace
-
-Eigen::Matrix3d rotation_of(const PlacementSpec& placement) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  for (const RotationSpec& turn : placement.rotate)
-    rotation = Eigen::AngleAxisd(turn.angle_rad, turn.axis).toRotationMatrix() * rotation;
-  return rotation;
-}
 
 std::vector<PlacedMesh> place_parts(const SceneSpec& spec, Problems& problems) {
   return PartPlacer(spec, problems).place_all();

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placement.hpp"
 #include "scintray/scene/read_builders.hpp"
 #include "scintray/scene/read_parts.hpp"
 #include "scintray/scene/read_shapes.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 

@@ -15,12 +15,13 @@
 #include "scintray/core/vec.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/mesh/trimesh.hpp"
-#include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/accelerator_kind.hpp"
 #include "scintray/scene/analysis_spec.hpp"
 #include "scintray/scene/bench_spec.hpp"
 #include "scintray/scene/claim_spec.hpp"
 #include "scintray/scene/fit_spec.hpp"
 #include "scintray/scene/gamma_spec.hpp"
+#include "scintray/scene/placement.hpp"
 #include "scintray/scene/shape_spec.hpp"
 #include "scintray/scene/source_spec.hpp"
 #include "scintray/scene/tally_spec.hpp"
@@ -34,44 +35,11 @@ inline constexpr const char* kOpaqueMedium = "opaque";
 /// Name of the face made of a part's triangles that no rule matches; no rule may have it.
 inline constexpr const char* kOtherFaces = "other";
 
-/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
-inline constexpr const char* kCutFaces = "cut:";
-
 /// Bound of part priorities, both ways.
 inline constexpr int kHighestPriority = 1000;
 
 /// What the name of a part and this make is the name of the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
-
-/// A turn about an axis through the origin of the part's own frame.
-struct RotationSpec {
-  Vec3 axis = Vec3::UnitZ();  ///< unit vector
-  double angle_rad = 0.0;     ///< counter-clockwise seen against the axis
-  FileLocation where;
-};
-
-/// A side of a bounding box.
-struct BoxSide {
-  int axis = 2;   ///< 0, 1, 2 for x, y, z
-  int sign = -1;  ///< -1 or +1
-};
-
-/// Puts a part against a side of another's bounding box, centred on it laterally.
-struct TouchSpec {
-  NameRef part;  ///< touched; a part or builder that stands earlier in the file
-  BoxSide side;  ///< of the touched part's bounding box
-  double gap_mm = 0.0;
-  NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
-                 ///< both bounding boxes, as thick as the gap. Empty: the gap is ambient
-  FileLocation where;
-};
-
-/// Where a part goes: rotated (in order), then moved against another part, then translated.
-struct PlacementSpec {
-  std::vector<RotationSpec> rotate;
-  std::optional<TouchSpec> touch;
-  Vec3 translate = Vec3::Zero();  ///< mm
-};
 
 /// Picks triangles of a part in world coordinates, after placement. Every criterion given must hold; they
 /// mean what they mean in FaceSelector (mesh/face_selection.hpp).

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scintray/scene/place_parts.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 
 namespace scintray {
 

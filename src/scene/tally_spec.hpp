@@ -9,15 +9,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/scene/name_ref.hpp"
 
 namespace scintray {
-
-/// A name that refers to something, and where it was written. Empty: not given.
-struct NameRef {
-  std::string name;
-  FileLocation where;
-  bool empty() const { return name.empty(); }
-};
 
 /// Histogram of crossing angles at a face.
 struct ExitAngleTallySpec {
