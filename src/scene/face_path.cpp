@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/scene/placed_mesh.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
