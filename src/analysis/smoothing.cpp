@@ -18,7 +18,7 @@ std::vector<double> gaussian_kernel(double sigma_cells) {
 }
 
 std::vector<double> convolved(const std::vector<double>& map, const std::vector<double>& kernel,
-                              const Lines& lines) {
+                              const CellLines& lines) {
   const int reach = static_cast<int>(kernel.size() / 2), length = static_cast<int>(lines.length);
   std::vector<double> out(map.size(), 0.0);
   for (std::size_t line = 0; line < lines.count; ++line)

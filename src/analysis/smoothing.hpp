@@ -10,7 +10,7 @@ namespace scintray {
 std::vector<double> gaussian_kernel(double sigma_cells);
 
 /// Cells of a map along which to smooth.
-struct Lines {
+struct CellLines {
   std::size_t count = 1, length = 0;
   std::size_t step = 0;       ///< between the first cells of two lines
   std::size_t cell_step = 1;  ///< between two cells of a line
@@ -18,6 +18,6 @@ struct Lines {
 
 /// Every line convolved with the kernel (an odd number of weights); nothing lies beyond its ends.
 std::vector<double> convolved(const std::vector<double>& map, const std::vector<double>& kernel,
-                              const Lines& lines);
+                              const CellLines& lines);
 
 }  // namespace scintray

@@ -8,6 +8,7 @@
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/table_command.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/report/page.hpp"
 #include "scintray/report/surface_page.hpp"
 
@@ -87,9 +88,7 @@ void print_entry(const report::SurfaceEntry& entry) {
   for (const std::string& base : entry.outline.bases) std::cout << ", based on " << base;
   std::cout << "\n";
   for (const std::string& source : entry.outline.sources) print_wrapped(source);
-  std::string needs;
-  for (const std::string& need : entry.outline.needs) needs += (needs.empty() ? "" : ", ") + need;
-  if (!needs.empty()) print_wrapped("leaves to you: " + needs);
+  if (!entry.outline.needs.empty()) print_wrapped("leaves to you: " + list_of(entry.outline.needs));
   if (!entry.not_made.empty()) print_wrapped("not made here: " + entry.not_made);
   if (!entry.readings) return;
   std::cout << "    reflected";

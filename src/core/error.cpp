@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scintray/core/text.hpp"
+
 namespace scintray {
 
 namespace {
-
-std::string join(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) {
-    if (!text.empty()) text += '\n';
-    text += problem.text();
-  }
-  return text;
-}
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -53,7 +46,8 @@ std::string Problem::text() const {
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 
 InputError::InputError(std::vector<Problem> problems)
-    : Error(join(problems)), problems_(std::move(problems)) {}
+    : Error(list_of(problems, "\n", [](const Problem& problem) { return problem.text(); })),
+      problems_(std::move(problems)) {}
 
 void Problems::add(FileLocation where, std::string what, std::string hint,
                    std::vector<std::array<double, 3>> places_mm) {
@@ -87,9 +81,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
                         const std::vector<std::string>& names) {
   constexpr std::size_t kMostNamed = 30;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
-    list += (list.empty() ? "" : ", ") + names[i];
+  std::string list = list_of(std::span(names).first(std::min(names.size(), kMostNamed)));
   if (names.size() > kMostNamed) list += " and " + std::to_string(names.size() - kMostNamed) + " more";
   const std::string near = nearest_word(wanted, names);
   return InputError({where, "no " + kind + " is called \"" + wanted + "\"",

@@ -2,16 +2,15 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/zlib_stream.hpp"
 
 namespace scintray {
 
@@ -19,12 +18,10 @@ struct OutputFile::State {
   std::filesystem::path path, temporary;
   std::string what;  ///< "" or " the report"
   int descriptor = -1;
-  bool packed = false, finished = false, committed = false;
-  z_stream stream{};
-  std::array<char, 1 << 16> part{};
+  bool finished = false, committed = false;
+  std::optional<Packer> packer;  ///< none: the text is written as it is
 
   ~State() {
-    if (packed) deflateEnd(&stream);
     if (descriptor >= 0) ::close(descriptor);
     std::error_code ignored;
     if (!committed) std::filesystem::remove(temporary, ignored);
@@ -42,23 +39,6 @@ struct OutputFile::State {
       bytes.remove_prefix(static_cast<std::size_t>(done));
     }
   }
-
-  void pack(std::string_view text, int flush) {
-    // zlib counts in 32 bits.
-    constexpr std::size_t kMost = 1 << 30;
-    do {
-      const std::size_t taken = std::min(text.size(), kMost);
-      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-      stream.avail_in = static_cast<uInt>(taken);
-      do {
-        stream.next_out = reinterpret_cast<Bytef*>(part.data());
-        stream.avail_out = static_cast<uInt>(part.size());
-        deflate(&stream, taken == text.size() ? flush : Z_NO_FLUSH);
-        put({part.data(), part.size() - stream.avail_out});
-      } while (stream.avail_out == 0);
-      text.remove_prefix(taken);
-    } while (!text.empty());
-  }
 };
 
 OutputFile::OutputFile(std::filesystem::path path, Container container, const std::string& what)
@@ -72,26 +52,24 @@ OutputFile::OutputFile(std::filesystem::path path, Container container, const st
                                ".unfinished");
   s.descriptor = ::open(s.temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (s.descriptor < 0) s.fail(errno);
-  if (container == Container::plain) return;
-  if (deflateInit(&s.stream, Z_DEFAULT_COMPRESSION) != Z_OK) throw SystemError("cannot start zlib");
-  s.packed = true;
+  if (container == Container::zlib) s.packer.emplace();
 }
 
 OutputFile::OutputFile(OutputFile&&) noexcept = default;
 OutputFile::~OutputFile() = default;
 
 void OutputFile::write(std::string_view text) {
-  if (text.empty()) return;
-  if (state_->packed)
-    state_->pack(text, Z_NO_FLUSH);
+  State& s = *state_;
+  if (s.packer)
+    s.packer->add(text, [&s](std::string_view bytes) { s.put(bytes); });
   else
-    state_->put(text);
+    s.put(text);
 }
 
 void OutputFile::finish() {
   State& s = *state_;
   if (s.finished) return;
-  if (s.packed) s.pack({}, Z_FINISH);
+  if (s.packer) s.packer->finish([&s](std::string_view bytes) { s.put(bytes); });
   // EINVAL: a file system that cannot sync.
   if (::fsync(s.descriptor) != 0 && errno != EINVAL) s.fail(errno);
   const int status = ::close(s.descriptor);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 
 namespace scintray {
 
@@ -58,11 +59,7 @@ const std::vector<Unit>& table_of(Dimension dimension) {
   throw InternalError("unknown dimension");
 }
 
-std::string accepted(Dimension dimension) {
-  std::string text;
-  for (const std::string& unit : units_of(dimension)) text += (text.empty() ? "" : ", ") + unit;
-  return text;
-}
+std::string accepted(Dimension dimension) { return list_of(units_of(dimension)); }
 
 /// A quantity as one would write it, in the unit ScintRay itself uses where that has a name.
 std::string example(Dimension dimension) {

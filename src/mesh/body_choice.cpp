@@ -5,18 +5,16 @@
 #include <map>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/weld.hpp"
 
 namespace scintray {
 namespace {
 
-std::string list_of(const std::vector<std::string>& names) {
+std::string first_names(std::span<const std::string> names) {
   constexpr std::size_t kMost = 20;
-  std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i)
-    list += (list.empty() ? "\"" : ", \"") + names[i] + "\"";
-  return list + (names.size() > kMost ? " and more" : "");
+  return list_quoted(names.first(std::min(names.size(), kMost))) + (names.size() > kMost ? " and more" : "");
 }
 
 /// Index of the body called or numbered `wanted`.
@@ -33,7 +31,7 @@ std::size_t find_body(const std::filesystem::path& path, const RawMesh& raw, con
   const std::string near = nearest_word(wanted, raw.bodies);
   reject_file(path, "the file has no body \"" + wanted + "\"",
               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its bodies are " +
-                  list_of(raw.bodies) + ", numbered from 1");
+                  first_names(raw.bodies) + ", numbered from 1");
 }
 
 void drop_unused_groups(TriMesh& mesh) {
@@ -67,7 +65,7 @@ void choose_body(const std::filesystem::path& path, RawMesh& raw, const std::str
   if (wanted.empty()) {
     if (raw.bodies.size() > 1)
       raw.notes.push_back("the file has " + std::to_string(raw.bodies.size()) +
-                          " bodies, all taken together as one part: " + list_of(raw.bodies) +
+                          " bodies, all taken together as one part: " + first_names(raw.bodies) +
                           "; body = \"NAME\" takes one");
     return;
   }

@@ -7,6 +7,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/edges.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray {
 namespace {
@@ -150,35 +151,7 @@ void apply_flat_region(const TriMesh& mesh, const Vec3& point, double tolerance_
   keep_where(mask, [&](std::size_t t) { return labels[t] == 0; });
 }
 
-Vec3 closest_point_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return a;
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0.0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return a + d1 / (d1 - d3) * ab;
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0.0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
-  }
-  const double denominator = va + vb + vc;
-  return a + (vb / denominator) * ab + (vc / denominator) * ac;
-}
-
 }  // namespace
-
-double distance_to_triangle(const TriMesh& mesh, std::size_t triangle, const Vec3& point) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return (closest_point_in_triangle(point, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) - point)
-      .norm();
-}
 
 std::size_t nearest_triangle(const TriMesh& mesh, const Vec3& point) {
   if (mesh.triangles.empty()) {
@@ -187,7 +160,8 @@ std::size_t nearest_triangle(const TriMesh& mesh, const Vec3& point) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const double distance = distance_to_triangle(mesh, t, point);
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double distance = distance_to_triangle(point, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
     if (distance < least) {
       least = distance;
       nearest = t;

@@ -44,8 +44,4 @@ std::vector<std::uint32_t> flat_regions(const TriMesh& mesh, double angle_tolera
 /// Index of the triangle nearest `point`, lowest index among equals. @throws InputError when empty.
 std::size_t nearest_triangle(const TriMesh& mesh, const Vec3& point);
 
-/// Distance from `point` to the triangle (closest point after C. Ericson 2005, "Real-Time Collision
-/// Detection", section 5.1.5), mm.
-double distance_to_triangle(const TriMesh& mesh, std::size_t triangle, const Vec3& point);
-
 }  // namespace scintray

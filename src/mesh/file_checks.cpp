@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 
 namespace scintray {
 namespace {
@@ -130,14 +130,10 @@ std::string read_mesh_file(const std::filesystem::path& path) {
   }
   if (!std::filesystem::is_regular_file(path, error))
     reject_file(path, "this is a folder or device, not a mesh file");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (!file || !(content << file.rdbuf()) || content.view().empty()) {
-    if (std::filesystem::file_size(path, error) == 0)
-      reject_file(path, "the mesh file is empty", "export it again");
-    reject_file(path, "the mesh file cannot be read", "check its permissions");
-  }
-  return std::move(content).str();
+  std::optional<std::string> content = read_whole_file(path);
+  if (!content) reject_file(path, "the mesh file cannot be read", "check its permissions");
+  if (content->empty()) reject_file(path, "the mesh file is empty", "export it again");
+  return *std::move(content);
 }
 
 void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,

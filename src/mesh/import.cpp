@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/mesh/assimp_import.hpp"
 #include "scintray/mesh/body_choice.hpp"
 #include "scintray/mesh/collada_import.hpp"
@@ -25,12 +26,6 @@ std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
-}
-
-std::string list_of_extensions() {
-  std::string list;
-  for (const std::string& extension : mesh_extensions()) list += (list.empty() ? "" : ", ") + extension;
-  return list;
 }
 
 RawMesh read_raw(const std::filesystem::path& path, const std::string& extension,
@@ -88,7 +83,7 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     reject_file(path,
                 "\"" + extension + "\" is not a mesh format that can be read; expected one of " +
-                    list_of_extensions(),
+                    list_of(mesh_extensions()),
                 "export the mesh in one of these formats");
   }
   if (!std::isfinite(options.scale) || options.scale <= 0.0)

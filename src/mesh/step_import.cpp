@@ -49,6 +49,7 @@
 #include "scintray/mesh/file_checks.hpp"
 #include "scintray/mesh/raw_mesh_bytes.hpp"
 #include "scintray/mesh/step_checks.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray {
 namespace {
@@ -226,20 +227,19 @@ class ShapeReader {
     if (surface.IsNull() || !triangles.HasUVNodes() ||
         GeomAdaptor_Surface(surface).GetType() == GeomAbs_Plane)
       return;
-    TriMesh one;
-    one.triangles = {{0, 1, 2}};
+    std::array<Vec3, 3> corners;
     for (int i = 1; i <= triangles.NbTriangles(); ++i) {
       std::array<int, 3> node{};
       triangles.Triangle(i).Get(node[0], node[1], node[2]);
-      one.vertices.clear();
       std::array<gp_XY, 3> uv;
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        one.vertices.push_back(to_vec(triangles.Node(node[corner])));
+        corners[corner] = to_vec(triangles.Node(node[corner]));
         uv[corner] = triangles.UVNode(node[corner]).XY();
       }
       const auto measure_at = [&](const gp_XY& at) {
         const Vec3 point = to_vec(surface->Value(at.X(), at.Y()));
-        raw_.deviation_mm = std::max(raw_.deviation_mm, distance_to_triangle(one, 0, point));
+        raw_.deviation_mm =
+            std::max(raw_.deviation_mm, distance_to_triangle(point, corners[0], corners[1], corners[2]));
       };
       measure_at((uv[0] + uv[1] + uv[2]) / 3.0);
       for (std::size_t corner = 0; corner < 3; ++corner)

@@ -4,6 +4,7 @@
 
 #include <cctype>
 
+#include "scintray/core/text.hpp"
 #include "scintray/report/fit_text.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/html_parts.hpp"
@@ -125,10 +126,8 @@ TextTable step_table(const FitRecord& record) {
 }
 
 std::string keys_of(const FitRecord& record) {
-  std::string text = "Fitted keys of the scene: ";
-  for (std::size_t j = 0; j < record.spec.parameters.size(); ++j)
-    text += (j > 0 ? ", " : "") + record.spec.parameters[j].path.key;
-  return text + ".";
+  const auto key = [](const auto& parameter) { return parameter.path.key; };
+  return "Fitted keys of the scene: " + list_of(record.spec.parameters, ", ", key) + ".";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "scintray/report/grid_map.hpp"
 #include "scintray/report/hemisphere_map.hpp"
 #include "scintray/report/light_curves.hpp"
+#include "scintray/report/page.hpp"
 #include "scintray/report/report_tables.hpp"
 #include "scintray/report/shift_section.hpp"
 #include "scintray/report/svg_plot.hpp"
@@ -24,31 +25,21 @@ namespace {
 using namespace report;
 
 constexpr const char* kReportStyle = R"css(
-:root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; --panel:#f6f8fa;
-  --alarm:#8a1c00; --alarm-paper:#fdeee9;
+:root { --panel:#f6f8fa; --alarm:#8a1c00; --alarm-paper:#fdeee9;
   --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#7a8790; --f5:#b35a8c; }
 @media (prefers-color-scheme: dark) {
-:root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; --panel:#1c2227;
-  --alarm:#ffb4a0; --alarm-paper:#40180d;
+:root { --panel:#1c2227; --alarm:#ffb4a0; --alarm-paper:#40180d;
   --f0:#2f8fcc; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#b0648f; } }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
-  font: 16px/1.5 system-ui, sans-serif; }
-h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
-h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-bottom: 1px solid var(--rule); }
 h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
-.under { color: var(--soft); margin: 0; }
 .headline { font-size: 1.15rem; margin: 1.5rem 0 0; } .headline b { font-size: 2rem; color: var(--f0); }
 .partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
   color: var(--alarm); }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .85rem; margin: .5rem 0; }
-th, td { padding: .3rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); white-space: nowrap; }
-tbody th { font-weight: 500; } .n { text-align: right; }
-thead th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; }
+table { font-size: .85rem; margin: .5rem 0; } th, td { padding: .3rem .65rem; white-space: nowrap; }
+thead th, thead .n { font-weight: 600; vertical-align: bottom; white-space: normal; }
 tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
 table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
-figure { margin: 0 0 1rem; break-inside: avoid; } figcaption { color: var(--soft); font-size: .88rem; }
+figure { margin: 0 0 1rem; }
+figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
 .grid figure { max-width: 36rem; }
 .claims td, .claims th { white-space: normal; }
@@ -103,13 +94,8 @@ std::string answer(const RunResult& run, const RunStudies& studies) {
 }  // namespace
 
 std::string html_report(const RunResult& run, const RunStudies& studies) {
-  const std::string title = escape_html(run.header.title.empty() ? "ScintRay run" : run.header.title);
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
-  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n";
-  page += "<title>" + title + "</title>\n<style>" + kReportStyle + svg_plot_style() + grid_map_style() +
-          hemisphere_map_style() + "</style>\n</head>\n<body>\n";
-  page += "<h1>" + title + "</h1>\n<p class=\"under\">ScintRay " + escape_html(run.header.version) + " · " +
-          escape_html(run.header.scene_file) + "</p>\n";
+  const std::string title = run.header.title.empty() ? "ScintRay run" : run.header.title;
+  std::string page;
   page += partial_banner(run) + answer(run, studies) + claim_section(judge(run, studies)) +
           bench_sections(studies.surfaces) + events(run, studies);
   if (run.traced_photons())
@@ -117,7 +103,8 @@ std::string html_report(const RunResult& run, const RunStudies& studies) {
             tally_section(run) + path_section(run);
   page += condition_section(run);
   page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
-  return page + "</body>\n</html>\n";
+  return html_frame(title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
+                    kReportStyle + grid_map_style() + hemisphere_map_style(), page);
 }
 
 void write_report(const std::filesystem::path& path, const RunResult& run, const RunStudies& studies) {

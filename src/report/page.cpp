@@ -30,15 +30,19 @@ thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } 
 
 }  // namespace
 
-std::string html_page(const std::string& title, const std::string& under, const std::string& style,
-                      const std::string& body) {
+std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
+                       const std::string& body) {
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
           escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
           "</style>\n</head>\n<body>\n";
-  page += "<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) + " · ScintRay " +
-          escape_html(version()) + "</p>\n";
+  page += "<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) + "</p>\n";
   return page + body + "</body>\n</html>\n";
+}
+
+std::string html_page(const std::string& title, const std::string& under, const std::string& style,
+                      const std::string& body) {
+  return html_frame(title, under + " · ScintRay " + version(), style, body);
 }
 
 void write_page(const std::filesystem::path& path, const std::string& content) {

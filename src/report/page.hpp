@@ -7,7 +7,11 @@
 namespace scintray::report {
 
 /// A page whose style covers text, tables (.n: numbers), figures and plots; `style` is added CSS.
-/// `title` and `under`, the line below it, are escaped; the version is added to the latter. `body` is HTML.
+/// `title` and `under`, the line below it, are escaped. `body` is HTML.
+std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
+                       const std::string& body);
+
+/// The same with the version of this program after `under`.
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,
                       const std::string& body);
 

@@ -1,5 +1,6 @@
 #include "scintray/report/surface_page.hpp"
 
+#include "scintray/core/text.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/goniometer_plots.hpp"
 #include "scintray/report/page.hpp"
@@ -59,20 +60,14 @@ std::string profile(const SurfaceReadings& readings, const std::string& name) {
   return plot.series.empty() ? "" : small(plot);
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 std::string card(const SurfaceEntry& entry) {
   const SurfaceOutline& outline = entry.outline;
   std::string out = "<article class=\"card\">\n<h2>" + escape_html(entry.name) + "</h2>\n<p>model " +
                     escape_html(outline.model);
-  if (!outline.bases.empty()) out += ", based on " + escape_html(joined(outline.bases, ", "));
-  out += "</p>\n<p>" + escape_html(joined(outline.sources, "; ")) + "</p>\n";
+  if (!outline.bases.empty()) out += ", based on " + escape_html(list_of(outline.bases, ", "));
+  out += "</p>\n<p>" + escape_html(list_of(outline.sources, "; ")) + "</p>\n";
   if (!outline.needs.empty())
-    out += "<p class=\"needs\">leaves to you: " + escape_html(joined(outline.needs, ", ")) + "</p>\n";
+    out += "<p class=\"needs\">leaves to you: " + escape_html(list_of(outline.needs, ", ")) + "</p>\n";
   if (entry.readings)
     out += "<div class=\"plots\">\n" + incidence(*entry.readings, entry.name) +
            profile(*entry.readings, entry.name) + "</div>\n";

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "scintray/core/text.hpp"
+
 namespace scintray::report {
 
 namespace {
@@ -37,11 +39,10 @@ bool numeric(const RunResult& run, std::size_t key) {
   return units.size() == 1 && values.size() >= 2;
 }
 
-std::string join_but(const std::vector<std::string>& values, std::size_t left_out) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (i != left_out) text += (text.empty() ? "" : ", ") + values[i];
-  return text;
+/// All values but the one at `left_out`; all when that is their number.
+std::string list_without(std::vector<std::string> values, std::size_t left_out) {
+  if (left_out < values.size()) values.erase(values.begin() + static_cast<std::ptrdiff_t>(left_out));
+  return list_of(values);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ std::optional<SweepView> view_sweep(const RunResult& run) {
     const Quantity q = *quantity(parameters[key]);
     view.unit = q.unit;
     rows.emplace(q.value, parameters[key]);
-    const std::string label = join_but(parameters, key);
+    const std::string label = list_without(parameters, key);
     auto found =
         std::find_if(view.series.begin(), view.series.end(), [&](const auto& s) { return s.label == label; });
     if (found == view.series.end()) found = view.series.insert(found, SweepSeries{label, {}, {}});
@@ -74,7 +75,7 @@ std::optional<SweepView> view_sweep(const RunResult& run) {
 }
 
 std::string point_label(const PointResult& point) {
-  const std::string label = join_but(point.parameters, point.parameters.size());
+  const std::string label = list_without(point.parameters, point.parameters.size());
   return label.empty() ? "run" : label;
 }
 

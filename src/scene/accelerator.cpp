@@ -13,6 +13,7 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray {
 
@@ -47,12 +48,10 @@ double distance_outside(const BoundaryTriangle& triangle, const Vec3& normal, co
   double outside = 0.0;
   for (int i = 0; i < 3; ++i) {
     const Vec3& a = triangle[static_cast<std::size_t>(i)];
-    const Vec3 edge = triangle[static_cast<std::size_t>((i + 1) % 3)] - a;
+    const Vec3& b = triangle[static_cast<std::size_t>((i + 1) % 3)];
+    const Vec3 edge = b - a;
     const double beyond = -normal.cross(edge).dot(point - a);
-    if (beyond <= 0.0) continue;
-    const double length2 = edge.squaredNorm();
-    const double t = std::clamp((point - a).dot(edge) / length2, 0.0, 1.0);
-    outside = std::max(outside, (point - a - t * edge).norm());
+    if (beyond > 0.0) outside = std::max(outside, distance_to_segment(point, a, b));
   }
   return outside;
 }

@@ -136,12 +136,8 @@ std::vector<BodyPair> near_pairs(const std::vector<Body>& bodies, double reach_m
   const BoxTree tree(boxes);
   std::vector<BodyPair> pairs;
   for (std::uint32_t a = 0; a < bodies.size(); ++a) {
-    std::vector<std::uint32_t> others;
-    tree.visit(bodies[a].box.grown(reach_mm), [&](std::uint32_t b) {
-      if (b > a) others.push_back(b);
-    });
-    std::sort(others.begin(), others.end());
-    for (const std::uint32_t b : others) {
+    for (const std::uint32_t b : tree.touching(bodies[a].box.grown(reach_mm))) {
+      if (b <= a) continue;
       BodyPair pair{a, b, false, {}};
       const bool a_is_finer = bodies[a].triangles.size() > bodies[b].triangles.size();
       const Body& coarse = bodies[a_is_finer ? b : a];
@@ -149,11 +145,11 @@ std::vector<BodyPair> near_pairs(const std::vector<Body>& bodies, double reach_m
       for (std::uint32_t t = 0; t < coarse.triangles.size(); ++t) {
         const Box reach = coarse.box_of(t).grown(reach_mm);
         if (!reach.meets(fine.box)) continue;
-        fine.tree.visit(reach, [&](std::uint32_t u) {
+        for (const std::uint32_t u : fine.tree.touching(reach)) {
           pair.surfaces_near = true;
-          if (std::abs(coarse.normal[t].dot(fine.normal[u])) < kParallel) return;
+          if (std::abs(coarse.normal[t].dot(fine.normal[u])) < kParallel) continue;
           pair.parallel.push_back(a_is_finer ? std::pair(u, t) : std::pair(t, u));
-        });
+        }
       }
       std::sort(pair.parallel.begin(), pair.parallel.end());
       pairs.push_back(std::move(pair));

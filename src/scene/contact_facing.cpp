@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/mesh/triangle_distance.hpp"
+
 namespace scintray::contact {
 
 std::vector<Vec3> samples_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -20,12 +22,12 @@ std::vector<Vec3> samples_of(const Body& body, std::uint32_t t) {
 Nearest nearest(const Body& body, const Vec3& point, const Vec3& normal, bool opposed, double reach) {
   constexpr double kAligned = 0.7;
   Nearest best;
-  body.tree.visit(body.box_of(point, point).grown(reach), [&](std::uint32_t t) {
+  for (const std::uint32_t t : body.tree.touching(body.box_of(point, point).grown(reach))) {
     const double cosine = body.normal[t].dot(normal) * (opposed ? -1.0 : 1.0);
-    if (cosine < kAligned) return;
-    const double d = distance(point, body.corner(t, 0), body.corner(t, 1), body.corner(t, 2));
+    if (cosine < kAligned) continue;
+    const double d = distance_to_triangle(point, body.corner(t, 0), body.corner(t, 1), body.corner(t, 2));
     if (d <= reach && std::pair(d, t) < std::pair(best.distance, best.triangle)) best = {t, d};
-  });
+  }
   return best;
 }
 

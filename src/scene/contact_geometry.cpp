@@ -6,12 +6,11 @@
 #include <optional>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray::contact {
 
 namespace {
-
-constexpr std::uint32_t kLeafSize = 4;
 
 /// The Fibonacci lattice (González 2010, Math. Geosci. 42, 49, eq. 1): directions spread evenly and in
 /// general position, so a ray along one seldom meets an edge, and another is at hand when it does.
@@ -43,29 +42,6 @@ std::optional<Hit> meet(const Vec3& origin, const Vec3& direction, const Vec3& a
 }
 
 }  // namespace
-
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-  std::iota(order_.begin(), order_.end(), 0U);
-  if (!boxes_.empty()) build(0, static_cast<std::uint32_t>(boxes_.size()));
-}
-
-void BoxTree::build(std::uint32_t begin, std::uint32_t end) {
-  const std::size_t at = nodes_.size();
-  Box box;
-  for (std::uint32_t i = begin; i < end; ++i) box.add(boxes_[order_[i]]);
-  nodes_.push_back({box, begin, end, 0});
-  if (end - begin <= kLeafSize) return;
-  int axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
-  const auto center = [&](std::uint32_t i) { return boxes_[i].low[axis] + boxes_[i].high[axis]; };
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(
-      order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return std::pair(center(a), a) < std::pair(center(b), b); });
-  build(begin, middle);
-  nodes_[at].right = static_cast<std::uint32_t>(nodes_.size());
-  build(middle, end);
-}
 
 Eigen::Matrix3d natural_axes(const std::vector<PlacedPart>& parts) {
   const auto largest = [&](auto&& measure) {
@@ -168,11 +144,9 @@ Vec3 Body::area_vector(std::uint32_t triangle) const {
 Side Body::side_of(const Vec3& point, double margin_mm) const {
   const Box near = box_of(point, point).grown(margin_mm);
   if (!near.meets(box)) return Side::outside;
-  bool touches = false;
-  tree.visit(near, [&](std::uint32_t t) {
-    touches = touches || distance(point, corner(t, 0), corner(t, 1), corner(t, 2)) <= margin_mm;
-  });
-  if (touches) return Side::on_surface;
+  for (const std::uint32_t t : tree.touching(near))
+    if (distance_to_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2)) <= margin_mm)
+      return Side::on_surface;
   return encloses(point) ? Side::inside : Side::outside;
 }
 
@@ -183,15 +157,17 @@ bool Body::encloses(const Vec3& point) const {
     const Vec3 direction = lattice_direction((attempt * 37 + 11) % kTries);
     int crossings = 0;
     bool certain = true;
-    tree.visit_ray(axes_ * point, axes_ * direction, [&](std::uint32_t t) {
-      if (!certain || normal[t].isZero()) return;
+    for (const std::uint32_t t : tree.on_ray(axes_ * point, axes_ * direction)) {
+      if (normal[t].isZero()) continue;
       const auto hit = meet(point, direction, corner(t, 0), corner(t, 1), corner(t, 2));
       if (!hit || (std::abs(hit->margin) <= kEdge && hit->t > 0.0)) {
         certain = false;
-      } else if (hit->margin > 0.0 && hit->t > 0.0) {
+        break;
+      }
+      if (hit->margin > 0.0 && hit->t > 0.0) {
         crossings += direction.dot(normal[t]) > 0.0 ? 1 : -1;
       }
-    });
+    }
     if (certain) return crossings > 0;
   }
   throw InternalError("no ray from a point is free of the edges of a part");
@@ -226,20 +202,6 @@ Vec3 Body::interior_point() const {
     }
   }
   return best;
-}
-
-double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto to_segment = [&](const Vec3& u, const Vec3& v) {
-    const Vec3 e = v - u;
-    const double length2 = e.squaredNorm();
-    const double t = length2 > 0.0 ? std::clamp((p - u).dot(e) / length2, 0.0, 1.0) : 0.0;
-    return (p - (u + t * e)).norm();
-  };
-  const Vec3 n = (b - a).cross(c - a);
-  const bool above = n.dot((b - a).cross(p - a)) >= 0.0 && n.dot((c - b).cross(p - b)) >= 0.0 &&
-                     n.dot((a - c).cross(p - c)) >= 0.0;
-  if (above && !n.isZero()) return std::abs(n.dot(p - a)) / n.norm();
-  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
 }  // namespace scintray::contact

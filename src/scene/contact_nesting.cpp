@@ -27,11 +27,10 @@ class SurfaceSampler {
   Found sample() {
     const Box reach = other_.box.grown(tolerance_);
     found_.outside = !reach.contains(body_.box);
-    body_.tree.visit(reach, [&](std::uint32_t t) {
-      if (found_.settled()) return;
-      if (body_.normal[t].isZero()) return;
-      look_at(t);
-    });
+    for (const std::uint32_t t : body_.tree.touching(reach)) {
+      if (found_.settled()) break;
+      if (!body_.normal[t].isZero()) look_at(t);
+    }
     return found_;
   }
 
@@ -58,11 +57,11 @@ class SurfaceSampler {
   void look_along(const Vec3& a, const Vec3& b) {
     if (found_.settled()) return;
     std::vector<double> cuts{0.0, 1.0};
-    other_.tree.visit(body_.box_of(a, b).grown(tolerance_), [&](std::uint32_t t) {
+    for (const std::uint32_t t : other_.tree.touching(body_.box_of(a, b).grown(tolerance_))) {
       const Vec3& origin = other_.corner(t, 0);
       const double at_a = other_.normal[t].dot(a - origin), at_b = other_.normal[t].dot(b - origin);
       if ((at_a < 0.0) != (at_b < 0.0)) cuts.push_back(at_a / (at_a - at_b));
-    });
+    }
     std::sort(cuts.begin(), cuts.end());
     const double length = (b - a).norm();
     for (std::size_t i = 1; i < cuts.size(); ++i)

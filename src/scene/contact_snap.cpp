@@ -89,12 +89,8 @@ class Snapper {
     std::vector<std::vector<Index>> members(vertices_.size());
     for (Index i = 0; i < vertices_.size(); ++i) members[i] = {i};
     for (Index i = 0; i < vertices_.size(); ++i) {
-      std::vector<Index> near;
-      tree.visit(boxes[i].grown(tolerance_), [&](Index j) {
-        if (j > i && (at_[i] - at_[j]).norm() <= tolerance_) near.push_back(j);
-      });
-      std::sort(near.begin(), near.end());
-      for (const Index j : near) join(i, j, members);
+      for (const Index j : tree.touching(boxes[i].grown(tolerance_)))
+        if (j > i && (at_[i] - at_[j]).norm() <= tolerance_) join(i, j, members);
     }
   }
 
@@ -174,14 +170,14 @@ class Snapper {
         box.add(a);
         box.add(b);
         std::vector<Index> found;
-        tree.visit(box.grown(tolerance_), [&](std::uint32_t k) {
+        for (const std::uint32_t k : tree.touching(box.grown(tolerance_))) {
           const Index i = in_cluster_[c][k];
           const double t = along.dot(at_[i] - a);
           const double off = std::abs(side.height(at_[i]));
           if (vertices_[i].body != edge.body && t > tolerance_ && t < length - tolerance_ &&
               off <= tolerance_ && off > rounding_ && draws(edge, i, edges_at))
             found.push_back(i);
-        });
+        }
         std::sort(found.begin(), found.end());
         for (const Index i : found) planes_[group_[i]].push_back(side);
       }

@@ -259,13 +259,13 @@ class Resolver {
     std::vector<std::pair<double, int>> on{{0.0, a}, {length, b}};
     Box box = tree.box(static_cast<std::uint32_t>(a));
     box.add(tree.box(static_cast<std::uint32_t>(b)));
-    tree.visit(box.grown(rounding_), [&](std::uint32_t i) {
+    for (const std::uint32_t i : tree.touching(box.grown(rounding_))) {
       const Vec2 v = points[i] - from;
       const double along = v.dot(edge) / length, off = (v.x() * edge.y() - v.y() * edge.x()) / length;
       if (static_cast<int>(i) != a && static_cast<int>(i) != b && along > 0.0 && along < length &&
           std::abs(off) <= rounding_)
         on.emplace_back(along, static_cast<int>(i));
-    });
+    }
     std::sort(on.begin(), on.end());
     std::vector<int> chain;
     for (const auto& entry : on) chain.push_back(entry.second);

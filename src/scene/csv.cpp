@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "scintray/core/text.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
@@ -56,11 +57,9 @@ std::size_t CsvTable::column(const std::string& name, std::size_t standard, cons
   }
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
-  std::string list;
-  for (const std::string& known : columns) list += (list.empty() ? "" : ", ") + known;
   throw InputError({where, "the table \"" + file + "\" has no column \"" + name + "\"",
                     columns.empty() ? "the file has no heading: name the columns in its first line"
-                                    : "its columns are " + list});
+                                    : "its columns are " + list_of(columns)});
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {

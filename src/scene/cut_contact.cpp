@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scintray/mesh/polygon.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
 #include "scintray/scene/carve.hpp"
 #include "scintray/scene/contact_facing.hpp"
 
@@ -76,11 +77,6 @@ void split_edge(CutPart& part, std::uint32_t a, std::uint32_t b, std::uint32_t v
 std::uint32_t add_vertex(TriMesh& mesh, const Vec3& position) {
   mesh.vertices.push_back(position);
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
-}
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const double share = std::clamp((p - a).dot(b - a) / std::max((b - a).squaredNorm(), 1e-300), 0.0, 1.0);
-  return (p - (a + share * (b - a))).norm();
 }
 
 namespace {

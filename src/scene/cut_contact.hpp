@@ -44,6 +44,4 @@ void split_edge(CutPart& part, std::uint32_t a, std::uint32_t b, std::uint32_t v
 
 std::uint32_t add_vertex(TriMesh& mesh, const Vec3& position);
 
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b);
-
 }  // namespace scintray

@@ -4,6 +4,7 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/placed_mesh.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/scene/read_parts.hpp"
 
 namespace scintray {
@@ -39,11 +40,9 @@ std::optional<FacePath> read_face_path(const TomlTable& table, const std::string
   const std::vector<std::string> faces = faces_of(path.part.name, parts);
   if (faces.empty()) return path;
   const std::string near = nearest_word(path.face.name, faces);
-  std::string list;
-  for (const std::string& face : faces) list += (list.empty() ? "" : ", ") + face;
   table.expect(key, std::find(faces.begin(), faces.end(), path.face.name) != faces.end(),
                "the part \"" + path.part.name + "\" has no face \"" + path.face.name + "\"",
-               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its faces are " + list +
+               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its faces are " + list_of(faces) +
                    "; name more of them with [[part.face]]");
   if (!table.good(key)) return std::nullopt;
   return path;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scintray/core/data_folder.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/scene/material_forms.hpp"
 #include "scintray/scene/surface_form.hpp"
 
@@ -23,10 +24,8 @@ constexpr std::array<KindWords, 4> kKinds{
 
 constexpr std::size_t index_of(LibraryKind kind) { return static_cast<std::size_t>(kind); }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? "none" : text;
+std::string list_or_none(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : list_of(words);
 }
 
 }  // namespace
@@ -80,7 +79,7 @@ Library::Definition Library::find(LibraryKind kind, const std::string& name,
   places.push_back(std::string("[") + words.folder + ".NAME] of the scene");
   throw InputError({where, std::string("there is no ") + words.one + " \"" + name + "\"",
                     (near.empty() ? "" : "did you mean \"" + near + "\"? ") + std::string("known: ") +
-                        joined(known) + "; searched: " + joined(places)});
+                        list_or_none(known) + "; searched: " + list_or_none(places)});
 }
 
 Medium Library::medium(const std::string& name, const FileLocation& where) const {
@@ -131,7 +130,8 @@ std::vector<Library::Ancestor> Library::lineage(LibraryKind kind, const std::str
     const std::string one = kKinds[index_of(kind)].one;
     if (std::find(names.begin(), names.end(), next) != names.end())
       throw InputError(
-          {asked, fmt::format("the {} \"{}\" is based on itself ({}, {})", one, next, joined(names), next),
+          {asked,
+           fmt::format("the {} \"{}\" is based on itself ({}, {})", one, next, list_or_none(names), next),
            fmt::format("base it on another {}", one)});
     names.push_back(next);
     ancestors.push_back({next, find(kind, next, asked)});
@@ -182,14 +182,15 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where)
 SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
                              const std::vector<std::string>& within) const {
   if (std::find(within.begin(), within.end(), name) != within.end())
-    throw InputError({where, "the surface \"" + name + "\" is a mixture of itself (" + joined(within) + ")",
+    throw InputError({where,
+                      "the surface \"" + name + "\" is a mixture of itself (" + list_or_none(within) + ")",
                       "mix other surfaces"});
   Problems problems;
   Chain chain = this->chain(name, where, problems);
   const std::vector<std::string> unmet = unmet_needs(chain.merged);
   if (!unmet.empty())
     throw InputError({chain.names.size() == 1 && !where.file.empty() ? where : chain.merged.where,
-                      "the surface \"" + name + "\" leaves to you: " + joined(unmet),
+                      "the surface \"" + name + "\" leaves to you: " + list_or_none(unmet),
                       chain.names.size() == 1
                           ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
                           : "add these keys beside base = \"" + chain.names[1] + "\""});

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/primitives.hpp"
@@ -68,9 +69,8 @@ std::string group_list(const TriMesh& mesh) {
   for (const FaceTags& tags : mesh.group_tags)
     for (const auto& [key, value] : tags)
       if (key != "face") add(key + " = \"" + value + "\"");
-  std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMost; ++i) list += (list.empty() ? "" : ", ") + names[i];
-  return list + (names.size() > kMost ? " and more" : "");
+  const auto shown = std::span<const std::string>(names).first(std::min(names.size(), kMost));
+  return list_of(shown) + (names.size() > kMost ? " and more" : "");
 }
 
 /// Where a triangle is, for pictures.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/scene/read_shapes.hpp"
 
 namespace scintray {
@@ -45,11 +46,9 @@ TouchSpec read_touch(const TomlTable& table, const std::vector<std::string>& ear
 }
 
 /// All names, or as many as can be read at a glance.
-std::string name_list(const std::vector<std::string>& names) {
+std::string name_list(std::span<const std::string> names) {
   constexpr std::size_t kMostListed = 12;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
-    list += (list.empty() ? "" : ", ") + names[i];
+  std::string list = list_of(names.first(std::min(names.size(), kMostListed)));
   if (names.size() > kMostListed) list += ", ... (" + std::to_string(names.size()) + " in all)";
   return list;
 }

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "scintray/core/pattern.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/scene/face_path.hpp"
 #include "scintray/scene/read_parts.hpp"
 
@@ -11,12 +12,6 @@ namespace {
 
 /// Bins of an axis and of a whole tally that are still an answer and no mistake.
 constexpr std::int64_t kMostBins = 10'000'000;
-
-std::string join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 
 ExitAngleTallySpec read_exit_angle(const TomlTable& table, const SceneSpec& scene) {
   ExitAngleTallySpec tally;
@@ -82,7 +77,7 @@ std::vector<Occasion> read_occasions(const TomlTable& table, const std::string& 
     const std::string near = nearest_word(name.name, occasion_words());
     table.expect(
         key, i < occasion_words().size(), "nothing that happens to a photon is called \"" + name.name + "\"",
-        (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are " + join(occasion_words()));
+        (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are " + list_of(occasion_words()));
     if (i < occasion_words().size()) occasions.push_back(static_cast<Occasion>(i));
   }
   return occasions;

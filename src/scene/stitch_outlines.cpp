@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "scintray/mesh/triangle_distance.hpp"
+
 namespace scintray {
 
 namespace {
@@ -28,8 +30,7 @@ class Outline {
     Place best;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Vec3 edge = corner(i + 1) - corner(i);
-      const double share =
-          std::clamp((p - corner(i)).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0);
+      const double share = share_along_segment(p, corner(i), corner(i + 1));
       const double d = (p - (corner(i) + share * edge)).norm();
       if (d < best.distance) best = {starts_[i] + share * edge.norm(), d};
     }

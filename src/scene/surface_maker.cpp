@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
+#include "scintray/core/input_file.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray {
@@ -22,13 +21,6 @@ std::uint64_t fnv1a(std::string_view bytes) {
     hash *= 0x100000001b3ULL;
   }
   return hash;
-}
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  content << file.rdbuf();
-  return content.str();
 }
 
 /// Names a recipe's map among all others: the description and the spectrum that it only sums up.
@@ -116,7 +108,7 @@ SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
   result.provenance.preparation = map.history();
   result.provenance.tiling = tiling_name(map, spec.tiling);
   result.key =
-      fmt::format("map {:016x}; {}; {}; pitch {} {}", fnv1a(content_of(spec.path)),
+      fmt::format("map {:016x}; {}; {}; pitch {} {}", fnv1a(read_whole_file(spec.path).value_or("")),
                   result.provenance.preparation, result.provenance.tiling, map.pitch_x_um, map.pitch_y_um);
   auto& field = fields_[result.key];
   if (!field) field = std::make_shared<HeightField>(make_height_field(map, spec.tiling));

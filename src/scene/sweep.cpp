@@ -7,6 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include "scintray/core/text.hpp"
+
 namespace scintray {
 
 namespace {
@@ -64,14 +66,12 @@ TomlNode* step_into(TomlNode& node, const std::string& segment) {
 void report_dead_end(const KeyPath& path, const std::string& so_far, const std::string& segment,
                      const TomlNode& node, Problems& problems) {
   const std::vector<std::string> names = continuations(node);
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   const std::string near = nearest_word(segment, names);
   problems.add(path.where,
                "the " + path.role + " \"" + path.key + "\" leads nowhere: " +
                    (so_far.empty() ? "the scene" : "\"" + so_far + "\"") + " has no \"" + segment + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
-                   (list.empty() ? "nothing can follow there" : "what can follow there: " + list));
+                   (names.empty() ? "nothing can follow there" : "what can follow there: " + list_of(names)));
 }
 
 std::string millimetres(double value) {

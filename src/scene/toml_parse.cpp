@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
-#include <toml.hpp>
 
+#include "scintray/core/input_file.hpp"
+#include "scintray/scene/toml11.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
 namespace scintray {
@@ -93,57 +93,30 @@ void refuse_deep_nesting(const TextPlaces& places) {
   }
 }
 
-std::string hint_for_syntax(const std::string& message) {
-  const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
-  if (says("expected newline"))
-    return "one key = value a line; a quantity with its unit is a string, as \"2 mm\"";
-  if (says("defined twice") || says("already exists"))
-    return "give each key and each [table] once; a list of tables is written [[name]]";
-  if (says("valid string")) return "close the string with the quote that opened it";
-  if (says("utf8") || says("UTF-8")) return "save the file as UTF-8 text";
-  if (says("separator `=`")) return "write key = value";
-  if (says("valid key"))
-    return "a key is of letters, digits, _ and -, or in quotes; an inline table { ... } must stand on one "
-           "line";
-  if (says("array separator")) return "separate elements with commas and close the array with ]";
-  if (says("missing value") || says("got nothing")) return "write a value after the =";
-  return "see https://toml.io for the grammar";
-}
-
-/// The place and one clean line out of a message of toml11, which draws the offending line with a
-/// caret: "[error] toml::function: message\n --> file\n   |\n 3 | line\n   |   ^--- comment".
-Problem clean_syntax_error(const TextPlaces& places, const std::string& drawing,
-                           const toml::source_location& fallback) {
-  std::istringstream lines(drawing);
-  std::string line;
-  std::getline(lines, line);
-  std::string message = line;
-  if (message.rfind("[error] ", 0) == 0) message.erase(0, 8);
-  for (const char* prefix : {"toml::", "parse_"})
-    if (message.rfind(prefix, 0) == 0) {
-      const auto colon = message.find(": ");
-      if (colon != std::string::npos) message.erase(0, colon + 2);
-    }
-  std::size_t offset = places.offset(fallback.line(), fallback.column());
-  std::string comment;
-  std::size_t number = 0;
-  while (std::getline(lines, line)) {
-    const auto bar = line.find(" | ");
-    if (bar == std::string::npos) continue;
-    const auto digit = line.find_first_not_of(' ');
-    if (digit < bar && std::from_chars(line.data() + digit, line.data() + bar, number).ec == std::errc{})
-      continue;
-    const auto caret = line.find_first_not_of(' ', bar + 3);
-    if (number == 0 || caret == std::string::npos || (line[caret] != '^' && line[caret] != '~')) continue;
-    offset = places.offset(number, caret - bar - 2);
-    const auto words = line.find_first_not_of("^~- ", caret);
-    comment = words == std::string::npos ? "" : line.substr(words);
-    number = 0;
+std::string hint_for(toml11::Mistake mistake) {
+  using toml11::Mistake;
+  switch (mistake) {
+    case Mistake::more_on_the_line:
+      return "one key = value a line; a quantity with its unit is a string, as \"2 mm\"";
+    case Mistake::defined_twice:
+      return "give each key and each [table] once; a list of tables is written [[name]]";
+    case Mistake::open_string:
+      return "close the string with the quote that opened it";
+    case Mistake::not_utf8:
+      return "save the file as UTF-8 text";
+    case Mistake::no_equals_sign:
+      return "write key = value";
+    case Mistake::bad_key:
+      return "a key is of letters, digits, _ and -, or in quotes; an inline table { ... } must stand on one "
+             "line";
+    case Mistake::open_array:
+      return "separate elements with commas and close the array with ]";
+    case Mistake::no_value:
+      return "write a value after the =";
+    case Mistake::other:
+      return "see https://toml.io for the grammar";
   }
-  if (comment == "here") comment.clear();
-  const std::string detail = message.empty() || comment.empty() ? comment : " (" + comment + ")";
-  const std::string what = "not valid TOML: " + message + detail;
-  return {places.at(offset), what, hint_for_syntax(what)};
+  throw InternalError("unknown mistake in a TOML file");
 }
 
 bool is_bare(char c) {
@@ -170,19 +143,6 @@ std::size_t key_offset(const std::string& text, std::size_t offset) {
   return i;
 }
 
-/// Where a value stands in the text, in bytes.
-struct Span {
-  std::size_t offset = 0, size = 0;
-};
-
-/// toml11 3's public location() counts the lines before every value anew, so that reading a scene takes time
-/// as the square of its length; the region that it counts in knows the offset.
-Span span_of(const toml::value& value) {
-  const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
-  if (region == nullptr) return {};
-  return {static_cast<std::size_t>(region->first() - region->begin()), region->size()};
-}
-
 class Converter {
  public:
   explicit Converter(const TextPlaces& places) : places_(places) {}
@@ -190,7 +150,7 @@ class Converter {
   TomlNode convert(const toml::value& value, const std::string& key) {
     TomlNode node;
     node.key = key;
-    const auto [offset, size] = span_of(value);
+    const auto [offset, size] = toml11::span_of(value);
     node.where = places_.at(offset);
     const std::size_t key_at = key_offset(places_.text(), offset);
     node.key_where = key.empty() || key_at == offset ? node.where : places_.at(key_at);
@@ -301,7 +261,9 @@ TomlNodePtr parse_toml(const std::string& text, const std::string& file) {
     std::istringstream stream(body);
     document = toml::parse(stream, file);
   } catch (const toml::exception& error) {
-    throw InputError(clean_syntax_error(places, error.what(), error.location()));
+    const toml11::SyntaxError found = toml11::syntax_error(error);
+    throw InputError({places.at(places.offset(found.line, found.byte_column)),
+                      "not valid TOML: " + found.message, hint_for(found.mistake)});
   } catch (const std::exception& error) {
     throw InputError({{file, 1, 1},
                       std::string("not valid TOML: ") + error.what(),
@@ -322,12 +284,10 @@ std::string read_text_file(const std::filesystem::path& path, const FileLocation
                       "check the name; relative paths count from the folder of the file that names them"});
   if (std::filesystem::is_directory(path, status))
     throw InputError({place, "\"" + path.string() + "\" is a folder, not a file", "name a file in it"});
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  if (!stream)
+  std::optional<std::string> content = read_whole_file(path);
+  if (!content)
     throw InputError({place, "the file \"" + path.string() + "\" cannot be read", "check its permissions"});
-  return content.str();
+  return *std::move(content);
 }
 
 TomlNodePtr parse_toml_file(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/text.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/scene/toml_reader.hpp"
 
@@ -15,10 +16,6 @@ std::string kind_name(const TomlNode& value);
 std::string usual_unit(Dimension dimension);
 /// "a length with its unit, as "2 mm""
 std::string expected_quantity(Dimension dimension);
-/// "a, b, c"
-std::string list_of(const std::vector<std::string>& words);
-/// The same with each word in quotes.
-std::string list_quoted(const std::vector<std::string>& words);
 /// "did you mean "x"? ", or nothing when no word is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "scintray/core/text.hpp"
 #include "scintray/source/scintillation.hpp"
 
 namespace scintray {
@@ -19,10 +20,8 @@ void name_first(std::vector<std::string>& named, const Hit& hit) {
                               hit.position.x(), hit.position.y(), hit.position.z()));
 }
 
-std::string joined(const std::vector<std::string>& words, std::uint64_t all) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return all > words.size() ? text + ", ..." : text;
+std::string first_of(const std::vector<std::string>& words, std::uint64_t all) {
+  return list_of(words) + (all > words.size() ? ", ..." : "");
 }
 
 }  // namespace
@@ -52,7 +51,7 @@ HitsEventSource::HitsEventSource(const HitsSpec& spec, std::uint64_t most, const
                     fmt::format("none of the {} hits of {} lies in a part that scintillates", report_.rows,
                                 spec.file.string()),
                     "check length_unit, and that both programs place the parts alike: " +
-                        joined(report_.first_outside, report_.outside)});
+                        first_of(report_.first_outside, report_.outside)});
 }
 
 void HitsEventSource::count_out_of_order(const std::vector<Hit>& hits) {
@@ -83,11 +82,11 @@ std::vector<std::string> HitsEventSource::notes() const {
   std::vector<std::string> notes;
   if (report_.outside > 0)
     notes.push_back(fmt::format("{} of {} hits lie outside every part and make no light: {}", report_.outside,
-                                report_.rows, joined(report_.first_outside, report_.outside)));
+                                report_.rows, first_of(report_.first_outside, report_.outside)));
   if (report_.out_of_order > 0)
     notes.push_back(fmt::format("{} of {} hits came after hits of a later event, and were put to theirs: {}",
                                 report_.out_of_order, report_.rows,
-                                joined(report_.first_out_of_order, report_.out_of_order)));
+                                first_of(report_.first_out_of_order, report_.out_of_order)));
   return notes;
 }
 

@@ -37,12 +37,13 @@ struct TableProvenance {
   std::uint64_t seed = 0;
   std::uint64_t rays_per_azimuth = 0;
   std::uint64_t azimuths = 0;
-  std::uint64_t unclassified = 0;  ///< rays without a medium: zero by construction
-  std::uint64_t cut = 0;           ///< rays released at the step limit
-  double target_error = 0.0;       ///< of the reflectance, that rays were added for; 0: none
-  std::uint64_t unconverged = 0;   ///< nodes that missed it at the most rays allowed
-  std::string reciprocity;         ///< of a table made reciprocal: how far the traced one was; else empty
-  std::string version;             ///< ScintRay version that built it
+  std::uint64_t unclassified =
+      0;                  ///< rays directed away from the medium that they left into: 0, or no table is made
+  std::uint64_t cut = 0;  ///< rays released at the step limit
+  double target_error = 0.0;      ///< of the reflectance, that rays were added for; 0: none
+  std::uint64_t unconverged = 0;  ///< nodes that missed it at the most rays allowed
+  std::string reciprocity;        ///< of a table made reciprocal: how far the traced one was; else empty
+  std::string version;            ///< ScintRay version that built it
 };
 
 /// A microsurface, or a whole stack, tabulated. Valid for its pairs of indices only.

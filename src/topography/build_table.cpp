@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -37,6 +38,7 @@ struct RayRecord {
   float first_slope_rad = 0.0f;
   SurfaceOutcome outcome = SurfaceOutcome::inside;
   bool cut = false;
+  bool unclassified = false;
 };
 
 /// Angles of a direction that left, from the outgoing normal and from the forward azimuth.
@@ -118,6 +120,7 @@ class Builder {
   const std::string& reciprocity() const { return reciprocity_; }
   std::uint64_t azimuths() const { return azimuths_; }
   std::uint64_t cut() const { return cut_; }
+  std::uint64_t unclassified() const { return unclassified_; }
   std::uint64_t unconverged() const { return unconverged_; }
 
  private:
@@ -170,7 +173,11 @@ class Builder {
             Vec3::Zero()};
     const RayEnd end = send_(ray, side, *point_, rng);
     return {exit_angles(ray.direction, azimuth, kind_), static_cast<float>(end.first_slope_rad), end.outcome,
-            end.cut};
+            end.cut, is_unclassified(end, ray)};
+  }
+
+  static bool is_unclassified(const RayEnd& end, const Ray& ray) {
+    return !end.cut && !leaves_into_medium(end.outcome, ray.direction);
   }
 
   std::shared_ptr<const ReciprocalKernel> reciprocal_kernel() {
@@ -191,6 +198,7 @@ class Builder {
                 Vec3::Zero()};
         const RayEnd end = send_(ray, from, *point_, rng);
         if (end.outcome == SurfaceOutcome::absorbed) continue;
+        if (is_unclassified(end, ray)) ++unclassified_;
         const ExitAngles exit = exit_angles(ray.direction, azimuth, AzimuthKind::folded);
         const double out = std::pow(std::sin(static_cast<double>(exit.polar)), 2);
         const Side to = end.outcome == SurfaceOutcome::inside ? Side::inside : Side::outside;
@@ -244,11 +252,12 @@ class Builder {
   /// Reduces the records in their order, whatever threads made them.
   void reduce(TableNode& node, Side side) {
     std::vector<ExitAngles> reflected, transmitted;
-    std::uint64_t absorbed = 0, cut = 0;
+    std::uint64_t absorbed = 0, cut = 0, unclassified = 0;
     double slopes = 0.0;
     for (const RayRecord& record : records_) {
       slopes += record.first_slope_rad;
       cut += record.cut ? 1 : 0;
+      unclassified += record.unclassified ? 1 : 0;
       if (record.outcome == SurfaceOutcome::absorbed)
         ++absorbed;
       else
@@ -263,6 +272,7 @@ class Builder {
     node.mean_slope_rad = slopes / rays;
     if (!converged(node) && records_.size() < settings_.most_rays * batch()) return;
     cut_ += cut;
+    unclassified_ += unclassified;
     node.reflected = quantiles_of(reflected, kind_);
     node.transmitted = quantiles_of(transmitted, kind_);
   }
@@ -277,6 +287,7 @@ class Builder {
   double slice_azimuth_ = 0.0;
   std::uint64_t intervals_ = 0, azimuths_ = 0, cut_ = 0, unconverged_ = 0;
   std::uint64_t done_ = 0, planned_ = 0;
+  std::atomic<std::uint64_t> unclassified_ = 0;
   std::string reciprocity_;
   std::vector<RayRecord> records_;
 };
@@ -289,7 +300,10 @@ SurfaceTable build(SendRay send, const std::vector<SpectralPoint>& spectrum, con
   provenance.seed = settings.seed;
   provenance.rays_per_azimuth = settings.rays;
   provenance.azimuths = builder.azimuths();
-  provenance.unclassified = 0;  // a surface has no such exit
+  provenance.unclassified = builder.unclassified();
+  if (provenance.unclassified > 0)
+    throw InternalError(
+        fmt::format("{} rays left a surface in a direction away from their medium", provenance.unclassified));
   provenance.cut = builder.cut();
   provenance.target_error = settings.target_error;
   provenance.unconverged = builder.unconverged();
@@ -299,6 +313,18 @@ SurfaceTable build(SendRay send, const std::vector<SpectralPoint>& spectrum, con
 }
 
 }  // namespace
+
+bool leaves_into_medium(SurfaceOutcome outcome, const Vec3& direction) {
+  switch (outcome) {
+    case SurfaceOutcome::inside:
+      return direction.z() <= 0.0;
+    case SurfaceOutcome::outside:
+      return direction.z() >= 0.0;
+    case SurfaceOutcome::absorbed:
+      return true;
+  }
+  throw InternalError("unknown outcome at a surface");
+}
 
 SurfaceTable build_table(const HeightField& field, const std::vector<SpectralPoint>& spectrum,
                          const TableSettings& settings, TableProvenance provenance,

@@ -52,6 +52,10 @@ class TableStopped : public Error {
   using Error::Error;
 };
 
+/// Whether a direction, in the frame of the surface (z: outwards), points into the medium that the light left
+/// into; so does that of absorbed light. A ray for which it does not has no medium: none may (InternalError).
+[[nodiscard]] bool leaves_into_medium(SurfaceOutcome outcome, const Vec3& direction);
+
 /// Traces unpolarised light from both sides at every incidence node of every wavelength: positions uniform
 /// over the map (so facets are met as the beam sees them), azimuths of the map stratified over the circle
 /// (or, for a directional table, one by one), rays followed until they leave. Nodes are then bisected where

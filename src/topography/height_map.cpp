@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 
 namespace scintray {
 
@@ -18,11 +19,7 @@ std::uint32_t fold(std::uint32_t k, std::uint32_t n) { return k < n ? k : 2 * (n
 
 }  // namespace
 
-std::string HeightMap::history() const {
-  std::string result;
-  for (const std::string& step : steps) result += (result.empty() ? "" : "; ") + step;
-  return result;
-}
+std::string HeightMap::history() const { return list_of(steps, "; "); }
 
 std::string tiling_name(const HeightMap& map, Tiling tiling) {
   return mirrored(map, tiling) ? "mirror" : "periodic";

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/readers/formats.hpp"
 #include "scintray/topography/readers/gwyddion_program.hpp"
@@ -21,11 +21,9 @@ std::string file_content(const std::filesystem::path& path) {
   const auto size = std::filesystem::file_size(path);
   if (size > kMostBytes)
     throw InputError({{path.string()}, "file larger than 1 GiB; expected a height map", "crop the map"});
-  std::string content(size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(content.data(), static_cast<std::streamsize>(size));
-  if (!file) throw SystemError("cannot read " + path.string());
-  return content;
+  std::optional<std::string> content = read_whole_file(path);
+  if (!content) throw SystemError("cannot read " + path.string());
+  return *std::move(content);
 }
 
 [[noreturn]] void refuse_format(const std::string& file, GwyddionAnswer answer) {

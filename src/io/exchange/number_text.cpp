@@ -1,14 +1,12 @@
 #include "scintray/io/exchange/number_text.hpp"
 
-#include <zlib.h>
-
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <memory>
+#include <optional>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
+#include "scintray/core/zlib_stream.hpp"
 
 namespace scintray {
 
@@ -115,30 +113,19 @@ bool is_zlib(std::string_view content) {
 }
 
 void inflate_into(NumberList& list, std::string_view packed, const std::string& file, std::size_t limit) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) throw SystemError("cannot start zlib");
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  std::array<char, 1 << 14> part{};
-  std::size_t unpacked = 0;
-  int state = Z_OK;
-  while (state == Z_OK) {
-    stream.next_out = reinterpret_cast<Bytef*>(part.data());
-    stream.avail_out = static_cast<uInt>(part.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    const std::size_t got = part.size() - stream.avail_out;
-    unpacked += got;
-    if (unpacked > limit)
+  std::size_t bytes = 0;
+  const Unpacked end = unpack(packed, Packing::zlib, [&](std::string_view part) {
+    bytes += part.size();
+    if (bytes > limit)
       refuse(file,
              "a zlib stream that unpacks to more than " + std::to_string(limit) +
                  " bytes; expected at most that for as many numbers as the format has",
              "the file is of another kind, or made to harm");
-    list.feed({part.data(), got});
-  }
-  if (state != Z_STREAM_END) refuse(file, "a damaged or truncated zlib stream", kDamaged);
-  if (stream.avail_in > 0)
-    refuse(file, std::to_string(stream.avail_in) + " bytes after the end of the zlib stream; expected none",
+    list.feed(part);
+  });
+  if (!end.complete) refuse(file, "a damaged or truncated zlib stream", kDamaged);
+  if (end.bytes_after > 0)
+    refuse(file, std::to_string(end.bytes_after) + " bytes after the end of the zlib stream; expected none",
            "pack one file only");
 }
 
@@ -169,11 +156,9 @@ std::string load_number_file(const std::filesystem::path& path, NumberCount coun
     refuse(path.string(),
            std::to_string(size) + " bytes; expected at most " + std::to_string(most_bytes(count)),
            "the file is of another kind");
-  std::ifstream file(path, std::ios::binary);
-  std::string content(static_cast<std::size_t>(size), '\0');
-  file.read(content.data(), static_cast<std::streamsize>(size));
-  if (!file) throw SystemError(path.string() + ": cannot read");
-  return content;
+  std::optional<std::string> content = read_whole_file(path);
+  if (!content) throw SystemError(path.string() + ": cannot read");
+  return *std::move(content);
 }
 
 }  // namespace scintray

@@ -8,6 +8,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/philox.hpp"
+#include "scintray/core/text.hpp"
 
 namespace scintray {
 
@@ -40,10 +41,7 @@ double mirrored_digits(std::uint64_t k, std::uint64_t base) {
 }
 
 std::string wavelength_list(const SurfaceTable& table) {
-  std::string text;
-  for (const double wavelength : table.wavelengths_nm())
-    text += (text.empty() ? "" : ", ") + fmt::format("{:g} nm", wavelength);
-  return text;
+  return list_of(table.wavelengths_nm(), ", ", [](double nm) { return fmt::format("{:g} nm", nm); });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "scintray/core/text.hpp"
 #include "scintray/core/units.hpp"
 
 namespace scintray::gdml {
@@ -23,10 +24,8 @@ Node property_node(Node owner, const std::string& name) {
 }
 
 /// One row of a table: nm, value.
-std::string list_of(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + fmt::format("{:.9g}", value);
-  return "[" + text + "]";
+std::string toml_array(const std::vector<double>& values) {
+  return "[" + list_of(values, ", ", [](double value) { return fmt::format("{:.9g}", value); }) + "]";
 }
 
 double interpolated(const EnergyTable& table, double energy_eV) {
@@ -253,7 +252,7 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
     nm.push_back(high_nm);
     value.push_back(value.back());
   }
-  return "{ wavelength = " + list_of(nm) + ", wavelength_unit = \"nm\", value = " + list_of(value) +
+  return "{ wavelength = " + toml_array(nm) + ", wavelength_unit = \"nm\", value = " + toml_array(value) +
          (unit.empty() ? "" : ", value_unit = \"" + unit + "\"") + " }";
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 
 namespace scintray {
 
@@ -62,11 +63,7 @@ void make_distinct(std::vector<ChannelInfo>& channels) {
       channel.name += " (" + std::to_string(before + 1) + ")";
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + in_quotes(name);
-  return text;
-}
+std::string listed(const std::vector<std::string>& names) { return list_of(names, ", ", in_quotes); }
 
 /// Those of `which` that are scanned forward, or all of them when none is.
 std::vector<std::size_t> forward_first(const std::vector<std::size_t>& which,

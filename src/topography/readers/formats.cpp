@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "scintray/core/text.hpp"
+
 namespace scintray {
 
 namespace {
@@ -29,9 +31,7 @@ const Format* find_format(std::string_view content) {
 }
 
 std::string format_names() {
-  std::string text;
-  for (const Format& format : kFormats) text += (text.empty() ? "" : ", ") + std::string(format.name);
-  return text;
+  return list_of(kFormats, ", ", [](const Format& format) { return format.name; });
 }
 
 }  // namespace scintray

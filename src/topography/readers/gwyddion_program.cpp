@@ -9,13 +9,13 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/topography/readers/formats.hpp"
 
 namespace scintray {
@@ -111,10 +111,9 @@ GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest
   std::error_code missing;
   const auto size = fs::file_size(converted, missing);
   if (*status != 0 || missing || size > kMostBytes) return {GwyddionAnswer::refused, {}};
-  std::ifstream file(converted, std::ios::binary);
-  const std::string content((std::istreambuf_iterator<char>(file)), {});
-  if (!is_gwy(content)) return {GwyddionAnswer::refused, {}};
-  RawMap map = parse_converted_gwy(content, request);
+  const std::optional<std::string> content = read_whole_file(converted);
+  if (!content || !is_gwy(*content)) return {GwyddionAnswer::refused, {}};
+  RawMap map = parse_converted_gwy(*content, request);
   map.format = "converted by Gwyddion";
   return {GwyddionAnswer::converted, std::move(map)};
 }

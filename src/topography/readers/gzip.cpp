@@ -1,9 +1,7 @@
-#include <zlib.h>
-
 #include <algorithm>
-#include <memory>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/zlib_stream.hpp"
 #include "scintray/topography/readers/formats.hpp"
 
 namespace scintray {
@@ -31,27 +29,17 @@ std::string gunzip(std::string_view packed, const std::string& file, std::size_t
                       "the file is truncated or damaged, or holds no height map"});
   };
   if (declared > limit) refuse("declare to unpack to " + std::to_string(declared) + " bytes");
-  z_stream stream{};
-  constexpr int kGzipOnly = 15 + 16;
-  if (inflateInit2(&stream, kGzipOnly) != Z_OK) throw SystemError("cannot start zlib");
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  std::string content, part(1 << 16, '\0');
-  int state = Z_OK;
-  while (state == Z_OK) {
-    stream.next_out = reinterpret_cast<Bytef*>(part.data());
-    stream.avail_out = static_cast<uInt>(part.size());
-    state = inflate(&stream, Z_NO_FLUSH);
-    content.append(part, 0, part.size() - stream.avail_out);
+  std::string content;
+  const Unpacked end = unpack(packed, Packing::gzip, [&](std::string_view part) {
+    content += part;
     if (content.size() > limit) refuse("unpack to more bytes");
-  }
-  if (state != Z_STREAM_END)
+  });
+  if (!end.complete)
     throw InputError({{file}, "damaged or truncated gzip data", "unpack it with gunzip to see what is left"});
-  if (stream.avail_in > 0)
+  if (end.bytes_after > 0)
     throw InputError(
         {{file},
-         std::to_string(stream.avail_in) + " bytes after the end of the gzip data; expected none",
+         std::to_string(end.bytes_after) + " bytes after the end of the gzip data; expected none",
          "pack one file only"});
   return content;
 }
