@@ -20,10 +20,10 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void check_says(const Ended& ended, int exit_code, const std::string& words) {
+void check_says(const Ended& ended, int exit_code, const Fragments& fragments) {
   CAPTURE(ended.output);
   CHECK(ended.exit_code == exit_code);
-  CHECK(contains(ended.output, words));
+  check_says(ended.output, fragments);
 }
 
 /// Two bodies of one triangle each is enough to tell them apart.
@@ -44,8 +44,7 @@ TEST_CASE("import makes a scene of a GDML file that check and run take") {
         scene.substr(0, scene.find("10_000")) + "100" + scene.substr(scene.find("10_000") + 6));
   check_says(run_program({"run", "out/scene.toml", "-o", "out.h5"}, folder), 0, "escaped");
   // A second import must not destroy what was edited.
-  check_says(run_program({"import", "detector.gdml", "-o", "out"}, folder), 1,
-             "the scene file is there already");
+  check_says(run_program({"import", "detector.gdml", "-o", "out"}, folder), 1, {"scene file", "already"});
 }
 
 TEST_CASE("import makes a part of each body, and check names what is left to fill in") {
@@ -53,7 +52,7 @@ TEST_CASE("import makes a part of each body, and check names what is left to fil
   write(folder / "two.obj", kTwoBodies);
   check_says(run_program({"import", "two.obj", "-o", "two.toml"}, folder), 1, "unit = \"mm\"");
   check_says(run_program({"import", "two.obj", "--unit", "inch", "-o", "two.toml"}, folder), 0,
-             "to be filled in: the medium and surface of every part");
+             {"medium", "surface", "every part"});
   const std::string scene = read(folder / "two.toml");
   CHECK(contains(scene, "name = \"left\"\nmesh = \"two.obj\"\nbody = \"left\"\nunit = \"inch\""));
   CHECK(contains(scene, "body = \"right\""));
@@ -69,13 +68,12 @@ TEST_CASE("import explains options that do not fit") {
   write(folder / "d.gdml", gdml_solid(R"(<box name="it" x="1" y="1" z="1"/>)").text());
   check_says(run_program({"import", "two.obj", "-o", "x", "--medium", "A=b"}, folder), 1,
              "are for GDML files");
-  check_says(run_program({"import", "d.gdml", "-o", "x", "--unit", "mm"}, folder), 1,
-             "--unit with a GDML file");
+  check_says(run_program({"import", "d.gdml", "-o", "x", "--unit", "mm"}, folder), 1, {"--unit", "GDML"});
   check_says(run_program({"import", "d.gdml", "-o", "x", "--medium", "Air"}, folder), 1,
              "of the form NAME=NAME");
   check_says(run_program({"import", "d.gdml", "-o", "x", "--medium", "Air=air"}, folder), 1, "does not have");
   check_says(run_program({"import", "d.gdml", "-o", "x", "--angle", "200 deg"}, folder), 1,
-             "between 0.1 and 90 deg");
+             {"0.1", "90 deg"});
   check_says(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "mesh file not found");
   CHECK_FALSE(std::filesystem::exists(folder / "x"));
 }

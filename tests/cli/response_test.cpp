@@ -30,6 +30,5 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
   CHECK(contains(text, "<h2>Events"));
   CHECK_FALSE(contains(text, "Where every photon ended"));  // none was traced
   did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");
-  did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput,
-      "is not a response map");
+  did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput, "not a response map");
 }

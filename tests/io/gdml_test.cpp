@@ -57,7 +57,7 @@ TEST_CASE("GDML: tessellated solids and tetrahedra take their corners from <defi
   text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="d"/>)";
   CHECK(draft(text).meshes.begin()->second.volume() == doctest::Approx(1000.0));
   text.solids = R"(<tet name="it" vertex1="a" vertex2="b" vertex3="c" vertex4="e"/>)";
-  check_says(complaint(text), "no position is called \"e\"");
+  check_says(complaint(text), {"no position", "\"e\""});
 }
 
 TEST_CASE("GDML: a physical volume is turned by the inverse of its rotation, then moved") {
@@ -227,20 +227,19 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
 TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   const auto of = [](const std::string& solid_text) { return complaint(gdml_solid(solid_text)); };
   check_says(of(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)"),
-             "test.gdml:14:2: error: solid \"it\" (twistedbox): solids of this kind cannot be made");
-  check_says(of(R"(<box name="it" x="3" y="3"/>)"), "\"z\" is missing or not above 0");
+             {"test.gdml:14:2: error:", "solid \"it\" (twistedbox)", "cannot be made"});
+  check_says(of(R"(<box name="it" x="3" y="3"/>)"), {"\"z\"", "missing", "above 0"});
   check_says(of(R"(<box name="it" x="3*(" y="3" z="3"/>)"), "cannot evaluate \"3*(\"");
   check_says(of(R"(<box name="it" x="LENGTH" y="3" z="3"/>)"), "cannot evaluate \"LENGTH\"");
   check_says(of(R"(<box name="it" lunit="ell" x="3" y="3" z="3"/>)"), "cannot evaluate \"ell\"");
   check_says(of(R"(<union name="it"><first ref="it"/><second ref="world_box"/></union>)"), "made of itself");
   check_says(of(R"(<union name="it"><first ref="gone"/><second ref="world_box"/></union>)"),
-             "no solid is called \"gone\"");
-  check_says(of(R"(<tube name="it" rmin="5" rmax="4" z="1" deltaphi="6"/>)"),
-             "rmin is not between 0 and rmax");
+             {"no solid", "\"gone\""});
+  check_says(of(R"(<tube name="it" rmin="5" rmax="4" z="1" deltaphi="6"/>)"), {"rmin", "between 0 and rmax"});
   check_says(of(R"(<box name="world_box" x="3" y="3" z="3"/>)"), "already taken");
   check_says(of(R"(<intersection name="it"><first ref="world_box"/><second ref="world_box"/>
 <position x="5" unit="m"/></intersection>)"),
-             "nothing is left of the boolean");
+             {"nothing", "boolean"});
 
   GdmlText text = gdml_solid(R"(<box name="it" x="3" y="3" z="3"/>)");
   text.structure += R"(<volume name="loop"><materialref ref="Glass"/><solidref ref="it"/>)" +
@@ -248,14 +247,14 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   text.daughters += gdml_placed("q", "loop");
   check_says(complaint(text), "placed inside itself");
   text.daughters = gdml_placed("q", "gone");
-  check_says(complaint(text), "no volume is called \"gone\"");
+  check_says(complaint(text), {"no volume", "\"gone\""});
   text.daughters = R"(<physvol name="f"><file name="other.gdml"/></physvol>)";
   check_says(complaint(text), "in another file, \"other.gdml\"");
   text.daughters.clear();
   text.define = R"(<loop for="i" from="0" to="1e9" step="1"><constant name="c" value="1"/></loop>)";
   check_says(complaint(text), "over 200000 steps");
   text.define = R"(<matrix name="m" coldim="2" values="1 2 3"/>)";
-  check_says(complaint(text), "do not fill 2 columns");
+  check_says(complaint(text), {"not fill", "2 columns"});
 
   const auto whole = [](const std::string& content) {
     return complaint_of([&] { gdml::draft_of_gdml(content, "test.gdml", {}); });
@@ -266,7 +265,7 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   check_says(whole("<!DOCTYPE gdml [<!ENTITY m SYSTEM \"m.xml\">]><gdml/>"), "xmllint --noent");
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
-  check_says(whole(deep), "nested more than 500 deep");
+  check_says(whole(deep), {"nested", "500 deep"});
 }
 
 TEST_CASE("GDML: volumes with solids that cannot be made are left out on demand, with a note") {

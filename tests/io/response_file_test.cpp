@@ -84,21 +84,21 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
   const auto path = folder / "map.h5";
   ResponseFile file = made_up_map();
   file.map.grids[0].delays_ns.pop_back();
-  check_says(refusal(path, file), "delay_ns has another length than the counts say");
+  check_says(refusal(path, file), {"delay_ns", "another length", "counts"});
   file = made_up_map();
   file.map.grids[0].detected[0] = 49;
-  check_says(refusal(path, file), "more photons are detected than emitted");
+  check_says(refusal(path, file), {"more photons", "detected", "emitted"});
   file = made_up_map();
   file.map.grids[0].pitch.z() = 0.0;
-  check_says(refusal(path, file), "the place of the grid of \"crystal\" is not one");
+  check_says(refusal(path, file), {"place of the grid", "\"crystal\""});
   file = made_up_map();
   file.map.grids[0].delays_ns[1] = -1.0f;
-  check_says(refusal(path, file), "a time that is not one");
+  check_says(refusal(path, file), {"time", "not one"});
   file = made_up_map();
   file.map.grids[0].photons = {0, 0};
   file.map.grids[0].detected = {0, 0, 0, 0};
   file.map.grids[0].delays_ns.clear();
-  check_says(refusal(path, file), "all cells of \"crystal\" are empty");
+  check_says(refusal(path, file), {"all cells", "\"crystal\"", "empty"});
   file = made_up_map();
   file.map.photons_per_cell = 0;
   check_says(refusal(path, file), "0 as its photons_per_cell");
@@ -109,7 +109,7 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
     auto other = h5::File::create(folder / "other.h5");
     other.commit();
   }
-  check_says(complaint_of([&] { read_response(folder / "other.h5"); }), "is not a response map");
+  check_says(complaint_of([&] { read_response(folder / "other.h5"); }), "not a response map");
   {
     auto newer = h5::File::create(folder / "newer.h5");
     newer.root().set_attribute("", "format", std::string("scintray-response"));
@@ -169,7 +169,7 @@ TEST_CASE("Events from a map are a result that says where it comes from") {
   moved.map.grids[0].low.z() += 0.5;
   write_response(folder / "moved.h5", moved);
   check_says(complaint_of([&] { simulate_mapped(scene, folder / "moved.h5", simulation); }),
-             "\"crystal\" has another place or size");
+             {"\"crystal\"", "another place or size"});
 }
 
 TEST_CASE("Scenes that no map can be of are refused in words") {
@@ -177,9 +177,9 @@ TEST_CASE("Scenes that no map can be of are refused in words") {
     return complaint_of([&] { build_map(scene_file(text), {}); });
   };
   check_says(complaint(kSmallCrystal + "[[sweep]]\nkey = \"source.events\"\nvalues = [1, 2]\n"),
-             "this one has a sweep");
+             "has a sweep");
   std::string photons = kSmallCrystal.substr(0, kSmallCrystal.find("[source]"));
   photons +=
       "[source]\ntype = \"photons\"\nregion = { part = \"crystal\" }\nwavelength = \"420 nm\"\nphotons = 1\n";
-  check_says(complaint(photons), "this is a source of photons");
+  check_says(complaint(photons), "source of photons");
 }

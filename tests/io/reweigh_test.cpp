@@ -133,28 +133,28 @@ TEST_CASE("Every point is reweighted for all combinations, in its own media and 
 TEST_CASE("What a result cannot be reweighted for is refused in words") {
   const MadeUp made;
   const auto path = made.write("refused");
-  const auto says = [&](const PropertyScan& scan, const std::string& words) {
-    check_says(refusal(path, {scan}), words);
+  const auto says = [&](const PropertyScan& scan, const Fragments& fragments) {
+    check_says(refusal(path, {scan}), fragments);
   };
   says({absorption_length, "LS0", false, {200.0}}, "did you mean \"LSO\"");
-  says({absorption_length, "optical_grease", false, {200.0}}, "also fills the gap of a surface");
-  says({absorption_length, "LSO", false, {0.0}}, "an absorption length is above 0");
-  says({absorption_length, "LSO", true, {-1.0}}, "a factor is above 0");
+  says({absorption_length, "optical_grease", false, {200.0}}, {"fills the gap", "surface"});
+  says({absorption_length, "LSO", false, {0.0}}, {"absorption length", "above 0"});
+  says({absorption_length, "LSO", true, {-1.0}}, {"factor", "above 0"});
   says({absorption_length, "LSO", false, {}}, "no value");
   says({reflectance, "PTFF", false, {0.9}}, "did you mean \"PTFE\"");
   says({reflectance, "leaky", false, {0.9}}, "lets light through");
-  says({reflectance, "bare", false, {0.9}}, "no reflectance of its own");
-  says({reflectance, "PTFE", false, {1.2}}, "a reflectance is from 0 to 1");
-  says({reflectance, "PTFE", true, {1.2}}, "0.9 times 1.2 is above 1");
+  says({reflectance, "bare", false, {0.9}}, "no reflectance");
+  says({reflectance, "PTFE", false, {1.2}}, {"reflectance", "0 to 1"});
+  says({reflectance, "PTFE", true, {1.2}}, {"0.9 times 1.2", "above 1"});
   check_says(refusal(path, {}), "nothing is wanted");
   check_says(refusal(path, {{reflectance, "PTFE", false, {0.9}}, {reflectance, "rough", false, {0.8}}}),
-             "ask for the reflectance of the same thing");
+             {"reflectance", "same thing"});
   check_says(refusal(path, {{absorption_length, "LSO", true, std::vector<double>(101, 1.0)},
                             {reflectance, "PTFE", true, std::vector<double>(100, 1.0)}}),
              "more than 10000 combinations");
 
   check_says(refusal(made.write("short", 599), {{absorption_length, "LSO", true, {1.0}}}),
-             "599 histories for 600 detected photons");
+             {"599 histories", "600 detected photons"});
   const auto bare = scratch_folder("reweigh_bare") / "run.h5";
   ResultsWriter writer(bare, made.run.header, false);
   writer.commit(true);

@@ -34,14 +34,13 @@ TEST_CASE("Messages about mesh files name the file, the fault and the way out") 
   check_says(in_mm("/nowhere/crystal.stl"), "mesh file not found");
   check_says(in_mm("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
   check_says(in_mm("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
-  check_says(in_mm(write("empty.obj", "")), "the mesh file is empty");
+  check_says(in_mm(write("empty.obj", "")), {"mesh file", "empty"});
   check_says(in_mm(write("none.stl", "solid a\nendsolid a\n")), "no triangles");
   check_says(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 0.0), "unit = \"mm\"");
   check_says(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), -1.0), "not a positive length");
   check_says(in_mm(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 1 1 1\nf 1 3 4\nf 1 2 3\n")),
-             "vertex 2 of triangle 2 is at (nan, 0, 0)");
-  check_says(in_mm(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
-             "no triangle in the file has an area");
+             {"vertex 2 of triangle 2", "(nan, 0, 0)"});
+  check_says(in_mm(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")), {"no triangle", "area"});
   check_says(in_mm(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), "cannot read the mesh");
 }
 
@@ -59,8 +58,8 @@ TEST_CASE("Counts that cannot be true are refused before anything is allocated")
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uint int vertex_indices\nend_header\n";
   check_says(in_mm(write("list.ply", list_header + "4000000000 0 0 0\n")),
-             "element \"face\" number 1 of 1 is missing or not a number");
-  check_says(in_mm(write("corner.ply", list_header + "3 0 1 2\n")), "refers to a vertex that does not exist");
+             {"element \"face\" number 1 of 1", "missing", "not a number"});
+  check_says(in_mm(write("corner.ply", list_header + "3 0 1 2\n")), {"vertex", "not exist"});
   check_says(in_mm(write("order.ply", "ply\nproperty float x\nend_header\n")),
              "order.ply:2: error: a property");
   check_says(in_mm(write("count.dae", "<COLLADA><float_array count=\"4000000000\"/></COLLADA>")),
@@ -70,9 +69,9 @@ TEST_CASE("Counts that cannot be true are refused before anything is allocated")
 
 TEST_CASE("Malformed glTF gives messages") {
   const std::string asset = R"({"asset":{"version":"2.0"})";
-  check_says(in_mm(write("not.gltf", "not json")), "cannot read the glTF file");
-  check_says(in_mm(write("deep.gltf", std::string(100000, '['))), "nested more than 500 deep");
-  check_says(in_mm(write("cut.glb", "glTF")), "cannot read the glTF file");
+  check_says(in_mm(write("not.gltf", "not json")), {"cannot read", "glTF"});
+  check_says(in_mm(write("deep.gltf", std::string(100000, '['))), {"nested", "500 deep"});
+  check_says(in_mm(write("cut.glb", "glTF")), {"cannot read", "glTF"});
   check_says(in_mm(write("none.gltf", asset + "}")), "no triangles");
   check_says(in_mm(write("loop.gltf", asset + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})")),
              "inside itself");
@@ -81,7 +80,7 @@ TEST_CASE("Malformed glTF gives messages") {
   const std::string head =
       asset + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":)";
   check_says(in_mm(write("accessor.gltf", head + R"([{"attributes":{"POSITION":7}}]}]})")),
-             "accessor 7 does not exist");
+             {"accessor 7", "not exist"});
   const std::string buffer = R"("bufferViews":[{"buffer":0,"byteLength":3}],"buffers":[{"byteLength":3,)"
                              R"("uri":"data:application/octet-stream;base64,AAAA"}]})";
   check_says(

@@ -11,6 +11,7 @@
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/import.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 namespace scintray::test {
 
@@ -53,8 +54,8 @@ inline void check_box(const MeshImport& read, double mm_per_unit) {
   CHECK(diagnose(read.mesh).sound());
 }
 
-inline void check_refused(const std::filesystem::path& path, double mm_per_unit, const std::string& words) {
-  CHECK_THROWS_WITH_AS(import_mesh(path, mm_per_unit), doctest::Contains(words.c_str()), InputError);
+inline void check_refused(const std::filesystem::path& path, double mm_per_unit, const Fragments& fragments) {
+  check_says(complaint_of([&] { import_mesh(path, mm_per_unit); }), fragments);
 }
 
 }  // namespace scintray::test

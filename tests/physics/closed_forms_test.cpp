@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <regex>
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
@@ -106,6 +108,39 @@ TEST_CASE("Law: diffuse reflectance of a smooth interface, both ways, and its n 
     }
     check_law("reflected", binomial_estimate(reflected, kRays), {expected, 1e-6});
   }
+}
+
+TEST_CASE("Law: critical and Brewster angles, reflectances and escape cones for pairs of indices") {
+  // Independent numbers, rounded to 1e-6, or 1e-4 deg; Simpson's rule is good to 3e-6 where the reflectance
+  // rises steeply below the critical angle.
+  constexpr double kRounding = 5.1e-7, kIntegral = 4e-6, kAngle = 5.1e-5;
+  std::ifstream stream(source_file("tests/reference/analytic_checks.txt"));
+  const std::regex decimal(R"(-?\d+\.\d+)");
+  std::size_t pairs = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind("n1=", 0) != 0) continue;
+    CAPTURE(line);
+    std::vector<double> number;
+    for (std::sregex_iterator found(line.begin(), line.end(), decimal), end; found != end; ++found)
+      number.push_back(std::stod(found->str()));
+    REQUIRE(number.size() == 12);
+    const double n1 = number[0], n2 = number[1], critical = critical_angle(n1, n2);
+    const auto transmitted = [&](double t) { return 0.5 * (1.0 - unpolarised(t, n1, n2)) * std::sin(t); };
+    const double cone = 0.5 * (1.0 - std::cos(critical)), internal = diffuse_reflectance(n1, n2);
+    CHECK(std::abs(critical / kDegree - number[2]) < kAngle);
+    CHECK(std::abs(unpolarised(0.0, n1, n2) - number[3]) < kRounding);
+    CHECK(std::abs(cone - number[4]) < kRounding);
+    CHECK(std::abs(6.0 * cone - number[5]) < kRounding);
+    CHECK(std::abs(1.0 - 6.0 * cone - number[6]) < kRounding);
+    CHECK(std::abs(integrate(transmitted, 0.0, critical) - number[7]) < kIntegral);
+    CHECK(std::abs(internal - number[8]) < kIntegral);
+    const double external = diffuse_reflectance(n2, n1);
+    CHECK(std::abs(external - number[9]) < kIntegral);
+    CHECK(std::abs(1.0 - (1.0 - external) * n2 * n2 / (n1 * n1) - number[10]) < kIntegral);
+    CHECK(std::abs(std::atan(n2 / n1) / kDegree - number[11]) < kAngle);
+    ++pairs;
+  }
+  CHECK(pairs == 10);
 }
 
 TEST_CASE("Law: light trapped for ever in a lossless polished box, 3 cos(tc) - 2") {

@@ -99,7 +99,7 @@ TEST_CASE("Curves that a run does not have are named with those that it has") {
   check_says(said, "\"ground\"");
   RunResult one = run;
   one.points.resize(1);
-  check_says(complaint_of([&] { check_curves(one, {"polished", {}}, {}); }), "no sweep over a number");
+  check_says(complaint_of([&] { check_curves(one, {"polished", {}}, {}); }), {"no sweep", "number"});
 }
 
 namespace {

@@ -52,7 +52,7 @@ SceneFile fit_file(const std::string& fit) {
   return SceneFile::from_text(kGoodScene + fit, (folder / "scene.toml").string());
 }
 
-void check_fit_problem(const std::string& marked, const std::string& what, const std::string& hint) {
+void check_fit_problem(const std::string& marked, const Fragments& what, const Fragments& hint) {
   const MarkedText input(kGoodScene + marked);
   const std::string fit = input.text.substr(std::string(kGoodScene).size());
   check_one_problem(input, problems_of([&] { fit_file(fit); }), what, hint);
@@ -115,29 +115,28 @@ TEST_CASE("Mistakes in [fit] are named with their place and how to mend them") {
   check_fit_problem(with("\"detected_fraction\"", "@@\"brightness\""), "brightness", "in quotes");
   check_fit_problem(with("scale = \"free\"", "scale = @@\"loose\""), "loose", "in quotes");
   check_fit_problem(with("start = \"8 deg\"", "start = @@\"1 deg\""),
-                    "does not lie between low, 2, and high, 40", "start within the bounds");
+                    {"not lie between", "low, 2", "high, 40"}, "start within the bounds");
   check_fit_problem(with("low = \"2 deg\"", "low = @@\"0.03 rad\""),
-                    "\"low\" is in \"rad\", but \"start\" is in \"deg\"", "in one unit");
-  check_fit_problem(with("high = \"40 deg\"", "high = @@true"), "is not a number with its unit",
-                    "as \"12 deg\"");
+                    {"\"low\"", "\"rad\"", "\"start\"", "\"deg\""}, "in one unit");
+  check_fit_problem(with("high = \"40 deg\"", "high = @@true"), {"not a number", "unit"}, "as \"12 deg\"");
   check_fit_problem(
       with("\"surfaces.ground.unified.sigma_alpha\"", "@@\"surfaces.ground.unify.sigma_alpha\""),
-      "the fitted key \"surfaces.ground.unify.sigma_alpha\" leads nowhere", "model, unified");
+      {"\"surfaces.ground.unify.sigma_alpha\"", "leads nowhere"}, "model, unified");
   check_fit_problem(
       with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.wrapped.mixture.grund.share\""),
       "has no \"grund\"", "did you mean \"ground\"");
   check_fit_problem(with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"fit.unit\""), "cannot be set here",
-                    "name a key of the scene");
+                    "key of the scene");
   check_fit_problem(
       with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.ground.unified.sigma_alpha\""),
       "is fitted twice", "one [[fit.parameter]]");
   const auto complaint = [&](const std::string& fit) { return complaint_of([&] { fit_file(fit); }); };
   check_says(complaint(with("at = \"source.region.slab_z.center\"\n", "")),
-             "[fit] has no \"at\", which a fit of detected_fraction needs");
+             {"[fit]", "no \"at\"", "detected_fraction"});
   const std::string reflectance = complaint(with("\"detected_fraction\"", "\"reflectance\""));
-  check_says(reflectance, "\"at\" is given, but a fit of reflectance has none");
+  check_says(reflectance, {"\"at\"", "reflectance"});
   check_says(reflectance, "[fit] has no \"goniometer\"");
-  check_says(reflectance, "is not a unit of angle");
+  check_says(reflectance, {"not a unit", "angle"});
   check_says(complaint(with("scale = \"free\"\n", "")), "scale");
   check_says(complaint(kFitTable.substr(0, kFitTable.find("[[fit.parameter]]"))), "nothing to find");
   check_says(complaint(with("unit = \"mm\"\n", "unit = \"mm\"\nsacle = 1\n")), "sacle");

@@ -92,15 +92,15 @@ TEST_CASE("the documented readout and its sensor are read") {
 }
 
 TEST_CASE("mistakes in a readout say what was found and what is expected") {
-  check_says(said_of("sampling = \"2 GHz\"", "sampling = \"2 ns\""), "\"ns\" is not a unit of frequency");
+  check_says(said_of("sampling = \"2 GHz\"", "sampling = \"2 ns\""), {"\"ns\"", "not a unit", "frequency"});
   check_says(said_of("sampling = \"2 GHz\"", "sampling = \"0 GHz\""), "must be above 0");
   check_says(said_of("sampling = \"2 GHz\"\n", ""), "sampling");
   check_says(said_of("period = \"1 ns\"\n"), "period");
   check_says(said_of("before = \"20 ns\"", "before = \"-20 ns\""), "cannot be negative");
-  check_says(said_of("window = \"300 ns\"", "window = \"300 s\""), "has 2 to 1000000 samples");
-  check_says(said_of("threshold = 2.5", "threshold = 0"), "a threshold must be above 0");
-  check_says(said_of("gate = [\"10 ns\", \"5 ns\"]\n"), "must open before it closes");
-  check_says(said_of("gate = [\"-30 ns\", \"5 ns\"]\n"), "not inside the waveform, which runs from -20");
+  check_says(said_of("window = \"300 ns\"", "window = \"300 s\""), "2 to 1000000 samples");
+  check_says(said_of("threshold = 2.5", "threshold = 0"), {"threshold", "above 0"});
+  check_says(said_of("gate = [\"10 ns\", \"5 ns\"]\n"), {"open", "closes"});
+  check_says(said_of("gate = [\"-30 ns\", \"5 ns\"]\n"), {"not inside", "waveform", "-20"});
   check_says(said_of("gate = [\"0 ns\", \"290 ns\"]\n"), "not inside the waveform");
   check_says(said_of("shaping = { order = 11, time_constant = \"5 ns\" }\n"), "1 to 10 integrators");
   check_says(said_of("shaping = { order = 1 }\n"), "time_constant");
@@ -112,8 +112,8 @@ TEST_CASE("mistakes in a readout say what was found and what is expected") {
   check_says(said_of("adc_range = [0, 5]\n"), "adc_bits");
   check_says(said_of("adc_bits = 12\nadc_range = [5, 0]\n"), "must rise");
   check_says(said_of("adc_bits = 30\nadc_range = [0, 5]\n"), "1 to 24 bits");
-  check_says(said_of("fraction = 0.2\n"), "a leading edge has no fraction");
-  check_says(said_of("delay = \"2 ns\"\n"), "only a CFD has a delay");
+  check_says(said_of("fraction = 0.2\n"), {"leading edge", "no fraction"});
+  check_says(said_of("delay = \"2 ns\"\n"), {"CFD", "delay"});
   check_says(said_of("time_pickoff = \"cfd\"\nfraction = 2.0\ndelay = \"2 ns\"\n"), "between 0 and 1");
   check_says(said_of("time_pickoff = \"cfd\"\nfraction = 0.2\n"), "delay");
   check_says(said_of("time_pickoff = \"cdf\"\n"), "cfd");
@@ -153,7 +153,7 @@ threshold = 2.5
   const auto problems = problems_of([&] { build(scene); });
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].where.line == 11);
-  check_says(problems[0].what, "sensor \"ideal\": neither the sensor nor the electronics");
+  check_says(problems[0].what, {"sensor \"ideal\"", "neither", "electronics"});
   check_says(problems[0].hint, "[readout] shaping");
   CHECK(complaint_of([&] { build(scene + "shaping = { order = 1, time_constant = \"5 ns\" }\n"); }).empty());
 }

@@ -3,8 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scintray/core/error.hpp"
@@ -15,10 +19,37 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Checks for these words, and shows the text where they are missing.
-inline void check_says(const std::string& text, const std::string& words) {
+/// What one line of a message must hold, in any order: the names, numbers and keys that its reader acts on,
+/// and the words that name the kind of problem. The wording between them is free.
+class Fragments {
+ public:
+  Fragments(const char* only) : parts_{only} {}
+  Fragments(std::string only) : parts_{std::move(only)} {}
+  Fragments(std::initializer_list<std::string> parts) : parts_(parts) {}
+
+  bool all_in_one_line(const std::string& text) const {
+    if (parts_.size() == 1) return contains(text, parts_.front());
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) { return contains(line, part); }))
+        return true;
+    return false;
+  }
+  std::string text() const {
+    std::string all;
+    for (const std::string& part : parts_) all += (all.empty() ? "" : " ... ") + part;
+    return all;
+  }
+
+ private:
+  std::vector<std::string> parts_;
+};
+
+/// Checks for these fragments in one line, and shows the text where they are missing.
+inline void check_says(const std::string& text, const Fragments& fragments) {
   CAPTURE(text);
-  CHECK(contains(text, words));
+  CAPTURE(fragments.text());
+  CHECK(fragments.all_in_one_line(text));
 }
 
 /// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.

@@ -45,19 +45,17 @@ struct Reference {
 TEST_CASE("reflectance and slopes met agree with an independent tracing of two Gaussian maps") {
   constexpr std::array<double, 11> kIncidence{0, 10, 20, 30, 34.5, 39, 45.75, 50.25, 57, 61.5, 70.5};
   const std::array<Reference, 2> references{
-      {{"reference/microsurface/gaussian_rough.gsf",
+      {{"tests/reference/microsurface/gaussian_rough.gsf",
         {0.149, 0.192, 0.327, 0.519, 0.608, 0.698, 0.828, 0.898, 0.970, 0.991, 0.999},
         {{0, 18.2}, {57, 18.2}, {75, 19.3}, {81.75, 20.8}, {88.5, 22.2}}},
-       {"reference/microsurface/gaussian_polished.gsf",
+       {"tests/reference/microsurface/gaussian_polished.gsf",
         {0.082, 0.086, 0.090, 0.185, 0.928, 1, 1, 1, 1, 1, 1},
         {{0, 1.34}, {57, 1.34}}}}};
   constexpr std::uint64_t kRays = 40000, kReferenceRays = 60000;
   for (const Reference& reference : references) {
-    const auto path = test::shared_file(reference.file);
-    if (!path) return;
     ReadOptions options;
     options.periodic = true;
-    const HeightField field = make_height_field(read_height_map(*path, options));
+    const HeightField field = make_height_field(read_height_map(test::source_file(reference.file), options));
     for (std::size_t k = 0; k < kIncidence.size(); ++k) {
       const Estimate ours = reflectance(field, Side::inside, kIncidence[k] * kDegree, kRays);
       const double theirs = reference.reflectance[k];
