@@ -6,14 +6,14 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
-#include "scintray/io/read_out_again.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/study_results.hpp"
 #include "scintray/report/event_section.hpp"
 #include "scintray/report/sweep_view.hpp"
 #include "scintray/scene/read_analysis.hpp"
 #include "scintray/scene/read_readout.hpp"
 #include "scintray/scene/toml_reader.hpp"
+#include "scintray/simulation/read_out_again.hpp"
+#include "scintray/simulation/study_results.hpp"
 
 namespace scintray::cli {
 

@@ -9,10 +9,8 @@
 #include "scintray/cli/check_report.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
-#include "scintray/io/simulate.hpp"
 #include "scintray/scene/small_gaps.hpp"
-#include "scintray/source/light_source.hpp"
-#include "scintray/tally/block_tally.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
 
@@ -55,26 +53,27 @@ void check_scene(const CheckOptions& options) {
   if (!options.picture.empty()) expect_picture_name(options.picture);
   const SceneFile file = SceneFile::load(path);
   ProgressLine line(true);
-  SceneBuilder builder(watched_surfaces(line));
-  for (std::size_t point = 0; point < file.points(); ++point) {
-    const SceneSpec spec = file.spec(point);
+  SimulationOptions run;
+  run.surface_hooks = watched_surfaces(line);
+  Simulation simulation(file, run);
+  for (std::size_t point = 0; point < simulation.points(); ++point) {
     const bool shown = point == 0 || options.every_point;
-    BuiltScene built;
+    std::shared_ptr<const SimulationPoint> ready;
     try {
-      built = builder.build(spec);
+      ready = simulation.point(point);
     } catch (const InputError& error) {
       line.clear();
-      if (!options.picture.empty()) draw_scene(options.picture, placed_for_picture(spec), error.problems());
+      if (!options.picture.empty())
+        draw_scene(options.picture, placed_for_picture(file.spec(point)), error.problems());
       throw;
     }
-    const std::vector<Problem> gaps =
-        shown ? gap_warnings(built.placed, spec.run.contact_tolerance_mm) : std::vector<Problem>();
-    if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
-    std::vector<std::string> source_notes;
-    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene, &source_notes);
-    const TallyPlan plan(built.scene, spec);
+    simulation.release(point);
     line.clear();
     if (!shown) continue;
+    const SceneSpec& spec = ready->spec();
+    const BuiltScene& built = *ready->built();
+    const std::vector<Problem> gaps = gap_warnings(built.placed, spec.run.contact_tolerance_mm);
+    if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
     if (file.points() > 1) {
       std::cout << (point > 0 ? "\n" : "") << "point " << point + 1 << " of " << file.points() << ":";
       for (std::size_t k = 0; k < file.sweep_keys().size(); ++k)
@@ -87,8 +86,8 @@ void check_scene(const CheckOptions& options) {
         spec.contacts_default == ContactKind::bonded ? "bonded" : "dry",
         spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_scene(built, options.all);
-    print_source(*source, built.scene);
-    for (const std::string& note : source_notes) std::cout << "note: " << note << "\n";
+    print_source(ready->source(), built.scene);
+    for (const std::string& note : ready->source_notes()) std::cout << "note: " << note << "\n";
     for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
     print_warnings(gaps, options.all);
   }

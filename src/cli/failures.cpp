@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/version.hpp"
 
@@ -43,6 +44,9 @@ int run_guarded(const std::function<void()>& command, std::ostream& err) {
     throw;
   } catch (const InputError& error) {
     return report_input_error(error, err);
+  } catch (const Cancelled& error) {
+    err << "stopped: " << error.what() << '\n';
+    return kInterrupted;
   } catch (const SystemError& error) {
     return report_system_error(error.what(), err);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -9,11 +9,11 @@
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/io/fit_file.hpp"
-#include "scintray/io/fit_scene.hpp"
 #include "scintray/report/fit_page.hpp"
 #include "scintray/report/fit_text.hpp"
 #include "scintray/report/page.hpp"
+#include "scintray/simulation/fit_file.hpp"
+#include "scintray/simulation/fit_scene.hpp"
 
 namespace scintray::cli {
 
@@ -33,7 +33,7 @@ SceneFitOptions fit_options(const FitOptions& options, ProgressLine& line) {
   run.seed = options.seed;
   run.photons = options.photons;
   run.events = options.events;
-  run.stop = &InterruptGuard::requested();
+  result.model.stop = &InterruptGuard::requested();
   run.surface_hooks = watched_surfaces(line);
   result.model.progress = [&line](std::uint64_t done, std::uint64_t of) {
     line.show("curve", static_cast<double>(done), static_cast<double>(of), "");

@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/simulate.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
 
@@ -47,33 +46,21 @@ std::string describe(const Scene& scene, const Step& step) {
 }
 
 void replay_photon(const ReplayOptions& options) {
-  const SceneFile file = SceneFile::load(options.scene);
-  if (options.point >= file.points())
-    throw InputError(
-        Problem{{options.scene.string()},
-                fmt::format("there is no point {}; the scene has {}", options.point, file.points()),
-                "points count from 0"});
-  const SceneSpec spec = file.spec(options.point);
-  SceneBuilder builder;
-  const BuiltScene built = builder.build(spec);
-  const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene);
-  RunSettings settings;
-  settings.seed = options.seed.value_or(spec.run.seed);
-  settings.point = static_cast<std::uint32_t>(options.point);
-  settings.max_interactions = spec.run.max_interactions;
-  settings.max_time_ns = spec.run.max_time_ns;
+  SimulationOptions run;
+  run.seed = options.seed;
+  Simulation simulation(SceneFile::load(options.scene), run);
+  const auto point = simulation.point(options.point);
 
   std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",
                            "x mm", "y mm", "z mm", "dx", "dy", "dz", "path mm", "time ns");
   std::uint64_t number = 0;
-  replay(built.scene, *source, settings, options.event, options.photon,
-         [&](const Photon& photon, const Step& step) {
-           const Vec3 &p = photon.position, &d = photon.ray.direction;
-           std::cout << fmt::format(
-               "{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n",
-               ++number, p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
-               describe(built.scene, step));
-         });
+  point->replay(options.event, options.photon, [&](const Photon& photon, const Step& step) {
+    const Vec3 &p = photon.position, &d = photon.ray.direction;
+    std::cout << fmt::format(
+        "{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n", ++number,
+        p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
+        describe(point->scene(), step));
+  });
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/io/simulate_mapped.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulate_mapped.hpp"
 
 namespace scintray::cli {
 
@@ -98,16 +99,17 @@ void run(const MappedRunOptions& options) {
   const SceneFile scene = SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
   SimulationOptions simulation;
-  simulation.output = options.output;
   simulation.threads = options.threads;
   simulation.seed = options.seed;
   simulation.events = options.events;
-  simulation.stop = &InterruptGuard::requested();
   simulation.surface_hooks = watched_surfaces(line);
-  simulation.progress = [&line](const SimulationProgress& p) {
+  SimulationHooks hooks;
+  hooks.stop = &InterruptGuard::requested();
+  hooks.progress = [&line](const SimulationProgress& p) {
     line.show("events", static_cast<double>(p.done), static_cast<double>(p.total), p.thing);
   };
-  const RunResult result = simulate_mapped(scene, options.map, simulation);
+  ResultsFile results(options.output);
+  const RunResult result = simulate_mapped(scene, options.map, results, simulation, hooks);
   line.clear();
   if (!options.quiet) print_events(result.points.front());
   std::cout << "results  " << options.output.string() << "\n";

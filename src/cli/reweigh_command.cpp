@@ -9,9 +9,9 @@
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/reweigh.hpp"
 #include "scintray/report/format.hpp"
 #include "scintray/report/sweep_view.hpp"
+#include "scintray/simulation/reweigh.hpp"
 
 namespace scintray::cli {
 

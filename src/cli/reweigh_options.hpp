@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scintray/io/reweigh_plan.hpp"
+#include "scintray/simulation/reweigh_plan.hpp"
 
 namespace scintray::cli {
 

@@ -11,9 +11,10 @@
 #include "scintray/cli/run_studies.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/io/simulate.hpp"
 #include "scintray/report/html_report.hpp"
 #include "scintray/report/text_summary.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
 
@@ -45,29 +46,35 @@ SimulationOptions simulation_options(const RunOptions& options, ProgressLine& li
   result.photons = options.photons;
   result.events = options.events;
   result.quick = options.quick;
-  result.stop = &InterruptGuard::requested();
   result.surface_hooks = watched_surfaces(line);
-  result.progress = [&line](const SimulationProgress& p) {
+  return result;
+}
+
+SimulationHooks simulation_hooks(ProgressLine& line) {
+  SimulationHooks hooks;
+  hooks.stop = &InterruptGuard::requested();
+  hooks.progress = [&line](const SimulationProgress& p) {
     line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.done),
               static_cast<double>(p.total), p.thing);
   };
-  return result;
+  return hooks;
 }
 
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const SceneFile file = SceneFile::load(scene);
   check_claims(file);
   ProgressLine line(!options.quiet);
-  SimulationOptions simulation = simulation_options(options, line);
-  simulation.output = output_path(options, scene, file);
-  const RunResult result = simulate(file, simulation);
+  const std::filesystem::path output = output_path(options, scene, file);
+  Simulation simulation(file, simulation_options(options, line));
+  ResultsFile results(output);
+  const RunResult result = simulation.run_all(results, simulation_hooks(line));
   line.clear();
 
-  const RunStudies studies = studies_of(simulation.output, result);
+  const RunStudies studies = studies_of(output, result);
   if (!options.quiet) std::cout << text_summary(result, studies);
-  std::cout << "results  " << simulation.output.string() << "\n";
+  std::cout << "results  " << output.string() << "\n";
   if (!options.no_report) {
-    auto page = simulation.output;
+    auto page = output;
     page.replace_extension(".html");
     write_report(page, result, studies);
     std::cout << "report   " << page.string() << "\n";

@@ -1,10 +1,10 @@
 #include "scintray/cli/run_studies.hpp"
 
 #include "scintray/io/results.hpp"
-#include "scintray/io/study_results.hpp"
 #include "scintray/report/claims.hpp"
 #include "scintray/report/surface_claims.hpp"
 #include "scintray/scene/read_analysis.hpp"
+#include "scintray/simulation/study_results.hpp"
 
 namespace scintray::cli {
 

@@ -86,15 +86,26 @@ RTCRayHit make_ray(const Vec3& origin, const Vec3& direction, double start) {
   return make_ray(Lanes(origin, start).floats(), Lanes(direction, 0.0).floats());
 }
 
+/// The device of all accelerators of the process: it holds threads and settings, and no scene. Started by the
+/// first that needs it, by one thread only; released after the last scene that holds it, and not before the
+/// process ends.
+std::shared_ptr<RTCDeviceTy> embree_device() {
+  static const std::shared_ptr<RTCDeviceTy> device = [] {
+    const RTCDevice started = rtcNewDevice(kDevice);
+    if (!started) throw SystemError("Embree could not start on this machine");
+    return std::shared_ptr<RTCDeviceTy>(started, rtcReleaseDevice);
+  }();
+  return device;
+}
+
 }  // namespace
 
 struct Accelerator::EmbreeScene {
-  RTCDevice device = nullptr;
+  std::shared_ptr<RTCDeviceTy> shared_device = embree_device();
   RTCScene scene = nullptr;
 
   explicit EmbreeScene(const IndexedTriangles& triangles) {
-    device = rtcNewDevice(kDevice);
-    if (!device) throw SystemError("Embree could not start on this machine");
+    const RTCDevice device = shared_device.get();
     scene = rtcNewScene(device);
     // Splitting triangles for a better hierarchy takes memory that large meshes feel.
     rtcSetSceneBuildQuality(
@@ -118,7 +129,6 @@ struct Accelerator::EmbreeScene {
   }
   ~EmbreeScene() {
     if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
   }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -104,7 +104,7 @@ class AssemblyMaker {
       if (!matches_pattern(parts.name, part.name) || part.medium.empty() || part.medium.name == kOpaqueMedium)
         continue;
       try {
-        const Medium medium = library_.medium(part.medium.name, part.medium.where);
+        const Medium& medium = library_.medium(part.medium.name, part.medium.where);
         const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
         if (emits) {
           const WavelengthRange range = range_of(medium.emission);
@@ -350,9 +350,43 @@ std::vector<ConformingContact> conforming_contacts(const SceneSpec& spec) {
   return result;
 }
 
+bool same_place(const FileLocation& a, const FileLocation& b) {
+  return a.line == b.line && a.column == b.column && a.file == b.file;
+}
+
+/// The same value at the same place of the same file, so that messages are the same too.
+bool same_node(const TomlNode& a, const TomlNode& b) {
+  return a.kind == b.kind && a.key == b.key && a.text == b.text && a.number == b.number &&
+         a.integer == b.integer && a.boolean == b.boolean && same_place(a.where, b.where) &&
+         same_place(a.key_where, b.key_where) &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same_node);
+}
+
+bool same_definitions(const std::array<InlineTables, 4>& a, const std::array<InlineTables, 4>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](const InlineTables& one, const InlineTables& other) {
+    return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const auto& x, const auto& y) {
+      return x.first == y.first && (x.second == y.second || same_node(*x.second, *y.second));
+    });
+  });
+}
+
 }  // namespace
 
 SceneBuilder::SceneBuilder(SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
+
+const Library& SceneBuilder::library(const SceneSpec& spec) {
+  if (!shipped_) shipped_ = Library::shipped();
+  const OwnDefinitions own{spec.media, spec.surfaces, spec.sensors, spec.reflectors};
+  if (library_ && same_definitions(own, own_)) return *library_;
+  library_ = shipped_;
+  add_definitions(*library_, spec);
+  own_ = own;
+  return *library_;
+}
+
+Library::Readings SceneBuilder::readings() const {
+  return shipped_ ? shipped_->readings() : Library::Readings{};
+}
 
 BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   Problems problems;
@@ -360,7 +394,7 @@ BuiltScene SceneBuilder::build(const SceneSpec& spec) {
   if (problems.empty()) cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
   if (problems.empty())
     conform_contacts(placed, conforming_contacts(spec), spec.run.contact_tolerance_mm, problems);
-  const Library library = library_for(spec);
+  const Library& library = this->library(spec);
   BuiltScene built;
   AssemblyMaker maker(spec, library, surface_maker_, problems);
   const Assembly assembly = maker.make(placed, built.warnings);

@@ -1,7 +1,9 @@
 #pragma once
 /// From what a scene file says to the scene that photons see.
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,8 @@ struct BuiltScene {
   std::vector<std::string> warnings;  ///< things a user should know, none of which stops a run
 };
 
-/// Builds scenes; surfaces made for one are kept for the next, so a sweep traces each table once.
+/// Builds scenes. Surfaces made for one are kept for the next, so a sweep traces each table once; definitions
+/// of the material database are read once (Library).
 class SceneBuilder {
  public:
   explicit SceneBuilder(SurfaceMaker::Hooks hooks = {});
@@ -40,9 +43,17 @@ class SceneBuilder {
 
   /// What makes its surfaces, and keeps them.
   SurfaceMaker& surfaces() { return surface_maker_; }
+  /// The shipped library with a scene's own definitions. Lives until the next scene whose own are others.
+  const Library& library(const SceneSpec& spec);
+  /// How often files and definitions were read for all scenes so far.
+  Library::Readings readings() const;
 
  private:
+  using OwnDefinitions = std::array<InlineTables, 4>;  ///< media, surfaces, sensors, reflectors
+
   SurfaceMaker surface_maker_;
+  std::optional<Library> shipped_, library_;
+  OwnDefinitions own_;  ///< of `library_`
 };
 
 /// Adds a scene's own media, surfaces, sensors and reflectors to a library.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <set>
 
 #include "scintray/core/data_folder.hpp"
@@ -30,7 +32,45 @@ std::string list_or_none(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Library::Library(const std::vector<std::filesystem::path>& folders) : folders_(folders) {
+struct Library::Known {
+  // Reading a surface reads the media, reflectors and surfaces that it names.
+  std::recursive_mutex mutex;
+  std::map<std::string, Medium> media;
+  std::map<std::string, SurfaceSpec> surfaces;
+  std::map<std::string, Sensor> sensors;
+  std::map<std::string, Reflector> reflectors;
+
+  /// What is known under a name, or what is read now.
+  template <typename Definition, typename Read>
+  const Definition& once(std::map<std::string, Definition> Known::*kind, const std::string& name,
+                         const Read& read) {
+    const std::scoped_lock lock(mutex);
+    std::map<std::string, Definition>& all = this->*kind;
+    if (const auto found = all.find(name); found != all.end()) return found->second;
+    Definition definition = read();
+    return all.emplace(name, std::move(definition)).first->second;
+  }
+};
+
+struct Library::Files {
+  std::mutex mutex;
+  std::map<std::filesystem::path, TomlNodePtr> documents;
+  Known alone;  ///< definitions that depend on nothing else
+  std::atomic<std::size_t> files_read = 0, definitions_read = 0;
+
+  TomlNodePtr document(const std::filesystem::path& path) {
+    const std::scoped_lock lock(mutex);
+    TomlNodePtr& known = documents[path];
+    if (!known) {
+      known = parse_toml_file(path);
+      ++files_read;
+    }
+    return known;
+  }
+};
+
+Library::Library(const std::vector<std::filesystem::path>& folders)
+    : folders_(folders), read_(std::make_shared<Files>()), with_own_(std::make_shared<Known>()) {
   Problems problems;
   for (const std::filesystem::path& folder : folders) {
     std::error_code status;
@@ -53,7 +93,29 @@ Library::Library(const std::vector<std::filesystem::path>& folders) : folders_(f
 Library Library::shipped() { return Library({data_folder() / "materials"}); }
 
 void Library::add(LibraryKind kind, const std::map<std::string, TomlNodePtr>& definitions) {
+  if (definitions.empty()) return;
   for (const auto& [name, node] : definitions) own_[index_of(kind)].insert_or_assign(name, node);
+  with_own_ = std::make_shared<Known>();
+}
+
+Library::Readings Library::readings() const { return {read_->files_read, read_->definitions_read}; }
+
+Library::Known& Library::known_for(LibraryKind kind, const std::string& name) const {
+  const auto has_own = [this](LibraryKind of) { return !own_[index_of(of)].empty(); };
+  const auto is_own = [&] {
+    switch (kind) {
+      case LibraryKind::medium:
+      case LibraryKind::reflector:
+        return own_[index_of(kind)].contains(name);
+      case LibraryKind::sensor:
+        return has_own(LibraryKind::sensor);
+      case LibraryKind::surface:
+        return has_own(LibraryKind::medium) || has_own(LibraryKind::surface) ||
+               has_own(LibraryKind::reflector);
+    }
+    throw InternalError("unknown kind of definition");
+  };
+  return is_own() ? *with_own_ : read_->alone;
 }
 
 std::vector<std::string> Library::names(LibraryKind kind) const {
@@ -69,7 +131,7 @@ Library::Definition Library::find(LibraryKind kind, const std::string& name,
   if (const auto found = own.find(name); found != own.end()) return {found->second, false};
   const auto& files = files_[index_of(kind)];
   if (const auto found = files.find(name); found != files.end())
-    return {parse_toml_file(found->second), true};
+    return {read_->document(found->second), true};
 
   const KindWords& words = kKinds[index_of(kind)];
   const std::vector<std::string> known = names(kind);
@@ -82,7 +144,13 @@ Library::Definition Library::find(LibraryKind kind, const std::string& name,
                         list_or_none(known) + "; searched: " + list_or_none(places)});
 }
 
-Medium Library::medium(const std::string& name, const FileLocation& where) const {
+const Medium& Library::medium(const std::string& name, const FileLocation& where) const {
+  return known_for(LibraryKind::medium, name).once(&Known::media, name, [&] {
+    return read_medium_of(name, where);
+  });
+}
+
+Medium Library::read_medium_of(const std::string& name, const FileLocation& where) const {
   const Definition definition = find(LibraryKind::medium, name, where);
   Problems problems;
   const TomlTable table(definition.node, problems);
@@ -90,10 +158,17 @@ Medium Library::medium(const std::string& name, const FileLocation& where) const
       read_medium(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
   problems.throw_if_any();
+  ++read_->definitions_read;
   return medium;
 }
 
-Sensor Library::sensor(const std::string& name, const FileLocation& where) const {
+const Sensor& Library::sensor(const std::string& name, const FileLocation& where) const {
+  return known_for(LibraryKind::sensor, name).once(&Known::sensors, name, [&] {
+    return read_sensor_of(name, where);
+  });
+}
+
+Sensor Library::read_sensor_of(const std::string& name, const FileLocation& where) const {
   const std::vector<Ancestor> ancestors = lineage(LibraryKind::sensor, name, where);
   const Definition& own = ancestors.front().definition;
   TomlNode merged = *own.node;
@@ -106,10 +181,17 @@ Sensor Library::sensor(const std::string& name, const FileLocation& where) const
   Sensor sensor = read_sensor(table, name, own.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
   problems.throw_if_any();
+  ++read_->definitions_read;
   return sensor;
 }
 
-Reflector Library::reflector(const std::string& name, const FileLocation& where) const {
+const Reflector& Library::reflector(const std::string& name, const FileLocation& where) const {
+  return known_for(LibraryKind::reflector, name).once(&Known::reflectors, name, [&] {
+    return read_reflector_of(name, where);
+  });
+}
+
+Reflector Library::read_reflector_of(const std::string& name, const FileLocation& where) const {
   const Definition definition = find(LibraryKind::reflector, name, where);
   Problems problems;
   const TomlTable table(definition.node, problems);
@@ -117,6 +199,7 @@ Reflector Library::reflector(const std::string& name, const FileLocation& where)
       read_reflector(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
   problems.throw_if_any();
+  ++read_->definitions_read;
   return reflector;
 }
 
@@ -175,16 +258,23 @@ SurfaceOutline Library::outline(const std::string& surface, const FileLocation& 
           std::move(sources)};
 }
 
-SurfaceSpec Library::surface(const std::string& name, const FileLocation& where) const {
+const SurfaceSpec& Library::surface(const std::string& name, const FileLocation& where) const {
   return surface(name, where, {});
 }
 
-SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
-                             const std::vector<std::string>& within) const {
+const SurfaceSpec& Library::surface(const std::string& name, const FileLocation& where,
+                                    const std::vector<std::string>& within) const {
   if (std::find(within.begin(), within.end(), name) != within.end())
     throw InputError({where,
                       "the surface \"" + name + "\" is a mixture of itself (" + list_or_none(within) + ")",
                       "mix other surfaces"});
+  return known_for(LibraryKind::surface, name).once(&Known::surfaces, name, [&] {
+    return read_surface_of(name, where, within);
+  });
+}
+
+SurfaceSpec Library::read_surface_of(const std::string& name, const FileLocation& where,
+                                     const std::vector<std::string>& within) const {
   Problems problems;
   Chain chain = this->chain(name, where, problems);
   const std::vector<std::string> unmet = unmet_needs(chain.merged);
@@ -210,6 +300,7 @@ SurfaceSpec Library::surface(const std::string& name, const FileLocation& where,
   table.finish();
   problems.throw_if_any();
   surface.sources = std::move(chain.sources);
+  ++read_->definitions_read;
   return surface;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,15 @@ struct SurfaceOutline {
 
 /// Finds definitions by name: first among a scene's own, then in each folder in turn, where the file is
 /// FOLDER/media/NAME.toml, FOLDER/surfaces/NAME.toml, FOLDER/sensors/NAME.toml or
-/// FOLDER/reflectors/NAME.toml. Files are read when asked for, and must name their sources.
+/// FOLDER/reflectors/NAME.toml. Files are read when first needed, once, and must name their sources.
+///
+/// Each definition is read once and kept. Copies share what was read of the files, so that scenes with
+/// definitions of their own do not read them again; surfaces and sensors, which may be based on a scene's
+/// own, are read once for each set of own definitions. Copies may be used by several threads at a time.
 ///
 /// The getters throw InputError: at `where` when there is nothing of that name, with the nearest
-/// name and the places searched; at the places in the definition when that is wrong.
+/// name and the places searched; at the places in the definition when that is wrong. What they return lives
+/// until add(), or as long as a copy without it.
 class Library {
  public:
   /// Throws InputError when a folder does not exist.
@@ -41,20 +47,35 @@ class Library {
   /// Adds definitions of a scene ([media.NAME], ...), which need not name sources and win over files.
   void add(LibraryKind kind, const std::map<std::string, TomlNodePtr>& definitions);
 
-  Medium medium(const std::string& name, const FileLocation& where = {}) const;
-  SurfaceSpec surface(const std::string& name, const FileLocation& where = {}) const;
+  const Medium& medium(const std::string& name, const FileLocation& where = {}) const;
+  const SurfaceSpec& surface(const std::string& name, const FileLocation& where = {}) const;
   /// The same of a surface that may leave something to the user, and so be none yet.
   SurfaceOutline outline(const std::string& surface, const FileLocation& where = {}) const;
-  Sensor sensor(const std::string& name, const FileLocation& where = {}) const;
-  Reflector reflector(const std::string& name, const FileLocation& where = {}) const;
+  const Sensor& sensor(const std::string& name, const FileLocation& where = {}) const;
+  const Reflector& reflector(const std::string& name, const FileLocation& where = {}) const;
 
   /// Every name of a kind, sorted.
   std::vector<std::string> names(LibraryKind kind) const;
 
+  /// How often something was read, by this library and those that share its files.
+  struct Readings {
+    std::size_t files = 0;        ///< of the folders
+    std::size_t definitions = 0;  ///< media, surfaces, sensors and reflectors, of files and scenes
+  };
+  Readings readings() const;
+
  private:
+  struct Known;
+  /// The cache of definitions of a kind that depend on files alone, or on own definitions too.
+  Known& known_for(LibraryKind kind, const std::string& name) const;
+  Medium read_medium_of(const std::string& name, const FileLocation& where) const;
+  Sensor read_sensor_of(const std::string& name, const FileLocation& where) const;
+  Reflector read_reflector_of(const std::string& name, const FileLocation& where) const;
   /// @param within names of the mixtures that this surface is a share of
-  SurfaceSpec surface(const std::string& name, const FileLocation& where,
-                      const std::vector<std::string>& within) const;
+  const SurfaceSpec& surface(const std::string& name, const FileLocation& where,
+                             const std::vector<std::string>& within) const;
+  SurfaceSpec read_surface_of(const std::string& name, const FileLocation& where,
+                              const std::vector<std::string>& within) const;
   struct Definition {
     TomlNodePtr node;
     bool from_file = false;
@@ -78,6 +99,9 @@ class Library {
   std::vector<std::filesystem::path> folders_;
   std::array<std::map<std::string, std::filesystem::path>, 4> files_;
   std::array<std::map<std::string, TomlNodePtr>, 4> own_;
+  struct Files;
+  std::shared_ptr<Files> read_;      ///< of the folders, shared by all copies
+  std::shared_ptr<Known> with_own_;  ///< of these own definitions, shared by copies that have the same
 };
 
 }  // namespace scintray

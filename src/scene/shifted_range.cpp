@@ -43,7 +43,7 @@ double longest_shifted_nm(const SceneSpec& spec, const std::vector<PlacedMesh>& 
   };
   for (const std::string& name : media)
     look_up([&] {
-      const Medium medium = library.medium(name);
+      const Medium& medium = library.medium(name);
       return medium.shifter ? end_of(medium.shifter->emission()) : 0.0;
     });
   for (const std::string& name : surfaces) look_up([&] { return longest_of(library.surface(name)); });

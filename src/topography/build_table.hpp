@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "scintray/core/error.hpp"
+#include "scintray/core/cancelled.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/surface.hpp"
@@ -47,9 +47,9 @@ struct SpectralPoint {
 using TableProgress = std::function<bool(double)>;
 
 /// The building of a table was stopped by its progress callback.
-class TableStopped : public Error {
+class TableStopped : public Cancelled {
  public:
-  using Error::Error;
+  using Cancelled::Cancelled;
 };
 
 /// Whether a direction, in the frame of the surface (z: outwards), points into the medium that the light left

@@ -5,8 +5,8 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/study_results.hpp"
 #include "scintray/scene/read_analysis.hpp"
+#include "scintray/simulation/study_results.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"

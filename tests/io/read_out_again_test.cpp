@@ -1,5 +1,5 @@
 // Electronics made again from the photons of a result.
-#include "scintray/io/read_out_again.hpp"
+#include "scintray/simulation/read_out_again.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/simulate.hpp"
 #include "scintray/scene/read_readout.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
 #include "support/words.hpp"
@@ -36,12 +37,12 @@ struct Made {
 };
 
 Made made(const std::string& name, const std::string& more) {
-  SimulationOptions options;
-  options.output = scratch_folder("read_out_" + name) / "run.h5";
-  simulate(
-      SceneFile::from_text(kSmallCrystal + more, (scratch_folder("read_out_scene") / "scene.toml").string()),
-      options);
-  return {options.output, read_results(options.output)};
+  const auto output = scratch_folder("read_out_" + name) / "run.h5";
+  ResultsFile results(output);
+  Simulation(
+      SceneFile::from_text(kSmallCrystal + more, (scratch_folder("read_out_scene") / "scene.toml").string()))
+      .run_all(results);
+  return {output, read_results(output)};
 }
 
 std::string refusal(const Made& of, const std::filesystem::path& output) {

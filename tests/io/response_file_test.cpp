@@ -1,4 +1,4 @@
-#include "scintray/io/response_file.hpp"
+#include "scintray/simulation/response_file.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,8 @@
 
 #include "scintray/core/h5.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/simulate_mapped.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulate_mapped.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
 #include "support/words.hpp"
@@ -148,9 +149,9 @@ TEST_CASE("Events from a map are a result that says where it comes from") {
   const ResponseFile map = build_map(scene, options);
   write_response(folder / "map.h5", map);
   SimulationOptions simulation;
-  simulation.output = folder / "result.h5";
   simulation.events = 40;
-  const RunResult made = simulate_mapped(scene, folder / "map.h5", simulation);
+  ResultsFile results(folder / "result.h5");
+  const RunResult made = simulate_mapped(scene, folder / "map.h5", results, simulation);
   CHECK(made.complete());
   const RunResult read = read_results(folder / "result.h5");
   CHECK(read.points.at(0).energy.events == 40);
@@ -168,7 +169,7 @@ TEST_CASE("Events from a map are a result that says where it comes from") {
   ResponseFile moved = map;
   moved.map.grids[0].low.z() += 0.5;
   write_response(folder / "moved.h5", moved);
-  check_says(complaint_of([&] { simulate_mapped(scene, folder / "moved.h5", simulation); }),
+  check_says(complaint_of([&] { simulate_mapped(scene, folder / "moved.h5", results, simulation); }),
              {"\"crystal\"", "another place or size"});
 }
 

@@ -1,5 +1,5 @@
 // Reweighting of results files: what is read, what is refused. Physics is in physics/reweighting_test.cpp.
-#include "scintray/io/reweigh.hpp"
+#include "scintray/simulation/reweigh.hpp"
 
 #include <doctest/doctest.h>
 

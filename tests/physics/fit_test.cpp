@@ -8,7 +8,8 @@
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/io/fit_scene.hpp"
+#include "scintray/simulation/fit_scene.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -262,9 +263,8 @@ TEST_CASE("Common random numbers lessen the noise of differences of curves") {
 TEST_CASE("The made-up measurement that is shipped is what its scene gives with the seed it names") {
   const SceneFile file = SceneFile::load(source_file("scenes/fit_depth_curve.toml"));
   SimulationOptions options;
-  options.output = scratch_folder("fit_shipped") / "run.h5";
   options.seed = 7;
-  const RunResult run = simulate(file, options);
+  const RunResult run = Simulation(file, options).run_all();
   const MeasuredCurve measured = read_measured_curve(source_file("scenes/fit_depth_curve.csv"));
   REQUIRE(run.points.size() == measured.points.size());
   for (std::size_t i = 0; i < run.points.size(); ++i) {

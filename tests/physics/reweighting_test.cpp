@@ -1,9 +1,10 @@
 // Results reweighted from their photon histories against runs retraced with the wanted optics.
-#include "scintray/io/reweigh.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/reweigh.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 #include "physics/traced.hpp"
 #include "scintray/io/results.hpp"
-#include "scintray/io/simulate.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
@@ -61,13 +62,15 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
 
   /// Runs into a file of its own.
   std::filesystem::path run(const Optics& optics, std::uint64_t seed) const {
+    const auto output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
     SimulationOptions options;
-    options.output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
     options.surface_hooks.cache.clear();
-    simulate(SceneFile::from_text(text(optics, seed),
-                                  (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
-             options);
-    return options.output;
+    ResultsFile results(output);
+    Simulation(SceneFile::from_text(text(optics, seed),
+                                    (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
+               options)
+        .run_all(results);
+    return output;
   }
 };
 

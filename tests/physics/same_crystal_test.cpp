@@ -172,6 +172,6 @@ TEST_CASE("No photon is lost in the crystal, however it is written") {
     std::string text = scene_text("flat", shape.keys, 1);
     text.insert(text.find("[run]\n") + 6, "accelerator = \"embree\"\n");
     const SceneSpec spec = scene_spec(text);
-    lose_no_photon(shape.name, spec, SceneBuilder().build(spec).scene, wanted_steps(2e6));
+    lose_no_photon(shape.name, spec, wanted_steps(2e6));
   }
 }

@@ -4,13 +4,13 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene/read_scene.hpp"
-#include "scintray/source/light_source.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/simulation/simulation_point.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 #include "support/laws.hpp"
@@ -62,7 +62,8 @@ specular_share = 0.0
 )";
 
 struct Traced {
-  BuiltScene built;
+  std::shared_ptr<const SimulationPoint> point;
+  const BuiltScene& built = *point->built();
   PointResult result;
   std::vector<EventRecord> events;  ///< of a source of energy
 };
@@ -74,23 +75,23 @@ inline SceneSpec scene_spec(const std::string& text) {
       .spec(0);
 }
 
-inline Traced trace(const std::string& text, int threads = 0) {
-  const SceneSpec spec = scene_spec(text);
+/// A scene ready to be traced, with surface tables of its own.
+inline std::shared_ptr<const SimulationPoint> ready(SceneSpec spec) {
   SurfaceMaker::Hooks hooks;
   hooks.cache.clear();
   SceneBuilder builder(hooks);
-  Traced traced{builder.build(spec), {}, {}};
-  const auto source = make_light_source(spec, traced.built.scene);
-  const TallyPlan plan(traced.built.scene, spec);
-  RunSettings settings;
-  settings.seed = spec.run.seed;
-  settings.max_interactions = spec.run.max_interactions;
-  settings.threads = threads;
-  RunHooks hooks_of_run;
-  hooks_of_run.events = [&](const std::vector<EventRecord>& events) {
+  return std::make_shared<const SimulationPoint>(std::move(spec), builder);
+}
+
+inline Traced trace(const std::string& text, int threads = 0) {
+  SceneSpec spec = scene_spec(text);
+  if (threads > 0) spec.run.threads = threads;
+  Traced traced{.point = ready(std::move(spec)), .result = {}, .events = {}};
+  RunHooks hooks;
+  hooks.events = [&](const std::vector<EventRecord>& events) {
     traced.events.insert(traced.events.end(), events.begin(), events.end());
   };
-  traced.result = run_point(traced.built.scene, *source, plan, settings, hooks_of_run);
+  traced.result = traced.point->trace(hooks);
   CHECK(traced.result.lost == 0);
   CHECK(traced.result.complete);
   return traced;

@@ -9,8 +9,7 @@
 #include <sstream>
 
 #include "bad_input/marked_text.hpp"
-#include "scintray/io/simulate.hpp"
-#include "scintray/scene/build_scene.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -41,11 +40,11 @@ struct Detector {
 Detector run(const std::string& name, const std::string& text, std::uint64_t photons, std::uint64_t seed) {
   const SceneFile file = SceneFile::from_text(text, test::source_file("scenes/" + name).string());
   SimulationOptions options;
-  options.output = test::scratch_folder("detector_scenes") / (name + ".h5");
   options.photons = photons;
   options.seed = seed;
-  SceneBuilder builder;
-  return {simulate(file, options), builder.build(file.spec(0)).scene};
+  Simulation simulation(file, options);
+  const auto first = simulation.point(0);
+  return {simulation.run_all(), first->scene()};
 }
 
 std::string scene_text(const std::string& name) {

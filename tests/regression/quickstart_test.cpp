@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "scintray/core/statistics.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -39,10 +39,9 @@ TEST_CASE("The quickstart gives what README prints, and the rough crystal's ligh
 
   const SceneFile file = SceneFile::load(test::source_file("scenes/quickstart.toml"));
   SimulationOptions options;
-  options.output = test::scratch_folder("quickstart") / "quickstart.h5";
   options.photons = 100'000;
   options.seed = 20;
-  const RunResult result = simulate(file, options);
+  const RunResult result = Simulation(file, options).run_all();
   REQUIRE(result.points.size() == kSurfaces * kDepths);
 
   const auto detected = [&](std::size_t surface, std::size_t depth) {

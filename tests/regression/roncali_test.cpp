@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "scintray/io/simulate.hpp"
 #include "scintray/report/claims.hpp"
 #include "scintray/report/light_curves.hpp"
 #include "scintray/report/surface_claims.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/agreement.hpp"
 #include "support/shared.hpp"
 
@@ -35,32 +34,24 @@ const std::vector<Known> kKnown{
     {{"5 mm", "rough_reflector_table", "2 mm"}, {1.5160, 0.0058}},
 };
 
-std::size_t point_of(const SceneFile& file, const std::vector<std::string>& parameters) {
-  for (std::size_t point = 0; point < file.points(); ++point)
-    if (file.parameters(point) == parameters) return point;
+std::size_t point_of(const Simulation& simulation, const std::vector<std::string>& parameters) {
+  for (std::size_t point = 0; point < simulation.points(); ++point)
+    if (simulation.parameters(point) == parameters) return point;
   FAIL("the scene has no such point");
   return 0;
 }
 
 /// Photoelectrons at 511 keV of a point.
-Estimate light_at(const SceneFile& file, std::size_t point, SceneBuilder& builder) {
-  SimulationOptions options;
-  options.quick = true;
-  const SceneSpec spec = with_options(file.spec(point), options);
-  const BuiltScene built = builder.build(spec);
-  const auto source = make_light_source(spec, built.scene);
-  const TallyPlan plan(built.scene, spec);
+Estimate light_at(const SimulationPoint& point) {
   StudySetup setup;
-  for (const ReadoutChannel& channel : plan.channels.list) setup.channels_mm.push_back(channel.position);
+  for (const ReadoutChannel& channel : point.plan().channels.list)
+    setup.channels_mm.push_back(channel.position);
   EventCollector collector(setup);
   RunHooks hooks;
   hooks.events = [&](const std::vector<EventRecord>& events) {
     for (const EventRecord& event : events) collector.add(event);
   };
-  RunSettings settings;
-  settings.seed = 2;
-  settings.point = static_cast<std::uint32_t>(point);
-  const PointResult result = run_point(built.scene, *source, plan, settings, hooks);
+  const PointResult result = point.trace(hooks);
   CHECK(result.lost == 0);
   return report::light_of(collector.finish());
 }
@@ -68,13 +59,15 @@ Estimate light_at(const SceneFile& file, std::size_t point, SceneBuilder& builde
 }  // namespace
 
 TEST_CASE("The paper's crystals give the light that a quick run printed, with another seed") {
-  const SceneFile file = SceneFile::load(test::source_file("scenes/roncali2013/light_output.toml"));
-  CHECK(file.points() == 80);
-  SceneBuilder builder;
+  SimulationOptions options;
+  options.quick = true;
+  options.seed = 2;
+  Simulation simulation(SceneFile::load(test::source_file("scenes/roncali2013/light_output.toml")), options);
+  CHECK(simulation.points() == 80);
   for (const Known& known : kKnown) {
     CAPTURE(known.point[1]);
     CAPTURE(known.point[2]);
-    const Estimate light = light_at(file, point_of(file, known.point), builder);
+    const Estimate light = light_at(*simulation.point(point_of(simulation, known.point)));
     const double expected = kReference.value * known.relative.value;
     const double error =
         std::hypot(kReference.value * known.relative.error, kReference.error * known.relative.value);

@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/trace/light_timing.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -155,13 +154,7 @@ surface = "flat"
 
 TEST_CASE(
     "The time of one photon is known where all light has one emission and all sensors one time spread") {
-  const auto timing = [](const std::string& text) {
-    const SceneSpec spec = scene_spec(text);
-    SceneBuilder builder;
-    const BuiltScene built = builder.build(spec);
-    return light_timing(built.scene, spec, *make_light_source(spec, built.scene),
-                        TallyPlan(built.scene, spec));
-  };
+  const auto timing = [](const std::string& text) { return ready(scene_spec(text))->timing(); };
   const std::string readout =
       "[readout]\nperiod = \"1 ns\"\nbefore = \"5 ns\"\nwindow = \"100 ns\"\n"
       "shaping = { order = 1, time_constant = \"4 ns\" }\nthreshold = 1\n";

@@ -6,44 +6,34 @@
 #include <vector>
 
 #include "physics/traced.hpp"
-#include "scintray/trace/run_mapped.hpp"
+#include "scintray/trace/response_map.hpp"
 
 namespace scintray::test {
 
-/// A scene with what its [source] and sensors are bound to.
+/// A scene whose events are traced, or made from a map.
 struct MappedScene {
-  explicit MappedScene(const std::string& text) : spec(scene_spec(text)) {
-    SurfaceMaker::Hooks hooks;
-    hooks.cache.clear();
-    built = SceneBuilder(hooks).build(spec);
-    source = make_light_source(spec, built.scene);
-    settings.seed = spec.run.seed;
-  }
+  explicit MappedScene(const std::string& text) : point(ready(scene_spec(text))) {}
 
   ResponseMap map(const ResponseSettings& fineness, int threads = 0) const {
-    RunSettings run = settings;
+    RunSettings run = point->settings();
     run.threads = threads;
-    run.seed = 20'000 + settings.seed;  // light of its own, not that of the events
-    return build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised, fineness, run);
+    run.seed += 20'000;  // light of its own, not that of the events
+    return build_response_map(built.scene, point->source().regions(),
+                              point->spec().energy_source->unpolarised, fineness, run);
   }
   std::vector<EventRecord> traced() const {
-    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
-      run_point(built.scene, *source, plan, settings, hooks);
-    });
+    return gathered([&](const RunHooks& hooks) { point->trace(hooks); });
   }
   std::vector<EventRecord> mapped(const ResponseMap& map, int threads = 0) const {
-    RunSettings run = settings;
-    run.threads = threads;
+    SceneSpec spec = point->spec();
+    if (threads > 0) spec.run.threads = threads;
+    const SimulationPoint with_threads(std::move(spec), point->built());
     const MappedResponse response(map);
-    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
-      run_mapped(built.scene, *source, plan, response, run, hooks);
-    });
+    return gathered([&](const RunHooks& hooks) { with_threads.trace(response, hooks); });
   }
 
-  SceneSpec spec;
-  BuiltScene built;
-  std::unique_ptr<LightSource> source;
-  RunSettings settings;
+  std::shared_ptr<const SimulationPoint> point;
+  const BuiltScene& built = *point->built();
 
  private:
   template <typename Run>
@@ -53,8 +43,7 @@ struct MappedScene {
     hooks.events = [&](const std::vector<EventRecord>& events) {
       all.insert(all.end(), events.begin(), events.end());
     };
-    const TallyPlan plan(built.scene, spec);
-    run(plan, hooks);
+    run(hooks);
     return all;
   }
 };

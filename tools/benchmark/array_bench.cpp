@@ -174,7 +174,7 @@ void bench_arrays() {
       to_one.push_back(c.speed[r].segments / cases[i - i % 6 + i % 2].speed[r].segments);
     }
     std::cout << fmt::format("{:<38} {:>8} {:>10.2f} {:>9.0f} {:>12.2f} {:>12.3f} {:>12.2f} {:>14}\n", c.name,
-                             c.built.prepared.built.scene.regions.size(), c.built.seconds, c.built.megabytes,
+                             c.built.prepared->scene().regions.size(), c.built.seconds, c.built.megabytes,
                              median(segments), median(photons), median(per_raw),
                              i + 1 < cases.size() ? fmt::format("{:.2f}", median(to_one)) : "-");
   }

@@ -1,43 +1,38 @@
 #include "prepared.hpp"
 
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/scene/read_scene.hpp"
 #include "scintray/trace/step.hpp"
 
 namespace scintray::bench {
 
 Prepared prepare(const std::string& scene_text, SceneBuilder& builder) {
-  Prepared p;
-  p.spec = SceneFile::from_text(scene_text, "bench.toml").spec(0);
-  p.built = builder.build(p.spec);
-  return p;
+  return std::make_shared<const SimulationPoint>(SceneFile::from_text(scene_text, "bench.toml").spec(0),
+                                                 builder);
 }
 
-Speed measure(const Prepared& p, int threads) {
-  const PhotonSource source(p.spec.source, p.built.scene);
-  const TallyPlan plan(p.built.scene, p.spec);
-  RunSettings settings;
-  settings.threads = threads;
-  settings.max_interactions = p.spec.run.max_interactions;
-  const PointResult r = run_point(p.built.scene, source, plan, settings);
+Speed measure(const Prepared& prepared, int threads) {
+  SceneSpec spec = prepared->spec();
+  spec.run.threads = threads;
+  const PointResult r = SimulationPoint(std::move(spec), prepared->built()).trace();
   return {static_cast<double>(r.segments) / r.wall_seconds, static_cast<double>(r.photons) / r.wall_seconds};
 }
 
-std::vector<RawRay> record_rays(const Prepared& p, std::size_t count) {
-  const PhotonSource source(p.spec.source, p.built.scene);
+std::vector<RawRay> record_rays(const Prepared& prepared, std::size_t count) {
+  const Scene& scene = prepared->scene();
+  const LightSource& source = prepared->source();
   std::vector<RawRay> rays;
   const std::uint32_t crystal = source.regions().front();
-  const Region& region = p.built.scene.regions[crystal];
+  const Region& region = scene.regions[crystal];
   for (std::uint64_t i = 0; rays.size() < count; ++i) {
     Rng rng(9, StreamKind::photon, i);
-    Photon photon = source.emit(p.built.scene, rng);
+    Photon photon = source.emit(scene, {}, i, rng);
     for (Step taken{StepKind::returned}; !is_end(taken.kind) && rays.size() < count;) {
       if (photon.region == crystal) {
         const Vec3 o = region.point_to_local(photon.position), d = photon.ray.direction;
         rays.push_back({{static_cast<float>(o.x()), static_cast<float>(o.y()), static_cast<float>(o.z())},
                         {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())}});
       }
-      taken = step(p.built.scene, photon, rng);
+      taken = step(scene, photon, rng);
       if (photon.interactions > 1000) break;
     }
   }

@@ -1,20 +1,17 @@
 #pragma once
 /// Scenes made ready to be traced, and what is measured on them.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "raw_embree.hpp"
 #include "scintray/mesh/trimesh.hpp"
-#include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::bench {
 
-struct Prepared {
-  BuiltScene built;
-  SceneSpec spec;
-};
+using Prepared = std::shared_ptr<const SimulationPoint>;
 
 struct Speed {
   double segments = 0.0, photons = 0.0;  ///< per second

@@ -1,4 +1,4 @@
-#include "scintray/io/fit_scene.hpp"
+#include "scintray/simulation/fit_scene.hpp"
 
 #include <chrono>
 

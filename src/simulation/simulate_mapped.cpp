@@ -1,12 +1,9 @@
-#include "scintray/io/simulate_mapped.hpp"
+#include "scintray/simulation/simulate_mapped.hpp"
 
 #include <algorithm>
 
 #include "scintray/core/version.hpp"
-#include "scintray/io/results.hpp"
 #include "scintray/scene/scene_difference.hpp"
-#include "scintray/trace/light_timing.hpp"
-#include "scintray/trace/run_mapped.hpp"
 
 namespace scintray {
 
@@ -61,20 +58,16 @@ void bind_grids(ResponseMap& map, const Scene& scene, const std::string& where) 
   }
 }
 
-RunHeader mapped_header(const SceneFile& file, const SceneSpec& spec, const Scene& scene,
-                        const std::vector<std::string>& notes) {
-  RunHeader header;
-  header.title = spec.title;
-  header.version = version();
-  header.scene_file = spec.file.string();
-  header.scene_text = file.text();
-  header.seed = spec.run.seed;
-  for (const SceneMedium& medium : scene.media) header.media.push_back(medium.medium().name);
-  for (const Surface& surface : scene.surfaces) header.surfaces.push_back(surface.name);
-  for (const PartInfo& part : scene.parts) header.parts.push_back(part.name);
-  for (const FaceInfo& face : scene.faces) header.faces.push_back(face.name);
-  for (const std::string& note : notes) header.note += (header.note.empty() ? "" : "\n") + note;
-  return header;
+bool counts_photons(const SceneSpec& spec) {
+  return !spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list ||
+         spec.run.photon_history;
+}
+
+/// What can only be had of photons that are traced.
+void leave_photons_out(SceneSpec& spec) {
+  spec.tallies.clear();
+  spec.exit_angles.clear();
+  spec.run.photon_list = spec.run.photon_history = false;
 }
 
 std::string origin_note(const std::filesystem::path& path, const ResponseFile& response) {
@@ -88,15 +81,17 @@ std::string origin_note(const std::filesystem::path& path, const ResponseFile& r
 
 ResponseFile build_map(const SceneFile& file, const MapOptions& options) {
   refuse_sweep(file);
-  SceneSpec spec = file.spec(0);
-  require_energy(spec);
-  if (options.threads) spec.run.threads = options.threads;
-  if (options.seed) spec.run.seed = *options.seed;
-  SceneBuilder builder(options.surface_hooks);
-  const BuiltScene built = builder.build(spec);
-  const auto source = make_light_source(spec, built.scene);
-  return {build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised,
-                             options.settings, run_settings(spec.run), options.hooks),
+  require_energy(file.spec(0));
+  SimulationOptions run;
+  run.threads = options.threads;
+  run.seed = options.seed;
+  run.surface_hooks = options.surface_hooks;
+  run.change = leave_photons_out;
+  Simulation simulation(file, run);
+  const auto point = simulation.point(0);
+  const SceneSpec& spec = point->spec();
+  return {build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
+                             options.settings, point->settings(), options.hooks),
           version(), spec.file.string(), file.text()};
 }
 
@@ -116,46 +111,32 @@ void require_same_scene(const SceneFile& file, const ResponseFile& response) {
                       hint});
 }
 
-RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& map_file,
-                          const SimulationOptions& options) {
+RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& map_file, ResultSink& sink,
+                          const SimulationOptions& options, const SimulationHooks& hooks) {
   refuse_sweep(file);
-  SceneSpec spec = file.spec(0);
-  require_energy(spec);
-  spec = with_options(spec, options);
+  const SceneSpec as_written = file.spec(0);
+  require_energy(as_written);
+  SimulationOptions without_photons = options;
+  without_photons.change = [&](SceneSpec& spec) {
+    if (options.change) options.change(spec);
+    leave_photons_out(spec);
+  };
+  Simulation simulation(file, without_photons);
+  simulation.spec(0);  // what is wrong with the options comes first
   ResponseFile response = read_response(map_file);
   require_same_scene(file, response);
-  SceneBuilder builder(options.surface_hooks);
-  const BuiltScene built = builder.build(spec);
-  bind_grids(response.map, built.scene, map_file.string());
-  std::vector<std::string> notes{origin_note(map_file, response)};
-  notes.insert(notes.end(), built.warnings.begin(), built.warnings.end());
-  const auto source = make_light_source(spec, built.scene, &notes);
-  if (!spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list || spec.run.photon_history)
-    notes.emplace_back("tallies, the list of photons and their histories are left out");
-  spec.tallies.clear();
-  spec.exit_angles.clear();
-  spec.run.photon_list = spec.run.photon_history = false;
-  const TallyPlan plan(built.scene, spec);
+  bind_grids(response.map, simulation.point(0)->scene(), map_file.string());
+  RunOutline outline = simulation.outline();
+  std::string& note = outline.header.note;
+  note = origin_note(map_file, response) + (note.empty() ? "" : "\n") + note;
+  if (counts_photons(as_written)) note += "\ntallies, the list of photons and their histories are left out";
 
   RunResult result;
-  result.header = mapped_header(file, spec, built.scene, notes);
-  ResultsWriter writer(options.output, result.header, false);
-  writer.begin_events(0, plan.channels.list, spec.readout);
-  RunHooks hooks;
-  hooks.stop = options.stop;
-  hooks.events = [&](const std::vector<EventRecord>& events) { writer.append_events(events); };
-  SimulationProgress progress;
-  progress.thing = "events";
-  progress.total = source->events();
-  hooks.progress = [&](std::uint64_t done) {
-    progress.done = done;
-    if (options.progress) options.progress(progress);
-  };
-  const MappedResponse mapped(response.map);
-  result.points.push_back(run_mapped(built.scene, *source, plan, mapped, run_settings(spec.run), hooks));
-  result.points.back().light_timing = light_timing(built.scene, spec, *source, plan);
-  writer.add_point(result.points.back());
-  writer.commit(result.complete(), result.complete() ? "" : "stopped by the user");
+  result.header = outline.header;
+  sink.begin(outline);
+  result.points.push_back(simulation.run(0, MappedResponse(response.map), sink, hooks));
+  if (!result.complete()) result.partial_reason = kStopped;
+  sink.commit(result.complete(), result.partial_reason);
   return result;
 }
 

@@ -2,16 +2,19 @@
 /// The curve of a scene against the positions of a measurement, as a function of fitted keys.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 
 #include "scintray/analysis/curve_fit.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/scene/read_scene.hpp"
+#include "scintray/simulation/simulation_options.hpp"
 
 namespace scintray {
 
 /// What a curve is traced with.
 struct FitModelSettings {
-  SimulationOptions run;  ///< threads, seed, photons, events, hooks, stop; of the rest nothing is used
+  SimulationOptions run;
+  const std::atomic<bool>* stop = nullptr;                             ///< set from outside: give up
   std::function<void(std::uint64_t done, std::uint64_t of)> progress;  ///< within a curve
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Response maps of scene files, and events from them.
 
-#include "scintray/io/response_file.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/simulation/response_file.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 namespace scintray {
 
@@ -24,10 +24,10 @@ ResponseFile build_map(const SceneFile& file, const MapOptions& options);
 /// the title, [source], [run], [readout], [analysis] and tallies, and light must be polarised or not as then.
 void require_same_scene(const SceneFile& file, const ResponseFile& response);
 
-/// Events of the scene from a map, in a results file as simulate() writes it. The file says in its note where
-/// they come from. Tallies of photons are left out, as no photon is traced.
+/// Events of the scene from a map, as Simulation::run_all makes them by tracing. The header says in its note
+/// where they come from. Tallies of photons are left out, as no photon is traced.
 /// @throws InputError as require_same_scene does, and when parts are not where they were
-RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& map_file,
-                          const SimulationOptions& options);
+RunResult simulate_mapped(const SceneFile& file, const std::filesystem::path& map_file, ResultSink& sink,
+                          const SimulationOptions& options, const SimulationHooks& hooks = {});
 
 }  // namespace scintray

@@ -1,14 +1,12 @@
-#include "scintray/io/read_out_again.hpp"
+#include "scintray/simulation/read_out_again.hpp"
 
 #include <map>
 
 #include "scintray/core/error.hpp"
 #include "scintray/io/results.hpp"
 #include "scintray/io/results_format.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "scintray/tally/event_tally.hpp"
-#include "scintray/trace/light_timing.hpp"
-#include "scintray/trace/run.hpp"
 
 namespace scintray {
 
@@ -48,10 +46,14 @@ class ListedPhotons {
 /// The channels of one point, with the electronics wanted.
 class PointElectronics {
  public:
-  PointElectronics(const std::filesystem::path& path, const RunResult& run, const TallyPlan& plan,
-                   std::size_t point)
-      : path_(path), run_(run), plan_(plan), arrivals_(plan.channels.list.size()) {
-    const std::vector<ReadoutChannel> recorded = read_channels(path, point);
+  PointElectronics(const std::filesystem::path& path, const RunResult& run, const SimulationPoint& point,
+                   const std::vector<ReadoutChannel>& recorded)
+      : path_(path),
+        run_(run),
+        plan_(point.plan()),
+        settings_(point.settings()),
+        arrivals_(plan_.channels.list.size()) {
+    const TallyPlan& plan = plan_;
     for (std::uint32_t i = 0; i < plan.channels.list.size(); ++i) {
       const ReadoutChannel& channel = plan.channels.list[i];
       if (i >= recorded.size() || recorded[i].name != channel.name) break;
@@ -61,8 +63,6 @@ class PointElectronics {
       throw not_to_read_out(path,
                             "the scene of this result has other sensors than its events were read out by",
                             "a file that the scene names has changed since; run it again");
-    settings_.seed = run.header.seed;
-    settings_.point = static_cast<std::uint32_t>(point);
   }
 
   /// Gives an event the signals of its photons.
@@ -125,19 +125,22 @@ void read_out_again(const std::filesystem::path& path, const RunResult& run, con
   header.note += (header.note.empty() ? "" : "\n") + std::string("electronics made again by ") +
                  readout.where.file + " from the photons of " + path.filename().string();
   ResultsWriter writer(output, header, false);
-  SceneBuilder builder;
+  SimulationOptions options;
+  options.seed = run.header.seed;
+  options.change = [&](SceneSpec& spec) {
+    spec.readout = readout;
+    spec.run.photon_list = spec.run.photon_history = false;
+  };
+  Simulation simulation(file, options);
   ListedPhotons photons(path);
   std::vector<EventRecord> events;
   std::uint64_t row = 0;
   std::size_t at = 0;
   for (std::size_t number = 0; number < run.points.size(); ++number) {
-    SceneSpec spec = file.spec(number);
-    spec.readout = readout;
-    spec.run.photon_list = spec.run.photon_history = false;
-    const BuiltScene built = builder.build(spec);
-    const TallyPlan plan(built.scene, spec);
-    writer.begin_events(number, read_channels(path, number), readout);
-    PointElectronics electronics(path, run, plan, number);
+    const auto built = simulation.point(number);
+    const std::vector<ReadoutChannel> recorded = read_channels(path, number);
+    writer.begin_events(number, recorded, readout);
+    PointElectronics electronics(path, run, *built, recorded);
     for (;;) {
       if (at == events.size()) {
         events = read_events(path, row, kRows, EventDetail::numbers);
@@ -149,9 +152,9 @@ void read_out_again(const std::filesystem::path& path, const RunResult& run, con
       writer.append_events({events[at++]});
     }
     PointResult point = run.points[number];
-    const std::unique_ptr<LightSource> source = make_light_source(spec, built.scene);
-    point.light_timing = light_timing(built.scene, spec, *source, plan);
+    point.light_timing = built->timing();
     writer.add_point(point);
+    simulation.release(number);
   }
   writer.commit(run.complete(), run.partial_reason);
 }

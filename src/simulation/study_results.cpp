@@ -1,4 +1,4 @@
-#include "scintray/io/study_results.hpp"
+#include "scintray/simulation/study_results.hpp"
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/io/results.hpp"

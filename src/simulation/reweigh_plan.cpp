@@ -1,4 +1,4 @@
-#include "scintray/io/reweigh_plan.hpp"
+#include "scintray/simulation/reweigh_plan.hpp"
 
 #include <fmt/format.h>
 

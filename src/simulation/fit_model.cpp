@@ -1,4 +1,4 @@
-#include "scintray/io/fit_model.hpp"
+#include "scintray/simulation/fit_model.hpp"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -9,7 +9,7 @@
 #include "scintray/analysis/goniometer.hpp"
 #include "scintray/analysis/ratio.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray {
 
@@ -74,11 +74,12 @@ class SceneCurve : public FitModel {
 
   std::optional<ModelCurve> trace(const std::vector<double>& parameters, std::uint64_t draw) override {
     ModelCurve curve;
-    std::optional<BuiltScene> built;
+    std::shared_ptr<const BuiltScene> built;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
-      const SceneSpec spec = spec_at(parameters, i);
-      if (!built || !only_source_moves()) built = builder_.build(spec);
-      const std::optional<ModelPoint> point = trace_point(spec, built->scene, i, draw);
+      const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + i);
+      const auto ready = point_at(parameters, i, built, stream);
+      built = ready->built();
+      const std::optional<ModelPoint> point = trace_point(*ready, i);
       if (!point) return std::nullopt;
       curve.push_back(*point);
     }
@@ -108,17 +109,25 @@ class SceneCurve : public FitModel {
     return spec;
   }
 
+  /// @param built  at the position before; null: none yet
+  std::unique_ptr<const SimulationPoint> point_at(const std::vector<double>& parameters, std::size_t point,
+                                                  const std::shared_ptr<const BuiltScene>& built,
+                                                  std::uint32_t stream = 0) {
+    SceneSpec spec = spec_at(parameters, point);
+    if (built && only_source_moves())
+      return std::make_unique<const SimulationPoint>(std::move(spec), built, stream);
+    return std::make_unique<const SimulationPoint>(std::move(spec), builder_, stream);
+  }
+
   void check() {
     const std::vector<double> starts = starts_of(fit_);
     check_quantity(spec_at(starts, 0));
     for (std::size_t i = 0; i < measured_.points.size(); ++i) check_position(starts, i);
     for (const std::vector<double>& corner : corners_of(fit_)) {
-      const SceneSpec spec = spec_at(corner, 0);
-      const BuiltScene built = builder_.build(spec);
-      const auto source = make_light_source(spec, built.scene);
-      count_ = energy() ? source->events() : source->photons();
-      seed_ = spec.run.seed;
-      for (const std::string& note : built.warnings)
+      const auto ready = point_at(corner, 0, nullptr);
+      count_ = ready->work();
+      seed_ = ready->settings().seed;
+      for (const std::string& note : ready->warnings())
         if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
     }
   }
@@ -127,9 +136,7 @@ class SceneCurve : public FitModel {
   void check_position(const std::vector<double>& starts, std::size_t point) {
     const MeasuredCurve::Point& measured = measured_.points[point];
     try {
-      const SceneSpec spec = spec_at(starts, point);
-      if (!checked_ || !only_source_moves()) checked_ = builder_.build(spec);
-      make_light_source(spec, checked_->scene);
+      checked_ = point_at(starts, point, checked_)->built();
     } catch (const InputError& error) {
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems)
@@ -149,12 +156,10 @@ class SceneCurve : public FitModel {
                   : "use quantity = \"light_per_keV\", or type = \"photons\" in [source]"});
   }
 
-  std::optional<ModelPoint> trace_point(const SceneSpec& spec, const Scene& scene, std::size_t point,
-                                        std::uint64_t draw) const {
-    const std::unique_ptr<LightSource> source = make_light_source(spec, scene);
-    const TallyPlan plan(scene, spec);
+  std::optional<ModelPoint> trace_point(const SimulationPoint& ready, std::size_t point) const {
+    const SceneSpec& spec = ready.spec();
     RunHooks hooks;
-    hooks.stop = settings_.run.stop;
+    hooks.stop = settings_.stop;
     hooks.progress = [&](std::uint64_t done) {
       if (settings_.progress) settings_.progress(point * count_ + done, measured_.points.size() * count_);
     };
@@ -172,8 +177,7 @@ class SceneCurve : public FitModel {
         shares[event.event % kFitParts].add(static_cast<double>(event.energy_keV), light);
       }
     };
-    const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + point);
-    const PointResult result = run_point(scene, *source, plan, run_settings(spec.run, stream), hooks);
+    const PointResult result = ready.trace(hooks);
     if (!result.complete) return std::nullopt;
     ModelPoint out;
     out.value = energy() ? all.ratio() : result.fraction(Fate::detected);
@@ -197,7 +201,7 @@ class SceneCurve : public FitModel {
   const MeasuredCurve& measured_;
   const FitModelSettings& settings_;
   SceneBuilder builder_;
-  std::optional<BuiltScene> checked_;  ///< of the last position that was checked
+  std::shared_ptr<const BuiltScene> checked_;  ///< of the last position that was checked
   std::uint64_t count_ = 0, seed_ = 0;
   std::vector<std::string> notes_;
 };
@@ -223,7 +227,7 @@ class ReflectanceCurve : public FitModel {
     tbb::task_arena arena(threads);
     ModelCurve curve;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
-      if (settings_.run.stop && settings_.run.stop->load()) return std::nullopt;
+      if (settings_.stop && settings_.stop->load()) return std::nullopt;
       arena.execute([&] { curve.push_back(reflectance(bench, i, draw)); });
       if (settings_.progress) settings_.progress((i + 1) * rays_, measured_.points.size() * rays_);
     }

@@ -1,4 +1,4 @@
-#include "scintray/io/reweigh.hpp"
+#include "scintray/simulation/reweigh.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 /// A scene's [fit], from beginning to end.
 
 #include "scintray/analysis/fit_record.hpp"
-#include "scintray/io/fit_model.hpp"
+#include "scintray/simulation/fit_model.hpp"
 
 namespace scintray {
 

@@ -1,4 +1,4 @@
-#include "scintray/io/response_file.hpp"
+#include "scintray/simulation/response_file.hpp"
 
 #include <cmath>
 #include <limits>

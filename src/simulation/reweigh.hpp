@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/io/reweigh_plan.hpp"
+#include "scintray/simulation/reweigh_plan.hpp"
 
 namespace scintray {
 
