@@ -42,7 +42,7 @@ void print_source(const LightSource& source, const Scene& scene) {
   std::cout << "\nsource: "
             << (source.has_energy() ? fmt::format("{} events, light", source.events())
                                     : fmt::format("{} photons", source.photons()))
-            << " from \"" << scene.regions[origins.front()].name << "\"";
+            << " from \"" << scene.region_names[origins.front()] << "\"";
   if (origins.size() > 1)
     std::cout << " and " << origins.size() - 1 << " more part" << (origins.size() > 2 ? "s" : "");
   std::cout << "\n";

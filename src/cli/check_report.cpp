@@ -80,20 +80,21 @@ class Printer {
 
   void print_regions() const {
     std::cout << fmt::format("\nregions ({}, sharing {} accelerators)\n", scene_.regions.size(),
-                             scene_.accelerators);
+                             scene_.accelerators.size());
     std::cout << fmt::format("  {:<20} {:<22} {:>9} {:>10} {}\n", "name", "medium", "triangles", "index",
                              "ray queries by");
     Alike<Row> rows;
-    for (const Region& region : scene_.regions) {
+    const double middle_nm = 0.5 * (scene_.low_nm + scene_.high_nm);
+    for (std::size_t i = 0; i < scene_.regions.size(); ++i) {
+      const Region& region = scene_.regions[i];
       const SceneMedium& medium = scene_.media[region.medium];
-      const Accelerator& accelerator = *region.accelerator;
+      const Accelerator& accelerator = scene_.accelerator(region);
       const std::string index =
-          medium.is_opaque() ? "-"
-                             : fmt::format("{:.4f}", medium.index(0.5 * (scene_.low_nm + scene_.high_nm)));
+          medium.is_opaque() ? "-" : fmt::format("{:.4f}", scene_.optics.index(region.medium, middle_nm));
       const std::string how = accelerator.uses_planes() ? fmt::format("{} planes", accelerator.plane_count())
                               : accelerator.size() == 0 ? "nothing to meet"
                                                         : "Embree";
-      add(rows, region.name,
+      add(rows, scene_.region_names[i],
           fmt::format("{:<22} {:>9} {:>10} {}", medium.medium().name, accelerator.size(), index, how));
     }
     print_rows(rows, 20);
@@ -125,7 +126,7 @@ class Printer {
     Alike<Between> lines;
     for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
       const Interface& interface = scene_.interfaces[i];
-      const Between one{scene_.regions[interface.back].name, scene_.regions[interface.front].name,
+      const Between one{scene_.region_names[interface.back], scene_.region_names[interface.front],
                         optics_of(interface), 0.0};
       const std::string key =
           every_one_ ? std::to_string(i) : shown(one.back) + '\n' + shown(one.front) + '\n' + one.optics;
@@ -152,7 +153,7 @@ class Printer {
     for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
       const Interface& interface = scene_.interfaces[i];
       if (interface.back == kAmbientRegion || interface.front == kAmbientRegion) continue;
-      Pair one{scene_.regions[interface.back].name, scene_.regions[interface.front].name, 0, 0, 0.0};
+      Pair one{scene_.region_names[interface.back], scene_.region_names[interface.front], 0, 0, 0.0};
       if (shown(one.b) < shown(one.a)) std::swap(one.a, one.b);
       Pair& pair = pairs.add(shown(one.a) + '\n' + shown(one.b), one).first;
       ++(interface.gap_medium == kNone ? pair.bonded : pair.dry);

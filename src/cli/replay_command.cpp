@@ -19,28 +19,32 @@ struct ReplayOptions {
 };
 
 std::string describe(const Scene& scene, const Step& step) {
-  switch (step.kind) {
-    case StepKind::scattered:
+  switch (step.event) {
+    case StepEvent::scattered:
       return "scattered in the bulk";
-    case StepKind::shifted:
+    case StepEvent::re_emitted:
       return "shifted to another wavelength";
-    case StepKind::returned:
-      return "turned back at " + scene.regions[scene.interfaces[step.interface].back].name + " | " +
-             scene.regions[scene.interfaces[step.interface].front].name;
-    case StepKind::crossed: {
+    case StepEvent::reflected:
+      return "turned back at " + scene.region_names[scene.interfaces[step.interface].back] + " | " +
+             scene.region_names[scene.interfaces[step.interface].front];
+    case StepEvent::transmitted: {
       const Interface& i = scene.interfaces[step.interface];
-      return "into " + scene.regions[step.from_back ? i.front : i.back].name;
+      return "into " + scene.region_names[step.from_back ? i.front : i.back];
     }
-    case StepKind::detected:
+    case StepEvent::detected:
       return "DETECTED by " + scene.parts[step.where].name;
-    case StepKind::unconverted:
+    case StepEvent::not_detected:
       return "NOT CONVERTED by " + scene.parts[step.where].name;
-    case StepKind::absorbed_in_medium:
+    case StepEvent::absorbed_in_medium:
       return "ABSORBED in " + scene.media[step.where].medium().name;
-    case StepKind::absorbed_at_surface:
+    case StepEvent::absorbed_at_surface:
       return "ABSORBED at " + scene.surfaces[step.where].name;
-    case StepKind::escaped:
+    case StepEvent::escaped:
       return "ESCAPED";
+    case StepEvent::emitted:
+    case StepEvent::cut_interactions:
+    case StepEvent::cut_time:
+      break;  // no steps
   }
   throw InternalError("unknown step");
 }

@@ -34,7 +34,7 @@ void put_fates(h5::Group& group, const PointResult& point) {
   std::vector<std::uint64_t> counts(point.fates.begin(), point.fates.end());
   std::vector<double> fractions, errors;
   for (int fate = 0; fate < kFateCount; ++fate) {
-    const Estimate estimate = point.fraction(static_cast<Fate>(fate));
+    const Estimate estimate = point.fraction(fate_at(fate));
     fractions.push_back(estimate.value);
     errors.push_back(estimate.error);
   }
@@ -63,7 +63,7 @@ void put_sensor_faces(h5::Group& point, const std::vector<SensorFaceCount>& face
     part.push_back(count.part);
     face.push_back(count.face);
     detected.push_back(count.detected);
-    unconverted.push_back(count.unconverted);
+    unconverted.push_back(count.not_detected);
   }
   put(group, "part", part);
   put(group, "face", face);
@@ -181,7 +181,7 @@ void put_header(h5::Group& root, const RunHeader& header) {
   put_text(root, "parts", header.parts);
   put_text(root, "faces", header.faces);
   std::vector<std::string> fates;
-  for (int fate = 0; fate < kFateCount; ++fate) fates.emplace_back(fate_name(static_cast<Fate>(fate)));
+  for (int fate = 0; fate < kFateCount; ++fate) fates.emplace_back(fate_name(fate_at(fate)));
   put_text(root, "fate_names", fates);
 }
 

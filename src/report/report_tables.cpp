@@ -35,7 +35,7 @@ std::vector<LedgerEntry> ledger(const RunResult& run) {
   };
   const auto fate = [](Fate f) { return [f](const PointResult& point) { return point.count(f); }; };
   add("detected", "f0", fate(Fate::detected));
-  add("unconverted", "f1", fate(Fate::unconverted));
+  add("unconverted", "f1", fate(Fate::not_detected));
   for (std::size_t m = 0; m < run.header.media.size(); ++m)
     add("absorbed in " + run.header.media[m], "f2", [m](const PointResult& point) {
       return m < point.absorbed_in_medium.size() ? point.absorbed_in_medium[m] : 0;
@@ -245,7 +245,7 @@ std::string sensor_section(const RunResult& run) {
       rows += "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
               cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
               number_cell(percent_with_error(binomial_estimate(count.detected, point.photons))) +
-              number_cell(grouped(count.unconverted)) + "</tr>\n";
+              number_cell(grouped(count.not_detected)) + "</tr>\n";
   if (rows.empty()) return "";
   return section(
       "Sensors, face by face",

@@ -51,7 +51,7 @@ std::string point_table(const RunResult& run) {
 std::string fate_table(const PointResult& point) {
   Table table{{"fate", "photons", "fraction"}};
   for (int i = 0; i < kFateCount; ++i) {
-    const Fate fate = static_cast<Fate>(i);
+    const Fate fate = fate_at(i);
     std::string name = fate_name(fate);
     std::replace(name.begin(), name.end(), '_', ' ');
     table.push_back({name, std::to_string(point.count(fate)), with_error(point.fraction(fate))});

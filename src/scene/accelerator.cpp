@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <tuple>
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/triangle_distance.hpp"
@@ -104,7 +105,7 @@ struct Accelerator::EmbreeScene {
   std::shared_ptr<RTCDeviceTy> shared_device = embree_device();
   RTCScene scene = nullptr;
 
-  explicit EmbreeScene(const IndexedTriangles& triangles) {
+  explicit EmbreeScene(const Boundary& triangles) {
     const RTCDevice device = shared_device.get();
     scene = rtcNewScene(device);
     // Splitting triangles for a better hierarchy takes memory that large meshes feel.
@@ -117,7 +118,7 @@ struct Accelerator::EmbreeScene {
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
     if (!vertices || !indices) throw SystemError("Embree could not allocate its mesh buffers");
-    for (const Vec3& vertex : triangles.vertices)
+    for (const PlainVec3& vertex : triangles.vertices)
       for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
     std::copy(triangles.corners.begin(), triangles.corners.end(), indices);
     rtcCommitGeometry(geometry);
@@ -134,82 +135,112 @@ struct Accelerator::EmbreeScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 };
 
-IndexedTriangles::IndexedTriangles(const std::vector<BoundaryTriangle>& triangles) {
-  const auto before = [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-  };
+namespace {
+
+bool ordered(const PlainVec3& a, const PlainVec3& b) {
+  return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
+}
+
+/// Fills in vertices and corners.
+void index_vertices(const std::vector<BoundaryTriangle>& triangles, Boundary& boundary) {
+  std::vector<PlainVec3>& vertices = boundary.vertices;
   vertices.reserve(3 * triangles.size());
   for (const BoundaryTriangle& triangle : triangles)
     vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-  std::sort(vertices.begin(), vertices.end(), before);
+  std::sort(vertices.begin(), vertices.end(), ordered);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   vertices.shrink_to_fit();
-  corners.reserve(3 * triangles.size());
+  boundary.corners.reserve(3 * triangles.size());
   for (const BoundaryTriangle& triangle : triangles)
     for (const Vec3& vertex : triangle)
-      corners.push_back(static_cast<std::uint32_t>(
-          std::lower_bound(vertices.begin(), vertices.end(), vertex, before) - vertices.begin()));
+      boundary.corners.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(vertices.begin(), vertices.end(), vertex, ordered) - vertices.begin()));
 }
 
-Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
-                         const std::vector<std::uint32_t>& labels, bool closed, AcceleratorKind kind)
-    : triangles_(triangles), closed_(closed) {
+/// All but the planes of a convex region.
+Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles, bool closed) {
+  Boundary boundary;
+  index_vertices(triangles, boundary);
   Eigen::AlignedBox3d bounds;
-  triangle_planes_.reserve(triangles.size());
+  boundary.triangle_planes.reserve(triangles.size());
   for (const BoundaryTriangle& t : triangles) {
     const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
-    triangle_planes_.push_back({normal, normal.dot(t[0])});
+    boundary.triangle_planes.push_back({normal, normal.dot(t[0])});
     for (const Vec3& vertex : t) bounds.extend(vertex);
   }
-  size_mm_ = triangles.empty() ? 0.0 : bounds.diagonal().norm();
-  start_mm_ = kStartAhead * size_mm_;
-  if (kind != AcceleratorKind::embree && make_planes(labels)) return;
-  if (kind == AcceleratorKind::planes && closed_)
-    throw InputError(Problem{{},
-                             "accelerator \"planes\" is asked for, but a region is not convex with at most " +
-                                 std::to_string(kMostPlanes) + " planes",
-                             "use accelerator = \"auto\" or \"embree\""});
-  if (!triangles.empty()) embree_ = std::make_unique<EmbreeScene>(triangles_);
+  boundary.size_mm = triangles.empty() ? 0.0 : bounds.diagonal().norm();
+  boundary.closed = closed;
+  return boundary;
 }
 
-Accelerator::~Accelerator() = default;
-
-bool Accelerator::make_planes(const std::vector<std::uint32_t>& labels) {
-  if (!closed_ || triangles_.size() == 0) return false;
-  const double tolerance = kCoplanar * size_mm_;
-  std::vector<Plane> planes;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const BoundaryTriangle corners = triangles_[i];
-    const auto on_plane = [&](const Plane& plane) {
-      return plane.normal.dot(normal(i)) > 0.0 &&
+/// Fills in the planes of a convex region with few; false where it is none.
+bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
+  if (!boundary.closed || boundary.size() == 0) return false;
+  const double tolerance = kCoplanar * boundary.size_mm;
+  std::vector<BoundingPlane> planes;
+  std::vector<std::vector<std::uint32_t>> on;  // triangles on each
+  for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+    const BoundaryTriangle corners = boundary.triangle(i);
+    const auto on_plane = [&](const BoundingPlane& plane) {
+      return plane.normal.dot(boundary.triangle_planes[i].normal) > 0.0 &&
              std::all_of(corners.begin(), corners.end(), [&](const Vec3& v) {
                return std::abs(plane.normal.dot(v) - plane.offset) <= tolerance;
              });
     };
-    auto plane = std::find_if(planes.begin(), planes.end(), on_plane);
-    if (plane == planes.end()) {
+    const auto known = std::find_if(planes.begin(), planes.end(), on_plane);
+    const auto at = static_cast<std::size_t>(known - planes.begin());
+    if (known == planes.end()) {
       if (planes.size() == kMostPlanes) return false;
-      planes.push_back({normal(i), triangle_planes_[i].offset, i, {}});
-      plane = planes.end() - 1;
+      planes.push_back({boundary.triangle_planes[i].normal, boundary.triangle_planes[i].offset, i, 0, 0});
+      on.emplace_back();
     }
-    plane->triangles.push_back(i);
+    on[at].push_back(i);
   }
-  for (Plane& plane : planes) {
-    for (const Vec3& vertex : triangles_.vertices)
+  std::vector<std::uint32_t> plane_triangles;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    BoundingPlane& plane = planes[i];
+    for (const PlainVec3& vertex : boundary.vertices)
       if (plane.normal.dot(vertex) > plane.offset + tolerance) return false;
-    const bool one_label = std::all_of(plane.triangles.begin(), plane.triangles.end(),
+    const bool one_label = std::all_of(on[i].begin(), on[i].end(),
                                        [&](std::uint32_t t) { return labels[t] == labels[plane.first]; });
-    if (one_label)
-      plane.triangles.clear();
-    else if (plane.triangles.size() > kMostTrianglesOnMixedPlane)
-      return false;
+    if (one_label) continue;
+    if (on[i].size() > kMostTrianglesOnMixedPlane) return false;
+    plane.triangles_begin = static_cast<std::uint32_t>(plane_triangles.size());
+    plane_triangles.insert(plane_triangles.end(), on[i].begin(), on[i].end());
+    plane.triangles_end = static_cast<std::uint32_t>(plane_triangles.size());
   }
-  planes_ = std::move(planes);
+  boundary.planes = std::move(planes);
+  boundary.plane_triangles = std::move(plane_triangles);
   return true;
 }
 
+Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles,
+                       const std::vector<std::uint32_t>& labels, bool closed, AcceleratorKind kind) {
+  Boundary boundary = make_boundary(triangles, closed);
+  const bool planes = kind != AcceleratorKind::embree && find_planes(labels, boundary);
+  if (!planes && kind == AcceleratorKind::planes && closed)
+    throw InputError(Problem{{},
+                             "accelerator \"planes\" is asked for, but a region is not convex with at most " +
+                                 std::to_string(kMostPlanes) + " planes",
+                             "use accelerator = \"auto\" or \"embree\""});
+  return boundary;
+}
+
+}  // namespace
+
+Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
+                         const std::vector<std::uint32_t>& labels, bool closed, AcceleratorKind kind)
+    : Accelerator(make_boundary(triangles, labels, closed, kind)) {}
+
+Accelerator::Accelerator(Boundary boundary)
+    : boundary_(std::move(boundary)), start_mm_(kStartAhead * boundary_.size_mm) {
+  if (boundary_.size() > 0 && boundary_.planes.empty()) embree_ = std::make_unique<EmbreeScene>(boundary_);
+}
+
+Accelerator::~Accelerator() = default;
+
 Exit Accelerator::find_exit(const Vec3& origin, const Vec3& direction) const {
-  if (!planes_.empty()) return exit_by_planes(origin, direction);
+  if (!boundary_.planes.empty()) return exit_by_planes(origin, direction);
   if (!embree_) return {};
   const Lanes from(origin, -1.0), along(direction, 0.0);
   const FirstHit hit = first_hit(Lanes(origin, start_mm_).floats(), along.floats());
@@ -222,8 +253,8 @@ Exit Accelerator::find_exit(const Vec3& origin, const Vec3& direction) const {
 
 Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) const {
   double nearest = kInfinity;
-  const Plane* exit = nullptr;
-  for (const Plane& plane : planes_) {
+  const BoundingPlane* exit = nullptr;
+  for (const BoundingPlane& plane : boundary_.planes) {
     const double along = plane.normal.dot(direction);
     if (along <= 0.0) continue;
     const double distance = (plane.offset - plane.normal.dot(origin)) / along;
@@ -234,11 +265,12 @@ Exit Accelerator::exit_by_planes(const Vec3& origin, const Vec3& direction) cons
   }
   nearest = std::max(nearest, 0.0);
   std::uint32_t triangle = exit->first;
-  if (!exit->triangles.empty()) {
+  if (exit->triangles_begin != exit->triangles_end) {
     const Vec3 point = origin + nearest * direction;
     double least_outside = kInfinity;
-    for (const std::uint32_t candidate : exit->triangles) {
-      const double outside = distance_outside(triangles_[candidate], normal(candidate), point);
+    for (std::uint32_t i = exit->triangles_begin; i < exit->triangles_end; ++i) {
+      const std::uint32_t candidate = boundary_.plane_triangles[i];
+      const double outside = distance_outside(boundary_.triangle(candidate), normal(candidate), point);
       if (outside >= least_outside) continue;
       least_outside = outside;
       triangle = candidate;
@@ -257,12 +289,12 @@ FirstHit Accelerator::first_hit(FourFloats origin_and_start, FourFloats directio
 Exit Accelerator::exit_after_doubt(const Vec3& origin, const Vec3& direction, FirstHit hit) const {
   for (int self_hits = 0;; ++self_hits) {
     if (hit.triangle == kNoTriangle) {
-      if (!closed_) return {};
+      if (!boundary_.closed) return {};
       break;
     }
     const Approach approach = approach_of(hit.triangle, Lanes(origin, -1.0), Lanes(direction, 0.0));
     if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
-    const TrianglePlane& plane = triangle_planes_[hit.triangle];
+    const TrianglePlane& plane = boundary_.triangle_planes[hit.triangle];
     const double ahead = plane.offset - plane.normal.dot(origin);
     if (self_hits == kMostSelfHits || std::abs(ahead) > start_mm_) break;
     const double start = std::nextafter(hit.distance_mm, std::numeric_limits<float>::infinity()) + start_mm_;
@@ -272,24 +304,24 @@ Exit Accelerator::exit_after_doubt(const Vec3& origin, const Vec3& direction, Fi
 }
 
 Exit Accelerator::exit_by_search(const Vec3& origin, const Vec3& direction) const {
-  const double behind = kBehind * size_mm_;
+  const double behind = kBehind * boundary_.size_mm;
   double entered = kInfinity;  // where the ray would come in again from outside
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < size(); ++i) {
     if (normal(i).dot(direction) >= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (distance > behind && distance < entered &&
-        distance_outside(triangles_[i], normal(i), origin + distance * direction) == 0.0)
+        distance_outside(triangle(i), normal(i), origin + distance * direction) == 0.0)
       entered = distance;
   }
   // The nearest triangle really met, or failing that the one that was missed by least.
   Exit exit{0.0, kNoTriangle, true};
   double least_miss = kInfinity;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < size(); ++i) {
     if (normal(i).dot(direction) <= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (!(distance >= -behind && distance <= entered + behind)) continue;
-    const double outside = distance_outside(triangles_[i], normal(i), origin + distance * direction);
-    const double miss = outside + (distance < -kCoplanar * size_mm_ ? -distance : 0.0);
+    const double outside = distance_outside(triangle(i), normal(i), origin + distance * direction);
+    const double miss = outside + (distance < -kCoplanar * boundary_.size_mm ? -distance : 0.0);
     if (miss < least_miss || (miss == least_miss && distance < exit.distance_mm)) {
       least_miss = miss;
       exit.distance_mm = distance;
@@ -297,15 +329,15 @@ Exit Accelerator::exit_by_search(const Vec3& origin, const Vec3& direction) cons
     }
   }
   // An unbounded region is left through infinity unless the ray really went through an edge.
-  if (!closed_ && least_miss > behind) return {0.0, kNoTriangle, true};
+  if (!boundary_.closed && least_miss > behind) return {0.0, kNoTriangle, true};
   exit.distance_mm = std::max(0.0, exit.distance_mm);
   return exit;
 }
 
 bool Accelerator::contains(const Vec3& point) const {
-  if (!planes_.empty())
-    return std::all_of(planes_.begin(), planes_.end(),
-                       [&](const Plane& plane) { return plane.normal.dot(point) <= plane.offset; });
+  if (!boundary_.planes.empty())
+    return std::all_of(boundary_.planes.begin(), boundary_.planes.end(),
+                       [&](const BoundingPlane& plane) { return plane.normal.dot(point) <= plane.offset; });
   if (!embree_) return false;
   // A skew direction keeps clear of the edges that axis-aligned meshes have.
   static const Vec3 kSkew = Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
@@ -323,19 +355,19 @@ Accelerator::Inside Accelerator::inside_by_embree(const Vec3& point, const Vec3&
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::nothing_met;
   // Near the start or near an edge single precision cannot say which side is met.
   const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
-  if (hit.ray.tfar < kBehind * size_mm_ || edge < kClearOfEdge) return Inside::unclear;
+  if (hit.ray.tfar < kBehind * boundary_.size_mm || edge < kClearOfEdge) return Inside::unclear;
   return normal(hit.hit.primID).dot(direction) > 0.0 ? Inside::yes : Inside::no;
 }
 
 bool Accelerator::inside_by_search(const Vec3& point, const Vec3& direction) const {
   double nearest = kInfinity;
   bool inside = false;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < size(); ++i) {
     const double along = normal(i).dot(direction);
     if (along == 0.0) continue;
     const double distance = distance_to_plane(i, point, direction);
     if (distance < 0.0 || distance >= nearest) continue;
-    if (distance_outside(triangles_[i], normal(i), point + distance * direction) > 0.0) continue;
+    if (distance_outside(triangle(i), normal(i), point + distance * direction) > 0.0) continue;
     nearest = distance;
     inside = along > 0.0;
   }

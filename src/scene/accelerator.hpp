@@ -5,10 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "scintray/core/lanes.hpp"
-#include "scintray/core/vec.hpp"
+#include "scintray/core/plain_vec.hpp"
 #include "scintray/scene/accelerator_kind.hpp"
 
 namespace scintray {
@@ -16,14 +17,35 @@ namespace scintray {
 /// A triangle of a region's boundary in the region's own frame; normals point out of the region.
 using BoundaryTriangle = std::array<Vec3, 3>;
 
-/// Triangles with every vertex once: a third of the memory for a large mesh.
-struct IndexedTriangles {
-  std::vector<Vec3> vertices;
-  std::vector<std::uint32_t> corners;  ///< three a triangle
+/// The plane of a triangle.
+struct TrianglePlane {
+  PlainVec3 normal;  ///< unit, out of the region
+  double offset;     ///< normal . x on the plane
+};
+static_assert(std::is_trivially_copyable_v<TrianglePlane> && sizeof(TrianglePlane) == 4 * sizeof(double));
 
-  explicit IndexedTriangles(const std::vector<BoundaryTriangle>& triangles);
-  std::size_t size() const { return corners.size() / 3; }
-  BoundaryTriangle operator[](std::size_t i) const {
+/// A plane that bounds a convex region.
+struct BoundingPlane {
+  PlainVec3 normal;                 ///< unit, out of the region
+  double offset;                    ///< normal . x on the plane
+  std::uint32_t first;              ///< a triangle on the plane
+  std::uint32_t triangles_begin;    ///< where they lead to different places, all triangles on it, as a
+  std::uint32_t triangles_end = 0;  ///< range of Boundary::plane_triangles; empty: they lead to one
+};
+static_assert(std::is_trivially_copyable_v<BoundingPlane>);
+
+/// The boundary of one shape of region as plain records, in the region's own frame (mm).
+struct Boundary {
+  std::vector<PlainVec3> vertices;     ///< each once: a third of the memory for a large mesh
+  std::vector<std::uint32_t> corners;  ///< three a triangle, indices into `vertices`
+  std::vector<TrianglePlane> triangle_planes;
+  std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
+  std::vector<std::uint32_t> plane_triangles;  ///< as BoundingPlane says
+  double size_mm = 0.0;                        ///< diagonal of the bounding box
+  bool closed = true;                          ///< false for the ambient region
+
+  std::size_t size() const { return triangle_planes.size(); }
+  BoundaryTriangle triangle(std::size_t i) const {
     return {vertices[corners[3 * i]], vertices[corners[3 * i + 1]], vertices[corners[3 * i + 2]]};
   }
 };
@@ -66,6 +88,8 @@ class Accelerator {
   /// @param kind      throws InputError for `planes` where they do not apply
   Accelerator(const std::vector<BoundaryTriangle>& triangles, const std::vector<std::uint32_t>& labels,
               bool closed, AcceleratorKind kind);
+  /// The same from the records of another.
+  explicit Accelerator(Boundary boundary);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
@@ -77,7 +101,7 @@ class Accelerator {
   /// find_exit in pieces, for what follows a photon from wall to wall and has the next ray in single
   /// precision before it has it in double: the first hit, the approach to it, and where that does not leave
   /// the region, or nothing is hit, exit_after_doubt.
-  bool uses_embree() const { return planes_.empty() && embree_ != nullptr; }
+  bool uses_embree() const { return embree_ != nullptr; }
   /// @param origin_and_start  fourth: start_mm(); the others mm
   /// @param direction         fourth: 0
   /// Only where Embree is used.
@@ -96,29 +120,20 @@ class Accelerator {
   bool contains(const Vec3& point) const;
 
   /// Unit normal of a triangle, out of the region.
-  const Vec3& normal(std::uint32_t triangle) const { return triangle_planes_[triangle].normal; }
+  const PlainVec3& normal(std::uint32_t triangle) const { return boundary_.triangle_planes[triangle].normal; }
   /// The normal, and as the fourth its product with any point of the plane, mm.
   Lanes plane(std::uint32_t triangle) const {
-    static_assert(sizeof(TrianglePlane) == 4 * sizeof(double));
-    return Lanes::at(reinterpret_cast<const double*>(&triangle_planes_[triangle]));
+    return Lanes::at(reinterpret_cast<const double*>(&boundary_.triangle_planes[triangle]));
   }
-  std::size_t size() const { return triangles_.size(); }
-  BoundaryTriangle triangle(std::uint32_t i) const { return triangles_[i]; }
-  bool uses_planes() const { return !planes_.empty(); }
+  std::size_t size() const { return boundary_.size(); }
+  BoundaryTriangle triangle(std::uint32_t i) const { return boundary_.triangle(i); }
+  bool uses_planes() const { return !boundary_.planes.empty(); }
   /// Triangles whose planes bound the region, when it is convex: the number of distinct planes.
-  std::size_t plane_count() const { return planes_.size(); }
+  std::size_t plane_count() const { return boundary_.planes.size(); }
+  /// Everything but Embree's scene, which is made from it.
+  const Boundary& boundary() const { return boundary_; }
 
  private:
-  struct TrianglePlane {
-    Vec3 normal;
-    double offset;  ///< normal . x on the plane
-  };
-  struct Plane {
-    Vec3 normal;
-    double offset;                         ///< normal . x on the plane
-    std::uint32_t first;                   ///< a triangle on the plane
-    std::vector<std::uint32_t> triangles;  ///< all of them when they lead to different places
-  };
   struct EmbreeScene;
 
   /// What one ray says of a point.
@@ -131,17 +146,13 @@ class Accelerator {
   bool inside_by_search(const Vec3& point, const Vec3& direction) const;
   /// Along the ray to the triangle's plane.
   double distance_to_plane(std::uint32_t triangle, const Vec3& origin, const Vec3& direction) const {
-    const TrianglePlane& plane = triangle_planes_[triangle];
+    const TrianglePlane& plane = boundary_.triangle_planes[triangle];
     return (plane.offset - plane.normal.dot(origin)) / plane.normal.dot(direction);
   }
 
-  IndexedTriangles triangles_;
-  std::vector<TrianglePlane> triangle_planes_;
-  std::vector<Plane> planes_;
-  std::unique_ptr<EmbreeScene> embree_;
-  double size_mm_ = 0.0;   ///< diagonal of the bounding box
+  Boundary boundary_;
   double start_mm_ = 0.0;  ///< rays start this far ahead
-  bool closed_ = true;
+  std::unique_ptr<EmbreeScene> embree_;
 };
 
 }  // namespace scintray

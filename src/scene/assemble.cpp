@@ -273,6 +273,7 @@ void describe_parts(const Assembly& assembly, Scene& scene) {
 Scene assemble(const Assembly& assembly) {
   Scene scene;
   scene.media = assembly.media;
+  for (const SceneMedium& medium : scene.media) scene.optics.add(medium, assembly.low_nm, assembly.high_nm);
   scene.sensors = assembly.sensors;
   scene.low_nm = assembly.low_nm;
   scene.high_nm = assembly.high_nm;

@@ -130,7 +130,7 @@ class AssemblyMaker {
 
   std::uint32_t add_medium(Medium medium, const FileLocation& where) {
     check_cover(problems_, where, medium, wavelengths_.low_nm, wavelengths_.high_nm);
-    assembly_.media.emplace_back(std::move(medium), wavelengths_.low_nm, wavelengths_.high_nm);
+    assembly_.media.emplace_back(std::move(medium));
     return static_cast<std::uint32_t>(assembly_.media.size() - 1);
   }
 

@@ -48,9 +48,9 @@ std::vector<std::string> words_of(int count, const char* (*name)(int)) {
   return words;
 }
 
-const std::vector<std::string>& occasion_words() {
+const std::vector<std::string>& event_words() {
   static const auto words =
-      words_of(kOccasionCount, [](int i) { return occasion_name(static_cast<Occasion>(i)); });
+      words_of(kEventWordCount, [](int i) { return event_word(static_cast<StepEvent>(i)); });
   return words;
 }
 
@@ -68,19 +68,21 @@ TallyVariable read_variable(const TomlTable& table, const std::string& key) {
   return static_cast<TallyVariable>(place_of(variable_words(), table.choice(key, variable_words())));
 }
 
-std::vector<Occasion> read_occasions(const TomlTable& table, const std::string& key,
-                                     const std::vector<Occasion>& fallback) {
+std::vector<StepEvent> read_events(const TomlTable& table, const std::string& key,
+                                   const std::vector<StepEvent>& fallback) {
   if (!table.has(key)) return fallback;
-  std::vector<Occasion> occasions;
+  std::vector<StepEvent> events;
   for (const NameRef& name : read_names(table, key, false)) {
-    const std::size_t i = place_of(occasion_words(), name.name);
-    const std::string near = nearest_word(name.name, occasion_words());
+    const std::size_t i = place_of(event_words(), name.name);
+    const std::string near = nearest_word(name.name, event_words());
     table.expect(
-        key, i < occasion_words().size(), "nothing that happens to a photon is called \"" + name.name + "\"",
-        (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are " + list_of(occasion_words()));
-    if (i < occasion_words().size()) occasions.push_back(static_cast<Occasion>(i));
+        key, i < event_words().size(), "nothing that happens to a photon is called \"" + name.name + "\"",
+        (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are " + list_of(event_words()));
+    if (i == event_words().size()) continue;
+    const std::vector<StepEvent> named = events_of_word(static_cast<int>(i));
+    events.insert(events.end(), named.begin(), named.end());
   }
-  return occasions;
+  return events;
 }
 
 Dimension dimension_of(TallyVariable variable) {
@@ -195,14 +197,12 @@ TallyRangeSpec read_range(const TomlTable& table) {
   return range;
 }
 
-const std::vector<Occasion> kReaching = {Occasion::detected, Occasion::unconverted};
-const std::vector<Occasion> kThrough = {Occasion::crossed, Occasion::detected, Occasion::unconverted};
-const std::vector<Occasion> kMeeting = {Occasion::returned,
-                                        Occasion::crossed,
-                                        Occasion::detected,
-                                        Occasion::unconverted,
-                                        Occasion::absorbed_at_surface,
-                                        Occasion::absorbed_in_medium};
+const std::vector<StepEvent> kReaching = {StepEvent::detected, StepEvent::not_detected};
+const std::vector<StepEvent> kThrough = {StepEvent::transmitted, StepEvent::detected,
+                                         StepEvent::not_detected};
+const std::vector<StepEvent> kMeeting = {
+    StepEvent::reflected,    StepEvent::transmitted,         StepEvent::detected,
+    StepEvent::not_detected, StepEvent::absorbed_at_surface, StepEvent::absorbed_in_medium};
 
 TallyAxisSpec axis_of(TallyVariable variable, std::vector<NameRef> names = {}) {
   TallyAxisSpec axis;
@@ -258,19 +258,19 @@ std::int64_t read_bins(const TomlTable& table, const std::string& key, std::int6
 
 void read_crosstalk(const TomlTable& table, TallySpec& tally, std::vector<TallySpec>& all) {
   const std::vector<NameRef> sources = read_names(table, "source_part", false);
-  tally.at = read_occasions(table, "at", {Occasion::detected});
+  tally.at = read_events(table, "at", {StepEvent::detected});
   tally.axes = {axis_of(TallyVariable::source_part, sources),
                 axis_of(TallyVariable::part, read_names(table, "part", false))};
   TallySpec emitted = tally;
   emitted.name += ": emitted";
   emitted.type = "emitted";
-  emitted.at = {Occasion::emitted};
+  emitted.at = {StepEvent::emitted};
   emitted.axes.pop_back();
   all.push_back(std::move(emitted));
 }
 
 void read_etendue(const TomlTable& table, TallySpec& tally) {
-  tally.at = read_occasions(table, "at", kThrough);
+  tally.at = read_events(table, "at", kThrough);
   tally.way = read_way(table, "out");
   const bool inside = table.boolean("inside", false);
   add_pixels(table, 8, tally);
@@ -281,7 +281,7 @@ void read_etendue(const TomlTable& table, TallySpec& tally) {
 }
 
 void read_angles(const TomlTable& table, TallySpec& tally) {
-  tally.at = read_occasions(table, "at", kThrough);
+  tally.at = read_events(table, "at", kThrough);
   tally.way = read_way(table, "out");
   const bool inside = table.boolean("inside", false);
   tally.axes = {binned(inside ? TallyVariable::sin2_before : TallyVariable::sin2_after,
@@ -291,7 +291,7 @@ void read_angles(const TomlTable& table, TallySpec& tally) {
 }
 
 void read_count(const TomlTable& table, TallySpec& tally) {
-  tally.at = read_occasions(table, "at", {});
+  tally.at = read_events(table, "at", {});
   if (!table.has("at")) table.report("at", "a count needs to know of what", "add at = \"detected\"");
   tally.way = read_way(table, "out");
   table.expect("way", !tally.faces.empty(), "a way without a face", "add face = \"part:face\"");
@@ -299,7 +299,7 @@ void read_count(const TomlTable& table, TallySpec& tally) {
   tally.source_parts = read_names(table, "source_part", false);
   tally.visited = read_names(table, "visited", false);
   tally.not_visited = read_names(table, "not_visited", false);
-  tally.fate = read_occasions(table, "fate", {});
+  tally.fate = read_events(table, "fate", {});
   const std::string each = table.choice("each", {"time", "first", "last"}, "time");
   tally.each = each == "first" ? TallyEach::first : each == "last" ? TallyEach::last : TallyEach::time;
   if (const std::string score =
@@ -311,9 +311,10 @@ void read_count(const TomlTable& table, TallySpec& tally) {
     tally.axes.push_back(read_axis(axis, !tally.faces.empty()));
 }
 
-/// What no tally can mean: faces for occasions away from faces, directions at no face.
+/// What no tally can mean: faces for events away from faces, directions at no face.
 void check_faces(const TomlTable& table, const TallySpec& tally) {
-  const bool away = std::any_of(tally.at.begin(), tally.at.end(), [](Occasion o) { return !is_at_face(o); });
+  const bool away =
+      std::any_of(tally.at.begin(), tally.at.end(), [](StepEvent event) { return !is_at_boundary(event); });
   table.expect("face", !away, "a face for what does not happen at faces",
                "at a face photons are returned, crossed, detected, unconverted or absorbed");
   for (const TallyAxisSpec& axis : tally.axes)
@@ -338,7 +339,7 @@ void read_tally(const TomlTable& table, const std::string& type, std::vector<Tal
     read_crosstalk(table, tally, all);
   } else if (type == "light_spread" || type == "irradiance") {
     const bool spread = type == "light_spread";
-    tally.at = read_occasions(table, "at", spread ? kReaching : kThrough);
+    tally.at = read_events(table, "at", spread ? kReaching : kThrough);
     tally.way = read_way(table, spread ? "both" : "out");
     tally.normal = table.optional_direction("normal");
     add_pixels(table, std::nullopt, tally);
@@ -350,7 +351,7 @@ void read_tally(const TomlTable& table, const std::string& type, std::vector<Tal
     if (tally.faces.empty()) tally.faces = {{"*:*", table.where()}};
     tally.at = kMeeting;
     tally.way = read_way(table, "out");
-    tally.axes = {axis_of(TallyVariable::face), axis_of(TallyVariable::occasion)};
+    tally.axes = {axis_of(TallyVariable::face), axis_of(TallyVariable::event)};
   } else {
     read_count(table, tally);
   }

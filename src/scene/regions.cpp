@@ -70,12 +70,11 @@ std::vector<std::vector<std::pair<std::uint32_t, bool>>> triangles_by_region(
 
 /// Fills in BoundaryLink::smooth_to, which needs all regions.
 void link_smooth_media(Scene& scene) {
-  for (Region& region : scene.regions)
-    for (BoundaryLink& link : region.links) {
-      const Interface& interface = scene.interfaces[link.interface];
-      if (interface.plain)
-        link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
-    }
+  for (BoundaryLink& link : scene.links) {
+    const Interface& interface = scene.interfaces[link.interface];
+    if (interface.plain)
+      link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
+  }
 }
 
 }  // namespace
@@ -83,26 +82,28 @@ void link_smooth_media(Scene& scene) {
 void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle>& triangles,
                    const std::vector<std::uint32_t>& interface_of, Scene& scene) {
   const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
-  std::map<Shape, std::shared_ptr<const Accelerator>> known;
+  std::map<Shape, std::uint32_t> known;  // accelerators
   for (std::size_t r = 0; r < by_region.size(); ++r) {
     const bool ambient = r == kAmbientRegion;
     Region region;
-    region.name = ambient ? "ambient" : assembly.parts[r - 1].geometry.name;
+    scene.region_names.push_back(ambient ? "ambient" : assembly.parts[r - 1].geometry.name);
     region.part = ambient ? kNone : static_cast<std::int32_t>(r - 1);
     region.medium = ambient ? assembly.ambient : assembly.parts[r - 1].medium;
-    if (!ambient) region.rotation = assembly.parts[r - 1].rotation;
-    region.rotated = !region.rotation.isIdentity(0.0);
+    const Eigen::Matrix3d rotation =
+        ambient ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : assembly.parts[r - 1].rotation;
+    region.rotation = rotation;
+    region.rotated = !rotation.isIdentity(0.0);
 
     Eigen::AlignedBox3d bounds;  // in the part's own orientation
     for (const auto& [index, is_back] : by_region[r])
-      for (const Vec3& vertex : triangles[index].vertex) bounds.extend(region.rotation.transpose() * vertex);
-    if (!bounds.isEmpty()) region.centre = region.rotation * bounds.center();
+      for (const Vec3& vertex : triangles[index].vertex) bounds.extend(rotation.transpose() * vertex);
+    if (!bounds.isEmpty()) region.centre = rotation * bounds.center();
 
     std::vector<Entry> entries;
     for (const auto& [index, is_back] : by_region[r]) {
       BoundaryTriangle local;
       for (std::size_t i = 0; i < 3; ++i)
-        local[i] = region.rotation.transpose() * (triangles[index].vertex[i] - region.centre);
+        local[i] = rotation.transpose() * (triangles[index].vertex[i] - region.centre);
       if (!is_back) std::swap(local[1], local[2]);
       entries.push_back(make_entry(local, {interface_of[index], kNotSmooth, is_back}));
     }
@@ -111,24 +112,24 @@ void build_regions(const Assembly& assembly, const std::vector<InterfaceTriangle
 
     Shape shape;
     std::vector<BoundaryTriangle> boundary;
+    region.first_link = static_cast<std::uint32_t>(scene.links.size());
     shape.labels = pattern_of(entries);
     for (const Entry& entry : entries) {
       shape.triangles.push_back(entry.key);
       boundary.push_back(entry.local);
-      region.links.push_back(entry.link);
+      scene.links.push_back(entry.link);
     }
-    if (ambient) {
-      region.accelerator = std::make_shared<Accelerator>(boundary, shape.labels, false, assembly.accelerator);
-      ++scene.accelerators;
-    } else {
-      auto& shared = known[shape];
-      if (!shared) {
-        shared = std::make_shared<Accelerator>(boundary, shape.labels, true, assembly.accelerator);
-        ++scene.accelerators;
-      }
-      region.accelerator = shared;
+    region.accelerator = static_cast<std::uint32_t>(scene.accelerators.size());
+    bool is_new = true;
+    if (!ambient) {
+      const auto shared = known.try_emplace(shape, region.accelerator);
+      region.accelerator = shared.first->second;
+      is_new = shared.second;
     }
-    scene.regions.push_back(std::move(region));
+    if (is_new)
+      scene.accelerators.push_back(
+          std::make_shared<Accelerator>(boundary, shape.labels, !ambient, assembly.accelerator));
+    scene.regions.push_back(region);
   }
   link_smooth_media(scene);
 }

@@ -17,31 +17,47 @@ bool constant_optics(const Medium& medium) {
 
 }  // namespace
 
-SceneMedium::SceneMedium(Medium medium, double low_nm, double high_nm)
-    : medium_(std::move(medium)), low_nm_(low_nm) {
-  if (constant_optics(medium_) || !(high_nm > low_nm)) {
-    table_ = {medium_.at(low_nm)};
-    return;
+void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double high_nm) {
+  const Medium& medium = scene_medium.medium();
+  MediumRecord record;
+  record.first = static_cast<std::uint32_t>(table.size());
+  record.scattering = medium.scattering;
+  record.opaque = scene_medium.is_opaque();
+  record.shifts = medium.shifter != nullptr;
+  if (record.opaque) {
+    table.push_back(MediumOptics{});
+  } else if (constant_optics(medium) || !(high_nm > low_nm)) {
+    table.push_back(medium.at(low_nm));
+  } else {
+    const auto steps = static_cast<std::uint32_t>(std::ceil((high_nm - low_nm) / kWavelengthStep_nm));
+    record.count = steps + 1;
+    record.low_nm = low_nm;
+    record.per_nm = static_cast<double>(steps) / (high_nm - low_nm);
+    record.last = static_cast<double>(steps);
+    for (std::uint32_t i = 0; i <= steps; ++i)
+      table.push_back(medium.at(low_nm + static_cast<double>(i) / record.per_nm));
   }
-  const auto steps = static_cast<std::size_t>(std::ceil((high_nm - low_nm) / kWavelengthStep_nm));
-  per_nm_ = static_cast<double>(steps) / (high_nm - low_nm);
-  last_ = static_cast<double>(steps);
-  for (std::size_t i = 0; i <= steps; ++i)
-    table_.push_back(medium_.at(low_nm + static_cast<double>(i) / per_nm_));
+  media.push_back(record);
 }
 
 SceneMedium SceneMedium::opaque() {
-  SceneMedium medium;
-  medium.medium_.name = "opaque";
-  medium.medium_.index = Curve::constant(1.0);
-  medium.table_ = {MediumOptics{}};
+  Medium nothing;
+  nothing.name = "opaque";
+  nothing.index = Curve::constant(1.0);
+  SceneMedium medium(std::move(nothing));
   medium.opaque_ = true;
   return medium;
 }
 
+BoundaryTriangle Scene::triangle(const Region& region, std::uint32_t number) const {
+  BoundaryTriangle corners = accelerator(region).triangle(number);
+  for (Vec3& corner : corners) corner = region.centre + region.direction_to_world(corner);
+  return corners;
+}
+
 bool Scene::region_contains(std::uint32_t region, const Vec3& point) const {
   const Region& candidate = regions[region];
-  return candidate.accelerator->contains(candidate.point_to_local(point));
+  return accelerator(candidate).contains(candidate.point_to_local(point));
 }
 
 bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const {
@@ -50,10 +66,9 @@ bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box
   const Vec3 slack = Vec3::Constant(kRounding * box.diagonal().norm());
   const Eigen::AlignedBox3d inner(box.min() + slack, box.max() - slack);
   const Region& candidate = regions[region];
-  for (std::uint32_t i = 0; i < candidate.accelerator->size(); ++i) {
+  for (std::uint32_t i = 0; i < accelerator(candidate).size(); ++i) {
     Eigen::AlignedBox3d bounds;
-    for (const Vec3& vertex : candidate.accelerator->triangle(i))
-      bounds.extend(candidate.centre + candidate.direction_to_world(vertex));
+    for (const Vec3& vertex : triangle(candidate, i)) bounds.extend(vertex);
     if (inner.intersects(bounds)) return false;
   }
   return true;

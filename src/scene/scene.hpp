@@ -1,11 +1,14 @@
 #pragma once
 /// The scene as photons see it: regions, interfaces, and what binds to them. Immutable once built.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "scintray/core/plain_vec.hpp"
 #include "scintray/detector/sensor.hpp"
 #include "scintray/medium/medium.hpp"
 #include "scintray/scene/accelerator.hpp"
@@ -16,36 +19,59 @@ namespace scintray {
 inline constexpr std::uint32_t kAmbientRegion = 0;
 inline constexpr std::int32_t kNone = -1;
 
-/// A medium with its optics tabulated at even steps of wavelength, for use once per interaction.
+/// A medium of the scene, as it was defined.
 class SceneMedium {
  public:
-  /// Tabulates [low_nm, high_nm] in steps of at most 0.5 nm.
-  SceneMedium(Medium medium, double low_nm, double high_nm);
+  explicit SceneMedium(Medium medium) : medium_(std::move(medium)) {}
   /// A medium that absorbs whatever enters it.
   static SceneMedium opaque();
 
-  MediumOptics at(double wavelength_nm) const {
-    if (table_.size() == 1) return table_.front();
-    const double position = std::clamp((wavelength_nm - low_nm_) * per_nm_, 0.0, last_);
-    const auto i = std::min(static_cast<std::size_t>(position), table_.size() - 2);
-    const double t = position - static_cast<double>(i);
-    const MediumOptics &a = table_[i], &b = table_[i + 1];
-    return {a.index + t * (b.index - a.index), a.group_index + t * (b.group_index - a.group_index),
-            a.absorption_per_mm + t * (b.absorption_per_mm - a.absorption_per_mm),
-            a.scattering_per_mm + t * (b.scattering_per_mm - a.scattering_per_mm)};
-  }
-  double index(double wavelength_nm) const {
-    return table_.size() == 1 ? table_.front().index : at(wavelength_nm).index;
-  }
   const Medium& medium() const { return medium_; }
   bool is_opaque() const { return opaque_; }
 
  private:
-  SceneMedium() = default;
   Medium medium_;
-  std::vector<MediumOptics> table_;
-  double low_nm_ = 0.0, per_nm_ = 0.0, last_ = 0.0;
   bool opaque_ = false;
+};
+
+/// What photons see of a medium: where its optics are in SceneOptics::table, and how it interacts.
+struct MediumRecord {
+  std::uint32_t first = 0, count = 1;  ///< entries of the table; 1: the same at every wavelength
+  double low_nm = 0.0, per_nm = 0.0;   ///< wavelength of the first, and entries per nm
+  double last = 0.0;                   ///< place of the last entry, count - 1
+  ScatteringKind scattering = ScatteringKind::rayleigh;
+  bool opaque = false;
+  bool shifts = false;  ///< it has a wavelength shifter
+};
+static_assert(std::is_trivially_copyable_v<MediumRecord>);
+static_assert(std::is_trivially_copyable_v<MediumOptics>);
+
+/// The optics of all media, tabulated at even steps of wavelength, for use once per interaction.
+struct SceneOptics {
+  std::vector<MediumRecord> media;  ///< as Scene::media
+  std::vector<MediumOptics> table;
+
+  /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
+  void add(const SceneMedium& medium, double low_nm, double high_nm);
+
+  /// Optics of a medium at a wavelength (nm); beyond the table's ends as at them.
+  MediumOptics at(std::uint32_t medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    const MediumOptics* entries = &table[record.first];
+    if (record.count == 1) return *entries;
+    const double position = std::clamp((wavelength_nm - record.low_nm) * record.per_nm, 0.0, record.last);
+    const auto i = std::min(static_cast<std::size_t>(position), std::size_t{record.count} - 2);
+    const double t = position - static_cast<double>(i);
+    const MediumOptics &a = entries[i], &b = entries[i + 1];
+    return {a.index + t * (b.index - a.index), a.group_index + t * (b.group_index - a.group_index),
+            a.absorption_per_mm + t * (b.absorption_per_mm - a.absorption_per_mm),
+            a.scattering_per_mm + t * (b.scattering_per_mm - a.scattering_per_mm)};
+  }
+  double index(std::uint32_t medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    return record.count == 1 ? table[record.first].index : at(medium, wavelength_nm).index;
+  }
+  bool is_opaque(std::uint32_t medium) const { return media[medium].opaque; }
 };
 
 /// What separates two regions over some of their boundary. Its normal points from `back` to `front`.
@@ -62,6 +88,7 @@ struct Interface {
   std::int32_t back_face = kNone, front_face = kNone;  ///< faces of the two parts, scene-wide
   bool plain = false;                                  ///< one smooth surface and nothing else
 };
+static_assert(std::is_trivially_copyable_v<Interface>);
 
 inline constexpr std::uint32_t kNotSmooth = 0xffffffffu;
 
@@ -71,28 +98,37 @@ struct BoundaryLink {
   std::uint32_t smooth_to = kNotSmooth;  ///< medium behind a plain interface; kNotSmooth: it is not plain
   bool from_back = true;
 };
+static_assert(std::is_trivially_copyable_v<BoundaryLink>);
 
 /// Connected space of one medium: a part less what is nested in it, or the ambient space.
 struct Region {
-  std::string name;
   std::uint32_t medium = 0;
   std::int32_t part = kNone;
-  std::shared_ptr<const Accelerator> accelerator;
-  Vec3 centre = Vec3::Zero();                              ///< origin of the region's frame, mm
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< world = centre + rotation * local
-  bool rotated = false;
-  std::vector<BoundaryLink> links;  ///< per triangle of the accelerator
+  std::uint32_t accelerator = 0;                     ///< index into Scene::accelerators
+  std::uint32_t first_link = 0;                      ///< of its triangles', in SceneRecords::links
+  bool rotated = false;                              ///< `rotation` is not the identity
+  PlainVec3 centre = Vec3(Vec3::Zero());             ///< origin of the region's frame, mm
+  PlainMatrix3 rotation = PlainMatrix3::identity();  ///< world = centre + rotation * local
 
-  Vec3 point_to_local(const Vec3& p) const {
-    const Vec3 shifted = p - centre;
-    return rotated ? Vec3(rotation.transpose() * shifted) : shifted;
+  Vec3 point_to_local(const Vec3& p) const { return direction_to_local(p - centre); }
+  Vec3 direction_to_local(const Vec3& d) const {
+    return rotated ? Vec3(rotation.matrix().transpose() * d) : d;
   }
-  /// Where a ray inside it leaves it.
-  Exit find_exit(const Vec3& p, const Vec3& d) const {
-    return accelerator->find_exit(point_to_local(p), direction_to_local(d));
+  Vec3 direction_to_world(const Vec3& d) const { return rotated ? Vec3(rotation.matrix() * d) : d; }
+};
+static_assert(std::is_trivially_copyable_v<Region>);
+
+/// What photons see, as plain records in arrays with indices between them: no names, nothing that points.
+/// With the boundaries of the accelerators it can be copied to another process or device as it is.
+struct SceneRecords {
+  std::vector<Region> regions;      ///< regions[kAmbientRegion] surrounds everything
+  std::vector<BoundaryLink> links;  ///< one a triangle of a region's boundary, region after region
+  std::vector<Interface> interfaces;
+  SceneOptics optics;
+
+  const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
+    return links[region.first_link + triangle];
   }
-  Vec3 direction_to_local(const Vec3& d) const { return rotated ? Vec3(rotation.transpose() * d) : d; }
-  Vec3 direction_to_world(const Vec3& d) const { return rotated ? Vec3(rotation * d) : d; }
 };
 
 struct PartInfo {
@@ -115,17 +151,32 @@ struct FaceInfo {
   std::vector<Vec3> corners;            ///< of its triangles, each once
 };
 
-struct Scene {
+/// A scene: what photons see, and beside it what its records refer to by index.
+struct Scene : SceneRecords {
   std::vector<SceneMedium> media;
   std::vector<Surface> surfaces;
   std::vector<Sensor> sensors;
+  /// Distinct ones; regions of one shape share. A copy of a scene shares them.
+  std::vector<std::shared_ptr<const Accelerator>> accelerators;
+
+  std::vector<std::string> region_names;
   std::vector<PartInfo> parts;
   std::vector<FaceInfo> faces;
-  std::vector<Interface> interfaces;
   std::vector<double> interface_area_mm2;
-  std::vector<Region> regions;         ///< regions[kAmbientRegion] surrounds everything
-  std::size_t accelerators = 0;        ///< distinct ones; regions of one shape share
   double low_nm = 0.0, high_nm = 0.0;  ///< wavelengths in use
+
+  const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
+  /// Where a ray inside a region leaves it.
+  /// @param p  world, mm; @param d  of unit length
+  Exit find_exit(const Region& region, const Vec3& p, const Vec3& d) const {
+    return accelerator(region).find_exit(region.point_to_local(p), region.direction_to_local(d));
+  }
+  /// Normal of a triangle of a region's boundary (world), out of the region.
+  Vec3 normal(const Region& region, std::uint32_t triangle) const {
+    return region.direction_to_world(accelerator(region).normal(triangle));
+  }
+  /// A triangle of a region's boundary (world, mm).
+  BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
 
   /// The region that contains a point (world, mm).
   std::uint32_t locate(const Vec3& point) const;

@@ -1,22 +1,28 @@
 #include "scintray/scene/tally_spec.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace scintray {
 
-const char* occasion_name(Occasion occasion) {
-  static constexpr std::array<const char*, kOccasionCount> kNames = {"emitted",
-                                                                     "scattered",
-                                                                     "shifted",
-                                                                     "returned",
-                                                                     "crossed",
-                                                                     "detected",
-                                                                     "unconverted",
-                                                                     "absorbed_in_medium",
-                                                                     "absorbed_at_surface",
-                                                                     "escaped",
-                                                                     "cut"};
-  return kNames[static_cast<std::size_t>(occasion)];
+const char* event_word(StepEvent event) {
+  static constexpr std::array<const char*, kEventWordCount> kWords = {"emitted",
+                                                                      "scattered",
+                                                                      "shifted",
+                                                                      "returned",
+                                                                      "crossed",
+                                                                      "detected",
+                                                                      "unconverted",
+                                                                      "absorbed_in_medium",
+                                                                      "absorbed_at_surface",
+                                                                      "escaped",
+                                                                      "cut"};
+  return kWords[std::min(static_cast<std::size_t>(event), kWords.size() - 1)];
+}
+
+std::vector<StepEvent> events_of_word(int place) {
+  if (place == kEventWordCount - 1) return {StepEvent::cut_interactions, StepEvent::cut_time};
+  return {static_cast<StepEvent>(place)};
 }
 
 const char* tally_variable_name(TallyVariable variable) {

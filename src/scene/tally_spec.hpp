@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/step_event.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/scene/name_ref.hpp"
 
@@ -23,28 +24,12 @@ struct ExitAngleTallySpec {
   FileLocation where;
 };
 
-/// What happens to a photon and may be counted.
-enum class Occasion : std::uint8_t {
-  emitted,    ///< at its start
-  scattered,  ///< in the bulk
-  shifted,    ///< in the bulk, absorbed and given back at another wavelength
-  returned,   ///< met a face and stayed in its region
-  crossed,    ///< met a face and went into the neighbouring region
-  detected,
-  unconverted,
-  absorbed_in_medium,
-  absorbed_at_surface,
-  escaped,
-  cut,
-};
-inline constexpr int kOccasionCount = 11;
-/// "emitted", "scattered", ...
-const char* occasion_name(Occasion occasion);
-/// True where a face is met: returned, crossed, detected, unconverted, absorbed_at_surface, and absorbed
-/// in the opaque medium behind the face.
-inline bool is_at_face(Occasion occasion) {
-  return occasion >= Occasion::returned && occasion <= Occasion::absorbed_at_surface;
-}
+/// Words for step events in scene files and in the names of bins. "cut" stands for both events of photons
+/// that were cut.
+inline constexpr int kEventWordCount = 11;
+const char* event_word(StepEvent event);
+/// The events that a word stands for, one or two, from its place among the words.
+std::vector<StepEvent> events_of_word(int place);
 
 /// A number or a name that an axis spreads over bins and a condition bounds.
 enum class TallyVariable : std::uint8_t {
@@ -68,7 +53,7 @@ enum class TallyVariable : std::uint8_t {
   part,         ///< where it ends: the sensor's part, or the part it is in
   source_part,  ///< where it started
   face,         ///< the face met
-  occasion,     ///< what happened
+  event,        ///< what happened
 };
 inline constexpr int kTallyVariableCount = 19;
 const char* tally_variable_name(TallyVariable variable);
@@ -108,19 +93,19 @@ struct TallyRangeSpec {
   FileLocation where;
 };
 
-/// A count of occasions over axes, of photons that meet conditions. Names of parts and faces may have
+/// A count of step events over axes, of photons that meet conditions. Names of parts and faces may have
 /// wildcards.
 struct TallySpec {
   std::string name;
   std::string type;  ///< the key it was written with: "count", "crosstalk", "irradiance", ...
-  std::vector<Occasion> at;
+  std::vector<StepEvent> at;
   std::vector<NameRef> faces;  ///< "part:face"; empty: not bound to faces
   FaceWay way = FaceWay::out;
   std::vector<NameRef> parts;         ///< condition on TallyVariable::part
   std::vector<NameRef> source_parts;  ///< condition on TallyVariable::source_part
   std::vector<TallyRangeSpec> ranges;
   std::vector<NameRef> visited, not_visited;  ///< parts the photon was in, at any time of its life
-  std::vector<Occasion> fate;                 ///< of the photon in the end; empty: any
+  std::vector<StepEvent> fate;                ///< of the photon in the end; empty: any
   TallyEach each = TallyEach::time;
   std::optional<Vec3> normal;          ///< of the plane of a grid across faces; nothing: the faces'
   std::optional<TallyVariable> score;  ///< sum of this number; nothing: photons

@@ -93,7 +93,7 @@ Place Origin::sample(const Scene& scene, Rng& rng) const {
   }
   throw InputError(Problem{
       {},
-      "no point of the source region lies inside \"" + scene.regions[boxes_.front().region].name + "\"",
+      "no point of the source region lies inside \"" + scene.region_names[boxes_.front().region] + "\"",
       "check slab_z or box against the part's position (scintray check prints it)"});
 }
 

@@ -47,8 +47,8 @@ void PhotonSource::check_medium(const SourceSpec& spec, const Scene& scene) {
     if (region.medium != first)
       throw InputError({spec.origin_where,
                         "the parts of the source have different media: \"" +
-                            scene.regions[regions.front()].name + "\" is " +
-                            scene.media[first].medium().name + " and \"" + region.name + "\" is " +
+                            scene.region_names[regions.front()] + "\" is " +
+                            scene.media[first].medium().name + " and \"" + scene.region_names[id] + "\" is " +
                             scene.media[region.medium].medium().name,
                         "name parts of one medium; light of others is a run of its own"});
   }
@@ -85,7 +85,7 @@ Photon PhotonSource::emit(const Scene& scene, Rng& rng) const {
       unpolarised_ ? Vec3(Vec3::Zero()) : sample_polarisation(photon.ray.direction, rng);
   photon.wavelength_nm = emission_ ? emission_->sample(rng.uniform()) : wavelength_nm_;
   photon.time_ns = decay_.empty() ? time_ns_ : sample_decay(decay_, rng);
-  photon.optics = scene.media[scene.regions[photon.region].medium].at(photon.wavelength_nm);
+  photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
   photon.optical_depth = sample_exponential(rng);
   return photon;
 }

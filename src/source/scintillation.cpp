@@ -11,7 +11,7 @@ void require_scintillators(const Scene& scene, const std::vector<std::uint32_t>&
   for (const std::uint32_t region : regions)
     if (!scintillates(scene, region))
       throw InputError({where,
-                        "\"" + scene.regions[region].name + "\" does not scintillate: its medium \"" +
+                        "\"" + scene.region_names[region] + "\" does not scintillate: its medium \"" +
                             scene.media[scene.regions[region].medium].medium().name + "\" has no light yield",
                         "put the events into a scintillator, or give the medium [yield], [emission] and "
                         "[[decay]]"});

@@ -69,7 +69,7 @@ Photon ScintillationSource::emit(const Scene& scene, const EventLight& light, st
   photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
                                 : emission_[medium].sample(rng.uniform());
   photon.time_ns = deposit.time_ns + (prompt ? 0.0 : sample_decay(scene.media[medium].medium().decay, rng));
-  photon.optics = scene.media[medium].at(photon.wavelength_nm);
+  photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   photon.optical_depth = sample_exponential(rng);
   return photon;
 }

@@ -7,15 +7,10 @@ namespace {
 /// Incidence closer to the normal than this (sine squared) has no plane of incidence worth naming.
 constexpr double kNormalIncidence = 1e-20;
 
-/// A ray at a facet: Snell's law.
-struct Incidence {
-  double cos_i, ratio, sin2_i, sin2_t;
-  Incidence(const Ray& ray, const Vec3& m, double n1, double n2)
-      : cos_i(std::min(1.0, std::max(0.0, -ray.direction.dot(m)))),
-        ratio(n1 / n2),
-        sin2_i(1.0 - cos_i * cos_i),
-        sin2_t(ratio * ratio * sin2_i) {}
-};
+/// Cosine of incidence of a ray at a facet with normal m against it.
+double cos_incidence(const Ray& ray, const Vec3& m) {
+  return std::min(1.0, std::max(0.0, -ray.direction.dot(m)));
+}
 
 void refract(Ray& ray, const Vec3& m, double ratio, double cos_i, double cos_t) {
   ray.direction = (ratio * ray.direction + (ratio * cos_i - cos_t) * m).normalized();
@@ -24,14 +19,14 @@ void refract(Ray& ray, const Vec3& m, double ratio, double cos_i, double cos_t) 
 }  // namespace
 
 bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
-  const auto [cos_i, ratio, sin2_i, sin2_t] = Incidence(ray, m, n1, n2);
-  if (sin2_t >= 1.0) {
+  const double cos_i = cos_incidence(ray, m);
+  const Refraction refraction(cos_i, n1, n2);
+  if (refraction.total()) {
     reflect(ray, m);
     return false;
   }
-  const double cos_t = std::sqrt(1.0 - sin2_t);
-  const double r_s = (n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t);
-  const double r_p = (n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t);
+  const double ratio = refraction.ratio, cos_t = refraction.cos_t();
+  const auto [r_s, r_p] = FresnelAmplitudes(cos_i, cos_t, n1, n2);
 
   if (ray.polarisation.isZero(0.0)) {
     const bool transmitted = rng.uniform() >= 0.5 * (r_s * r_s + r_p * r_p);
@@ -42,13 +37,13 @@ bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
     return transmitted;
   }
 
-  if (sin2_i < kNormalIncidence) {
+  if (refraction.sin2_i < kNormalIncidence) {
     const bool transmitted = rng.uniform() >= r_s * r_s;
     if (!transmitted) reflect(ray, m);
     return transmitted;
   }
   const Vec3 s = ray.direction.cross(m).normalized();
-  const Vec3 p_in = s.cross(ray.direction);
+  const Vec3 p_in = s.cross(ray.direction.vec());
   const double e_s = ray.polarisation.dot(s);
   const double e_p = ray.polarisation.dot(p_in);
   const double power = e_s * e_s + e_p * e_p;
@@ -65,23 +60,24 @@ bool meet_facet(Ray& ray, const Vec3& m, double n1, double n2, Rng& rng) {
     ray.direction = mirror(ray.direction, m);
   }
   // p is s x k on every side, so r_p's sign convention (Born & Wolf fig. 1.10) carries over.
-  ray.polarisation = (out_s * s + out_p * s.cross(ray.direction)).normalized();
+  ray.polarisation = (out_s * s + out_p * s.cross(ray.direction.vec())).normalized();
   return transmitted;
 }
 
 bool refract_only(Ray& ray, const Vec3& m, double n1, double n2) {
   if (n1 == n2) return true;
-  const auto [cos_i, ratio, sin2_i, sin2_t] = Incidence(ray, m, n1, n2);
-  if (sin2_t >= 1.0) {
+  const double cos_i = cos_incidence(ray, m);
+  const Refraction refraction(cos_i, n1, n2);
+  if (refraction.total()) {
     reflect(ray, m);
     return false;
   }
   const Vec3 before = ray.direction;
-  refract(ray, m, ratio, cos_i, std::sqrt(1.0 - sin2_t));
-  if (ray.polarisation.isZero(0.0) || sin2_i < kNormalIncidence) return true;
+  refract(ray, m, refraction.ratio, cos_i, refraction.cos_t());
+  if (ray.polarisation.isZero(0.0) || refraction.sin2_i < kNormalIncidence) return true;
   const Vec3 s = before.cross(m).normalized();
   const double e_s = ray.polarisation.dot(s), e_p = ray.polarisation.dot(s.cross(before));
-  ray.polarisation = (e_s * s + e_p * s.cross(ray.direction)).normalized();
+  ray.polarisation = (e_s * s + e_p * s.cross(ray.direction.vec())).normalized();
   return true;
 }
 

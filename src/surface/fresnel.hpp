@@ -5,12 +5,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "scintray/core/philox.hpp"
+#include "scintray/core/plain_vec.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray {
+
+/// Snell's law at an incidence-angle cosine in [0,1], from index n1 to index n2.
+struct Refraction {
+  double ratio;   ///< n1 / n2
+  double sin2_i;  ///< sine squared of incidence
+  double sin2_t;  ///< ... and of refraction; 1 or more: total reflection
+
+  Refraction(double cos_i, double n1, double n2)
+      : ratio(n1 / n2), sin2_i(1.0 - cos_i * cos_i), sin2_t(ratio * ratio * sin2_i) {}
+  bool total() const { return sin2_t >= 1.0; }
+  double cos_t() const { return std::sqrt(1.0 - sin2_t); }
+};
+
+/// Amplitudes of the reflected electric field relative to the incident one, below the critical angle.
+struct FresnelAmplitudes {
+  double s;  ///< electric field across the plane of incidence
+  double p;  ///< electric field in the plane of incidence
+
+  /// @param cos_i  cosine of incidence in index n1; @param cos_t  of refraction in index n2
+  FresnelAmplitudes(double cos_i, double cos_t, double n1, double n2)
+      : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
+        p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
+};
 
 /// Power reflectances for the two polarisations, and the refraction angle.
 struct FresnelCoefficients {
@@ -23,21 +48,20 @@ struct FresnelCoefficients {
 
 /// Coefficients for light in index n1 that meets index n2 at incidence-angle cosine cos_i in [0,1].
 inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
-  const double ratio = n1 / n2;
-  const double sin2_t = ratio * ratio * (1.0 - cos_i * cos_i);
-  if (sin2_t >= 1.0) return {};
-  const double cos_t = std::sqrt(1.0 - sin2_t);
-  const double r_s = (n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t);
-  const double r_p = (n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t);
-  return {r_s * r_s, r_p * r_p, cos_t};
+  const Refraction refraction(cos_i, n1, n2);
+  if (refraction.total()) return {};
+  const double cos_t = refraction.cos_t();
+  const FresnelAmplitudes r(cos_i, cos_t, n1, n2);
+  return {r.s * r.s, r.p * r.p, cos_t};
 }
 
 /// A travelling photon's direction and linear polarisation. A zero polarisation vector means
 /// unpolarised light: Fresnel then uses the mean of the two reflectances.
 struct Ray {
-  Vec3 direction;
-  Vec3 polarisation;
+  PlainVec3 direction;
+  PlainVec3 polarisation;
 };
+static_assert(std::is_trivially_copyable_v<Ray>);
 
 /// Reflects at a facet with unit normal `m` (either orientation). The polarisation component along
 /// the normal is kept and the others change sign, as for total reflection without the phase lag

@@ -1,7 +1,6 @@
 #pragma once
 /// A surface is a stack: microsurface | gap or glue | reflector or next medium.
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/core/function_ref.hpp"
 #include "scintray/medium/wavelength_shifter.hpp"
 #include "scintray/surface/height_field.hpp"
 #include "scintray/surface/microsurface.hpp"
@@ -46,7 +46,7 @@ struct ShiftingLight {
   double delay_ns = 0.0;  ///< from absorption to emission, all that happened so far
   ShiftCount count;       ///< what happened so far
   /// Indices of the media on the two sides of the surface, at a wavelength (nm).
-  std::function<IndexPair(double)> index;
+  FunctionRef<IndexPair(double)> index;
 };
 
 /// The optical stack of a face. Light without a reflector goes on to the other side.

@@ -84,7 +84,7 @@ class CountBinder {
     count.source_parts = picked_parts(spec_.source_parts, scene_, spec_.where);
     count.visited = picked_regions(spec_.visited, scene_, spec_.where);
     count.not_visited = picked_regions(spec_.not_visited, scene_, spec_.where);
-    for (const Occasion fate : spec_.fate) count.fates |= 1u << static_cast<unsigned>(fate);
+    for (const StepEvent fate : spec_.fate) count.fates |= 1u << static_cast<unsigned>(fate);
     count.each = spec_.each;
     for (const TallyRangeSpec& range : spec_.ranges)
       count.ranges.push_back({range.variable, range.along, range.low, range.high});
@@ -135,10 +135,15 @@ class CountBinder {
       made.names.push_back(name);
     };
     const FileLocation where = axis.where.file.empty() ? spec_.where : axis.where;
-    if (axis.variable == TallyVariable::occasion) {
-      bound.bin_of.assign(kOccasionCount, kNone);
-      for (const Occasion occasion : spec_.at)
-        add(static_cast<std::size_t>(occasion), occasion_name(occasion));
+    if (axis.variable == TallyVariable::event) {
+      bound.bin_of.assign(kStepEventCount, kNone);
+      for (const StepEvent event : spec_.at) {
+        if (event == StepEvent::cut_time)  // in the bin of cut_interactions, which the same word stands for
+          bound.bin_of[static_cast<std::size_t>(event)] =
+              bound.bin_of[static_cast<std::size_t>(StepEvent::cut_interactions)];
+        else
+          add(static_cast<std::size_t>(event), event_word(event));
+      }
     } else if (axis.variable == TallyVariable::face) {
       bound.bin_of.assign(scene_.faces.size(), kNone);
       for (const std::uint32_t face : faces_) add(face, scene_.faces[face].name);
@@ -161,8 +166,8 @@ class CountBinder {
   /// The parts of an axis that names none; empty: all.
   std::vector<NameRef> usual_parts(TallyVariable variable) const {
     if (variable == TallyVariable::source_part) return source_parts_;
-    const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](Occasion occasion) {
-      return occasion == Occasion::detected || occasion == Occasion::unconverted;
+    const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](StepEvent event) {
+      return event == StepEvent::detected || event == StepEvent::not_detected;
     });
     return at_sensors ? sensor_parts(scene_) : std::vector<NameRef>{};
   }
@@ -226,7 +231,7 @@ class CountBinder {
           medium = found;
         }
     if (!medium || scene_.media[*medium].is_opaque()) return 0.0;
-    return scene_.media[*medium].index(0.5 * (scene_.low_nm + scene_.high_nm));
+    return scene_.optics.index(*medium, 0.5 * (scene_.low_nm + scene_.high_nm));
   }
 
   /// Normal of the plane that the faces lie along.

@@ -43,7 +43,7 @@ void merge(PointResult& total, const PointResult& block) {
   add(total.shifted_at_surface, block.shifted_at_surface);
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
     total.sensor_faces[i].detected += block.sensor_faces[i].detected;
-    total.sensor_faces[i].unconverted += block.sensor_faces[i].unconverted;
+    total.sensor_faces[i].not_detected += block.sensor_faces[i].not_detected;
   }
   for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
     add(total.exit_angles[i].inside, block.exit_angles[i].inside);
@@ -68,14 +68,18 @@ PointResult empty_result(const Scene& scene, const TallyPlan& plan) {
 }
 
 BlockTally::BlockTally(const Scene& scene, const TallyPlan& plan)
-    : plan_(plan), scene_(scene), result_(empty_block(scene, plan)), last_crossing_(plan.exit_angles.size()) {
+    : plan_(plan),
+      result_(empty_block(scene, plan)),
+      records_(plan.history.has_value()),
+      last_crossing_(plan.exit_angles.size()) {
   if (!plan.counts.empty()) scorer_.emplace(scene, plan);
   if (plan.history) history_.emplace(scene, *plan.history);
 }
 
-void BlockTally::start(Photon& emitted, std::uint64_t event, std::uint64_t photon) {
+void BlockTally::start(const Photon& emitted, std::uint64_t event, std::uint64_t photon) {
   event_ = event;
   photon_ = photon;
+  records_.clear();
   if (scorer_) scorer_->start(emitted);
   if (history_) history_->start(emitted);
   std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
@@ -97,17 +101,17 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
   count_step(step);
   if (scorer_) scorer_->step(photon, step);
   if (history_) history_->step(photon, step);
-  switch (step.kind) {
-    case StepKind::absorbed_in_medium:
+  switch (step.event) {
+    case StepEvent::absorbed_in_medium:
       ++result_.absorbed_in_medium[step.where];
       return finish(photon, Fate::absorbed_in_medium);
-    case StepKind::absorbed_at_surface:
+    case StepEvent::absorbed_at_surface:
       ++result_.absorbed_at_surface[step.where];
       return finish(photon, Fate::absorbed_at_surface);
-    case StepKind::escaped:
+    case StepEvent::escaped:
       return finish(photon, Fate::escaped);
-    case StepKind::detected:
-    case StepKind::unconverted:
+    case StepEvent::detected:
+    case StepEvent::not_detected:
       break;
     default:
       return;  // no end: the run then finds a photon without a fate and says so
@@ -115,9 +119,9 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
   note_crossing(step);
   const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
   SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[way]];
-  if (step.kind == StepKind::unconverted) {
-    ++at_face.unconverted;
-    return finish(photon, Fate::unconverted);
+  if (step.event == StepEvent::not_detected) {
+    ++at_face.not_detected;
+    return finish(photon, Fate::not_detected);
   }
   ++at_face.detected;
   result_.detected_path_mm.add(photon.path_mm);
@@ -131,9 +135,9 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
     ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
     ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
   }
-  if (history_) history_->keep(point, event_, photon_);
+  if (history_) history_->keep(point, event_, photon_, records_.reflections());
   if (plan_.photon_list) {
-    const Vec3 &p = photon.position, &d = photon.ray.direction;
+    const PlainVec3 &p = photon.position, &d = photon.ray.direction;
     photons_.push_back({point,
                         event_,
                         photon_,
@@ -150,7 +154,7 @@ void BlockTally::end(const Photon& photon, const Step& step, std::uint32_t point
 }
 
 void BlockTally::cut(const Photon& photon, Fate fate) {
-  if (scorer_) scorer_->cut(photon);
+  if (scorer_) scorer_->cut(photon, fate);
   finish(photon, fate);
 }
 
@@ -161,10 +165,10 @@ void BlockTally::add_to(PointResult& total) const {
 
 void BlockTally::finish(const Photon& photon, Fate fate) {
   ++result_.photons;
-  ++result_.fates[static_cast<std::size_t>(fate)];
+  ++result_.fates[fate_index(fate)];
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
-  for (const PhotonShifts& shifts : photon.shifts)
+  for (const PhotonShifts& shifts : records_.shifts())
     (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
         shifts.count;
 }

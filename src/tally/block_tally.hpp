@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/source/photon.hpp"
+#include "scintray/source/photon_records.hpp"
 #include "scintray/tally/count_scorer.hpp"
 #include "scintray/tally/result.hpp"
 #include "scintray/tally/step.hpp"
@@ -19,8 +20,10 @@ class BlockTally {
  public:
   explicit BlockTally(const Scene& scene, const TallyPlan& plan);
 
-  /// Begins a photon, as it was emitted; where its history is wanted it is told to keep it.
-  void start(Photon& emitted, std::uint64_t event, std::uint64_t photon);
+  /// Begins a photon, as it was emitted.
+  void start(const Photon& emitted, std::uint64_t event, std::uint64_t photon);
+  /// Side tables of the photon under way, to be filled while it is traced.
+  PhotonRecords& records() { return records_; }
   /// A total reflection passed on the way to the next step. Only for those who want them.
   void pass(const Photon& photon, const Step& step) { scorer_->step(photon, step); }
   bool wants_reflections() const { return scorer_.has_value(); }
@@ -29,7 +32,7 @@ class BlockTally {
     count_step(step);
     if (scorer_) scorer_->step(photon, step);
     if (history_) history_->step(photon, step);
-    if (step.kind == StepKind::crossed) note_crossing(step);
+    if (step.event == StepEvent::transmitted) note_crossing(step);
   }
   /// Its end: by a last step, or by a limit.
   void end(const Photon& photon, const Step& step, std::uint32_t point);
@@ -54,8 +57,8 @@ class BlockTally {
   void finish(const Photon& photon, Fate fate);
 
   const TallyPlan& plan_;
-  const Scene& scene_;
   PointResult result_;
+  PhotonRecords records_;
   std::vector<DetectedPhoton> photons_;
   std::vector<Angles> last_crossing_;       ///< per exit-angle tally, of the photon under way
   std::optional<CountScorer> scorer_;       ///< when the plan has counts

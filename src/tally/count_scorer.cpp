@@ -9,30 +9,6 @@ namespace scintray {
 
 namespace {
 
-Occasion occasion_of(StepKind kind) {
-  switch (kind) {
-    case StepKind::scattered:
-      return Occasion::scattered;
-    case StepKind::shifted:
-      return Occasion::shifted;
-    case StepKind::returned:
-      return Occasion::returned;
-    case StepKind::crossed:
-      return Occasion::crossed;
-    case StepKind::detected:
-      return Occasion::detected;
-    case StepKind::unconverted:
-      return Occasion::unconverted;
-    case StepKind::absorbed_in_medium:
-      return Occasion::absorbed_in_medium;
-    case StepKind::absorbed_at_surface:
-      return Occasion::absorbed_at_surface;
-    case StepKind::escaped:
-      break;
-  }
-  return Occasion::escaped;
-}
-
 bool among(const std::vector<bool>& set, std::int32_t part) {
   return set.empty() || set[static_cast<std::size_t>(part + 1)];
 }
@@ -59,39 +35,39 @@ void CountScorer::start(const Photon& photon) {
   source_part_ = scene_.regions[photon.region].part;
   crossings_ = 0;
   visited_.assign(plan_.follows_regions ? 1 : 0, photon.region);
-  Moment moment{Occasion::emitted, photon, source_part_};
+  Moment moment{StepEvent::emitted, photon, source_part_};
   happened(moment, nullptr);
 }
 
 void CountScorer::step(const Photon& photon, const Step& step) {
-  Moment moment{occasion_of(step.kind), photon, scene_.regions[photon.region].part};
+  Moment moment{step.event, photon, scene_.regions[photon.region].part};
   if (photon.region != step.region) {
     ++crossings_;
     if (plan_.follows_regions) visited_.push_back(photon.region);
   }
-  if (step.kind == StepKind::detected || step.kind == StepKind::unconverted)
+  if (step.event == StepEvent::detected || step.event == StepEvent::not_detected)
     moment.part = static_cast<std::int32_t>(step.where);
   happened(moment, &step);
   direction_before_ = photon.ray.direction;
-  if (is_end(step.kind)) end(moment.occasion);
+  if (is_final(step.event)) end(step.event);
 }
 
-void CountScorer::cut(const Photon& photon) {
-  Moment moment{Occasion::cut, photon, scene_.regions[photon.region].part};
+void CountScorer::cut(const Photon& photon, Fate fate) {
+  Moment moment{fate, photon, scene_.regions[photon.region].part};
   happened(moment, nullptr);
-  end(Occasion::cut);
+  end(fate);
 }
 
 void CountScorer::happened(Moment& moment, const Step* step) {
-  for (const std::uint32_t number : plan_.counts_on[static_cast<std::size_t>(moment.occasion)])
+  for (const std::uint32_t number : plan_.counts_on[static_cast<std::size_t>(moment.event)])
     score(number, moment);
   if (!step || step->triangle == kNoTriangle) return;
   const auto& at_face = plan_.counts_at[2 * std::size_t{step->interface} + (step->from_back ? 1 : 0)];
   if (at_face.empty()) return;
   const Region& region = scene_.regions[step->region];
-  const Vec3 outward = region.direction_to_world(region.accelerator->normal(step->triangle));
+  const Vec3 outward = scene_.normal(region, step->triangle);
   for (const TallyPlan::CountAtFace& count : at_face) {
-    if ((plan_.occasions_of[count.count] >> static_cast<unsigned>(moment.occasion) & 1u) == 0) continue;
+    if ((plan_.events_of[count.count] >> static_cast<unsigned>(moment.event) & 1u) == 0) continue;
     moment.face = count.face;
     moment.normal = count.inwards ? Vec3(-outward) : outward;
     score(count.count, moment);
@@ -114,11 +90,11 @@ double CountScorer::value(TallyVariable variable, const Vec3& along, const Momen
     case TallyVariable::crossings:
       return crossings_;
     case TallyVariable::position:
-      return along.dot(photon.position);
+      return along.dot(photon.position.vec());
     case TallyVariable::start:
       return along.dot(start_);
     case TallyVariable::direction:
-      return along.dot(photon.ray.direction);
+      return along.dot(photon.ray.direction.vec());
     case TallyVariable::angle_before:
       return angle(direction_before_, moment.normal);
     case TallyVariable::angle_after:
@@ -150,11 +126,11 @@ std::uint32_t CountScorer::bin_of(const CountRequest& count, const Moment& momen
   for (const CountAxis& axis : count.axes) {
     bin *= axis.bins;
     if (is_category(axis.variable)) {
-      const std::size_t slot =
-          axis.variable == TallyVariable::occasion ? static_cast<std::size_t>(moment.occasion)
-          : axis.variable == TallyVariable::face   ? moment.face
-          : axis.variable == TallyVariable::part   ? static_cast<std::size_t>(moment.part + 1)
-                                                   : static_cast<std::size_t>(source_part_ + 1);
+      const std::size_t slot = axis.variable == TallyVariable::event  ? static_cast<std::size_t>(moment.event)
+                               : axis.variable == TallyVariable::face ? moment.face
+                               : axis.variable == TallyVariable::part
+                                   ? static_cast<std::size_t>(moment.part + 1)
+                                   : static_cast<std::size_t>(source_part_ + 1);
       if (axis.bin_of[slot] == kNone) {
         named = false;
         return Contribution::kOutside;
@@ -191,7 +167,7 @@ void CountScorer::score(std::uint32_t number, const Moment& moment) {
   pending_.push_back({number, bin, what});
 }
 
-void CountScorer::end(Occasion fate) {
+void CountScorer::end(Fate fate) {
   const auto keeps = [&](const Contribution& c) {
     const CountRequest& count = plan_.counts[c.count];
     const auto seen = [&](const std::vector<bool>& set) {

@@ -27,7 +27,7 @@ class CountScorer {
   void start(const Photon& photon);
   /// A step and the photon after it; `cut` in place of a step where a limit ended it.
   void step(const Photon& photon, const Step& step);
-  void cut(const Photon& photon);
+  void cut(const Photon& photon, Fate fate);
 
   /// All contributions so far, in the order of photons; those of one photon to one bin are one.
   const std::vector<Contribution>& contributions() const { return contributions_; }
@@ -35,7 +35,7 @@ class CountScorer {
  private:
   /// One thing that happened.
   struct Moment {
-    Occasion occasion;
+    StepEvent event;
     const Photon& photon;       ///< after it
     std::int32_t part = kNone;  ///< as TallyVariable::part
     std::uint32_t face = 0;
@@ -47,7 +47,7 @@ class CountScorer {
   double value(TallyVariable variable, const Vec3& along, const Moment& moment) const;
   bool accepts(const CountRequest& count, const Moment& moment) const;
   std::uint32_t bin_of(const CountRequest& count, const Moment& moment, bool& named) const;
-  void end(Occasion fate);
+  void end(Fate fate);
 
   const Scene& scene_;
   const TallyPlan& plan_;

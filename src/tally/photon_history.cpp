@@ -23,9 +23,9 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 }
 
 /// What a medium absorbs for good, as the tracer sees it: a wavelength shifter competes beside it.
-double absorption_per_mm(const SceneMedium& medium, double wavelength_nm) {
-  return medium.medium().shifter ? medium.medium().absorption_per_mm(wavelength_nm)
-                                 : medium.at(wavelength_nm).absorption_per_mm;
+double absorption_per_mm(const Scene& scene, std::uint32_t medium, double wavelength_nm) {
+  return scene.optics.media[medium].shifts ? scene.media[medium].medium().absorption_per_mm(wavelength_nm)
+                                           : scene.optics.at(medium, wavelength_nm).absorption_per_mm;
 }
 
 }  // namespace
@@ -74,9 +74,7 @@ HistoryRecorder::HistoryRecorder(const Scene& scene, const HistoryPlan& plan)
       path_in_mm_(plan.subjects().media.size()),
       depth_in_(plan.subjects().media.size()) {}
 
-void HistoryRecorder::start(Photon& emitted) {
-  log_.clear();
-  emitted.reflections = &log_;
+void HistoryRecorder::start(const Photon& emitted) {
   path_mm_ = emitted.path_mm;
   wavelength_nm_ = emitted.wavelength_nm;
   std::fill(path_in_mm_.begin(), path_in_mm_.end(), 0.0);
@@ -87,15 +85,17 @@ void HistoryRecorder::step(const Photon& photon, const Step& step) {
   const std::int32_t column = plan_.column_of_region(step.region);
   const double flight_mm = photon.path_mm - path_mm_;
   if (column != kNone) {
-    const SceneMedium& medium = scene_.media[scene_.regions[step.region].medium];
+    const std::uint32_t medium = scene_.regions[step.region].medium;
     path_in_mm_[static_cast<std::size_t>(column)] += flight_mm;
-    depth_in_[static_cast<std::size_t>(column)] += flight_mm * absorption_per_mm(medium, wavelength_nm_);
+    depth_in_[static_cast<std::size_t>(column)] +=
+        flight_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
   }
   path_mm_ = photon.path_mm;
   wavelength_nm_ = photon.wavelength_nm;  // what changed it stands at the end of the flight
 }
 
-void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon) {
+void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon,
+                           const ReflectionLog& survived) {
   kept_.point.push_back(point);
   kept_.event.push_back(event);
   kept_.photon.push_back(photon);
@@ -104,7 +104,7 @@ void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64
   const std::size_t first = kept_.reflections.size(), reflectors = plan_.subjects().reflectors.size();
   kept_.reflections.resize(first + reflectors);
   kept_.reflection_depth.resize(first + reflectors);
-  for (const ReflectionLog::Entry& entry : log_.entries()) {
+  for (const ReflectionLog::Entry& entry : survived.entries()) {
     const std::int32_t column = plan_.column_of(*entry.reflector);
     if (column == kNone) continue;
     const std::size_t at = first + static_cast<std::size_t>(column);

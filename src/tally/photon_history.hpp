@@ -79,19 +79,19 @@ class HistoryRecorder {
  public:
   HistoryRecorder(const Scene& scene, const HistoryPlan& plan);
 
-  /// Begins a photon, as it was emitted, which from now on tells of its reflections.
-  void start(Photon& emitted);
+  /// Begins a photon, as it was emitted.
+  void start(const Photon& emitted);
   /// Any step, the last one included.
   void step(const Photon& photon, const Step& step);
   /// Keeps the photon under way: it was detected.
-  void keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon);
+  /// @param survived  its reflections
+  void keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon, const ReflectionLog& survived);
 
   const PhotonHistories& kept() const { return kept_; }
 
  private:
   const Scene& scene_;
   const HistoryPlan& plan_;
-  ReflectionLog log_;
   double path_mm_ = 0.0, wavelength_nm_ = 0.0;  ///< at the end of the last step
   std::vector<double> path_in_mm_, depth_in_;   ///< per medium
   PhotonHistories kept_;

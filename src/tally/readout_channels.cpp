@@ -17,6 +17,7 @@ class ChannelFaces {
  public:
   ChannelFaces(ReadoutChannels& channels, const Scene& scene)
       : channels_(channels),
+        scene_(scene),
         ambient_(&scene.regions[kAmbientRegion]),
         in_contact_(channels.list.size(), false),
         moments_(channels.list.size(), Vec3::Zero()),
@@ -64,19 +65,18 @@ class ChannelFaces {
   /// Calls visit(channel, triangle in the world) for the triangles that lead to sensors.
   template <typename Visit>
   void for_each_triangle(const Region& region, const Visit& visit) const {
-    if (!region.accelerator) return;
-    for (std::uint32_t i = 0; i < region.links.size(); ++i) {
-      const BoundaryLink& link = region.links[i];
+    const auto triangles = static_cast<std::uint32_t>(scene_.accelerator(region).size());
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+      const BoundaryLink& link = scene_.link(region, i);
       const std::int32_t channel = channels_.at_way[2 * link.interface + (link.from_back ? 1 : 0)];
       if (channel == kNone || (&region == ambient_ && in_contact_[static_cast<std::size_t>(channel)]))
         continue;
-      BoundaryTriangle t = region.accelerator->triangle(i);
-      for (Vec3& corner : t) corner = region.centre + region.direction_to_world(corner);
-      visit(static_cast<std::size_t>(channel), t);
+      visit(static_cast<std::size_t>(channel), scene_.triangle(region, i));
     }
   }
 
   ReadoutChannels& channels_;
+  const Scene& scene_;
   const Region* ambient_;
   std::vector<bool> in_contact_;
   std::vector<Vec3> moments_, vectors_;

@@ -7,26 +7,6 @@
 
 namespace scintray {
 
-const char* fate_name(Fate fate) {
-  switch (fate) {
-    case Fate::detected:
-      return "detected";
-    case Fate::unconverted:
-      return "unconverted";
-    case Fate::absorbed_in_medium:
-      return "absorbed_in_medium";
-    case Fate::absorbed_at_surface:
-      return "absorbed_at_surface";
-    case Fate::escaped:
-      return "escaped";
-    case Fate::cut_interactions:
-      return "cut_interactions";
-    case Fate::cut_time:
-      return "cut_time";
-  }
-  throw InternalError("fate " + std::to_string(static_cast<int>(fate)) + " has no name");
-}
-
 std::size_t TallyResult::bins() const {
   std::size_t bins = 1;
   for (const TallyAxis& axis : axes) bins *= axis.bins();

@@ -8,31 +8,18 @@
 #include <vector>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/core/step_event.hpp"
 #include "scintray/medium/decay.hpp"
 #include "scintray/medium/wavelength_shifter.hpp"
 
 namespace scintray {
-
-/// The one end of each photon.
-enum class Fate : std::uint8_t {
-  detected = 0,  ///< converted by a sensor
-  unconverted,   ///< reached a sensor, not converted
-  absorbed_in_medium,
-  absorbed_at_surface,
-  escaped,           ///< left the scene through the ambient medium
-  cut_interactions,  ///< stopped at the limit of boundary interactions
-  cut_time,          ///< stopped at the time limit
-};
-inline constexpr int kFateCount = 7;
-/// "detected", "unconverted", "absorbed_in_medium", ...
-const char* fate_name(Fate fate);
 
 /// Photons that reached one sensor through one face.
 struct SensorFaceCount {
   std::uint32_t part = 0;  ///< index into RunHeader::parts: the sensor's part
   std::uint32_t face = 0;  ///< index into RunHeader::faces: the face crossed
   std::uint64_t detected = 0;
-  std::uint64_t unconverted = 0;
+  std::uint64_t not_detected = 0;
 };
 
 /// Histogram of crossing angles at a face: the angle of travel to the face's outward normal, before
@@ -102,8 +89,8 @@ struct PointResult {
   std::uint64_t photons = 0;            ///< traced to their end
   bool complete = false;                ///< false when interrupted
   EnergyBalance energy;
-  std::optional<LightTiming> light_timing;  ///< of a source of energy, where it is one for all light
-  std::array<std::uint64_t, kFateCount> fates{};
+  std::optional<LightTiming> light_timing;         ///< of a source of energy, where it is one for all light
+  std::array<std::uint64_t, kFateCount> fates{};   ///< by fate_index
   std::vector<std::uint64_t> absorbed_in_medium;   ///< per RunHeader::media
   std::vector<std::uint64_t> absorbed_at_surface;  ///< per RunHeader::surfaces
   std::vector<ShiftCount> shifted_in_medium;       ///< per RunHeader::media
@@ -122,7 +109,7 @@ struct PointResult {
   std::uint64_t lost = 0;  ///< photons without a fate: zero, checked in every run
   double wall_seconds = 0.0;
 
-  std::uint64_t count(Fate fate) const { return fates[static_cast<int>(fate)]; }
+  std::uint64_t count(Fate fate) const { return fates[fate_index(fate)]; }
   /// What all wavelength shifters did.
   ShiftCount shifted() const;
   Estimate fraction(Fate fate) const { return binomial_estimate(count(fate), photons); }

@@ -42,12 +42,12 @@ TallyPlan::TallyPlan(const Scene& scene, const SceneSpec& spec)
   for (const TallySpec& tally : spec.tallies) {
     const auto number = static_cast<std::uint32_t>(counts.size());
     counts.push_back(bind_count(tally, source_parts(spec), scene));
-    std::uint32_t occasions = 0;
-    for (const Occasion occasion : tally.at) {
-      occasions |= 1u << static_cast<unsigned>(occasion);
-      if (tally.faces.empty()) counts_on[static_cast<std::size_t>(occasion)].push_back(number);
+    std::uint32_t events = 0;
+    for (const StepEvent event : tally.at) {
+      events |= 1u << static_cast<unsigned>(event);
+      if (tally.faces.empty()) counts_on[static_cast<std::size_t>(event)].push_back(number);
     }
-    occasions_of.push_back(occasions);
+    events_of.push_back(events);
     for (const std::uint32_t face : faces_of(tally, scene))
       counts_of_face[face].emplace_back(number, tally.way);
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();

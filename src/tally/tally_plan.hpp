@@ -33,7 +33,7 @@ struct CountAxis {
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
   bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
-  /// Of names: bin of each part, face or occasion, kNone where it has none. Parts are shifted by one:
+  /// Of names: bin of each part, face or event, kNone where it has none. Parts are shifted by one:
   /// the first is the ambient space.
   std::vector<std::int32_t> bin_of;
 };
@@ -52,7 +52,7 @@ struct CountRequest {
   std::vector<CountRange> ranges;
   std::vector<bool> parts, source_parts;   ///< per part, shifted by one; empty: all
   std::vector<bool> visited, not_visited;  ///< per region; empty: no condition
-  std::uint32_t fates = 0;                 ///< bits of Occasion; 0: any
+  std::uint32_t fates = 0;                 ///< bits of StepEvent; 0: any
   TallyEach each = TallyEach::time;
   std::optional<TallyVariable> score;
 };
@@ -79,9 +79,9 @@ struct TallyPlan {
     bool inwards = false;  ///< the light comes to the face from outside its part
   };
   std::vector<std::vector<CountAtFace>> counts_at;  ///< per interface and way; empty without such counts
-  std::vector<std::uint32_t> occasions_of;          ///< per count: bits of Occasion
-  /// Per occasion: counts that are bound to no face.
-  std::array<std::vector<std::uint32_t>, kOccasionCount> counts_on;
+  std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
+  /// Per event: counts that are bound to no face.
+  std::array<std::vector<std::uint32_t>, kStepEventCount> counts_on;
   bool follows_regions = false;  ///< some count asks which regions a photon visited
 
   bool photon_list = false;

@@ -12,38 +12,224 @@ namespace {
 Lanes combine(Lanes v, Lanes x, Lanes y, Lanes z) {
   return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
 }
-Lanes rotate(const Eigen::Matrix3d& m, Lanes v) {
-  return combine(v, {m.col(0), 0.0}, {m.col(1), 0.0}, {m.col(2), 0.0});
+Lanes rotate(const PlainMatrix3& m, Lanes v) {
+  return combine(v, {m.column(0), 0.0}, {m.column(1), 0.0}, {m.column(2), 0.0});
 }
-Lanes rotate_back(const Eigen::Matrix3d& m, Lanes v) {
-  return combine(v, {m.row(0).transpose(), 0.0}, {m.row(1).transpose(), 0.0}, {m.row(2).transpose(), 0.0});
+Lanes rotate_back(const PlainMatrix3& m, Lanes v) {
+  return combine(v, {m.row(0), 0.0}, {m.row(1), 0.0}, {m.row(2), 0.0});
 }
 
 /// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.
 double critical_sin2(const Scene& scene, std::uint32_t medium, const Photon& photon) {
   constexpr double kNever = 2.0;
-  if (medium == kNotSmooth || scene.media[medium].is_opaque()) return kNever;
-  const double ratio = scene.media[medium].index(photon.wavelength_nm) / photon.optics.index;
+  if (medium == kNotSmooth || scene.optics.is_opaque(medium)) return kNever;
+  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
   return ratio * ratio;
 }
 
-void put_back(Photon& photon, Lanes position, Lanes direction, Lanes polarisation, TwoDoubles path_and_time,
-              double depth_left, std::uint64_t interactions) {
-  photon.position = position.vec();
-  photon.ray.direction = direction.vec();
-  photon.ray.polarisation = polarisation.vec();
-  photon.path_mm = path_and_time[0];
-  photon.time_ns = path_and_time[1];
-  photon.optical_depth = depth_left;
-  photon.interactions = static_cast<std::uint32_t>(interactions);
+/// Where a ray leaves the region that it is in.
+struct Wall {
+  std::uint32_t triangle = kNoTriangle;
+  double distance_mm = 0.0;
+  bool resolved = false;  ///< by the exact search
+};
+
+/// A photon that moves where it is stored, for any ray query. What is not Embree's, and the way to the first
+/// total reflection, which is all of it on rough faces, is better served by the photon as it is.
+class StoredFlight {
+ public:
+  StoredFlight(const Scene& scene, const Region& region, Photon& photon)
+      : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
+
+  static constexpr bool kGoesOnWithEmbree = false;
+
+  Wall next_wall() const {
+    const Exit exit = accelerator_.find_exit(region_.point_to_local(photon_.position),
+                                             region_.direction_to_local(photon_.ray.direction));
+    return {exit.triangle, exit.distance_mm, exit.resolved};
+  }
+  double depth_left() const { return photon_.optical_depth; }
+  void move(double distance_mm, double depth) {
+    photon_.optical_depth -= depth;
+    advance(photon_, distance_mm);
+  }
+  /// Cosine of incidence at the wall.
+  double incidence(const Wall& wall) {
+    normal_ = region_.direction_to_world(accelerator_.normal(wall.triangle));
+    return photon_.ray.direction.dot(normal_);
+  }
+  void reflect_at(const Wall&, double) {
+    ++photon_.interactions;
+    reflect(photon_.ray, normal_);
+  }
+  bool allowed_by(const FlightLimits& limits) const {
+    return limits.allow(photon_.interactions, photon_.time_ns);
+  }
+  void turn() const {}
+  void store(Photon&) const {}
+
+ private:
+  const Region& region_;
+  const Accelerator& accelerator_;
+  Photon& photon_;
+  Vec3 normal_;
+};
+
+/// A photon between Embree's walls, in registers. It waits for Embree and then for what the next ray needs,
+/// so the next ray starts from Embree's own hit, in single precision, while the exact one is computed beside
+/// it; every piece starts from exact numbers again. Nothing may take the address of what changes, which would
+/// put it into memory. tools/bench crystal shows what this is worth.
+class EmbreeFlight {
+ public:
+  EmbreeFlight(const Scene& scene, const Region& region, const Photon& photon)
+      : region_(region),
+        accelerator_(scene.accelerator(region)),
+        rotated_(region.rotated),
+        start_mm_(accelerator_.start_mm()),
+        rates_{1.0, photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns)},
+        centre_(region.centre, 1.0),
+        position_(photon.position, 0.0),
+        direction_(photon.ray.direction, 0.0),
+        polarisation_(photon.ray.polarisation, 0.0),
+        path_and_time_{photon.path_mm, photon.time_ns},
+        depth_left_(photon.optical_depth),
+        interactions_(photon.interactions),
+        local_(to_local(position_ - centre_)),
+        ahead_(to_local(direction_)),
+        ray_origin_(local_.with_fourth(start_mm_).floats()),
+        ray_direction_(ahead_.floats()) {}
+
+  static constexpr bool kGoesOnWithEmbree = true;
+
+  Wall next_wall() {
+    const FirstHit hit = accelerator_.first_hit(ray_origin_, ray_direction_);
+    Approach approach;
+    if (hit.triangle != kNoTriangle) [[likely]]
+      approach = accelerator_.approach_of(hit.triangle, local_, ahead_);
+    hit_mm_ = hit.distance_mm;
+    cosine_ = approach.cosine;
+    sure_ = approach.cosine > 0.0;
+    if (sure_) [[likely]]
+      return {hit.triangle, approach.distance_mm, false};
+    const Exit exit = accelerator_.exit_after_doubt(local_.vec(), ahead_.vec(), hit);
+    if (exit.triangle != kNoTriangle) cosine_ = dot(accelerator_.plane(exit.triangle), ahead_);
+    return {exit.triangle, exit.distance_mm, exit.resolved};
+  }
+  double depth_left() const { return depth_left_; }
+  void move(double distance_mm, double depth) {
+    depth_left_ -= depth;
+    path_and_time_ += distance_mm * rates_;
+    position_ = position_ + distance_mm * direction_;
+  }
+  double incidence(const Wall&) const { return cosine_; }
+  /// As reflect().
+  void reflect_at(const Wall& wall, double cosine) {
+    ++interactions_;
+    Lanes normal = accelerator_.plane(wall.triangle).with_fourth(0.0);
+    if (rotated_) normal = rotate(region_.rotation, normal);
+    const Lanes twice = normal + normal;
+    direction_ = direction_ - cosine * twice;
+    polarisation_ = dot(normal, polarisation_) * twice - polarisation_;
+  }
+  bool allowed_by(const FlightLimits& limits) const { return limits.allow(interactions_, path_and_time_[1]); }
+  /// Makes the next ray.
+  void turn() {
+    ray_origin_ = local_.with_fourth(start_mm_).floats() + hit_mm_ * ray_direction_;
+    local_ = to_local(position_ - centre_);
+    ahead_ = to_local(direction_);
+    ray_direction_ = ahead_.floats();
+    if (!sure_) [[unlikely]]
+      ray_origin_ = local_.with_fourth(start_mm_).floats();
+  }
+  void store(Photon& photon) const {
+    photon.position = position_.vec();
+    photon.ray.direction = direction_.vec();
+    photon.ray.polarisation = polarisation_.vec();
+    photon.path_mm = path_and_time_[0];
+    photon.time_ns = path_and_time_[1];
+    photon.optical_depth = depth_left_;
+    photon.interactions = static_cast<std::uint32_t>(interactions_);
+  }
+
+ private:
+  Lanes to_local(Lanes v) const { return rotated_ ? rotate_back(region_.rotation, v) : v; }
+
+  const Region& region_;
+  const Accelerator& accelerator_;
+  const bool rotated_;
+  const double start_mm_;
+  const TwoDoubles rates_;  ///< of path and time
+  const Lanes centre_;
+
+  Lanes position_, direction_, polarisation_;
+  TwoDoubles path_and_time_;
+  double depth_left_;
+  std::uint64_t interactions_;
+  Lanes local_, ahead_;  ///< in the region's frame, as the accelerator takes them: fourth -1 and 0
+  FourFloats ray_origin_, ray_direction_;
+  float hit_mm_ = 0.0f;  ///< Embree's, along the ray
+  double cosine_ = 0.0;
+  bool sure_ = true;  ///< the last wall is Embree's own
+};
+
+/// From wall to wall until something other than a total reflection decides. Adds to `flight`.
+template <typename State>
+void propagate(const Scene& scene, Photon& photon, const FlightLimits& limits, Flight& flight) {
+  const Region& region = scene.regions[photon.region];
+  const BoundaryLink* const links = scene.links.data() + region.first_link;
+  const bool embree_next = !State::kGoesOnWithEmbree && scene.accelerator(region).uses_embree();
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  State state(scene, region, photon);
+  std::uint32_t known_medium = kNotSmooth;
+  double least_sin2 = critical_sin2(scene, known_medium, photon);
+  FlightEnd end;
+  Wall wall;
+  double cosine = 0.0;
+  std::uint32_t segments = 0, resolved = 0;
+  for (;;) {
+    ++segments;
+    wall = state.next_wall();
+    resolved += wall.resolved ? 1 : 0;
+    if (wall.triangle == kNoTriangle) [[unlikely]] {
+      end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
+      break;
+    }
+    const double depth = attenuation * wall.distance_mm;
+    if (depth > state.depth_left()) {
+      end = FlightEnd::bulk;
+      break;
+    }
+    state.move(wall.distance_mm, depth);
+    end = FlightEnd::boundary;
+    const std::uint32_t medium = links[wall.triangle].smooth_to;
+    if (medium == kNotSmooth) break;
+    if (medium != known_medium) {
+      known_medium = medium;
+      least_sin2 = critical_sin2(scene, medium, photon);
+    }
+    cosine = state.incidence(wall);
+    if (!(1.0 - cosine * cosine >= least_sin2)) break;
+
+    state.reflect_at(wall, cosine);
+    end = FlightEnd::total;
+    if (!state.allowed_by(limits)) break;
+    if (limits.passed) [[unlikely]] {
+      state.store(photon);
+      limits.passed(photon, total_reflection(scene, photon, wall.triangle, cosine));
+    }
+    if (embree_next) break;
+    state.turn();
+  }
+  state.store(photon);
+  flight = {end, wall.triangle, cosine, flight.segments + segments, flight.resolved + resolved};
 }
 
 }  // namespace
 
 Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t triangle, double cosine) {
-  const BoundaryLink& link = scene.regions[photon.region].links[triangle];
+  const BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
   Step step;
-  step.kind = StepKind::returned;
+  step.event = StepEvent::reflected;
   step.from_back = link.from_back;
   step.region = photon.region;
   step.interface = link.interface;
@@ -52,153 +238,12 @@ Step total_reflection(const Scene& scene, const Photon& photon, std::uint32_t tr
   return step;
 }
 
-namespace {
-
-// The loop waits for Embree and then for what the next ray needs, so the next ray starts from Embree's own
-// hit, in single precision, while the exact one is computed beside it; every piece starts from exact numbers
-// again. Nothing in it captures or takes the address of what changes, which would put it into memory.
-// tools/bench crystal shows what this is worth.
-void fly_on_with_embree(const Scene& scene, Photon& photon, const FlightLimits& limits, Flight& flight) {
-  const Region& region = scene.regions[photon.region];
-  const Accelerator& accelerator = *region.accelerator;
-  const bool rotated = region.rotated;
-  const double start_mm = accelerator.start_mm();
-  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  const TwoDoubles rates{1.0, photon.optics.group_index * (1.0 / kSpeedOfLight_mm_per_ns)};
-  const Lanes centre(region.centre, 1.0);
-
-  Lanes position(photon.position, 0.0), direction(photon.ray.direction, 0.0);
-  Lanes polarisation(photon.ray.polarisation, 0.0);
-  TwoDoubles path_and_time{photon.path_mm, photon.time_ns};
-  double depth_left = photon.optical_depth;
-  std::uint32_t known_medium = kNotSmooth;
-  double least_sin2 = critical_sin2(scene, known_medium, photon);
-
-  // In the region's frame, as the accelerator takes them: fourth -1 and 0.
-  Lanes local = position - centre, ahead = direction;
-  if (rotated) {
-    local = rotate_back(region.rotation, local);
-    ahead = rotate_back(region.rotation, ahead);
-  }
-  FourFloats ray_origin = local.with_fourth(start_mm).floats(), ray_direction = ahead.floats();
-
-  FlightEnd end;
-  std::uint32_t segments = 0, resolved = 0, triangle;
-  double cosine;
-  std::uint64_t interactions = photon.interactions;
-  for (;;) {
-    ++segments;
-    const FirstHit hit = accelerator.first_hit(ray_origin, ray_direction);
-    Approach approach;
-    triangle = hit.triangle;
-    if (triangle != kNoTriangle) [[likely]]
-      approach = accelerator.approach_of(triangle, local, ahead);
-    const bool sure = approach.cosine > 0.0;
-    cosine = approach.cosine;
-    double distance_mm = approach.distance_mm;
-    if (!sure) [[unlikely]] {
-      const Exit exit = accelerator.exit_after_doubt(local.vec(), ahead.vec(), hit);
-      resolved += exit.resolved ? 1 : 0;
-      triangle = exit.triangle;
-      if (triangle == kNoTriangle) {
-        end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
-        break;
-      }
-      distance_mm = exit.distance_mm;
-      cosine = dot(accelerator.plane(triangle), ahead);
-    }
-
-    const double depth = attenuation * distance_mm;
-    if (depth > depth_left) {
-      end = FlightEnd::bulk;
-      break;
-    }
-    depth_left -= depth;
-    path_and_time += distance_mm * rates;
-    position = position + distance_mm * direction;
-    const std::uint32_t medium = region.links[triangle].smooth_to;
-    if (medium != known_medium) {
-      known_medium = medium;
-      least_sin2 = critical_sin2(scene, medium, photon);
-    }
-    if (!(1.0 - cosine * cosine >= least_sin2)) {
-      end = FlightEnd::boundary;
-      break;
-    }
-
-    ++interactions;  // and from here as reflect()
-    Lanes normal = accelerator.plane(triangle).with_fourth(0.0);
-    if (rotated) normal = rotate(region.rotation, normal);
-    const Lanes twice = normal + normal;
-    direction = direction - cosine * twice;
-    polarisation = dot(normal, polarisation) * twice - polarisation;
-    if (!limits.allow(interactions, path_and_time[1])) {
-      end = FlightEnd::total;
-      break;
-    }
-    if (limits.passed) [[unlikely]] {
-      put_back(photon, position, direction, polarisation, path_and_time, depth_left, interactions);
-      (*limits.passed)(photon, total_reflection(scene, photon, triangle, cosine));
-    }
-
-    ray_origin = local.with_fourth(start_mm).floats() + hit.distance_mm * ray_direction;
-    local = position - centre;
-    ahead = direction;
-    if (rotated) {
-      local = rotate_back(region.rotation, local);
-      ahead = rotate_back(region.rotation, ahead);
-    }
-    ray_direction = ahead.floats();
-    if (!sure) [[unlikely]]
-      ray_origin = local.with_fourth(start_mm).floats();
-  }
-
-  put_back(photon, position, direction, polarisation, path_and_time, depth_left, interactions);
-  flight = {end, triangle, cosine, flight.segments + segments, flight.resolved + resolved};
-}
-
-}  // namespace
-
-// What is not Embree's, and the way to the first total reflection, which is all of it on rough faces, is
-// better served by the photon as it is.
 Flight fly(const Scene& scene, Photon& photon, const FlightLimits& limits) {
-  const Region& region = scene.regions[photon.region];
-  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   Flight flight;
-  for (;;) {
-    ++flight.segments;
-    const Exit exit = region.find_exit(photon.position, photon.ray.direction);
-    flight.resolved += exit.resolved ? 1 : 0;
-    flight.triangle = exit.triangle;
-    if (exit.triangle == kNoTriangle) {
-      flight.end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
-      return flight;
-    }
-    const double depth = attenuation * exit.distance_mm;
-    if (depth > photon.optical_depth) {
-      flight.end = FlightEnd::bulk;
-      return flight;
-    }
-    photon.optical_depth -= depth;
-    advance(photon, exit.distance_mm);
-    flight.end = FlightEnd::boundary;
-    const std::uint32_t medium = region.links[exit.triangle].smooth_to;
-    if (medium == kNotSmooth) return flight;
-    const Vec3 normal = region.direction_to_world(region.accelerator->normal(exit.triangle));
-    flight.cosine = photon.ray.direction.dot(normal);
-    if (!(1.0 - flight.cosine * flight.cosine >= critical_sin2(scene, medium, photon))) return flight;
-
-    ++photon.interactions;
-    reflect(photon.ray, normal);
-    flight.end = FlightEnd::total;
-    if (!limits.allow(photon.interactions, photon.time_ns)) return flight;
-    if (limits.passed)
-      (*limits.passed)(photon, total_reflection(scene, photon, exit.triangle, flight.cosine));
-    if (region.accelerator->uses_embree()) {
-      fly_on_with_embree(scene, photon, limits, flight);
-      return flight;
-    }
-  }
+  propagate<StoredFlight>(scene, photon, limits, flight);
+  if (flight.end == FlightEnd::total && limits.allow(photon.interactions, photon.time_ns))
+    propagate<EmbreeFlight>(scene, photon, limits, flight);
+  return flight;
 }
 
 }  // namespace scintray

@@ -2,27 +2,34 @@
 /// A photon's way through one region.
 
 #include <cstdint>
-#include <functional>
 #include <limits>
+#include <optional>
 
+#include "scintray/core/function_ref.hpp"
+#include "scintray/scene/scene.hpp"
 #include "scintray/source/photon.hpp"
 #include "scintray/tally/step.hpp"
 
 namespace scintray {
 
-/// Told of a step and of the photon after it.
-using StepVisitor = std::function<void(const Photon&, const Step&)>;
+/// Sees a step and the photon after it.
+using StepVisitor = FunctionRef<void(const Photon&, const Step&)>;
 
 /// A flight goes on through total reflections at smooth boundaries, which nothing but geometry decides, as
 /// long as the photon is within these limits. By default it ends at the first.
 struct FlightLimits {
   std::uint64_t interactions = 0;  ///< boundary interactions of the photon
   double time_ns = std::numeric_limits<double>::infinity();
-  /// Told of every reflection passed, as of a step of its own, which changes nothing; null: nobody asks.
-  const StepVisitor* passed = nullptr;
+  /// Sees every reflection passed, as a step of its own, and changes nothing. May be empty.
+  StepVisitor passed;
 
   bool allow(std::uint64_t photon_interactions, double photon_time_ns) const {
     return photon_interactions < interactions && photon_time_ns <= time_ns;
+  }
+  /// The fate of a photon that has reached the limits; nothing within them.
+  std::optional<Fate> reached(const Photon& photon) const {
+    if (allow(photon.interactions, photon.time_ns)) return std::nullopt;
+    return photon.interactions >= interactions ? Fate::cut_interactions : Fate::cut_time;
   }
 };
 

@@ -33,8 +33,8 @@ class CellTracer {
   CellTracer(const Scene& scene, const ReadoutChannels& channels, const ResponseMap& map,
              const ResponseGrid& grid, const RunSettings& run)
       : scene_(scene), channels_(channels), map_(map), grid_(grid), run_(run) {
-    medium_ = &scene.media[scene.regions[grid.region].medium];
-    emission_ = CurveSampler(medium_->medium().emission);
+    medium_ = scene.regions[grid.region].medium;
+    emission_ = CurveSampler(scene.media[medium_].medium().emission);
   }
 
   /// @param address  of the cell among those of all grids, for its streams
@@ -70,7 +70,7 @@ class CellTracer {
   }
 
   /// A point of the region within the cell; false when none is found.
-  bool place(const Eigen::AlignedBox3d& box, Rng& rng, Vec3& position) const {
+  bool place(const Eigen::AlignedBox3d& box, Rng& rng, PlainVec3& position) const {
     for (int draw = 0; draw < kMostDraws; ++draw) {
       position = point_in(box, rng);
       if (scene_.region_contains(grid_.region, position)) return true;
@@ -89,17 +89,17 @@ class CellTracer {
     photon.ray.polarisation =
         map_.unpolarised ? Vec3(Vec3::Zero()) : sample_polarisation(photon.ray.direction, rng);
     photon.wavelength_nm = emission_.sample(rng.uniform());
-    photon.optics = medium_->at(photon.wavelength_nm);
+    photon.optics = scene_.optics.at(medium_, photon.wavelength_nm);
     photon.optical_depth = sample_exponential(rng);
     const FlightLimits limits = limits_of(run_);
     for (;;) {
       const Step taken = step(scene_, photon, rng, limits);
-      if (taken.kind == StepKind::detected) {
+      if (taken.event == StepEvent::detected) {
         const std::uint32_t channel = channels_.at(taken);
         if (response.detected[channel]++ < map_.delays_kept)
           response.delays_ns[channel].push_back(static_cast<float>(photon.time_ns));
       }
-      if (is_end(taken.kind) || limit_reached(photon, run_)) return;
+      if (is_final(taken.event) || limits.reached(photon)) return;
     }
   }
 
@@ -108,7 +108,7 @@ class CellTracer {
   const ResponseMap& map_;
   const ResponseGrid& grid_;
   const RunSettings& run_;
-  const SceneMedium* medium_ = nullptr;
+  std::uint32_t medium_ = 0;
   CurveSampler emission_;
 };
 

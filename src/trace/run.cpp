@@ -28,11 +28,9 @@ class BlockTracer {
 
   Block trace(std::uint64_t number) const {
     Block block(scene_, plan_);
-    const StepVisitor pass = [&](const Photon& photon, const Step& passed) {
-      block.photons.pass(photon, passed);
-    };
+    const auto pass = [&](const Photon& photon, const Step& passed) { block.photons.pass(photon, passed); };
     FlightLimits limits = limits_of(settings_);
-    if (block.photons.wants_reflections()) limits.passed = &pass;
+    if (block.photons.wants_reflections()) limits.passed = pass;
     EventLight light;
     for (const PhotonSpan& span : source_.block(number)) {
       Rng rng = event_stream(settings_, span.event);
@@ -57,15 +55,15 @@ class BlockTracer {
     BlockTally& tally = block.photons;
     tally.start(photon, event, number);
     for (;;) {
-      const Step taken = step(scene_, photon, rng, limits);
-      if (is_end(taken.kind)) {
+      const Step taken = step(scene_, photon, rng, limits, &tally.records());
+      if (is_final(taken.event)) {
         tally.end(photon, taken, settings_.point);
-        if (energy_ && taken.kind == StepKind::detected)
+        if (energy_ && taken.event == StepEvent::detected)
           block.events.detected(plan_.channels.at(taken), photon);
         return;
       }
       tally.record(photon, taken);
-      if (const auto fate = limit_reached(photon, settings_)) return tally.cut(photon, *fate);
+      if (const auto fate = limits.reached(photon)) return tally.cut(photon, *fate);
     }
   }
 
@@ -129,7 +127,7 @@ PointResult run_point(const Scene& scene, const LightSource& source, const Tally
 }
 
 Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
-              std::uint64_t number, const StepVisitor& visit) {
+              std::uint64_t number, StepVisitor visit) {
   EventLight light;
   if (event < source.events()) {
     Rng rng = event_stream(settings, event);
@@ -145,11 +143,11 @@ Photon replay(const Scene& scene, const LightSource& source, const RunSettings& 
   Rng rng = photon_stream(settings, event, number);
   Photon photon = source.emit(scene, light, number, rng);
   FlightLimits limits = limits_of(settings);
-  limits.passed = &visit;
+  limits.passed = visit;
   for (;;) {
     const Step taken = step(scene, photon, rng, limits);
     visit(photon, taken);
-    if (is_end(taken.kind) || limit_reached(photon, settings)) return photon;
+    if (is_final(taken.event) || limits.reached(photon)) return photon;
   }
 }
 

@@ -38,14 +38,7 @@ Rng event_stream(const RunSettings& settings, std::uint64_t event);
 /// The random stream of what a sensor and its electronics add to an event.
 Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
 
-/// The fate of a photon that goes beyond the limits of a run; nothing within them.
-inline std::optional<Fate> limit_reached(const Photon& photon, const RunSettings& settings) {
-  if (photon.interactions >= settings.max_interactions) return Fate::cut_interactions;
-  if (settings.max_time_ns && photon.time_ns > *settings.max_time_ns) return Fate::cut_time;
-  return std::nullopt;
-}
-
-/// The same as limits of a flight, so that a photon is cut at the reflection that reaches them.
+/// The limits of a run, at which photons are cut.
 inline FlightLimits limits_of(const RunSettings& settings) {
   FlightLimits limits;
   limits.interactions = settings.max_interactions;
@@ -63,6 +56,6 @@ PointResult run_point(const Scene& scene, const LightSource& source, const Tally
 /// Follows one photon again; `visit` sees every step, each total reflection among them. Returns the photon as
 /// it ended. Throws InputError when there is no such photon.
 Photon replay(const Scene& scene, const LightSource& source, const RunSettings& settings, std::uint64_t event,
-              std::uint64_t photon, const StepVisitor& visit);
+              std::uint64_t photon, StepVisitor visit);
 
 }  // namespace scintray

@@ -53,7 +53,7 @@ class EventMaker {
     if (photons == 0) return;
     if (!response_.covers(deposit.region))
       throw InputError({{},
-                        "energy is left in \"" + scene_.regions[deposit.region].name +
+                        "energy is left in \"" + scene_.region_names[deposit.region] +
                             "\", which the response map does not cover",
                         "build a map with all parts that scintillate"});
     response_.at(deposit.position, deposit.region, seen);

@@ -15,7 +15,7 @@ void scatter_rayleigh(Ray& ray, Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   for (;;) {
     const Vec3 direction = sample_isotropic(rng);
-    const double along = direction.dot(polarised ? ray.polarisation : ray.direction);
+    const double along = direction.dot((polarised ? ray.polarisation : ray.direction).vec());
     const double weight = polarised ? 1.0 - along * along : 0.5 * (1.0 + along * along);
     if (rng.uniform() >= weight) continue;
     if (polarised) ray.polarisation = (ray.polarisation - along * direction).normalized();
@@ -26,42 +26,46 @@ void scatter_rayleigh(Ray& ray, Rng& rng) {
 
 /// Lets the medium absorb the photon for good (false), or its wavelength shifter take it and give it back.
 /// Out of line, as what few scenes have: inlined, it made every other step 3 % slower.
-[[gnu::noinline, gnu::cold]] bool shift_in_bulk(std::uint32_t number, const SceneMedium& scene_medium,
-                                                Photon& photon, Rng& rng) {
-  const Medium& medium = scene_medium.medium();
+[[gnu::noinline, gnu::cold]] bool shift_in_bulk(const Scene& scene, std::uint32_t number, Photon& photon,
+                                                Rng& rng, PhotonRecords* records) {
+  const Medium& medium = scene.media[number].medium();
   const double shifting_per_mm = medium.shifter->absorption_per_mm()(photon.wavelength_nm);
   const double total_per_mm = shifting_per_mm + medium.absorption_per_mm(photon.wavelength_nm);
   if (rng.uniform() * total_per_mm >= shifting_per_mm) return false;
-  const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, photon.shifts_of(false, number));
+  ShiftCount not_recorded;
+  ShiftCount& count = records ? records->shifts_of(false, number) : not_recorded;
+  const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, count);
   if (!back) return false;
   photon.wavelength_nm = back->wavelength_nm;
   photon.time_ns += back->delay_ns;
-  photon.optics = scene_medium.at(photon.wavelength_nm);
+  photon.optics = scene.optics.at(number, photon.wavelength_nm);
   scatter_isotropic(photon.ray, rng);
   return true;
 }
 
-Step interact_in_bulk(const Region& region, const SceneMedium& medium, Photon& photon, Rng& rng) {
+Step interact_in_bulk(const Scene& scene, std::uint32_t number, Photon& photon, Rng& rng,
+                      PhotonRecords* records) {
+  const MediumRecord& medium = scene.optics.media[number];
   const double absorption = photon.optics.absorption_per_mm;
   const double total = absorption + photon.optics.scattering_per_mm;
   Step result;
   if (rng.uniform() * total < absorption) {
-    if (medium.medium().shifter && shift_in_bulk(region.medium, medium, photon, rng)) {
+    if (medium.shifts && shift_in_bulk(scene, number, photon, rng, records)) {
       photon.optical_depth = sample_exponential(rng);
-      result.kind = StepKind::shifted;
+      result.event = StepEvent::re_emitted;
     } else {
-      result.kind = StepKind::absorbed_in_medium;
-      result.where = region.medium;
+      result.event = StepEvent::absorbed_in_medium;
+      result.where = number;
     }
     return result;
   }
-  if (medium.medium().scattering == ScatteringKind::rayleigh)
+  if (medium.scattering == ScatteringKind::rayleigh)
     scatter_rayleigh(photon.ray, rng);
   else
     scatter_isotropic(photon.ray, rng);
   photon.optical_depth = sample_exponential(rng);
   ++photon.scatterings;
-  result.kind = StepKind::scattered;
+  result.event = StepEvent::scattered;
   return result;
 }
 
@@ -84,40 +88,44 @@ struct InterfaceIndex {
 };
 
 InterfaceIndex indices_at(const Scene& scene, const Interface& interface, double wavelength_nm) {
-  const SceneMedium& back = scene.media[scene.regions[interface.back].medium];
-  const SceneMedium& front = scene.media[scene.regions[interface.front].medium];
+  const SceneOptics& optics = scene.optics;
+  const std::uint32_t back = scene.regions[interface.back].medium;
+  const std::uint32_t front = scene.regions[interface.front].medium;
   InterfaceIndex index;
   // An opaque part has no index: where light enters it the indices match.
-  index.back = (back.is_opaque() ? front : back).index(wavelength_nm);
-  index.front = (front.is_opaque() ? back : front).index(wavelength_nm);
+  index.back = optics.index(optics.is_opaque(back) ? front : back, wavelength_nm);
+  index.front = optics.index(optics.is_opaque(front) ? back : front, wavelength_nm);
   index.dry = interface.gap_medium != kNone;
-  if (index.dry) index.gap = scene.media[static_cast<std::size_t>(interface.gap_medium)].index(wavelength_nm);
+  if (index.dry) index.gap = optics.index(static_cast<std::uint32_t>(interface.gap_medium), wavelength_nm);
   return index;
 }
 
 /// Lets the photon meet a surface in which its wavelength may change; `index` follows it.
 [[gnu::noinline, gnu::cold]] SurfaceOutcome meet_shifting(const Scene& scene, const Interface& interface,
                                                           bool at_back, Side side, const Vec3& outward,
-                                                          InterfaceIndex& index, Photon& photon, Rng& rng) {
+                                                          InterfaceIndex& index, Photon& photon, Rng& rng,
+                                                          PhotonRecords* records) {
   const std::int32_t id = at_back ? interface.back_surface : interface.front_surface;
   ShiftingLight light;
   light.wavelength_nm = photon.wavelength_nm;
-  light.index = [&](double wavelength_nm) {
+  const auto index_at = [&](double wavelength_nm) {
     index = indices_at(scene, interface, wavelength_nm);
     return index.around(at_back);
   };
+  light.index = index_at;
   const SurfaceOutcome outcome = scene.surfaces[static_cast<std::size_t>(id)].meet(
-      photon.ray, side, outward, light, rng, photon.reflections);
+      photon.ray, side, outward, light, rng, records ? records->reflection_log() : nullptr);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
-  if (light.count.absorbed > 0) photon.shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
+  if (records && light.count.absorbed > 0)
+    records->shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
   return outcome;
 }
 
 /// Lets the photon meet the interface's surfaces from the back region to the front region and to and
 /// fro between them until it is in one of the regions or absorbed.
 Meeting meet_interface(const Scene& scene, const Interface& interface, bool from_back, const Vec3& normal,
-                       InterfaceIndex index, Photon& photon, Rng& rng) {
+                       InterfaceIndex index, Photon& photon, Rng& rng, PhotonRecords* records) {
   const bool has_back = interface.back_surface != kNone, has_front = interface.front_surface != kNone;
   bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces is met next
   bool came_from_back = from_back;
@@ -128,9 +136,10 @@ Meeting meet_interface(const Scene& scene, const Interface& interface, bool from
     const Vec3 outward = at_back ? normal : Vec3(-normal);
     const Side side = came_from_back == at_back ? Side::inside : Side::outside;
     const SurfaceOutcome outcome =
-        surface.shifts() ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng)
-                         : surface.meet(photon.ray, side, outward, index.around(at_back),
-                                        photon.wavelength_nm, rng, photon.reflections);
+        surface.shifts()
+            ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng, records)
+            : surface.meet(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
+                           records ? records->reflection_log() : nullptr);
     if (outcome == SurfaceOutcome::absorbed) return {false, id};
     if (outcome == SurfaceOutcome::inside) return {!at_back, kNone};
     if (!index.dry) return {at_back, kNone};
@@ -139,15 +148,15 @@ Meeting meet_interface(const Scene& scene, const Interface& interface, bool from
   }
 }
 
-Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t triangle, Photon& photon,
-                   Rng& rng) {
-  const BoundaryLink link = region.links[triangle];
+Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t triangle, Photon& photon, Rng& rng,
+                   PhotonRecords* records) {
+  const SceneOptics& optics = scene.optics;
+  const BoundaryLink link = scene.link(region, triangle);
   const Interface& interface = scene.interfaces[link.interface];
-  Vec3 turned;
-  if (region.rotated) turned = region.direction_to_world(region.accelerator->normal(triangle));
-  const Vec3& outward = region.rotated ? turned : region.accelerator->normal(triangle);
+  const Vec3 outward = scene.normal(region, triangle);
   const std::uint32_t next = link.from_back ? interface.front : interface.back;
-  const SceneMedium& next_medium = scene.media[scene.regions[next].medium];
+  const std::uint32_t next_medium = scene.regions[next].medium;
+  const bool next_opaque = optics.is_opaque(next_medium);
 
   Step result;
   result.interface = link.interface;
@@ -156,7 +165,7 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   result.cos_before = std::abs(photon.ray.direction.dot(outward));
   const double here = photon.optics.index;
   // Nothing is reflected where light enters an opaque part: reflection is its surface's business.
-  const double there = next_medium.is_opaque() ? here : next_medium.index(photon.wavelength_nm);
+  const double there = next_opaque ? here : optics.index(next_medium, photon.wavelength_nm);
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
@@ -166,15 +175,14 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
     const Vec3 normal = link.from_back ? outward : Vec3(-outward);
     const bool dry = interface.gap_medium != kNone;
     const double gap =
-        dry ? scene.media[static_cast<std::size_t>(interface.gap_medium)].index(photon.wavelength_nm) : 0.0;
+        dry ? optics.index(static_cast<std::uint32_t>(interface.gap_medium), photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
-    const Meeting meeting =
-        meet_interface(scene, interface, link.from_back, normal, {back, front, gap, dry}, photon, rng);
-    if (photon.wavelength_nm != before_nm)
-      photon.optics = scene.media[region.medium].at(photon.wavelength_nm);
+    const Meeting meeting = meet_interface(scene, interface, link.from_back, normal, {back, front, gap, dry},
+                                           photon, rng, records);
+    if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (meeting.absorbed_by != kNone) {
-      result.kind = StepKind::absorbed_at_surface;
+      result.event = StepEvent::absorbed_at_surface;
       result.where = static_cast<std::uint32_t>(meeting.absorbed_by);
       return result;
     }
@@ -182,31 +190,31 @@ Step meet_boundary(const Scene& scene, const Region& region, std::uint32_t trian
   }
   result.cos_after = std::abs(photon.ray.direction.dot(outward));
   if (!crossed) {
-    result.kind = StepKind::returned;
+    result.event = StepEvent::reflected;
     return result;
   }
 
   const std::int32_t sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
   photon.region = next;
-  photon.optics = next_medium.at(photon.wavelength_nm);
+  photon.optics = optics.at(next_medium, photon.wavelength_nm);
   if (sensor != kNone) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
     const double probability = scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(
         photon.wavelength_nm, there * sine);
-    result.kind = rng.uniform() < probability ? StepKind::detected : StepKind::unconverted;
+    result.event = rng.uniform() < probability ? StepEvent::detected : StepEvent::not_detected;
     result.where = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
-  } else if (next_medium.is_opaque()) {
-    result.kind = StepKind::absorbed_in_medium;
-    result.where = scene.regions[next].medium;
+  } else if (next_opaque) {
+    result.event = StepEvent::absorbed_in_medium;
+    result.where = next_medium;
   } else {
-    result.kind = StepKind::crossed;
+    result.event = StepEvent::transmitted;
   }
   return result;
 }
 
 }  // namespace
 
-Step step(const Scene& scene, Photon& photon, Rng& rng, const FlightLimits& limits) {
+Step step(const Scene& scene, Photon& photon, Rng& rng, const FlightLimits& limits, PhotonRecords* records) {
   const std::uint32_t from = photon.region;
   const Region& region = scene.regions[from];
   const Flight flight = fly(scene, photon, limits);
@@ -215,13 +223,13 @@ Step step(const Scene& scene, Photon& photon, Rng& rng, const FlightLimits& limi
     case FlightEnd::bulk:
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
-      result = interact_in_bulk(region, scene.media[region.medium], photon, rng);
+      result = interact_in_bulk(scene, region.medium, photon, rng, records);
       break;
     case FlightEnd::escape:
-      result.kind = StepKind::escaped;
+      result.event = StepEvent::escaped;
       break;
     case FlightEnd::boundary:
-      result = meet_boundary(scene, region, flight.triangle, photon, rng);
+      result = meet_boundary(scene, region, flight.triangle, photon, rng, records);
       break;
     case FlightEnd::total:
       result = total_reflection(scene, photon, flight.triangle, flight.cosine);

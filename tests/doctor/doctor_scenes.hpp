@@ -40,8 +40,8 @@ inline std::string refusal(const std::string& text) {
 inline double area_between(const Scene& scene, const std::string& a, const std::string& b) {
   double area = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const std::string &back = scene.regions[scene.interfaces[i].back].name,
-                      &front = scene.regions[scene.interfaces[i].front].name;
+    const std::string &back = scene.region_names[scene.interfaces[i].back],
+                      &front = scene.region_names[scene.interfaces[i].front];
     if ((back == a && front == b) || (back == b && front == a)) area += scene.interface_area_mm2[i];
   }
   return area;

@@ -56,8 +56,8 @@ TEST_CASE("A light guide over 64 crystals: one unequal mesh and conforming ones 
   const Scene& scene = whole.built.scene;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const Interface& interface = scene.interfaces[i];
-    const std::string &back = scene.regions[interface.back].name,
-                      &front = scene.regions[interface.front].name;
+    const std::string &back = scene.region_names[interface.back],
+                      &front = scene.region_names[interface.front];
     if ((back == "guide") == (front == "guide")) continue;
     if (back.rfind("crystal", 0) != 0 && front.rfind("crystal", 0) != 0) continue;
     ++interfaces;

@@ -79,8 +79,8 @@ TEST_CASE("Crystals glued in rows: pads between neighbours, dry on one side, one
           doctest::Approx(18.0));
   }
   for (const Interface& interface : built.interfaces) {
-    const std::string &back = built.regions[interface.back].name,
-                      &front = built.regions[interface.front].name;
+    const std::string &back = built.region_names[interface.back],
+                      &front = built.region_names[interface.front];
     CHECK((interface.gap_medium != kNone) == (back == "crystal0" && front == "frame"));
   }
   CHECK(area_between(built, "crystal1", "frame") == doctest::Approx(2.0 * 18.0 + 4.0));

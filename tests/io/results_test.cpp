@@ -94,7 +94,7 @@ void check_same(const PointResult& a, const PointResult& b) {
     CHECK(a.sensor_faces[i].part == b.sensor_faces[i].part);
     CHECK(a.sensor_faces[i].face == b.sensor_faces[i].face);
     CHECK(a.sensor_faces[i].detected == b.sensor_faces[i].detected);
-    CHECK(a.sensor_faces[i].unconverted == b.sensor_faces[i].unconverted);
+    CHECK(a.sensor_faces[i].not_detected == b.sensor_faces[i].not_detected);
   }
   REQUIRE(a.exit_angles.size() == b.exit_angles.size());
   for (std::size_t i = 0; i < a.exit_angles.size(); ++i) {

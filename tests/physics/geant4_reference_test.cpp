@@ -219,7 +219,7 @@ sensor = "perfect"
     scene.insert(end_of_parts, neighbours);
     const Traced traced = trace(scene);
     const PointResult& result = traced.result;
-    CHECK(traced.built.scene.accelerators <= 5);  // ambient, crystal, grease, detector
+    CHECK(traced.built.scene.accelerators.size() <= 5);  // ambient, crystal, grease, detector
     Comparison c(name);
     c.number("detected", result.fraction(Fate::detected), share_of(run, "detected"));
     c.number("escaped", result.fraction(Fate::escaped), share_of(run, "escaped"));

@@ -271,8 +271,8 @@ photons = 1
   // Volume of the regions: what is nested in a part is not its own.
   std::vector<double> weight(scene.regions.size(), 0.0);
   for (const PartInfo& part : scene.parts) {
-    const SceneMedium& medium = scene.media[scene.regions[part.region].medium];
-    if (medium.is_opaque()) continue;
+    const std::uint32_t medium = scene.regions[part.region].medium;
+    if (scene.optics.is_opaque(medium)) continue;
     double volume = part.volume_mm3;
     for (const PartInfo& other : scene.parts) {
       const bool in_filler =
@@ -281,7 +281,7 @@ photons = 1
       if ((part.name == "box" && in_box) || (part.name == "crystal_filler[0]" && in_filler))
         volume -= other.volume_mm3;
     }
-    weight[part.region] = volume * std::pow(medium.index(420.0), 2);
+    weight[part.region] = volume * std::pow(scene.optics.index(medium, 420.0), 2);
   }
   double sum = 0.0;
   for (const double w : weight) sum += w;
@@ -299,16 +299,16 @@ photons = 1
       for (int axis = 0; axis < 3; ++axis)
         photon.position[axis] = bounds.min()[axis] + rng.uniform() * bounds.sizes()[axis];
       photon.region = scene.locate(photon.position);
-      const SceneMedium& medium = scene.media[scene.regions[photon.region].medium];
-      if (medium.is_opaque()) continue;
-      photon.optics = medium.at(photon.wavelength_nm);
+      const std::uint32_t medium = scene.regions[photon.region].medium;
+      if (scene.optics.is_opaque(medium)) continue;
+      photon.optics = scene.optics.at(medium, photon.wavelength_nm);
       if (rng.uniform() < std::pow(photon.optics.index / 1.82, 2)) break;
     }
     std::uint32_t region = photon.region;
     while (photon.path_mm < kPath_mm && ended == 0) {
       region = photon.region;
-      const StepKind kind = step(scene, photon, rng).kind;
-      ended += kind != StepKind::crossed && kind != StepKind::returned;
+      const StepEvent event = step(scene, photon, rng).event;
+      ended += event != StepEvent::transmitted && event != StepEvent::reflected;
     }
     ++found[region];
   }
@@ -318,7 +318,7 @@ photons = 1
       CHECK(found[r] == 0);
       continue;
     }
-    CAPTURE(scene.regions[r].name);
-    check_law(scene.regions[r].name, binomial_estimate(found[r], kPhotons), {weight[r] / sum, 0.0});
+    CAPTURE(scene.region_names[r]);
+    check_law(scene.region_names[r], binomial_estimate(found[r], kPhotons), {weight[r] / sum, 0.0});
   }
 }

@@ -190,8 +190,9 @@ TEST_CASE(
       const double depth = photon.position.z();
       const Vec3& d = photon.ray.direction;
       const bool unpolarised = photon.ray.polarisation.isZero(0.0);
-      wrong += taken.kind != StepKind::shifted || is_end(taken.kind) || photon.wavelength_nm < 480.0 ||
-               photon.wavelength_nm > 560.0 || unpolarised != (polarisation == "unpolarised") ||
+      wrong += taken.event != StepEvent::re_emitted || is_final(taken.event) ||
+               photon.wavelength_nm < 480.0 || photon.wavelength_nm > 560.0 ||
+               unpolarised != (polarisation == "unpolarised") ||
                std::abs(photon.ray.polarisation.dot(d)) > 1e-9 || photon.optics.absorption_per_mm != 0.0;
       const auto cosine = std::min<std::size_t>(kCosines - 1, static_cast<std::size_t>(5.0 * (d.z() + 1.0)));
       const double turn = (std::atan2(d.y(), d.x()) + kPi) / kTwoPi;

@@ -36,5 +36,5 @@ photons = 1
   SceneBuilder builder;
   const BuiltScene built = builder.build(file.spec(0));
   CHECK(built.scene.parts.size() == 3201);
-  CHECK(built.scene.accelerators < 30);
+  CHECK(built.scene.accelerators.size() < 30);
 }

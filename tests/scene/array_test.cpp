@@ -50,7 +50,7 @@ TEST_CASE("Identical elements share one accelerator") {
   const std::string text = replaced(kBlock, "count = [3, 2]", "count = [8, 8]");
   const Scene scene = built(scene_with(text, "block[0,1]")).scene;
   CHECK(scene.parts.size() == 64);
-  CHECK(scene.accelerators == 2);  // the elements', and that of the space around them
+  CHECK(scene.accelerators.size() == 2);  // the elements', and that of the space around them
 }
 
 TEST_CASE("An array turns, touches and moves as one body, and is touched as one") {

@@ -68,8 +68,8 @@ inline Between between(const Scene& scene, const std::string& a, const std::stri
   Between found;
   double largest = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const std::string &back = scene.regions[scene.interfaces[i].back].name,
-                      &front = scene.regions[scene.interfaces[i].front].name;
+    const std::string &back = scene.region_names[scene.interfaces[i].back],
+                      &front = scene.region_names[scene.interfaces[i].front];
     if (!(back == a && front == b) && !(back == b && front == a)) continue;
     found.area_mm2 += scene.interface_area_mm2[i];
     if (scene.interface_area_mm2[i] > largest) {

@@ -119,7 +119,7 @@ TEST_CASE("Replay follows the photon that the run detected, with the run's own s
     Step last;
     const Photon end = simulation.replay(1, photon.event, photon.photon,
                                          [&](const Photon&, const Step& step) { last = step; });
-    CHECK(last.kind == StepKind::detected);
+    CHECK(last.event == StepEvent::detected);
     CHECK(static_cast<float>(end.path_mm) == photon.path_mm);
     CHECK(static_cast<float>(end.time_ns) == photon.time_ns);
     CHECK(end.interactions == photon.interactions);

@@ -34,7 +34,7 @@ TEST_CASE("one energy is put where the region says") {
     CHECK(event.deposits[0].energy_keV == 511.0);
     CHECK(event.deposits[0].position.z() >= 1.0);
     CHECK(event.deposits[0].position.z() <= 2.0);
-    CHECK(scene.regions[event.deposits[0].region].name == "crystal");
+    CHECK(scene.region_names[event.deposits[0].region] == "crystal");
   }
 }
 

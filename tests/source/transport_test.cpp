@@ -116,7 +116,7 @@ TEST_CASE("energy is conserved in every event") {
       unseen += event.unseen_keV > 0.0 ? 1 : 0;
       escaped += event.escaped_keV > 0.0 ? 1 : 0;
       for (const Deposit& deposit : event.deposits) {
-        CHECK(scene.regions[deposit.region].name == "crystal");
+        CHECK(scene.region_names[deposit.region] == "crystal");
         CHECK(std::abs(deposit.position.x()) <= 2.0 + 1e-6);
         CHECK(std::abs(deposit.position.z()) <= 5.0 + 1e-6);
         CHECK(deposit.time_ns >= 45.0 / kSpeedOfLight_mm_per_ns - 1e-9);

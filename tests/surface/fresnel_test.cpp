@@ -18,7 +18,7 @@ Ray incident(double angle, double polarisation_angle) {
   ray.direction = -std::cos(angle) * kNormal + std::sin(angle) * frame.x;
   // At normal incidence any direction across is as good as another.
   const Vec3 s = angle > 0.0 ? Vec3(ray.direction.cross(kNormal).normalized()) : frame.y;
-  const Vec3 p = s.cross(ray.direction);
+  const Vec3 p = s.cross(ray.direction.vec());
   ray.polarisation = std::cos(polarisation_angle) * s + std::sin(polarisation_angle) * p;
   return ray;
 }

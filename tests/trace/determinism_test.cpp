@@ -79,7 +79,7 @@ TEST_CASE("A photon from the list can be followed again to the same end") {
     Step last;
     const Photon end =
         point->replay(list[i].event, list[i].photon, [&](const Photon&, const Step& step) { last = step; });
-    CHECK(last.kind == StepKind::detected);
+    CHECK(last.event == StepEvent::detected);
     CHECK(static_cast<float>(end.path_mm) == list[i].path_mm);
     CHECK(static_cast<float>(end.position.x()) == list[i].position_mm[0]);
     CHECK(end.interactions == list[i].interactions);

@@ -51,7 +51,7 @@ Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t num
   do {
     followed.last = step(scene, followed.photon, rng, limits);
     followed.segments += followed.last.segments;
-  } while (!is_end(followed.last.kind) && followed.photon.interactions < 2'000);
+  } while (!is_final(followed.last.event) && followed.photon.interactions < 2'000);
   return followed;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("A photon that passes over total reflections goes the way of one that 
       CAPTURE(i);
       const Journey stopping = travel(scene.built.scene, scene.source, i, {});
       const Journey passing = travel(scene.built.scene, scene.source, i, far);
-      REQUIRE(passing.last.kind == stopping.last.kind);
+      REQUIRE(passing.last.event == stopping.last.event);
       CHECK(passing.segments == stopping.segments);
       CHECK(passing.photon.interactions == stopping.photon.interactions);
       CHECK(passing.photon.scatterings == stopping.photon.scatterings);
@@ -108,27 +108,26 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
       const Journey unseen = travel(scene.built.scene, scene.source, i, alone);
       std::uint64_t told = 0, segments = 0;
       double path_mm = 0.0;
-      const StepVisitor visit = [&](const Photon& photon, const Step& passed) {
+      const auto visit = [&](const Photon& photon, const Step& passed) {
         ++told;
-        CHECK(passed.kind == StepKind::returned);
+        CHECK(passed.event == StepEvent::reflected);
         CHECK(passed.region == photon.region);
         CHECK(passed.segments == 1);
         CHECK(photon.path_mm >= path_mm);
         path_mm = photon.path_mm;
         // It is at the boundary that it was told of, on its way back.
         const Region& region = scene.built.scene.regions[photon.region];
-        const Vec3 normal = region.direction_to_world(region.accelerator->normal(passed.triangle));
+        const Vec3 normal = scene.built.scene.normal(region, passed.triangle);
         CHECK(photon.ray.direction.dot(normal) == doctest::Approx(-passed.cos_after).epsilon(1e-9));
-        const Vec3 corner =
-            region.centre + region.direction_to_world(region.accelerator->triangle(passed.triangle)[0]);
+        const Vec3 corner = scene.built.scene.triangle(region, passed.triangle)[0];
         CHECK(std::abs((photon.position - corner).dot(normal)) < 1e-9);
       };
       FlightLimits watched = alone;
-      watched.passed = &visit;
+      watched.passed = visit;
       Rng rng(3, StreamKind::photon, i);
       Photon photon = scene.source.emit(scene.built.scene, rng);
       std::uint64_t steps = 0;
-      for (Step taken{StepKind::returned}; !is_end(taken.kind) && photon.interactions < 2'000;) {
+      for (Step taken{StepEvent::reflected}; !is_final(taken.event) && photon.interactions < 2'000;) {
         taken = step(scene.built.scene, photon, rng, watched);
         segments += taken.segments;
         ++steps;
@@ -156,10 +155,10 @@ TEST_CASE("A flight ends at the reflection that reaches a limit, and no sooner")
       Rng rng(3, StreamKind::photon, i);
       Photon photon = scene.source.emit(scene.built.scene, rng);
       double before_ns = photon.time_ns;
-      const StepVisitor visit = [&](const Photon& on_way, const Step&) { before_ns = on_way.time_ns; };
-      limits.passed = &visit;
+      const auto visit = [&](const Photon& on_way, const Step&) { before_ns = on_way.time_ns; };
+      limits.passed = visit;
       const Step taken = step(scene.built.scene, photon, rng, limits);
-      if (taken.kind != StepKind::returned || taken.cos_before != taken.cos_after) continue;
+      if (taken.event != StepEvent::reflected || taken.cos_before != taken.cos_after) continue;
       if (count) CHECK(photon.interactions <= 5);
       if (count && photon.interactions == 5) ++by_count;
       if (!count && photon.time_ns > 0.1) {

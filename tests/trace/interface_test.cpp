@@ -71,7 +71,7 @@ wavelength = "420 nm"
 photons = 20_000
 )";
   const Traced traced = trace(scene);
-  CHECK(traced.built.scene.accelerators == 2);
+  CHECK(traced.built.scene.accelerators.size() == 2);
   CHECK(traced.result.count(Fate::escaped) > 0);
 }
 

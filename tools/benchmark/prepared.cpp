@@ -26,7 +26,7 @@ std::vector<RawRay> record_rays(const Prepared& prepared, std::size_t count) {
   for (std::uint64_t i = 0; rays.size() < count; ++i) {
     Rng rng(9, StreamKind::photon, i);
     Photon photon = source.emit(scene, {}, i, rng);
-    for (Step taken{StepKind::returned}; !is_end(taken.kind) && rays.size() < count;) {
+    for (Step taken{StepEvent::reflected}; !is_final(taken.event) && rays.size() < count;) {
       if (photon.region == crystal) {
         const Vec3 o = region.point_to_local(photon.position), d = photon.ray.direction;
         rays.push_back({{static_cast<float>(o.x()), static_cast<float>(o.y()), static_cast<float>(o.z())},

@@ -49,7 +49,7 @@ void GammaEventSource::check_lutetium(const EmitterSpec& spec, const Scene& scen
     if (!has_lutetium(region))
       throw InputError(
           {spec.origin_where,
-           "there is no lutetium in \"" + scene.regions[region].name + "\", where 176Lu is to decay",
+           "there is no lutetium in \"" + scene.region_names[region] + "\", where 176Lu is to decay",
            "name parts of LSO or LYSO"});
 }
 

@@ -60,7 +60,7 @@ GammaTransport::GammaTransport(const Scene& scene, const std::vector<MatterSpec>
     if (medium.empty_space) continue;
     if (medium.composition.empty()) {
       std::string& names = unknown[id];
-      names += (names.empty() ? "\"" : ", \"") + scene.regions[region].name + "\"";
+      names += (names.empty() ? "\"" : ", \"") + scene.region_names[region] + "\"";
       continue;
     }
     std::shared_ptr<const GammaMatter>& known = by_medium[id];
@@ -93,7 +93,7 @@ void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
       return;
     }
     const Region& region = walk.scene.regions[gamma.region];
-    const Exit exit = region.find_exit(gamma.position, gamma.direction);
+    const Exit exit = walk.scene.find_exit(region, gamma.position, gamma.direction);
     if (exit.triangle == kNoTriangle) {
       walk.event.escaped_keV += gamma.energy_keV;
       return;
@@ -106,14 +106,14 @@ void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
     gamma.position += distance_mm * gamma.direction;
     gamma.time_ns += distance_mm / kSpeedOfLight_mm_per_ns;
     if (leaves) {
-      const BoundaryLink link = region.links[exit.triangle];
+      const BoundaryLink link = walk.scene.link(region, exit.triangle);
       const Interface& interface = walk.scene.interfaces[link.interface];
       gamma.region = link.from_back ? interface.front : interface.back;
     } else if (!interact(walk, gamma)) {
       return;
     }
   }
-  throw InternalError("a gamma goes to and fro in \"" + walk.scene.regions[gamma.region].name + "\"");
+  throw InternalError("a gamma goes to and fro in \"" + walk.scene.region_names[gamma.region] + "\"");
 }
 
 /// Lets the gamma interact where it is. False when it is no more.

@@ -1,0 +1,157 @@
+#include <cstddef>
+#include <cstring>
+
+#include "physics/traced.hpp"
+#include "scintray/source/photon_source.hpp"
+#include "scintray/trace/step.hpp"
+
+using namespace scintray;
+using namespace scintray::test;
+
+namespace {
+
+/// A turned crystal on grease and a sensor, a rod of another medium in dry contact with it, and a rough ball:
+/// planes and Embree, smooth and rough interfaces, gaps, dispersion.
+std::string mixed_scene(const std::string& accelerator) {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["3 mm", "3 mm", "10 mm"]
+rotate = { axis = [0, 1, 0], angle = "30 deg" }
+medium = "LSO_roncali2013"
+surface = "polished"
+[[part]]
+name = "ball"
+sphere = { radius = "3 mm", subdivisions = 4 }
+translate = ["12 mm", "0 mm", "0 mm"]
+medium = "LSO_roncali2013"
+surface = "roncali2013_unified_rough"
+[[part]]
+name = "slab"
+box = ["3 mm", "3 mm", "1 mm"]
+translate = ["0 mm", "20 mm", "0 mm"]
+medium = "LSO_roncali2013"
+surface = "polished_lambertian_097"
+[[part]]
+name = "pad"
+box = ["3 mm", "3 mm", "0.5 mm"]
+place = { touch = "slab", side = "-z" }
+medium = "optical_grease_roncali2013"
+surface = "polished_lambertian_097"
+sensor = "ideal"
+[[contact]]
+between = ["slab", "pad"]
+kind = "bonded"
+surface = "polished"
+[source]
+type = "photons"
+region = { part = "*" }
+wavelength = "emission"
+time = "0 ns"
+photons = 2_000
+[run]
+accelerator = ")" +
+         accelerator + "\"\n";
+}
+
+/// Records that went through bytes.
+template <typename Record>
+std::vector<Record> through_bytes(const std::vector<Record>& records) {
+  static_assert(std::is_trivially_copyable_v<Record>);
+  std::vector<std::byte> bytes(records.size() * sizeof(Record));
+  if (!bytes.empty()) std::memcpy(bytes.data(), records.data(), bytes.size());
+  std::vector<Record> copy(records.size());
+  if (!bytes.empty()) std::memcpy(static_cast<void*>(copy.data()), bytes.data(), bytes.size());
+  return copy;
+}
+
+Boundary through_bytes(const Boundary& boundary) {
+  Boundary copy;
+  copy.vertices = through_bytes(boundary.vertices);
+  copy.corners = through_bytes(boundary.corners);
+  copy.triangle_planes = through_bytes(boundary.triangle_planes);
+  copy.planes = through_bytes(boundary.planes);
+  copy.plane_triangles = through_bytes(boundary.plane_triangles);
+  copy.size_mm = boundary.size_mm;
+  copy.closed = boundary.closed;
+  return copy;
+}
+
+/// A scene without a name in it, whose records went through bytes.
+Scene through_bytes(const Scene& scene) {
+  Scene copy;
+  copy.regions = through_bytes(scene.regions);
+  copy.links = through_bytes(scene.links);
+  copy.interfaces = through_bytes(scene.interfaces);
+  copy.optics.media = through_bytes(scene.optics.media);
+  copy.optics.table = through_bytes(scene.optics.table);
+  for (const auto& accelerator : scene.accelerators)
+    copy.accelerators.push_back(std::make_shared<Accelerator>(through_bytes(accelerator->boundary())));
+  copy.media = scene.media;
+  copy.surfaces = scene.surfaces;
+  copy.sensors = scene.sensors;
+  return copy;
+}
+
+void check_same(const Photon& a, const Photon& b) {
+  CHECK(a.position == b.position);
+  CHECK(a.ray.direction == b.ray.direction);
+  CHECK(a.ray.polarisation == b.ray.polarisation);
+  CHECK(a.wavelength_nm == b.wavelength_nm);
+  CHECK(a.time_ns == b.time_ns);
+  CHECK(a.path_mm == b.path_mm);
+  CHECK(a.optical_depth == b.optical_depth);
+  CHECK(a.region == b.region);
+  CHECK(a.interactions == b.interactions);
+  CHECK(a.scatterings == b.scatterings);
+}
+
+}  // namespace
+
+TEST_CASE("A scene and a photon that were copied as bytes go on to the same bits") {
+  for (const std::string accelerator : {"auto", "embree"}) {
+    CAPTURE(accelerator);
+    const SceneSpec spec = scene_spec(mixed_scene(accelerator));
+    const BuiltScene built = SceneBuilder().build(spec);
+    const Scene copy = through_bytes(built.scene);
+    const PhotonSource source(spec.source, built.scene);
+    FlightLimits limits;
+    limits.interactions = 500;
+    std::uint64_t steps = 0, detected = 0;
+    for (std::uint64_t i = 0; i < spec.source.photons; ++i) {
+      CAPTURE(i);
+      Rng rng(5, StreamKind::photon, i), other_rng(5, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      Photon other = source.emit(built.scene, other_rng);
+      for (;;) {
+        const Step one = step(built.scene, photon, rng, limits);
+        const Step two = step(copy, other, other_rng, limits);
+        other = through_bytes(std::vector<Photon>{other}).front();
+        REQUIRE(one.event == two.event);
+        REQUIRE(one.interface == two.interface);
+        check_same(photon, other);
+        ++steps;
+        detected += one.event == StepEvent::detected;
+        if (is_final(one.event) || limits.reached(photon)) break;
+      }
+    }
+    CHECK(steps > 2 * spec.source.photons);
+    CHECK(detected > 0);
+  }
+}
+
+TEST_CASE("A photon reaches its limits once, by count or by time") {
+  Photon photon;
+  photon.interactions = 7;
+  photon.time_ns = 2.0;
+  FlightLimits limits;
+  limits.interactions = 8;
+  CHECK_FALSE(limits.reached(photon));
+  limits.time_ns = 2.0;
+  CHECK_FALSE(limits.reached(photon));  // a photon at the limit is within it
+  limits.time_ns = 1.5;
+  CHECK(limits.reached(photon) == Fate::cut_time);
+  limits.interactions = 7;
+  CHECK(limits.reached(photon) == Fate::cut_interactions);
+}
