@@ -46,7 +46,7 @@ kind = "bonded"
 surface = "polished"
 [source]
 type = "photons"
-region = { part = "*" }
+region = { part = "*l*" }
 wavelength = "emission"
 time = "0 ns"
 photons = 2_000
