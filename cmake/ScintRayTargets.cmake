@@ -1,9 +1,6 @@
-# scintray_module(NAME SOURCES... [LINK modules and libraries]) makes the static library
-# scintray_NAME of src/NAME. Headers are included as "scintray/NAME/header.hpp", here through a link
-# in the build folder, and in the same way once installed.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/scintray SYMBOLIC)
-
+# scintray_module(NAME [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]) makes the static
+# library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT. Headers are included as
+# "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not installed.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
@@ -31,13 +28,20 @@ if(SCINTRAY_FUZZ)
 endif()
 
 function(scintray_module name)
-  cmake_parse_arguments(MODULE "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(MODULE "" "" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  list(REMOVE_ITEM sources ${MODULE_WITHOUT})
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS *.hpp)
+  set(internal_headers ${headers})
+  list(FILTER headers EXCLUDE REGEX "/detail/")
+  list(FILTER internal_headers INCLUDE REGEX "/detail/")
   set(target scintray_${name})
-  add_library(${target} STATIC ${MODULE_SOURCES})
+  add_library(${target} STATIC ${sources})
   add_library(scintray::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_sources(${target}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${headers}
+    PRIVATE FILE_SET internal TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${internal_headers})
   target_link_libraries(${target} PUBLIC scintray_options ${MODULE_LINK} PRIVATE ${MODULE_PRIVATE_LINK})
   set_property(GLOBAL APPEND PROPERTY SCINTRAY_LIBRARIES ${target})
 endfunction()

@@ -1,4 +1,4 @@
-#include "scintray/analysis/bench_surface.hpp"
+#include "scintray/analysis/goniometer/sample_surface.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +7,11 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

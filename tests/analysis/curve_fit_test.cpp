@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/curve_fit.hpp"
+#include "scintray/analysis/fit/curve_fit.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

@@ -4,13 +4,15 @@
 #include <limits>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/confusion.hpp"
-#include "scintray/analysis/depth_curve.hpp"
-#include "scintray/analysis/depth_of_interaction.hpp"
+#include "scintray/analysis/position/confusion.hpp"
+#include "scintray/analysis/position/depth_curve.hpp"
+#include "scintray/analysis/position/depth_of_interaction.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

@@ -1,5 +1,5 @@
 // All studies of a point, from made-up events.
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/analysis/event_analysis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +8,9 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

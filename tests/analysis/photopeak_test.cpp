@@ -1,14 +1,16 @@
 // Histograms, and fits of peaks whose truth is known.
-#include "scintray/analysis/photopeak.hpp"
+#include "scintray/analysis/spectrum/photopeak.hpp"
 
 #include <doctest/doctest.h>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/spread.hpp"
+#include "scintray/analysis/spectrum/spread.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

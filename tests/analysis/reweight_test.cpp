@@ -8,6 +8,9 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

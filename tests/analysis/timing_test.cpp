@@ -4,13 +4,16 @@
 #include <limits>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/coincidence_timing.hpp"
-#include "scintray/analysis/event_study.hpp"
-#include "scintray/analysis/photon_time.hpp"
+#include "scintray/analysis/event_analysis.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/detail/photon_time.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

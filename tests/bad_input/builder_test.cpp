@@ -1,9 +1,12 @@
 // Mistakes in builders and shapes: what is said, where, and how to mend it.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

@@ -2,11 +2,15 @@
 #include <doctest/doctest.h>
 
 #include "bad_input/good_scene.hpp"
-#include "scintray/scene/material_forms.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/materials/material_forms.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::materials;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {

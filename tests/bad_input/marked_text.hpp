@@ -35,11 +35,11 @@ struct MarkedText {
 };
 
 /// Checks that exactly one problem was found, with these fragments in its message and hint, at the mark.
-inline void check_one_problem(const MarkedText& input, const std::vector<Problem>& found,
+inline void check_one_problem(const MarkedText& input, const std::vector<core::Problem>& found,
                               const Fragments& what, const Fragments& hint) {
   INFO("input:\n" << input.text);
   std::string all;
-  for (const Problem& problem : found) all += problem.text() + "\n";
+  for (const core::Problem& problem : found) all += problem.text() + "\n";
   INFO("problems:\n" << all);
   REQUIRE(found.size() == 1);
   check_says(found[0].what, what);

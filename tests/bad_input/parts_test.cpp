@@ -1,9 +1,12 @@
 // Parts that do not go together: the message names them and says where both stand.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

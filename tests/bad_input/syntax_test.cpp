@@ -1,8 +1,9 @@
 // Malformed TOML: one clean message at the right place.
 #include "bad_input/marked_text.hpp"
-#include "scintray/scene/toml_reader.hpp"
+#include "scintray/config/toml_reader.hpp"
 
 using namespace scintray;
+using namespace scintray::config;
 using namespace scintray::test;
 
 namespace {

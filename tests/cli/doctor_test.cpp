@@ -1,14 +1,16 @@
 #include "program.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/gltf_writer.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/ply_writer.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/gltf_writer.hpp"
+#include "scintray/mesh/export/ply_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 // `scintray check` and `scintray repair` as a user runs them.

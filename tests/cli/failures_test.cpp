@@ -11,6 +11,8 @@
 #include "scintray/core/error.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::cli;
 
 TEST_CASE("A command that returns gives success and prints nothing") {
   std::ostringstream err;

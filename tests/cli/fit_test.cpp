@@ -5,6 +5,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::test;
 
 namespace {

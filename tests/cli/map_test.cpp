@@ -10,6 +10,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

@@ -9,6 +9,7 @@
 #include "scintray/core/version.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 namespace {
 

@@ -1,11 +1,12 @@
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::results;
 using namespace scintray::test;
 
 TEST_CASE("A map is built, events are made from it, and its result is reported like any other") {

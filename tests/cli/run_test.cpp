@@ -1,10 +1,13 @@
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::results;
 using namespace scintray::test;
 
 namespace {

@@ -6,6 +6,7 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("A file is read as it is, byte for byte") {
   const auto folder = test::scratch_folder("input_file");

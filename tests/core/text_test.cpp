@@ -5,6 +5,7 @@
 #include <vector>
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("A list has its separator between items only") {
   const std::vector<std::string> words{"a", "", "c"};

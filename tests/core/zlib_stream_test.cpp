@@ -7,6 +7,7 @@
 #include "support/deflated.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 namespace {
 

@@ -1,11 +1,14 @@
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Two tessellations of one curved surface, made one within a tolerance.

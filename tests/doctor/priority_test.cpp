@@ -2,6 +2,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Overlaps that are meant: the part with the higher priority keeps the space.

@@ -1,10 +1,12 @@
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Parts with cavities and notches, from mesh files, traced.

@@ -1,9 +1,14 @@
 #include "doctor/doctor_scenes.hpp"
-#include "scintray/source/photon_source.hpp"
+#include "scintray/source/detail/photon_source.hpp"
 #include "support/long_run.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 // scenes/torture.toml: slivers, grazing rays, gaps of 1e-4 mm, ten metres from the origin, sensors along

@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/bsdf_text.hpp"
+#include "scintray/exchange/bsdf_text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,13 @@
 
 #include "io/tabulated.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/io/exchange/table_csv.hpp"
+#include "scintray/exchange/table_csv.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

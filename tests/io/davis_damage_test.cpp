@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/exchange/davis.hpp"
+#include "scintray/exchange/davis.hpp"
 #include "support/deflated.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::exchange;
 using test::check_says;
 using test::deflated;
 

@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/davis.hpp"
+#include "scintray/exchange/davis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +11,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

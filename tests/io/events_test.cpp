@@ -4,14 +4,22 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/results.hpp"
-#include "scintray/scene/read_analysis.hpp"
-#include "scintray/simulation/study_results.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/scene_file/read_analysis.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::detector;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -5,15 +5,23 @@
 #include <sstream>
 
 #include "io/gdml_texts.hpp"
-#include "scintray/io/gdml/gdml_scene.hpp"
-#include "scintray/io/gdml/solids.hpp"
+#include "scintray/exchange/gdml/detail/solids.hpp"
+#include "scintray/exchange/gdml/gdml_scene.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::mesh;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

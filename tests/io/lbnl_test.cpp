@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/lbnl.hpp"
+#include "scintray/exchange/lbnl.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -13,6 +13,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

@@ -1,13 +1,13 @@
 // Electronics made again from the photons of a result.
-#include "scintray/simulation/read_out_again.hpp"
+#include "scintray/simulation/rerun_readout.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/results.hpp"
-#include "scintray/scene/read_readout.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/scene_file/read_readout.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
@@ -15,6 +15,11 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

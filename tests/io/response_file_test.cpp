@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "scintray/core/h5.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulate_mapped.hpp"
 #include "support/shared.hpp"
@@ -14,6 +14,12 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -16,6 +16,11 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::results;
 using namespace scintray::test;
 
 namespace {

@@ -1,5 +1,5 @@
 // Reweighting of results files: what is read, what is refused. Physics is in physics/reweighting_test.cpp.
-#include "scintray/simulation/reweigh.hpp"
+#include "scintray/simulation/reweight.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,12 +8,16 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

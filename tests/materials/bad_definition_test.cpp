@@ -1,6 +1,8 @@
 #include "library_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::materials;
 
 namespace {
 

@@ -7,19 +7,20 @@
 #include <fstream>
 #include <string>
 
-#include "scintray/scene/library.hpp"
+#include "scintray/materials/database.hpp"
 
 namespace scintray {
 
-inline const Library& shipped_library() {
-  static const Library library({std::filesystem::path(SCINTRAY_SOURCE_DIR) / "materials"});
+inline const materials::Library& shipped_library() {
+  static const materials::Library library({std::filesystem::path(SCINTRAY_SOURCE_DIR) / "materials"});
   return library;
 }
 
 /// The shipped library and one definition as a scene would give it, in "scene.toml".
-inline Library library_with(LibraryKind kind, const std::string& name, const std::string& text) {
-  Library library = shipped_library();
-  library.add(kind, {{name, parse_toml(text, "scene.toml")}});
+inline materials::Library library_with(materials::LibraryKind kind, const std::string& name,
+                                       const std::string& text) {
+  materials::Library library = shipped_library();
+  library.add(kind, {{name, config::parse_toml(text, "scene.toml")}});
   return library;
 }
 
@@ -47,10 +48,10 @@ class TemporaryLibrary {
 
 /// The problems of what `action` throws; fails when it does not throw InputError.
 template <class Action>
-std::vector<Problem> problems_of(const Action& action) {
+std::vector<core::Problem> problems_of(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     return error.problems();
   }
   FAIL("no InputError was thrown");
@@ -58,11 +59,11 @@ std::vector<Problem> problems_of(const Action& action) {
 }
 
 /// True when one problem stands at the line and its text or hint contains the words.
-inline bool reports(const std::vector<Problem>& problems, long line, const std::string& words) {
-  for (const Problem& problem : problems)
+inline bool reports(const std::vector<core::Problem>& problems, long line, const std::string& words) {
+  for (const core::Problem& problem : problems)
     if ((line == 0 || problem.where.line == line) && problem.text().find(words) != std::string::npos)
       return true;
-  for (const Problem& problem : problems) MESSAGE(problem.text());
+  for (const core::Problem& problem : problems) MESSAGE(problem.text());
   return false;
 }
 

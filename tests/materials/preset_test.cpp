@@ -3,6 +3,9 @@
 #include "library_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
 
 namespace {
 

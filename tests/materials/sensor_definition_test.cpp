@@ -3,10 +3,14 @@
 #include <sstream>
 
 #include "library_helpers.hpp"
-#include "scintray/scene/material_forms.hpp"
+#include "scintray/materials/material_forms.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::detector;
+using namespace scintray::materials;
 
 namespace {
 

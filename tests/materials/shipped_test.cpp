@@ -5,6 +5,11 @@
 #include "scintray/core/curve.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::detector;
+using namespace scintray::materials;
 
 TEST_CASE("every shipped medium loads and is physical") {
   const Library& library = shipped_library();

@@ -1,6 +1,11 @@
 #include "library_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::topography;
+using namespace scintray::materials;
 
 namespace {
 

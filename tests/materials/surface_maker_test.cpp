@@ -2,12 +2,17 @@
 
 #include <doctest/doctest.h>
 
-#include "scintray/scene/library.hpp"
-#include "scintray/scene/surface_maker.hpp"
+#include "scintray/materials/database.hpp"
+#include "scintray/materials/surface_factory.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::topography;
+using namespace scintray::materials;
 
 namespace {
 

@@ -2,6 +2,8 @@
 #include "mesh/box_files.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {

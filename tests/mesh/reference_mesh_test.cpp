@@ -2,12 +2,14 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 
 // Meshes of public collections and what their own projects say is wrong with them.
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 

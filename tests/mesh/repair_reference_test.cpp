@@ -1,13 +1,14 @@
 #include <doctest/doctest.h>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/repair.hpp"
+#include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 #include "support/shared.hpp"
 
 // What is wrong with meshes of public collections, and what repair makes of each.
 
 using namespace scintray;
+using namespace scintray::mesh;
 
 namespace {
 

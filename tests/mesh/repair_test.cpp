@@ -1,14 +1,16 @@
-#include "scintray/mesh/repair.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/mesh/weld.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using test::check_says;
 using test::contains;
 

@@ -8,7 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 #include "support/step_shapes.hpp"
 
@@ -16,6 +16,8 @@
 // tested is what becomes of them in ScintRay.
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {

@@ -3,6 +3,7 @@
 #include "support/zipped.hpp"
 
 using namespace scintray;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {

@@ -6,6 +6,8 @@
 #include <utility>
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 TEST_CASE("Distance to a triangle in each of its Voronoi regions") {
   const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);

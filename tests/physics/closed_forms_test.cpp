@@ -5,14 +5,21 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/surface/fresnel.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/optics/fresnel.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {

@@ -2,9 +2,12 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
-#include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

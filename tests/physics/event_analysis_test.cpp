@@ -2,10 +2,12 @@
 #include <doctest/doctest.h>
 
 #include "physics/traced.hpp"
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/analysis/event_analysis.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

@@ -13,6 +13,12 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -5,13 +5,20 @@
 #include "physics/traced.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "scintray/scene/place_parts.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/surface/fresnel.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {

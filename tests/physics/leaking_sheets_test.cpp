@@ -2,6 +2,8 @@
 #include "physics/traced.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

@@ -4,13 +4,17 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "scintray/analysis/bench_surface.hpp"
-#include "scintray/analysis/goniometer.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/analysis/goniometer/goniometer.hpp"
+#include "scintray/analysis/goniometer/sample_surface.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

@@ -1,14 +1,20 @@
 // Results reweighted from their photon histories against runs retraced with the wanted optics.
 #include "scintray/simulation/results_file.hpp"
-#include "scintray/simulation/reweigh.hpp"
+#include "scintray/simulation/reweight.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 #include "physics/traced.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -4,12 +4,15 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/surface/surface.hpp"
+#include "scintray/optics/surface.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

@@ -13,6 +13,13 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using test::replaced;
 
 namespace {

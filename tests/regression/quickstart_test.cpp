@@ -10,6 +10,10 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 
 namespace {
 

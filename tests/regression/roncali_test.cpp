@@ -5,14 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "scintray/report/claims.hpp"
-#include "scintray/report/light_curves.hpp"
-#include "scintray/report/surface_claims.hpp"
+#include "scintray/report/acceptance.hpp"
+#include "scintray/report/plots/detail/light_curves.hpp"
+#include "scintray/report/surface_acceptance.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/agreement.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::simulation;
+using namespace scintray::report;
 
 namespace {
 

@@ -1,19 +1,25 @@
 // Claims of a scene against made-up runs.
-#include "scintray/report/claims.hpp"
+#include "scintray/report/acceptance.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "scintray/report/html_report.hpp"
-#include "scintray/report/surface_claims.hpp"
-#include "scintray/report/text_summary.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/optics/fresnel.hpp"
+#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/surface_acceptance.hpp"
+#include "scintray/report/text/text_summary.hpp"
 #include "support/made_up_result.hpp"
 #include "support/made_up_surface.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::report;
 using namespace scintray::report;
 using namespace scintray::test;
 

@@ -1,5 +1,5 @@
 // The page of events.
-#include "scintray/report/event_section.hpp"
+#include "scintray/report/pages/event_section.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,10 +7,14 @@
 #include <fstream>
 
 #include "analysis/made_up_events.hpp"
-#include "scintray/report/format.hpp"
+#include "scintray/report/text/format.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::report;
 using namespace scintray::test;
 
 namespace {

@@ -1,13 +1,17 @@
-#include "scintray/report/goniometer_page.hpp"
+#include "scintray/report/pages/goniometer_page.hpp"
 
 #include <doctest/doctest.h>
 
-#include "scintray/report/goniometer_plots.hpp"
-#include "scintray/report/hemisphere_map.hpp"
-#include "scintray/report/png_image.hpp"
-#include "scintray/report/surface_page.hpp"
+#include "scintray/report/pages/surface_page.hpp"
+#include "scintray/report/plots/detail/hemisphere_map.hpp"
+#include "scintray/report/plots/goniometer_plots.hpp"
+#include "scintray/report/plots/png_image.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::analysis;
+using namespace scintray::report;
 using namespace scintray::report;
 
 namespace {

@@ -1,12 +1,15 @@
 // [[bench]] and claims about its surfaces: what is read, and what is said of mistakes.
-#include "scintray/scene/bench_spec.hpp"
+#include "scintray/scene_file/goniometer_spec.hpp"
 
 #include <doctest/doctest.h>
 
-#include "scintray/scene/claim_spec.hpp"
+#include "scintray/scene_file/criterion_spec.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {

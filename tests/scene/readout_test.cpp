@@ -1,17 +1,23 @@
 // [readout]: what is read, and what is said of mistakes.
-#include "scintray/scene/read_readout.hpp"
+#include "scintray/scene_file/read_readout.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+#include "scintray/materials/database.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/library.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::detector;
+using namespace scintray::materials;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

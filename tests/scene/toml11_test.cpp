@@ -1,5 +1,5 @@
 // Pins what ScintRay takes from toml11 beyond its public interface, for the version in use.
-#include "scintray/scene/toml11.hpp"
+#include "scintray/config/detail/toml11.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +7,7 @@
 #include <string>
 
 using namespace scintray;
+using namespace scintray::config;
 using toml11::Mistake;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/scene/toml_reader.hpp"
+#include "scintray/config/toml_reader.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
 using namespace scintray::test;
 
 namespace {

@@ -1,10 +1,12 @@
-#include "scintray/scene/box_tree.hpp"
+#include "scintray/contact/detail/box_tree.hpp"
 
 #include <doctest/doctest.h>
 
 #include "scintray/core/philox.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::contact;
 using contact::Box;
 using contact::BoxTree;
 

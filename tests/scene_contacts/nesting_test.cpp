@@ -5,6 +5,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::contact;
 using namespace scintray::test;
 
 namespace {

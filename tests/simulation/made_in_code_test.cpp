@@ -4,10 +4,14 @@
 #include <cstring>
 
 #include "scenes.hpp"
-#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/detail/memory_sink.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/detail/memory_sink.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 TEST_CASE("Each point of a sweep is built once, whoever uses it, and released when it was traced") {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"
 
 namespace scintray::test {
@@ -52,8 +52,8 @@ values = ["polished", "roncali2013_unified_rough", "flat"]
 model = "smooth"
 )";
 
-inline SceneFile scene_file(const std::string& text) {
-  return SceneFile::from_text(text, source_file("scene.toml").string());
+inline scene_file::SceneFile scene_file(const std::string& text) {
+  return scene_file::SceneFile::from_text(text, source_file("scene.toml").string());
 }
 
 }  // namespace scintray::test

@@ -2,11 +2,18 @@
 #include <doctest/doctest.h>
 
 #include "scenes.hpp"
-#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/detail/memory_sink.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

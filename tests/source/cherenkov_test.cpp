@@ -1,4 +1,4 @@
-#include "scintray/source/cherenkov.hpp"
+#include "scintray/source/detail/cherenkov.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,15 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/scene/library.hpp"
-#include "scintray/source/electron_stopping.hpp"
-#include "scintray/source/gamma/element_data.hpp"
+#include "scintray/materials/database.hpp"
+#include "scintray/source/detail/electron_stopping.hpp"
+#include "scintray/source/detail/gamma/element_data.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::source;
 
 namespace {
 

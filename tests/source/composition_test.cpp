@@ -1,9 +1,12 @@
-#include "scintray/medium/composition.hpp"
+#include "scintray/optics/composition.hpp"
 
 #include "event_scene.hpp"
-#include "scintray/scene/library.hpp"
+#include "scintray/materials/database.hpp"
 
 using namespace scintray;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::materials;
 using namespace scintray::test;
 
 namespace {

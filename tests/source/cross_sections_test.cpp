@@ -1,11 +1,15 @@
-#include "scintray/source/gamma/cross_sections.hpp"
+#include "scintray/source/detail/gamma/cross_sections.hpp"
 
 #include <xraylib/xraylib.h>
 
 #include "event_scene.hpp"
-#include "scintray/scene/library.hpp"
+#include "scintray/materials/database.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

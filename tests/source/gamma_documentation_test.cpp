@@ -6,6 +6,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {

@@ -2,10 +2,13 @@
 
 #include "event_scene.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/source/hits_source.hpp"
+#include "scintray/source/detail/hits_source.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

@@ -4,9 +4,14 @@
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/source/scintillation_source.hpp"
+#include "scintray/source/detail/scintillation_source.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

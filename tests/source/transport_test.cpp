@@ -1,9 +1,13 @@
-#include "scintray/source/gamma/transport.hpp"
+#include "scintray/source/detail/gamma/transport.hpp"
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

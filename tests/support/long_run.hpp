@@ -19,13 +19,13 @@ inline double wanted_steps(double usual) {
 }
 
 /// Traces a scene with one seed after the other until it has made so many steps; no photon may be lost.
-inline void lose_no_photon(const std::string& name, SceneSpec spec, double steps) {
-  const auto built = std::make_shared<const BuiltScene>(SceneBuilder().build(spec));
+inline void lose_no_photon(const std::string& name, scene_file::SceneSpec spec, double steps) {
+  const auto built = std::make_shared<const scene::BuiltScene>(scene::SceneBuilder().build(spec));
   double made = 0.0;
   std::uint64_t photons = 0, resolved = 0;
   for (spec.run.seed = 1; made < steps; ++spec.run.seed) {
-    const SimulationPoint point(spec, built);
-    const PointResult result = point.trace();
+    const simulation::SimulationPoint point(spec, built);
+    const tally::PointResult result = point.trace();
     REQUIRE(result.lost == 0);
     REQUIRE(result.photons == point.work());
     made += static_cast<double>(result.segments);

@@ -53,10 +53,10 @@ inline void check_says(const std::string& text, const Fragments& fragments) {
 }
 
 /// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.
-inline std::vector<Problem> problems_of(const std::function<void()>& action) {
+inline std::vector<core::Problem> problems_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     return error.problems();
   }
   return {};
@@ -65,7 +65,7 @@ inline std::vector<Problem> problems_of(const std::function<void()>& action) {
 /// The same as text, a problem a line; empty when the action succeeds.
 inline std::string complaint_of(const std::function<void()>& action) {
   std::string all;
-  for (const Problem& problem : problems_of(action)) all += problem.text() + "\n";
+  for (const core::Problem& problem : problems_of(action)) all += problem.text() + "\n";
   return all;
 }
 

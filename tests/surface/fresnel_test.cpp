@@ -2,10 +2,12 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/surface/height_field.hpp"
+#include "scintray/optics/height_field.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,8 @@
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 
 // Statistical bounds are 4 standard errors: one false alarm in 16,000 checks; the seeds are fixed.
 

@@ -1,5 +1,5 @@
 // Divergence, light spread and etendue against closed forms.
-#include "scintray/analysis/light_study.hpp"
+#include "scintray/analysis/light_analysis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +7,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

@@ -12,6 +12,9 @@
 #include "scintray/topography/synthesis.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 

@@ -9,6 +9,9 @@
 #include "scintray/topography/map_statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 

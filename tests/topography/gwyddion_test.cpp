@@ -11,11 +11,12 @@
 
 #include "map_files.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/topography/detail/readers/gwyddion_program.hpp"
 #include "scintray/topography/height_map.hpp"
-#include "scintray/topography/readers/gwyddion_program.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

@@ -6,10 +6,13 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/relief.hpp"
+#include "scintray/topography/detail/relief.hpp"
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 

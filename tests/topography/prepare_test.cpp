@@ -8,13 +8,16 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
+#include "scintray/topography/detail/missing_points.hpp"
 #include "scintray/topography/map_statistics.hpp"
-#include "scintray/topography/missing_points.hpp"
 #include "scintray/topography/preparation.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

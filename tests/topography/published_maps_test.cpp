@@ -14,6 +14,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

@@ -9,15 +9,18 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/statistics.hpp"
+#include "scintray/topography/detail/missing_points.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/map_statistics.hpp"
-#include "scintray/topography/missing_points.hpp"
 #include "scintray/topography/prepare.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 

@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/fourier.hpp"
+#include "scintray/topography/detail/fourier.hpp"
+#include "scintray/topography/detail/relief.hpp"
 #include "scintray/topography/map_statistics.hpp"
 #include "scintray/topography/map_texture.hpp"
-#include "scintray/topography/relief.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 double met(const HeightField& field, Side side, double degrees) {

@@ -2,10 +2,16 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {

@@ -3,6 +3,9 @@
 #include "scintray/tally/photon_history.hpp"
 
 using namespace scintray;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

@@ -4,6 +4,10 @@
 #include "trace/mapped.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {

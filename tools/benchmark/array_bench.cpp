@@ -12,7 +12,7 @@
 
 #include "bench.hpp"
 #include "prepared.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::bench {
 
@@ -103,11 +103,11 @@ struct Built {
   double seconds = 0.0, megabytes = 0.0;
 };
 
-Built build(const std::string& text, SceneBuilder& builder) {
+Built build(const std::string& text, scene::SceneBuilder& builder) {
   Built result;
   const double before = resident_MB();
   const auto start = std::chrono::steady_clock::now();
-  result.prepared = prepare(text, builder);
+  result.prepared = topography::prepare(text, builder);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.megabytes = resident_MB() - before;
   return result;
@@ -116,17 +116,18 @@ Built build(const std::string& text, SceneBuilder& builder) {
 }  // namespace
 
 void bench_arrays() {
-  SceneBuilder builder;
+  scene::SceneBuilder builder;
   struct Case {
     std::string name, text;
     const char* part;
-    std::vector<BoundaryTriangle> triangles;
+    std::vector<scene::BoundaryTriangle> triangles;
     Built built;
     std::vector<Speed> speed;
     std::vector<double> raw;
   };
   std::vector<Case> cases;
-  const std::vector<BoundaryTriangle> crystal = triangles_of(make_box({-1, -1, -10}, {1, 1, 10}));
+  const std::vector<scene::BoundaryTriangle> crystal =
+      triangles_of(mesh::make_box({-1, -1, -10}, {1, 1, 10}));
   for (const char* surface : {"polished", "polished_lambertian_097"})
     for (const int n : {1, 10, 40})
       for (const char* accelerator : {"auto", "embree"})
@@ -140,7 +141,7 @@ void bench_arrays() {
   cases.push_back({"ball of a million triangles",
                    ball_scene(),
                    "ball",
-                   triangles_of(make_sphere(10.0, 224)),
+                   triangles_of(mesh::make_sphere(10.0, 224)),
                    {},
                    {},
                    {}});

@@ -1,0 +1,94 @@
+#pragma once
+/// The tables of events, of what channels saw of them, and of the channels, column by column.
+
+#include <cmath>
+
+#include "scintray/tally/event_record.hpp"
+#include "scintray/tally/readout_channels.hpp"
+
+namespace scintray::results::format {
+
+/// A row of /events: an event without its channels, which are rows of /signals.
+struct EventRow {
+  tally::EventRecord event;
+  std::uint64_t first_signal = 0;  ///< row of /signals
+};
+
+/// A row of /signals.
+struct SignalRow {
+  std::uint64_t event_row = 0;  ///< row of /events
+  std::uint32_t channel = 0;    ///< number within the point
+  tally::ChannelRecord signal;
+};
+
+template <typename Visit>
+void for_each_column(const EventRow*, const Visit& visit) {
+  visit(
+      "point", [](auto& r) -> auto& { return r.event.point; });
+  visit(
+      "event", [](auto& r) -> auto& { return r.event.event; });
+  visit(
+      "energy_keV", [](auto& r) -> auto& { return r.event.energy_keV; });
+  visit(
+      "escaped_keV", [](auto& r) -> auto& { return r.event.escaped_keV; });
+  visit(
+      "unseen_keV", [](auto& r) -> auto& { return r.event.unseen_keV; });
+  visit(
+      "mean_x_mm", [](auto& r) -> auto& { return r.event.position_mm[0]; });
+  visit(
+      "mean_y_mm", [](auto& r) -> auto& { return r.event.position_mm[1]; });
+  visit(
+      "mean_z_mm", [](auto& r) -> auto& { return r.event.position_mm[2]; });
+  visit(
+      "main_part", [](auto& r) -> auto& { return r.event.part; });
+  visit(
+      "photons_emitted", [](auto& r) -> auto& { return r.event.emitted; });
+  visit(
+      "photons_detected", [](auto& r) -> auto& { return r.event.detected; });
+  visit(
+      "first_signal", [](auto& r) -> auto& { return r.first_signal; });
+}
+
+template <typename Visit>
+void for_each_column(const SignalRow*, const Visit& visit) {
+  visit(
+      "event_row", [](auto& r) -> auto& { return r.event_row; });
+  visit(
+      "channel", [](auto& r) -> auto& { return r.channel; });
+  visit(
+      "photons_detected", [](auto& r) -> auto& { return r.signal.detected; });
+  visit(
+      "first_ns", [](auto& r) -> auto& { return r.signal.first_ns; });
+  visit(
+      "charge", [](auto& r) -> auto& { return r.signal.charge; });
+  visit(
+      "amplitude", [](auto& r) -> auto& { return r.signal.amplitude; });
+  visit(
+      "pickoff_ns", [](auto& r) -> auto& { return r.signal.time_ns; });
+}
+
+/// The numbers of a channel.
+template <typename Visit>
+void for_each_channel_number(const Visit& visit) {
+  visit(
+      "channel_x_mm", [](auto& c) -> auto& { return c.position.x(); });
+  visit(
+      "channel_y_mm", [](auto& c) -> auto& { return c.position.y(); });
+  visit(
+      "channel_z_mm", [](auto& c) -> auto& { return c.position.z(); });
+  visit(
+      "channel_normal_x", [](auto& c) -> auto& { return c.normal.x(); });
+  visit(
+      "channel_normal_y", [](auto& c) -> auto& { return c.normal.y(); });
+  visit(
+      "channel_normal_z", [](auto& c) -> auto& { return c.normal.z(); });
+  visit(
+      "channel_area_mm2", [](auto& c) -> auto& { return c.area_mm2; });
+}
+
+/// True when a channel has something to say of an event; other channels have no row.
+inline bool has_signal(const tally::ChannelRecord& record) {
+  return record.detected > 0 || !std::isnan(record.charge);  // NaN: no readout
+}
+
+}  // namespace scintray::results::format

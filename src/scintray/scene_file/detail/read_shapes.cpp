@@ -1,0 +1,214 @@
+#include "scintray/scene_file/detail/read_shapes.hpp"
+
+#include <algorithm>
+
+#include "scintray/scene_file/detail/read_mesh.hpp"
+
+namespace scintray::scene_file {
+
+namespace {
+
+using Kind = config::TomlNode::Kind;
+
+/// box = [size, size, size], centred in x and y, from z = 0; or box = { low, high }.
+BoxSpec read_box(const config::TomlTable& table) {
+  const config::TomlNode* node = table.node()->find("box");
+  if (node->kind == Kind::table) return read_low_high(table, "box").value_or(BoxSpec{});
+  BoxSpec box;
+  box.where = node->where;
+  const core::Vec3 size =
+      table.optional_quantity3("box", core::Dimension::length).value_or(core::Vec3::Zero());
+  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
+               "give three lengths above 0");
+  box.low = core::Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
+  box.high = core::Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
+  return box;
+}
+
+/// A length above 0, of a shape called `shape`.
+double positive_length(const config::TomlTable& table, const std::string& key, const std::string& shape) {
+  const double value = table.quantity(key, core::Dimension::length);
+  table.expect(key, value > 0.0, "the " + key + " of a " + shape + " is not positive",
+               "give a length above 0");
+  return value;
+}
+
+/// A whole number from `least` to 1000000; `what` is said of a wrong one after the number.
+int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
+                     const std::string& what) {
+  const std::int64_t value = table.integer(key, fallback);
+  table.expect(key, value >= least && value <= 1000000,
+               "a " + what + " of " + std::to_string(value) + " " + key,
+               "give " + std::to_string(least) + " or more (" + std::to_string(fallback) +
+                   " is the default), up to 1000000");
+  return static_cast<int>(std::clamp<std::int64_t>(value, least, 1000000));
+}
+
+CylinderSpec read_cylinder(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("cylinder");
+  CylinderSpec cylinder;
+  cylinder.where = table.where();
+  cylinder.radius_mm = positive_length(table, "radius", "cylinder");
+  cylinder.height_mm = positive_length(table, "height", "cylinder");
+  cylinder.segments = number_of_pieces(table, "segments", cylinder.segments, 3, "cylinder");
+  return cylinder;
+}
+
+PrismSpec read_prism(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("prism");
+  PrismSpec prism;
+  prism.where = table.where();
+  prism.sides = number_of_pieces(table, "sides", prism.sides, 3, "prism");
+  const auto width = table.one_of({"radius", "flat_to_flat"}, true);
+  if (width) {
+    const double length = positive_length(table, *width, "prism");
+    prism.circumradius_mm = *width == "radius" ? length : 0.5 * length / std::cos(core::kPi / prism.sides);
+    const bool has_flats = prism.sides % 2 == 0 || (table.has("sides") && !table.good("sides"));
+    table.expect(*width, *width == "radius" || has_flats,
+                 "a prism of " + std::to_string(prism.sides) + " sides has no flats opposite each other",
+                 "give its radius, through the corners");
+  }
+  prism.height_mm = positive_length(table, "height", "prism");
+  return prism;
+}
+
+/// Two lengths above 0.
+std::array<double, 2> positive_pair(const config::TomlTable& table, const std::string& key) {
+  const std::vector<double> mm = table.quantities(key, core::Dimension::length, 2);
+  if (mm.empty()) return {1.0, 1.0};
+  table.expect(key, mm[0] > 0.0 && mm[1] > 0.0, "a side of \"" + key + "\" is not positive",
+               "give two lengths above 0");
+  return {mm[0], mm[1]};
+}
+
+TaperedSpec read_tapered(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("tapered");
+  TaperedSpec tapered;
+  tapered.where = table.where();
+  tapered.bottom.size = positive_pair(table, "bottom");
+  tapered.top.size = positive_pair(table, "top");
+  tapered.height_mm = positive_length(table, "height", "taper");
+  const std::vector<double> offset = table.quantities("top_offset", core::Dimension::length, 2, false);
+  if (!offset.empty()) tapered.top.centre = {offset[0], offset[1]};
+  return tapered;
+}
+
+WinstonSpec read_winston(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("winston");
+  WinstonSpec winston;
+  winston.where = table.where();
+  mesh::WinstonShape& shape = winston.shape;
+  shape.exit_radius = positive_length(table, "exit_radius", "Winston cone");
+  const auto opening = table.one_of({"acceptance", "entrance_radius"}, true);
+  if (opening == "acceptance") {
+    shape.acceptance_rad = table.quantity("acceptance", core::Dimension::angle);
+    table.expect("acceptance", shape.acceptance_rad > 0.0 && shape.acceptance_rad < 0.5 * core::kPi,
+                 "an acceptance angle outside 0 to 90 deg",
+                 "give the largest angle to the axis that is taken in");
+  } else if (opening) {
+    const double entrance = positive_length(table, "entrance_radius", "Winston cone");
+    table.expect("entrance_radius", entrance > shape.exit_radius, "an entrance not wider than the exit",
+                 "give a radius above exit_radius");
+    shape.acceptance_rad = std::asin(std::min(1.0, shape.exit_radius / entrance));
+  }
+  if (const auto length = table.optional_quantity("length", core::Dimension::length)) {
+    shape.length = *length;
+    const double full = table.good(*opening) && table.good("exit_radius")
+                            ? mesh::winston_length(shape.exit_radius, shape.acceptance_rad)
+                            : HUGE_VAL;
+    table.expect(
+        "length", *length > 0.0 && *length <= full,
+        "a Winston cone is " + std::to_string(full) + " mm long at most, where its walls become parallel",
+        "give a length above 0 up to that, or leave it out");
+  }
+  if (const auto width = table.optional_quantity("trough", core::Dimension::length)) {
+    shape.trough_width = *width;
+    table.expect("trough", *width > 0.0, "the width of a trough is not positive", "give a length above 0");
+  }
+  shape.segments = number_of_pieces(table, "segments", shape.segments, 3, "Winston cone");
+  shape.rings = number_of_pieces(table, "rings", shape.rings, 1, "Winston cone");
+  return winston;
+}
+
+SphereSpec read_sphere(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("sphere");
+  SphereSpec sphere;
+  sphere.where = table.where();
+  sphere.radius_mm = positive_length(table, "radius", "sphere");
+  const std::int64_t subdivisions = table.integer("subdivisions", sphere.subdivisions);
+  table.expect("subdivisions", subdivisions >= 1 && subdivisions <= 1000,
+               "a sphere of " + std::to_string(subdivisions) + " subdivisions",
+               "give 1 (an icosahedron) to 1000 (20 million triangles); 16 is the default");
+  sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, 1000));
+  return sphere;
+}
+
+/// Bevels the edges of the shapes that have such edges.
+void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
+  auto* box = std::get_if<BoxSpec>(&shape);
+  auto* prism = std::get_if<PrismSpec>(&shape);
+  part.has("chamfer");
+  if (!box && !prism) return;
+  const std::optional<double> chamfer = part.optional_quantity("chamfer", core::Dimension::length);
+  if (!chamfer) return;
+  double shortest = 0.0;
+  if (box) {
+    shortest = (box->high - box->low).minCoeff();
+    box->chamfer_mm = *chamfer;
+  } else {
+    shortest = std::min(prism->height_mm, 2.0 * prism->circumradius_mm * std::sin(core::kPi / prism->sides));
+    prism->chamfer_mm = *chamfer;
+  }
+  // In a face with corners of other than 90 deg a bevel takes off more of each edge: the mesh maker checks.
+  part.expect("chamfer", *chamfer > 0.0 && 2.0 * *chamfer < shortest,
+              "a chamfer that is not positive, or leaves nothing of the shortest edge",
+              "give a length above 0 and below half of the shortest edge");
+}
+
+}  // namespace
+
+bool is_array(const config::TomlTable& table, const std::string& key) {
+  const config::TomlNode* node = table.node()->find(key);
+  return node && node->kind == Kind::array;
+}
+
+ShapeSpec read_shape(const config::TomlTable& part) {
+  const std::optional<std::string> kind =
+      part.one_of({"mesh", "box", "cylinder", "prism", "tapered", "winston", "sphere"}, true);
+  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
+  ShapeSpec shape = BoxSpec{};
+  if (kind == "mesh") shape = read_mesh(part);
+  if (kind == "box") shape = read_box(part);
+  if (kind == "cylinder") shape = read_cylinder(part);
+  if (kind == "prism") shape = read_prism(part);
+  if (kind == "tapered") shape = read_tapered(part);
+  if (kind == "winston") shape = read_winston(part);
+  if (kind == "sphere") shape = read_sphere(part);
+  read_chamfer(part, shape);
+  return shape;
+}
+
+std::optional<BoxSpec> read_low_high(const config::TomlTable& table, const std::string& key) {
+  if (is_array(table, key)) {
+    table.report(key, "\"" + key + "\" is an array, but a table is expected",
+                 "write " + key + " = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [...] }");
+    table.take(key);
+    return std::nullopt;
+  }
+  const std::optional<config::TomlTable> corners = table.optional_table(key);
+  if (!corners) return std::nullopt;
+  BoxSpec box;
+  box.where = corners->where();
+  for (const char* corner : {"low", "high"}) {
+    const std::vector<double> mm = corners->quantities(corner, core::Dimension::length, 3);
+    if (mm.empty()) continue;
+    (corner == std::string("low") ? box.low : box.high) = core::Vec3(mm[0], mm[1], mm[2]);
+  }
+  if (corners->good("low"))
+    corners->expect("high", (box.high - box.low).minCoeff() > 0.0,
+                    "a coordinate of \"high\" is not above that of \"low\"",
+                    "give the corner with the larger x, y and z");
+  return box;
+}
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,91 @@
+#include <array>
+#include <utility>
+
+#include "scintray/scene_file/criterion_spec.hpp"
+
+namespace scintray::scene_file {
+
+namespace {
+
+constexpr std::array kQuantities{std::pair{"range", ClaimQuantity::range},
+                                 std::pair{"fall", ClaimQuantity::fall},
+                                 std::pair{"fall_difference", ClaimQuantity::fall_difference},
+                                 std::pair{"light", ClaimQuantity::light},
+                                 std::pair{"maximum_ratio", ClaimQuantity::maximum_ratio},
+                                 std::pair{"resolution", ClaimQuantity::resolution},
+                                 std::pair{"time_ratio", ClaimQuantity::time_ratio},
+                                 std::pair{"mean_slope", ClaimQuantity::mean_slope},
+                                 std::pair{"reflectance", ClaimQuantity::reflectance},
+                                 std::pair{"over_fresnel", ClaimQuantity::over_fresnel},
+                                 std::pair{"lobe_width", ClaimQuantity::lobe_width}};
+
+bool compares(ClaimQuantity quantity) {
+  return quantity == ClaimQuantity::fall_difference || quantity == ClaimQuantity::maximum_ratio ||
+         quantity == ClaimQuantity::time_ratio;
+}
+
+void read_subject_surface(const config::TomlTable& table, ClaimSpec& claim) {
+  claim.surface = {table.string("surface"), table.where("surface")};
+  claim.outside = {table.string("outside"), table.where("outside")};
+  claim.incidence_rad = table.quantity("incidence", core::Dimension::angle);
+}
+
+void read_subject_curves(const config::TomlTable& table, const std::string& quantity, ClaimSpec& claim) {
+  claim.curve = {table.string("curve", ""), table.where("curve")};
+  claim.over = {table.string("over", ""), table.where("over")};
+  const bool two = compares(claim.quantity);
+  if (table.good("quantity") && two != table.has("over"))
+    table.report("over", "\"" + quantity + (two ? "\" compares two curves" : "\" is of one curve"),
+                 two ? "name the second one with over" : "remove over");
+}
+
+ClaimSpec read_claim(const config::TomlTable& table) {
+  ClaimSpec claim;
+  claim.where = table.where();
+  claim.text = table.string("text");
+  claim.published = table.string("published", "");
+  claim.note = table.string("note", "");
+  std::vector<std::string> words;
+  for (const auto& [word, quantity] : kQuantities) words.emplace_back(word);
+  const std::string chosen = table.choice("quantity", words);
+  for (const auto& [word, quantity] : kQuantities)
+    if (chosen == word) claim.quantity = quantity;
+  if (is_of_surface(claim.quantity))
+    read_subject_surface(table, claim);
+  else
+    read_subject_curves(table, chosen, claim);
+  const core::Dimension dimension =
+      is_angle(claim.quantity) ? core::Dimension::angle : core::Dimension::dimensionless;
+  claim.at_least = table.optional_quantity("at_least", dimension);
+  claim.at_most = table.optional_quantity("at_most", dimension);
+  if (!claim.at_least && !claim.at_most)
+    table.report("at_least", "a claim without bounds cannot fail", "give at_least, at_most, or both");
+  return claim;
+}
+
+}  // namespace
+
+bool is_of_surface(ClaimQuantity quantity) {
+  return is_angle(quantity) || quantity == ClaimQuantity::reflectance ||
+         quantity == ClaimQuantity::over_fresnel;
+}
+
+bool is_angle(ClaimQuantity quantity) {
+  return quantity == ClaimQuantity::mean_slope || quantity == ClaimQuantity::lobe_width;
+}
+
+std::vector<ClaimSpec> read_claims(const config::TomlTable& scene) {
+  std::vector<ClaimSpec> claims;
+  for (const config::TomlTable& table : scene.tables("claim")) claims.push_back(read_claim(table));
+  return claims;
+}
+
+std::vector<ClaimSpec> claims_of_text(const std::string& text, const std::string& file) {
+  core::Problems problems;
+  const config::TomlTable root(config::parse_toml(text, file), problems);
+  std::vector<ClaimSpec> claims = read_claims(root);
+  problems.throw_if_any();
+  return claims;
+}
+
+}  // namespace scintray::scene_file
