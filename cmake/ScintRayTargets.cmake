@@ -7,14 +7,21 @@ target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
   # GCC 12 takes temporaries of a throw expression for uninitialised, and "literal" + std::string for
   # overlapping memory (its bugs 105562 and 105651).
-  $<BUILD_INTERFACE:-Wno-maybe-uninitialized -Wno-restrict>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-restrict>>
   # Nothing here asks errno about a square root.
   $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
-if(SCINTRAY_SANITIZE)
+if(SCINTRAY_SANITIZE STREQUAL "address")
   target_compile_options(scintray_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+elseif(SCINTRAY_SANITIZE STREQUAL "thread")
+  target_compile_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+  target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+elseif(SCINTRAY_SANITIZE)
+  message(FATAL_ERROR "SCINTRAY_SANITIZE is \"${SCINTRAY_SANITIZE}\"; it may be address, thread or empty")
+endif()
+if(SCINTRAY_SANITIZE)
   # For files of CGAL's templates: optimising what the sanitizers add to them takes half of two minutes each.
   set(scintray_slow_to_compile -O0)
 endif()

@@ -8,11 +8,12 @@
 #include <string>
 
 #include "scintray/materials/database.hpp"
+#include "support/shared.hpp"
 
 namespace scintray {
 
 inline const materials::Library& shipped_library() {
-  static const materials::Library library({std::filesystem::path(SCINTRAY_SOURCE_DIR) / "materials"});
+  static const materials::Library library({test::source_file("materials")});
   return library;
 }
 

@@ -139,7 +139,7 @@ TEST_CASE("every shipped reflector reflects between nothing and everything") {
 }
 
 TEST_CASE("the documentation names everything that is shipped") {
-  const std::string text = read_text_file(std::filesystem::path(SCINTRAY_SOURCE_DIR) / "docs/materials.md");
+  const std::string text = read_text_file(test::source_file("docs/materials.md"));
   for (const LibraryKind kind :
        {LibraryKind::medium, LibraryKind::surface, LibraryKind::sensor, LibraryKind::reflector})
     for (const std::string& name : shipped_library().names(kind)) {

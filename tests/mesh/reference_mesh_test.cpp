@@ -75,7 +75,9 @@ TEST_CASE("Sound meshes of the collections are found sound, with their volumes")
                                                   {"trimesh/nancolor.obj", 1.0},
                                                   {"trimesh/two_objects_mixed_case_names.stl", 2.0},
                                                   {"assimp/box_mat_with_spaces.obj", 1.0}};
-  for (const auto& [name, volume] : cases) {
+  for (const auto& row : cases) {
+    const auto& name = row.first;
+    const auto& volume = row.second;
     CAPTURE(name);
     const auto mesh = read(name);
     if (!mesh) return;

@@ -40,7 +40,9 @@ TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
                                                   {" unit=\"inch\"", 25.4},
                                                   {" unit=\"foot\"", 304.8},
                                                   {" unit=\"meter\"", 1000.0}};
-  for (const auto& [unit, mm] : units) {
+  for (const auto& row : units) {
+    const auto& unit = row.first;
+    const auto& mm = row.second;
     CAPTURE(unit);
     check_box(import_mesh(mesh_file("box.3mf", three_mf(unit)), 0.0), mm);
   }

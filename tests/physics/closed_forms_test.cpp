@@ -276,7 +276,9 @@ TEST_CASE("Law: mean chord 4V/S in isotropic light, unchanged by scattering") {
   // Isotropic uniform light enters through every wall alike, as Lambert's law. (Photons started in the
   // volume would find long chords more often than short ones.)
   for (const std::string medium : {"vacuum_n1", "cloudy_n1"}) {
-    for (const auto& [size, expected] : {std::pair{"2", 1.905}, std::pair{"5", 4.444}}) {
+    for (const auto& row : {std::pair{"2", 1.905}, std::pair{"5", 4.444}}) {
+      const auto& size = row.first;
+      const auto& expected = row.second;
       const SceneSpec spec = scene_spec(std::string(R"(
 ambient = "vacuum_n1"
 [[part]]

@@ -56,7 +56,9 @@ class BoundaryPoints {
 }  // namespace
 
 TEST_CASE("Law: integrating sphere f / (1 - rho (1 - f)), f by the area of the tessellation") {
-  for (const auto& [subdivisions, reflectance] : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
+  for (const auto& row : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
+    const auto& subdivisions = row.first;
+    const auto& reflectance = row.second;
     const Traced traced = trace(fmt::format(R"(
 ambient = "vacuum_n1"
 [[part]]

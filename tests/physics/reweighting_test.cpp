@@ -72,9 +72,7 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
     SimulationOptions options;
     options.surface_hooks.cache.clear();
     ResultsFile results(output);
-    Simulation(SceneFile::from_text(text(optics, seed),
-                                    (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
-               options)
+    Simulation(SceneFile::from_text(text(optics, seed), source_file("test.toml").string()), options)
         .run_all(results);
     return output;
   }

@@ -108,10 +108,11 @@ Reflector leaking(double reflectance, double specular_share, double volume_index
 /// Every kind of stack with a sheet that lets through what it does not reflect.
 std::vector<Named> leaking_stacks() {
   std::vector<Named> stacks;
-  for (const auto& [name, sheet] :
-       {std::pair{"film", leaking(0.7, 1.0)}, std::pair{"diffuser", leaking(0.7, 0.0)},
-        std::pair{"half a film, half a diffuser", leaking(0.4, 0.5)},
-        std::pair{"volume-like sheet", leaking(0.8, 0.0, 1.35)}}) {
+  for (const auto& stack : {std::pair{"film", leaking(0.7, 1.0)}, std::pair{"diffuser", leaking(0.7, 0.0)},
+                            std::pair{"half a film, half a diffuser", leaking(0.4, 0.5)},
+                            std::pair{"volume-like sheet", leaking(0.8, 0.0, 1.35)}}) {
+    const auto& name = stack.first;
+    const auto& sheet = stack.second;
     const auto over = [&](const std::string& name_of_face, Surface surface, double gap_index) {
       surface.reflector = sheet;
       surface.gap_index = Curve::constant(gap_index);

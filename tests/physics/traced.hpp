@@ -14,6 +14,7 @@
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 #include "support/laws.hpp"
+#include "support/shared.hpp"
 
 namespace scintray::test {
 
@@ -70,9 +71,7 @@ struct Traced {
 
 /// Scene text plus the library above, with `photons` from `[source]`.
 inline scene_file::SceneSpec scene_spec(const std::string& text) {
-  return scene_file::SceneFile::from_text(text + kLibrary,
-                                          (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string())
-      .spec(0);
+  return scene_file::SceneFile::from_text(text + kLibrary, source_file("test.toml").string()).spec(0);
 }
 
 /// A scene ready to be traced, with surface tables of its own.

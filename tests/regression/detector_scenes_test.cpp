@@ -83,10 +83,12 @@ Light light_on_sensors(const Detector& detector, std::size_t point, int axis) {
 
 /// Seeds differ, so both are independent; a true answer fails once in 15,800 comparisons.
 void check_answers(const Answers& measured, const Answers& stated) {
-  for (const auto& [name, value] : measured)
-    MESSAGE(fmt::format("#   {} = {:.4g} ± {:.2g}", name, value.value, value.error));
+  for (const auto& answer : measured)
+    MESSAGE(fmt::format("#   {} = {:.4g} ± {:.2g}", answer.first, answer.second.value, answer.second.error));
   CHECK(measured.size() == stated.size());
-  for (const auto& [name, value] : measured) {
+  for (const auto& answer : measured) {
+    const auto& name = answer.first;
+    const auto& value = answer.second;
     CAPTURE(name);
     REQUIRE(stated.count(name) == 1);
     CAPTURE(value.value);

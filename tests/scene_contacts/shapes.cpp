@@ -137,7 +137,9 @@ void check_laws(const std::vector<contact::PlacedPart>& parts,
 
   const auto all = boundaries(interfaces);
   REQUIRE(volumes.size() == parts.size());
-  for (const auto& [region, boundary] : all) {
+  for (const auto& row : all) {
+    const auto& region = row.first;
+    const auto& boundary = row.second;
     CAPTURE(region);
     CHECK(boundary.area_vector.norm() <= rounding * std::sqrt(boundary.area * interfaces.size()));
     if (region == contact::kAmbient) continue;

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,13 +11,12 @@
 #include "scintray/scene_file/read_gamma_source.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/make_event_source.hpp"
+#include "support/shared.hpp"
 
 namespace scintray::test {
 
 /// A file beside which relative paths count.
-inline std::string scene_path() {
-  return (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string();
-}
+inline std::string scene_path() { return source_file("test.toml").string(); }
 
 /// Parts in the given ambient; every face smooth.
 inline scene::Scene scene_of(const std::string& parts, const std::string& ambient = "vacuum") {

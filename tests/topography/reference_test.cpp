@@ -72,7 +72,9 @@ TEST_CASE("reflectance and slopes met agree with an independent tracing of two G
       // Four combined standard errors, and 0.3 % for the rays that the other program misclassified.
       CHECK(std::abs(ours.value - theirs) <= 4.0 * error + 0.003);
     }
-    for (const auto& [incidence, slope] : reference.slopes) {
+    for (const auto& row : reference.slopes) {
+      const auto& incidence = row.first;
+      const auto& slope = row.second;
       const Estimate ours = mean_slope_met(field, Side::inside, incidence * kDegree, kRays);
       test::evidence("microsurface_slope",
                      {std::filesystem::path(reference.file).stem().string(), fmt::format("{:g}", incidence),
@@ -102,7 +104,9 @@ TEST_CASE("the Gaussian surface made here reflects as an independent program's, 
     recipe.seed = seed;
     fields.push_back(make_height_field(synthesize(recipe)));
   }
-  for (const auto& [incidence, expected] : reference) {
+  for (const auto& row : reference) {
+    const auto& incidence = row.first;
+    const auto& expected = row.second;
     double mean = 0.0;
     for (const HeightField& field : fields)
       mean += reflectance(field, Side::inside, incidence * kDegree, 20000).value / 4.0;
@@ -150,12 +154,12 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
                                        {"xyz-1.txt", without_units(4.0)},
                                        {"gwyfile-test.gwy", without_units(128.0)},
                                        {"10x10-one_channel_without_name.ibw", without_units(10.0)}};
-  for (const auto& [file, options, fill, rays] : maps) {
-    const auto path = test::shared_file(std::string("data/topography/") + file);
+  for (const PublishedMap& published : maps) {
+    const auto path = test::shared_file(std::string("data/topography/") + published.file);
     if (!path) return;
-    HeightMap map = read_height_map(*path, options);
-    CAPTURE(file);
-    if (fill) {
+    HeightMap map = read_height_map(*path, published.options);
+    CAPTURE(published.file);
+    if (published.fill) {
       CHECK(count_missing(map) > 0);
       CHECK_THROWS_AS(make_height_field(map), InputError);
       fill_missing(map);
@@ -165,7 +169,7 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
     std::uint64_t disagree = 0, cut = 0, facets = 0;
     for (const Side side : {Side::inside, Side::outside})
       for (const double degrees : {0.0, 30.0, 60.0, 80.0, 87.0, 89.9})
-        for (std::uint64_t k = 0; k < rays; ++k) {
+        for (std::uint64_t k = 0; k < published.rays; ++k) {
           Rng rng(32, StreamKind::other, static_cast<std::uint64_t>(degrees * 10), k);
           const double up = side == Side::inside ? 1.0 : -1.0;
           const double azimuth = kTwoPi * rng.uniform();
@@ -179,7 +183,7 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
           facets += exit.facets_met > 0 ? 1 : 0;
         }
     CHECK(disagree == 0);
-    if (rays != kFewRays) CHECK(cut == 0);
-    CHECK(facets == 2 * 6 * rays);
+    if (published.rays != kFewRays) CHECK(cut == 0);
+    CHECK(facets == 2 * 6 * published.rays);
   }
 }

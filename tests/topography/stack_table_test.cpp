@@ -122,9 +122,10 @@ TEST_CASE("Between two wavelengths a table is their mean, beyond them the neares
   const double at_400 = table.reflectance(Side::inside, angle, 0),
                at_500 = table.reflectance(Side::inside, angle, 1);
   CHECK(at_400 - at_500 > 0.1);
-  for (const auto& [nm, expected] :
-       {std::pair{400.0, at_400}, std::pair{425.0, 0.75 * at_400 + 0.25 * at_500}, std::pair{500.0, at_500},
-        std::pair{350.0, at_400}, std::pair{600.0, at_500}}) {
+  for (const auto& row : {std::pair{400.0, at_400}, std::pair{425.0, 0.75 * at_400 + 0.25 * at_500},
+                          std::pair{500.0, at_500}, std::pair{350.0, at_400}, std::pair{600.0, at_500}}) {
+    const auto& nm = row.first;
+    const auto& expected = row.second;
     CAPTURE(nm);
     const Estimate seen = binomial_estimate(shine(surface, angle, 0.0, nm, 3).outcomes[0], kRays);
     CHECK(sigmas(seen, {expected, 0.0}) < kSigmas);

@@ -201,7 +201,9 @@ TEST_CASE("a tabulated spectrum comes out as it went in, band by band") {
   const HeightMap map = synthesize(recipe);
   const HalfSpectrum terms = fourier_transform(map.heights_um, 512, 512);
   const double width = 102.4, n = 512.0 * 512.0;
-  for (const auto& [low, high] : {std::pair{0.1, 0.2}, {0.2, 0.5}, {0.5, 1.0}, {1.0, 1.9}, {0.01, 0.045}}) {
+  for (const auto& band : {std::pair{0.1, 0.2}, {0.2, 0.5}, {0.5, 1.0}, {1.0, 1.9}, {0.01, 0.045}}) {
+    const auto& low = band.first;
+    const auto& high = band.second;
     double found = 0.0, expected = 0.0, count = 0.0;
     for (std::uint32_t l = 0; l < 512; ++l)
       for (std::uint32_t k = 0; k < terms.kept(); ++k) {
