@@ -126,10 +126,10 @@ TEST_CASE("A file cut anywhere, or with a byte changed, is read or refused") {
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1/1 2/2 4/4\nf 2//2 3//3 4//4\nf 3 1 -1\n";
   const std::string off = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n4 0 1 2 3\n";
   std::size_t tried = 0;
-  for (const auto& file :
+  for (const auto& sound :
        {std::pair{"cut.stl", whole}, {"cut.ply", ply}, {"cut.obj", obj}, {"cut.off", off}}) {
-    const auto& name = file.first;
-    const auto& text = file.second;
+    const auto& name = sound.first;
+    const auto& text = sound.second;
     for (std::size_t at = 0; at < text.size(); at += text.size() / 60 + 1) {
       std::string changed = text;
       changed[at] = static_cast<char>(changed[at] ^ 0x15);
