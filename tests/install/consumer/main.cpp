@@ -16,12 +16,12 @@ int main() {
   scintray::optics::Ray ray{scintray::core::Vec3(std::sin(steep), 0, std::cos(steep)),
                             scintray::core::Vec3::Zero()};
   scintray::core::Rng rng(1, scintray::core::StreamKind::photon, 0);
-  const scintray::Side side =
-      scintray::optics::SmoothSurface{}.scatter(ray, scintray::Side::inside, normal, lso_to_air, rng);
+  const scintray::optics::Side side =
+      scintray::optics::SmoothSurface{}.scatter(ray, scintray::optics::Side::inside, normal, lso_to_air, rng);
 
   std::cout << "version: " << scintray::core::version() << "\n"
             << "data: " << scintray::core::data_folder().string() << "\n";
-  const bool reflected = side == scintray::Side::inside && ray.direction.z() < 0.0;
+  const bool reflected = side == scintray::optics::Side::inside && ray.direction.z() < 0.0;
   if (!reflected) std::cerr << "light beyond the critical angle left the crystal\n";
   return reflected ? 0 : 1;
 }
