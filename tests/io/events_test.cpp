@@ -5,7 +5,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
-#include "scintray/scene_file/read_analysis.hpp"
+#include "scintray/scene_file/analysis.hpp"
 #include "scintray/simulation/analyze_results.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"

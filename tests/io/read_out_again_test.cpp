@@ -7,7 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
-#include "scintray/scene_file/read_readout.hpp"
+#include "scintray/scene_file/readout.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"

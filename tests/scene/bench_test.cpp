@@ -1,9 +1,9 @@
 // [[bench]] and claims about its surfaces: what is read, and what is said of mistakes.
-#include "scintray/scene_file/goniometer_spec.hpp"
+#include "scintray/scene_file/goniometer.hpp"
 
 #include <doctest/doctest.h>
 
-#include "scintray/scene_file/criterion_spec.hpp"
+#include "scintray/scene_file/criterion.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;

@@ -1,5 +1,5 @@
 // [readout]: what is read, and what is said of mistakes.
-#include "scintray/scene_file/read_readout.hpp"
+#include "scintray/scene_file/readout.hpp"
 
 #include <doctest/doctest.h>
 

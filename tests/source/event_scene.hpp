@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene_file/read_gamma_source.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/make_event_source.hpp"
 #include "support/shared.hpp"

@@ -9,7 +9,7 @@
 
 #include "scintray/core/statistics.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene_file/read_gamma_source.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/make_event_source.hpp"
 

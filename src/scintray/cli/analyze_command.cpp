@@ -10,8 +10,8 @@
 #include "scintray/report/pages/event_section.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 #include "scintray/results/results.hpp"
-#include "scintray/scene_file/read_analysis.hpp"
-#include "scintray/scene_file/read_readout.hpp"
+#include "scintray/scene_file/analysis.hpp"
+#include "scintray/scene_file/readout.hpp"
 #include "scintray/simulation/analyze_results.hpp"
 #include "scintray/simulation/rerun_readout.hpp"
 

@@ -3,7 +3,7 @@
 #include "scintray/report/acceptance.hpp"
 #include "scintray/report/surface_acceptance.hpp"
 #include "scintray/results/results.hpp"
-#include "scintray/scene_file/read_analysis.hpp"
+#include "scintray/scene_file/analysis.hpp"
 #include "scintray/simulation/analyze_results.hpp"
 
 namespace scintray::cli {

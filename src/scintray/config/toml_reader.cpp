@@ -64,6 +64,11 @@ bool TomlTable::has(const std::string& key) const {
   return node_->find(key) != nullptr;
 }
 
+bool TomlTable::is_array(const std::string& key) const {
+  const TomlNode* value = node_->find(key);
+  return value && value->kind == Kind::array;
+}
+
 std::vector<std::string> TomlTable::keys() const {
   std::vector<std::string> names;
   if (node_->kind == Kind::table)

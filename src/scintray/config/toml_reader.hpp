@@ -14,8 +14,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "scintray/config/words.hpp"
 #include "scintray/core/curve.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
@@ -79,6 +81,8 @@ class TomlTable {
 
   /// True when the key is there. Makes it known, but not read.
   bool has(const std::string& key) const;
+  /// True when the key's value is written as an array. Neither makes it known nor reads it.
+  bool is_array(const std::string& key) const;
   /// Names of all keys, in file order.
   std::vector<std::string> keys() const;
   /// True when the key is there, was read, and nothing was wrong with it so far.
@@ -91,6 +95,14 @@ class TomlTable {
   void expect(const std::string& key, bool ok, const std::string& what, const std::string& hint = {}) const;
   /// Which one of `choices` is present. Reports none (when required) and more than one.
   std::optional<std::string> one_of(const std::vector<std::string>& choices, bool required) const;
+  /// The same for keys that stand for values; nullptr when none is present.
+  template <typename T, std::size_t N>
+  const Word<T>* one_of(const Word<T> (&choices)[N], bool required) const {
+    const std::optional<std::string> key = one_of(word_list(choices), required);
+    for (const Word<T>& known : choices)
+      if (key == known.word) return &known;
+    return nullptr;
+  }
 
   std::string string(const std::string& key) const;
   std::string string(const std::string& key, const std::string& fallback) const;
@@ -117,6 +129,15 @@ class TomlTable {
   std::string choice(const std::string& key, const std::vector<std::string>& allowed) const;
   std::string choice(const std::string& key, const std::vector<std::string>& allowed,
                      const std::string& fallback) const;
+  /// The value of one of the words; that of the first when wrong.
+  template <typename T, std::size_t N>
+  T choice(const std::string& key, const Word<T> (&words)[N]) const {
+    return find_word(words, choice(key, word_list(words))).value_or(words[0].value);
+  }
+  template <typename T, std::size_t N>
+  T choice(const std::string& key, const Word<T> (&words)[N], std::type_identity_t<T> fallback) const {
+    return find_word(words, choice(key, word_list(words), "")).value_or(fallback);
+  }
 
   /// Arrays. `count` 0 means any length, and one at least unless said otherwise. Empty when wrong
   /// or absent.

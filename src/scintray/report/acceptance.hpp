@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scintray/report/run_analysis.hpp"
-#include "scintray/scene_file/criterion_spec.hpp"
+#include "scintray/scene_file/criterion.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::report {

@@ -5,7 +5,7 @@
 
 #include "scintray/analysis/event_analysis.hpp"
 #include "scintray/analysis/goniometer/surface_analysis.hpp"
-#include "scintray/scene_file/criterion_spec.hpp"
+#include "scintray/scene_file/criterion.hpp"
 
 namespace scintray::report {
 

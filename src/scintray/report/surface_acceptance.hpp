@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scintray/analysis/goniometer/surface_analysis.hpp"
-#include "scintray/scene_file/criterion_spec.hpp"
+#include "scintray/scene_file/criterion.hpp"
 
 namespace scintray::report {
 

@@ -10,7 +10,7 @@
 
 #include "scintray/core/lanes.hpp"
 #include "scintray/core/plain_vec.hpp"
-#include "scintray/scene_file/accelerator_kind.hpp"
+#include "scintray/scene_file/run.hpp"
 
 namespace scintray::scene {
 

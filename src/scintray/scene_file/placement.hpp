@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::scene_file {
@@ -21,7 +23,10 @@ struct RotationSpec {
 struct BoxSide {
   int axis = 2;   ///< 0, 1, 2 for x, y, z
   int sign = -1;  ///< -1 or +1
+  bool operator==(const BoxSide&) const = default;
 };
+inline constexpr config::Word<BoxSide> kBoxSides[] = {{"-x", {0, -1}}, {"+x", {0, +1}}, {"-y", {1, -1}},
+                                                      {"+y", {1, +1}}, {"-z", {2, -1}}, {"+z", {2, +1}}};
 
 /// Puts a part against a side of another's bounding box, centred on it laterally.
 struct TouchSpec {
@@ -39,6 +44,12 @@ struct PlacementSpec {
   std::optional<TouchSpec> touch;
   core::Vec3 translate = core::Vec3::Zero();  ///< mm
 };
+
+/// rotate, place and translate; `earlier` are the names that may be touched.
+PlacementSpec read_placement(const config::TomlTable& table, const std::vector<std::string>& earlier);
+
+/// rotate, one table or a list.
+std::vector<RotationSpec> read_rotations(const config::TomlTable& part);
 
 /// The rotations of a placement as one.
 Eigen::Matrix3d rotation_of(const PlacementSpec& placement);

@@ -5,16 +5,20 @@
 #include <utility>
 
 #include "scintray/core/pattern.hpp"
-#include "scintray/scene_file/detail/read_fit.hpp"
-#include "scintray/scene_file/detail/read_parts.hpp"
-#include "scintray/scene_file/read_analysis.hpp"
-#include "scintray/scene_file/read_readout.hpp"
+#include "scintray/scene_file/detail/bodies.hpp"
+#include "scintray/scene_file/detail/names.hpp"
+#include "scintray/scene_file/detail/read_tallies.hpp"
+#include "scintray/scene_file/readout.hpp"
 
 namespace scintray::scene_file {
 
 namespace {
 
 using Kind = config::TomlNode::Kind;
+
+/// The type of a [source] of photons.
+constexpr const char* kPhotonSource = "photons";
+constexpr config::Word<bool> kUnpolarised[] = {{"random", false}, {"unpolarised", true}};
 
 InlineTables read_definitions(const config::TomlTable& scene, const std::string& key) {
   InlineTables definitions;
@@ -32,6 +36,27 @@ InlineTables read_definitions(const config::TomlTable& scene, const std::string&
       definitions.emplace(name, node);
   }
   return definitions;
+}
+
+/// [source], of any type, into `scene`; `parts` are the names of its parts.
+void read_source(const config::TomlTable& root, const std::vector<std::string>& parts, SceneSpec& scene) {
+  const config::TomlTable table = root.table("source");
+  scene.source.where = table.where();
+  std::vector<std::string> types{kPhotonSource};
+  for (const config::Word<GammaSourceType>& type : kGammaSourceTypes) types.emplace_back(type.word);
+  const std::string type = table.choice("type", types);
+  if (table.has("type") && !table.good("type")) {
+    table.skip();
+    return;
+  }
+  const bool unpolarised = table.choice("polarisation", kUnpolarised, false);
+  if (type == kPhotonSource) {
+    scene.source = read_photon_source(table, parts);
+    scene.source.unpolarised = unpolarised;
+  } else {
+    scene.energy_source = read_gamma_source(table, parts);
+    scene.energy_source->unpolarised = unpolarised;
+  }
 }
 
 /// Reports several sweeps' and points' common problems once.
@@ -81,7 +106,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text) {
   scene.title = root.string("title", "");
   scene.ambient = read_name(root, "ambient", true);
   scene.contacts_default_given = root.has("contacts_default");
-  scene.contacts_default = contact_kind(root.choice("contacts_default", {"bonded", "dry"}, "bonded"));
+  scene.contacts_default = root.choice("contacts_default", kContactKinds, ContactKind::bonded);
   Bodies bodies = read_bodies(root);
   const std::vector<std::string> names =
       bodies.names_known ? part_names(bodies.parts, bodies.groups) : std::vector<std::string>{};

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scintray/analysis/event_analysis.hpp"
-#include "scintray/scene_file/analysis_spec.hpp"
+#include "scintray/scene_file/analysis.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::simulation {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/source/event.hpp"
 
 namespace scintray::source {

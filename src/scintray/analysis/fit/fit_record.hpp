@@ -7,7 +7,7 @@
 
 #include "scintray/analysis/fit/curve_fit.hpp"
 #include "scintray/analysis/fit/measured_curve.hpp"
-#include "scintray/scene_file/fit_spec.hpp"
+#include "scintray/scene_file/fit.hpp"
 
 namespace scintray::analysis {
 

@@ -7,7 +7,7 @@
 
 #include "scintray/analysis/goniometer/goniometer.hpp"
 #include "scintray/analysis/goniometer/sample_surface.hpp"
-#include "scintray/scene_file/goniometer_spec.hpp"
+#include "scintray/scene_file/goniometer.hpp"
 
 namespace scintray::analysis {
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include "scintray/scene_file/detail/expand_builders.hpp"
-#include "scintray/scene_file/detail/sheets.hpp"
+#include "scintray/scene_file/detail/array.hpp"
 
 namespace scintray::scene_file {
 
@@ -28,11 +27,6 @@ void apply(const OverrideSpec& change, PartSpec& element) {
     else
       *same = rule;
   }
-}
-
-const char* side_name(const BoxSide& side) {
-  static constexpr const char* kNames[3][2] = {{"-x", "+x"}, {"-y", "+y"}, {"-z", "+z"}};
-  return kNames[side.axis][side.sign > 0 ? 1 : 0];
 }
 
 PartSpec box_part(const std::string& name, const Eigen::AlignedBox3d& box, const config::NameRef& medium,
@@ -174,7 +168,8 @@ class ArrayExpander {
         (sign < 0 ? low : high)[axis] = (sign < 0 ? high : low)[axis] + sign * wrap.thickness_mm;
         outer.extend(sheet);
         body_.parts.push_back(
-            box_part(name_ + "_wrap[" + side_name({axis, sign}) + "]", sheet, wrap.sheet.medium, wrap.where));
+            box_part(name_ + "_wrap[" + config::word_of(kBoxSides, BoxSide{axis, sign}) + "]", sheet,
+                     wrap.sheet.medium, wrap.where));
         body_.parts.back().surface = wrap.sheet.surface;
       }
       inner = outer;

@@ -1,5 +1,4 @@
-#include "scintray/scene_file/detail/expand_builders.hpp"
-#include "scintray/scene_file/detail/sheets.hpp"
+#include "scintray/scene_file/detail/light_guide.hpp"
 
 namespace scintray::scene_file {
 

@@ -5,7 +5,7 @@
 #include "scintray/contact/placed_mesh.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/text.hpp"
-#include "scintray/scene_file/detail/read_parts.hpp"
+#include "scintray/scene_file/detail/names.hpp"
 
 namespace scintray::scene_file {
 

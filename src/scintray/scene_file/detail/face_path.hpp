@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "scintray/scene_file/spec.hpp"
+#include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/scene_file/part.hpp"
 
 namespace scintray::scene_file {
 

@@ -1,10 +1,13 @@
+#include "scintray/scene_file/detail/read_tallies.hpp"
+
 #include <algorithm>
 #include <set>
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/text.hpp"
+#include "scintray/scene_file/detail/bodies.hpp"
 #include "scintray/scene_file/detail/face_path.hpp"
-#include "scintray/scene_file/detail/read_parts.hpp"
+#include "scintray/scene_file/detail/names.hpp"
 
 namespace scintray::scene_file {
 

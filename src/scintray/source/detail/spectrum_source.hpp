@@ -1,7 +1,7 @@
 #pragma once
 /// Interactions placed where the scene says, with energies drawn from a spectrum: no transport.
 
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/source/detail/origin.hpp"
 #include "scintray/source/event.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 
 namespace scintray::source {
 

@@ -5,7 +5,7 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/core/philox.hpp"
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 
 namespace scintray::source {
 

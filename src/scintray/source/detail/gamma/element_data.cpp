@@ -8,7 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/optics/composition.hpp"
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 
 namespace scintray::source {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "scintray/scene_file/gamma_spec.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/source/detail/gamma/cross_sections.hpp"
 #include "scintray/source/event.hpp"
 
