@@ -110,12 +110,18 @@ struct Region {
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());  ///< origin of the region's frame, mm
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
 
-  core::Vec3 point_to_local(const core::Vec3& p) const { return direction_to_local(p - centre); }
-  core::Vec3 direction_to_local(const core::Vec3& d) const {
-    return rotated ? core::Vec3(rotation.matrix().transpose() * d) : d;
+  core::Vec3 point_to_local(const core::PlainVec3& p) const {
+    const core::Vec3 shifted = p - centre;
+    if (rotated) return rotation.matrix().transpose() * shifted;
+    return shifted;
   }
-  core::Vec3 direction_to_world(const core::Vec3& d) const {
-    return rotated ? core::Vec3(rotation.matrix() * d) : d;
+  core::Vec3 direction_to_local(const core::PlainVec3& d) const {
+    if (rotated) return rotation.matrix().transpose() * d.vec();
+    return d.vec();
+  }
+  core::Vec3 direction_to_world(const core::PlainVec3& d) const {
+    if (rotated) return rotation.matrix() * d.vec();
+    return d.vec();
   }
 };
 static_assert(std::is_trivially_copyable_v<Region>);
@@ -171,7 +177,7 @@ struct Scene : SceneRecords {
   const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
   /// Where a ray inside a region leaves it.
   /// @param p  world, mm; @param d  of unit length
-  Exit find_exit(const Region& region, const core::Vec3& p, const core::Vec3& d) const {
+  Exit find_exit(const Region& region, const core::PlainVec3& p, const core::PlainVec3& d) const {
     return accelerator(region).find_exit(region.point_to_local(p), region.direction_to_local(d));
   }
   /// Normal of a triangle of a region's boundary (world), out of the region.

@@ -41,8 +41,6 @@ class StoredFlight {
   StoredFlight(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
-  static constexpr bool kGoesOnWithEmbree = false;
-
   Wall next_wall() const {
     const scene::Exit exit = accelerator_.find_exit(region_.point_to_local(photon_.position),
                                                     region_.direction_to_local(photon_.ray.direction));
@@ -65,6 +63,7 @@ class StoredFlight {
   bool allowed_by(const FlightLimits& limits) const {
     return limits.allow(photon_.interactions, photon_.time_ns);
   }
+  bool goes_on() const { return !accelerator_.uses_embree(); }
   void turn() const {}
   void store(source::Photon&) const {}
 
@@ -99,8 +98,6 @@ class EmbreeFlight {
         ray_origin_(local_.with_fourth(start_mm_).floats()),
         ray_direction_(ahead_.floats()) {}
 
-  static constexpr bool kGoesOnWithEmbree = true;
-
   Wall next_wall() {
     const scene::FirstHit hit = accelerator_.first_hit(ray_origin_, ray_direction_);
     scene::Approach approach;
@@ -132,6 +129,7 @@ class EmbreeFlight {
     polarisation_ = dot(normal, polarisation_) * twice - polarisation_;
   }
   bool allowed_by(const FlightLimits& limits) const { return limits.allow(interactions_, path_and_time_[1]); }
+  static bool goes_on() { return true; }
   /// Makes the next ray.
   void turn() {
     ray_origin_ = local_.with_fourth(start_mm_).floats() + hit_mm_ * ray_direction_;
@@ -178,7 +176,6 @@ void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLi
                Flight& flight) {
   const scene::Region& region = scene.regions[photon.region];
   const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
-  const bool embree_next = !State::kGoesOnWithEmbree && scene.accelerator(region).uses_embree();
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
   std::uint32_t known_medium = scene::kNotSmooth;
@@ -218,7 +215,7 @@ void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLi
       state.store(photon);
       limits.passed(photon, total_reflection(scene, photon, wall.triangle, cosine));
     }
-    if (embree_next) break;
+    if (!state.goes_on()) break;
     state.turn();
   }
   state.store(photon);
