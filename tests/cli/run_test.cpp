@@ -13,7 +13,7 @@ using namespace scintray::test;
 namespace {
 
 /// A crystal on a sensor; all light is detected, so a list of photons has one row each.
-std::string scene(std::uint64_t photons, bool list) {
+std::string scene_text(std::uint64_t photons, bool list) {
   return R"(
 title = "A crystal on a sensor"
 ambient = "vacuum"
@@ -57,7 +57,7 @@ std::filesystem::path folder_with(const std::string& name, const std::string& te
 }  // namespace
 
 TEST_CASE("run writes results and a report, prints where they are, and is quiet about progress in a pipe") {
-  const auto folder = folder_with("whole", scene(20'000, true));
+  const auto folder = folder_with("whole", scene_text(20'000, true));
   const Ended ended = run_program({"run", "scene.toml"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSuccess);
@@ -74,7 +74,7 @@ TEST_CASE("run writes results and a report, prints where they are, and is quiet 
 }
 
 TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") {
-  const auto folder = folder_with("interrupted", scene(2'000'000'000, false));
+  const auto folder = folder_with("interrupted", scene_text(2'000'000'000, false));
   const Program program({"run", "scene.toml"}, folder);
   std::this_thread::sleep_for(std::chrono::seconds(3));
   program.signal(SIGINT);
@@ -90,7 +90,7 @@ TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") 
 }
 
 TEST_CASE("A full disk ends the run with a message and leaves no file that looks whole") {
-  const auto folder = folder_with("full", scene(400'000, true));
+  const auto folder = folder_with("full", scene_text(400'000, true));
   const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder, 2'000'000);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSystemFailure);
@@ -101,7 +101,7 @@ TEST_CASE("A full disk ends the run with a message and leaves no file that looks
 TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams to disk") {
   // A photon of the list takes 60 bytes and more in memory: three million would be 180 MB by themselves.
   for (const bool list : {false, true}) {
-    const auto folder = folder_with(list ? "memory_list" : "memory", scene(3'000'000, list));
+    const auto folder = folder_with(list ? "memory_list" : "memory", scene_text(3'000'000, list));
     const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == cli::kSuccess);
@@ -111,14 +111,14 @@ TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams 
 }
 
 TEST_CASE("check says what a scene is, and lists every mistake with its place") {
-  const auto folder = folder_with("check", scene(1'000, false));
+  const auto folder = folder_with("check", scene_text(1'000, false));
   const Ended good = run_program({"check", "scene.toml"}, folder);
   CAPTURE(good.output);
   CHECK(good.exit_code == cli::kSuccess);
   for (const std::string part : {"crystal:exit", "volume", "interfaces", "accelerators", "no errors"})
     CHECK(contains(good.output, part));
 
-  std::string text = scene(1'000, false);
+  std::string text = scene_text(1'000, false);
   text.replace(text.find("medium = \"glass\""), 16, "medium = \"glas\" ");
   text.replace(text.find("\"420 nm\""), 8, "420     ");
   std::ofstream(folder / "scene.toml") << text;
@@ -129,7 +129,7 @@ TEST_CASE("check says what a scene is, and lists every mistake with its place") 
 }
 
 TEST_CASE("Parts that overlap are refused with both names") {
-  std::string text = scene(1'000, false);
+  std::string text = scene_text(1'000, false);
   text.insert(
       text.find("[source]"),
       "[[part]]\nname = \"intruder\"\nbox = [\"1 mm\", \"1 mm\", \"5 mm\"]\nmedium = \"glass\"\nsurface = "
@@ -143,7 +143,7 @@ TEST_CASE("Parts that overlap are refused with both names") {
 }
 
 TEST_CASE("replay follows a photon to its end") {
-  const auto folder = folder_with("replay", scene(1'000, false));
+  const auto folder = folder_with("replay", scene_text(1'000, false));
   const Ended ended = run_program({"replay", "scene.toml", "--event", "0", "--photon", "3"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSuccess);
@@ -151,7 +151,7 @@ TEST_CASE("replay follows a photon to its end") {
 }
 
 TEST_CASE("reweigh prints light under other optics and writes a table, and says what it cannot") {
-  std::string text = scene(5'000, false);
+  std::string text = scene_text(5'000, false);
   text.replace(text.find("reflectance = 1.0"), 17, "reflectance = 0.9");
   text.replace(text.find("photon_list = false"), 19, "photon_history = true");
   const auto folder = folder_with("reweigh", text);
@@ -178,7 +178,7 @@ TEST_CASE("reweigh prints light under other optics and writes a table, and says 
   for (; std::getline(table, line); ++lines)
     if (lines == 2) CHECK(line.starts_with("point,reflectance of white,traced_fraction"));
   CHECK(lines == 5);
-  std::ofstream(folder / "scene.toml") << scene(1'000, false);
+  std::ofstream(folder / "scene.toml") << scene_text(1'000, false);
   CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
   did({"--reflectance", "white=0.8"}, cli::kBadInput, "photon_history = true");
 }

@@ -24,7 +24,7 @@ using namespace scintray::test;
 
 namespace {
 
-SceneFile scene_file(const std::string& text) { return SceneFile::from_text(text, "scene.toml"); }
+SceneFile read_text(const std::string& text) { return SceneFile::from_text(text, "scene.toml"); }
 
 std::string with(std::string text, const std::string& old, const std::string& now) {
   const auto at = text.find(old);
@@ -132,7 +132,7 @@ TEST_CASE("A map serves scenes that differ in what does not touch the light's wa
   ResponseFile map = made_up_map();
   map.map.unpolarised = false;
   const auto complaint = [&](const std::string& text) {
-    return complaint_of([&] { require_same_scene(scene_file(text), map); });
+    return complaint_of([&] { require_same_scene(read_text(text), map); });
   };
   CHECK(complaint(kSmallCrystal).empty());
   CHECK(complaint(with(kSmallCrystal, "\"A small crystal\"", "\"else\"")).empty());
@@ -149,7 +149,7 @@ TEST_CASE("A map serves scenes that differ in what does not touch the light's wa
 
 TEST_CASE("Events from a map are a result that says where it comes from") {
   const auto folder = scratch_folder("response_run");
-  const SceneFile scene = scene_file(kSmallCrystal);
+  const SceneFile scene = read_text(kSmallCrystal);
   MapOptions options;
   options.settings = {2.0, 200, 8};
   const ResponseFile map = build_map(scene, options);
@@ -181,7 +181,7 @@ TEST_CASE("Events from a map are a result that says where it comes from") {
 
 TEST_CASE("Scenes that no map can be of are refused in words") {
   const auto complaint = [](const std::string& text) {
-    return complaint_of([&] { build_map(scene_file(text), {}); });
+    return complaint_of([&] { build_map(read_text(text), {}); });
   };
   check_says(complaint(kSmallCrystal + "[[sweep]]\nkey = \"source.events\"\nvalues = [1, 2]\n"),
              "has a sweep");

@@ -27,14 +27,14 @@ constexpr double kReferenceSystematic = 0.003;
 
 std::string rough_map() { return source_file("tests/reference/microsurface/gaussian_rough.gsf").string(); }
 
-std::string scene(double z_mm, const std::string& map, const std::string& mode, std::uint64_t photons) {
+std::string scene_text(double z_mm, const std::string& map, const std::string& mode, std::uint64_t photons) {
   return rough_crystal(z_mm, {map, "none", true, mode}, photons);
 }
 
 void compare_with_reference(const std::string& mode) {
   const std::string map = rough_map();
   for (const Depth& depth : kRough) {
-    const PointResult result = trace(scene(depth.z_mm, map, mode, 200'000)).result;
+    const PointResult result = trace(scene_text(depth.z_mm, map, mode, 200'000)).result;
     const Estimate detected = result.fraction(Fate::detected);
     const Estimate reference = binomial_estimate(
         static_cast<std::uint64_t>(depth.detected * kReferencePhotons + 0.5), kReferencePhotons);
@@ -68,8 +68,8 @@ TEST_CASE("Microsurface: crystal with the table of the map agrees with an indepe
 TEST_CASE("Microsurface: light output with the table equals that with the map traced on the spot") {
   const std::string map = rough_map();
   for (const double z : {2.0, 18.0}) {
-    const PointResult spot = trace(scene(z, map, "on_the_spot", 400'000)).result;
-    const PointResult table = trace(scene(z, map, "table", 400'000)).result;
+    const PointResult spot = trace(scene_text(z, map, "on_the_spot", 400'000)).result;
+    const PointResult table = trace(scene_text(z, map, "table", 400'000)).result;
     for (const Fate fate : {Fate::detected, Fate::escaped, Fate::absorbed_in_medium}) {
       CAPTURE(z);
       CAPTURE(fate_name(fate));

@@ -57,7 +57,7 @@ bool same_bits(const Moments& a, const Moments& b) {
 }  // namespace
 
 TEST_CASE("A scene made of structs gives the numbers of the same scene's file, to the last bit") {
-  Simulation from_file(scene_file(kCrystal + kPhotons)), in_code(crystal_in_code());
+  Simulation from_file(scene_of(kCrystal + kPhotons)), in_code(crystal_in_code());
   CHECK(in_code.points() == 1);
   CHECK(in_code.parameters(0).empty());
   const PointResult a = from_file.run(0), b = in_code.run(0);
@@ -108,7 +108,7 @@ TEST_CASE("Options are in place of what the scene says") {
 }
 
 TEST_CASE("A results file is not needed for events either") {
-  SceneSpec scene = scene_file(kCrystal + kEvents).spec(0);
+  SceneSpec scene = scene_of(kCrystal + kEvents).spec(0);
   scene.file.clear();
   scene.folder.clear();
   scene.text.clear();

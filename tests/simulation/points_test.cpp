@@ -14,7 +14,7 @@ using namespace scintray::simulation;
 using namespace scintray::test;
 
 TEST_CASE("Each point of a sweep is built once, whoever uses it, and released when it was traced") {
-  Simulation simulation(scene_file(kCrystal + kPhotons + kSurfaceSweep));
+  Simulation simulation(scene_of(kCrystal + kPhotons + kSurfaceSweep));
   CHECK(simulation.points() == 3);
   CHECK(simulation.counts().scenes_built == 0);
   simulation.point(2);
@@ -32,7 +32,7 @@ TEST_CASE("Each point of a sweep is built once, whoever uses it, and released wh
 }
 
 TEST_CASE("Beyond the triangles that may be kept, points are built again and give the same") {
-  const SceneFile file = scene_file(kCrystal + kPhotons + kSurfaceSweep);
+  const SceneFile file = scene_of(kCrystal + kPhotons + kSurfaceSweep);
   SimulationOptions options;
   options.most_triangles_kept = 30;  // one point has 24
   Simulation sparing(file, options), keeping(file);
@@ -70,21 +70,21 @@ events = 2
 key = "source.energy"
 values = ["50 keV", "60 keV", "70 keV"]
 )";
-  Simulation simulation(scene_file(text));
+  Simulation simulation(scene_of(text));
   simulation.run_all();
   // air, LSO, polished, R6231.
   CHECK(simulation.counts().definitions.files == 4);
   CHECK(simulation.counts().definitions.definitions == 4);
 
-  Simulation with_own(scene_file(text + "[media.unused]\nindex = { n = 1.5 }\nabsorption = { none = true }\n"
-                                        "scattering = { none = true }\n"));
+  Simulation with_own(scene_of(text + "[media.unused]\nindex = { n = 1.5 }\nabsorption = { none = true }\n"
+                                      "scattering = { none = true }\n"));
   with_own.run_all();
   CHECK(with_own.counts().definitions.files == 4);
   CHECK(with_own.counts().definitions.definitions == 4);
 }
 
 TEST_CASE("A definition that a sweep changes is read for each of its values, and what it leaves alone once") {
-  Simulation simulation(scene_file(kCrystal + kPhotons + R"(
+  Simulation simulation(scene_of(kCrystal + kPhotons + R"(
 [[sweep]]
 key = "surfaces.painted.reflectance"
 values = [0.8, 0.9]
@@ -117,7 +117,7 @@ TEST_CASE("A stop keeps what was traced, whole points and whole blocks, and says
   SimulationOptions options;
   options.threads = 1;
   options.photons = 100'000;
-  Simulation simulation(scene_file(kCrystal + kPhotons + kSurfaceSweep), options);
+  Simulation simulation(scene_of(kCrystal + kPhotons + kSurfaceSweep), options);
   MemorySink memory;
   const RunResult result = simulation.run_all(memory, hooks);
   REQUIRE(result.points.size() == 2);
@@ -135,7 +135,7 @@ TEST_CASE("A stop before the first photon is a cancellation: there is nothing to
   const std::atomic<bool> stop = true;
   SimulationHooks hooks;
   hooks.stop = &stop;
-  Simulation simulation(scene_file(kCrystal + kPhotons));
+  Simulation simulation(scene_of(kCrystal + kPhotons));
   MemorySink memory;
   CHECK_THROWS_AS(simulation.run_all(memory, hooks), Cancelled);
   CHECK(memory.result.points.empty());
@@ -143,7 +143,7 @@ TEST_CASE("A stop before the first photon is a cancellation: there is nothing to
 }
 
 TEST_CASE("A point that is not there is refused") {
-  Simulation simulation(scene_file(kCrystal + kPhotons + kSurfaceSweep));
+  Simulation simulation(scene_of(kCrystal + kPhotons + kSurfaceSweep));
   CHECK_THROWS_AS(simulation.point(3), InputError);
   CHECK_THROWS_AS(simulation.run(3), InputError);
   CHECK_THROWS_AS(simulation.spec(3), InputError);

@@ -52,7 +52,7 @@ values = ["polished", "roncali2013_unified_rough", "flat"]
 model = "smooth"
 )";
 
-inline scene_file::SceneFile scene_file(const std::string& text) {
+inline scene_file::SceneFile scene_of(const std::string& text) {
   return scene_file::SceneFile::from_text(text, source_file("scene.toml").string());
 }
 

@@ -50,7 +50,7 @@ void check_same(const RunResult& a, const RunResult& b) {
 }  // namespace
 
 TEST_CASE("A file, the memory and what run_all returns hold the same photons") {
-  const SceneFile scene = scene_file(kCrystal + kPhotons + kLists + kSurfaceSweep);
+  const SceneFile scene = scene_of(kCrystal + kPhotons + kLists + kSurfaceSweep);
   const auto path = scratch_folder("simulation_sinks") / "photons.h5";
   ResultsFile file(path);
   MemorySink memory;
@@ -81,7 +81,7 @@ TEST_CASE("A file, the memory and what run_all returns hold the same photons") {
 }
 
 TEST_CASE("A file and the memory hold the same events") {
-  const SceneFile scene = scene_file(kCrystal + kEvents + kReadout);
+  const SceneFile scene = scene_of(kCrystal + kEvents + kReadout);
   const auto path = scratch_folder("simulation_sinks_events") / "events.h5";
   ResultsFile file(path);
   MemorySink memory;
@@ -102,7 +102,7 @@ TEST_CASE("A file and the memory hold the same events") {
 }
 
 TEST_CASE("A point alone gives what it gives in the run of all points") {
-  const SceneFile scene = scene_file(kCrystal + kPhotons + kSurfaceSweep);
+  const SceneFile scene = scene_of(kCrystal + kPhotons + kSurfaceSweep);
   Simulation all(scene), alone(scene);
   const RunResult together = all.run_all();
   const PointResult last = alone.run(2);
@@ -116,7 +116,7 @@ TEST_CASE("Replay follows the photon that the run detected, with the run's own s
   SimulationOptions options;
   options.seed = 77;
   options.change = [](SceneSpec& spec) { spec.run.max_time_ns = 60.0; };
-  Simulation simulation(scene_file(kCrystal + kPhotons + kLists + kSurfaceSweep), options);
+  Simulation simulation(scene_of(kCrystal + kPhotons + kLists + kSurfaceSweep), options);
   MemorySink memory;
   simulation.run_all(memory);
   REQUIRE(memory.result.points[1].count(Fate::cut_time) > 100);

@@ -107,7 +107,7 @@ Built build(const std::string& text, scene::SceneBuilder& builder) {
   Built result;
   const double before = resident_MB();
   const auto start = std::chrono::steady_clock::now();
-  result.prepared = topography::prepare(text, builder);
+  result.prepared = prepare(text, builder);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.megabytes = resident_MB() - before;
   return result;

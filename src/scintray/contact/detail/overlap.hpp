@@ -9,7 +9,7 @@ struct OverlapVolume {
   double volume_mm3 = 0.0;
   core::Vec3 inside = core::Vec3::Zero();  ///< a point inside both, mm; where none was found, the middle of
                                            ///< the common part of their boxes
-  bool exact = true;  ///< false: counted on a grid of points
+  bool exact = true;                       ///< false: counted on a grid of points
 };
 
 /// Points of the grid that large meshes are counted on.

@@ -28,7 +28,7 @@ std::string fit_table_html(const TextTable& table, std::size_t first_number = 1)
       rows += c == 0 ? cell(table[r][c], "th", first_number == 0 ? "n" : "") : number_cell(table[r][c]);
     rows += "</tr>\n";
   }
-  return table(table.front(), rows, first_number);
+  return report::table(table.front(), rows, first_number);
 }
 
 std::string position_label(const analysis::FitRecord& record) {
