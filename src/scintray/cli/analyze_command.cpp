@@ -1,5 +1,4 @@
-#include "scintray/cli/analyze_command.hpp"
-
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>

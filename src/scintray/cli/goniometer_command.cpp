@@ -1,7 +1,6 @@
-#include "scintray/cli/goniometer_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,5 +1,4 @@
-#include "scintray/cli/import_command.hpp"
-
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

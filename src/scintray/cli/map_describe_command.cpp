@@ -1,6 +1,6 @@
+#include <CLI/CLI.hpp>
 #include <memory>
 
-#include "scintray/cli/map_command.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 

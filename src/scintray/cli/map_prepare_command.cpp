@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
-#include "scintray/cli/map_command.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 #include "scintray/report/pages/map_page.hpp"

@@ -1,5 +1,4 @@
-#include "scintray/cli/repair_command.hpp"
-
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "scintray/cli/exit_codes.hpp"

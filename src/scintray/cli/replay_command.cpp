@@ -1,7 +1,6 @@
-#include "scintray/cli/replay_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

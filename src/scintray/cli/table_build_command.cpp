@@ -3,7 +3,6 @@
 
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
-#include "scintray/cli/table_command.hpp"
 #include "scintray/cli/table_options.hpp"
 
 namespace scintray::cli {

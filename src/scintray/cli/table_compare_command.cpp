@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,7 +8,6 @@
 
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
-#include "scintray/cli/table_command.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/plots/goniometer_plots.hpp"

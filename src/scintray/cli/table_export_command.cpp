@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 
-#include "scintray/cli/table_command.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/bsdf_text.hpp"

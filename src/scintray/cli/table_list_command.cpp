@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
-#include "scintray/cli/table_command.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/report/pages/page.hpp"

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <memory>
 
-#include "scintray/cli/table_command.hpp"
 #include "scintray/cli/table_plot.hpp"
 #include "scintray/optics/table.hpp"
 

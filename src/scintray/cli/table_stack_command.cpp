@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "scintray/cli/table_command.hpp"
 #include "scintray/cli/table_options.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
