@@ -46,9 +46,9 @@ class ResultSink {
                          const tally::HistorySubjects& /*of_point*/) {}
   /// The next events of a source of energy, in their order.
   virtual void events(const std::vector<tally::EventRecord>& /*events*/) {}
-  /// A point, after all that belongs to it. @param histories  null: none are kept
+  /// A point, after all that belongs to it; no subjects (null) when no histories are kept.
   virtual void point(const tally::PointResult& /*result*/, const tally::HistorySubjects* /*histories*/) {}
-  /// After all others, once. @param reason  why it is not complete; empty when it is
+  /// After all others, once, with the reason why the run is not complete; empty when it is.
   virtual void commit(bool /*complete*/, const std::string& /*reason*/) {}
 };
 
