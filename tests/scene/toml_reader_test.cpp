@@ -168,3 +168,58 @@ TEST_CASE("places of keys and values, however they are written") {
   CHECK(g.where.text() == "f:5:1");
   CHECK(g.find("h")->find("i")->key_where.text() == "f:6:6");
 }
+
+namespace {
+
+enum class Shade { dark, light };
+constexpr Word<Shade> kShades[] = {{"dark", Shade::dark}, {"light", Shade::light}, {"pale", Shade::light}};
+
+}  // namespace
+
+TEST_CASE("words and the values that they stand for") {
+  CHECK(find_word(kShades, "light") == Shade::light);
+  CHECK(find_word(kShades, "pale") == Shade::light);
+  CHECK_FALSE(find_word(kShades, "Light").has_value());
+  CHECK_FALSE(find_word(kShades, "").has_value());
+  CHECK(word_of(kShades, Shade::light) == std::string("light"));
+  CHECK_THROWS_AS(word_of(kShades, static_cast<Shade>(7)), InternalError);
+  CHECK(word_list(kShades) == std::vector<std::string>{"dark", "light", "pale"});
+}
+
+TEST_CASE("a choice of words gives the value of the word") {
+  Reading reading("a = 'pale'");
+  CHECK(reading.table.choice("a", kShades) == Shade::light);
+  CHECK(reading.table.choice("a", kShades, Shade::dark) == Shade::light);
+  CHECK(reading.table.choice("b", kShades, Shade::light) == Shade::light);
+  CHECK(reading.problems.empty());
+  CHECK(reading.table.choice("b", kShades) == Shade::dark);
+  CHECK(reading.problems.list().size() == 1);
+
+  // The same messages as for words alone.
+  check_reading(
+      "a = @@'lihgt'", [](const TomlTable& table) { table.choice("a", kShades); },
+      {"\"dark\", \"light\", \"pale\"", "is expected"}, "did you mean \"light\"?");
+  check_reading(
+      "a = @@2", [](const TomlTable& table) { table.choice("a", kShades, Shade::light); },
+      {"the integer 2", "\"dark\""}, "in quotes");
+}
+
+TEST_CASE("one of several keys stands for a value") {
+  Reading reading("pale = 1");
+  const Word<Shade>* one = reading.table.one_of(kShades, true);
+  REQUIRE(one != nullptr);
+  CHECK(one->word == std::string("pale"));
+  CHECK(one->value == Shade::light);
+  Reading none("");
+  CHECK(none.table.one_of(kShades, false) == nullptr);
+  CHECK(none.problems.empty());
+  CHECK(none.table.one_of(kShades, true) == nullptr);
+  CHECK(none.problems.list().size() == 1);
+}
+
+TEST_CASE("whether a value is an array") {
+  const Reading reading("a = [1, 2]\nb = 1");
+  CHECK(reading.table.is_array("a"));
+  CHECK_FALSE(reading.table.is_array("b"));
+  CHECK_FALSE(reading.table.is_array("c"));
+}

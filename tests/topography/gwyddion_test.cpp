@@ -11,7 +11,7 @@
 
 #include "map_files.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/topography/detail/readers/gwyddion_program.hpp"
+#include "scintray/topography/detail/readers/formats.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "support/shared.hpp"
 

@@ -5,7 +5,6 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/input_file.hpp"
 #include "scintray/topography/detail/readers/formats.hpp"
-#include "scintray/topography/detail/readers/gwyddion_program.hpp"
 #include "scintray/topography/height_map.hpp"
 
 namespace scintray::topography {

@@ -8,7 +8,7 @@
 #include <toml.hpp>
 
 #if !defined(TOML11_VERSION_MAJOR) || TOML11_VERSION_MAJOR != 3
-#error "ScintRay knows the regions and the messages of toml11 3 only: see src/scene/toml11.cpp"
+#error "ScintRay knows the regions and the messages of toml11 3 only: see src/scintray/config/detail/toml11.cpp"
 #endif
 
 namespace scintray::config::toml11 {

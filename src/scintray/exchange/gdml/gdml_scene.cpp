@@ -6,10 +6,9 @@
 #include <set>
 
 #include "scintray/core/units.hpp"
-#include "scintray/exchange/gdml/detail/materials.hpp"
+#include "scintray/exchange/gdml/detail/optical.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
 #include "scintray/exchange/gdml/detail/structure.hpp"
-#include "scintray/exchange/gdml/detail/surfaces.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::exchange::gdml {

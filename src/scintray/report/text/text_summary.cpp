@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "scintray/report/acceptance.hpp"
-#include "scintray/report/pages/detail/shift_section.hpp"
-#include "scintray/report/pages/detail/tally_section.hpp"
+#include "scintray/report/pages/detail/sections.hpp"
 #include "scintray/report/pages/event_section.hpp"
 #include "scintray/report/plots/detail/light_curves.hpp"
 #include "scintray/report/text/format.hpp"

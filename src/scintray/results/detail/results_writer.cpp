@@ -3,9 +3,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/results/detail/columns.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
 #include "scintray/results/detail/row_table.hpp"
-#include "scintray/results/detail/shift_columns.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "scintray/core/h5.hpp"
-#include "scintray/results/detail/event_columns.hpp"
-#include "scintray/results/detail/photon_columns.hpp"
+#include "scintray/results/detail/columns.hpp"
 #include "scintray/results/results_format.hpp"
 
 namespace scintray::results::format {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "scintray/config/words.hpp"
+
 namespace scintray::exchange::gdml {
 
 namespace {
@@ -134,21 +136,26 @@ Definitions::Definitions(const GdmlFile& file) : file_(file), evaluator_(std::ma
 }
 
 void Definitions::define(Node node) {
-  const std::string tag = node.name();
+  enum class Kind { number, quantity, expression, position, rotation, scale, matrix };
+  static constexpr config::Word<Kind> kKinds[] = {
+      {"constant", Kind::number},       {"variable", Kind::number},   {"quantity", Kind::quantity},
+      {"expression", Kind::expression}, {"position", Kind::position}, {"rotation", Kind::rotation},
+      {"scale", Kind::scale},           {"matrix", Kind::matrix}};
+  const std::optional<Kind> kind = config::find_word(kKinds, node.name());
   const std::string own = name(node.attribute("name").value(), node);
-  if (tag == "constant" || tag == "variable") {
+  if (kind == Kind::number) {
     evaluator_->set(own, number(node, "value"));
-  } else if (tag == "quantity") {
+  } else if (kind == Kind::quantity) {
     evaluator_->set(own, number(node, "value") * (node.attribute("unit") ? number(node, "unit") : 1.0));
-  } else if (tag == "expression") {
+  } else if (kind == Kind::expression) {
     evaluator_->set(own, evaluate(node.text().as_string(), node));
-  } else if (tag == "position") {
+  } else if (kind == Kind::position) {
     positions_[own] = vector(node, "mm");
-  } else if (tag == "rotation") {
+  } else if (kind == Kind::rotation) {
     rotations_[own] = vector(node, "rad");
-  } else if (tag == "scale") {
+  } else if (kind == Kind::scale) {
     scales_[own] = vector(node, "1", 1.0);
-  } else if (tag == "matrix") {
+  } else if (kind == Kind::matrix) {
     Matrix& matrix = matrices_[own];
     const double columns = number(node, "coldim");
     if (!(columns >= 1.0 && columns <= 1000.0)) file_.reject(node, "a matrix of no columns, or of over 1000");
@@ -167,7 +174,7 @@ void Definitions::define(Node node) {
                    "give every row all its numbers");
   } else {
     file_.reject(
-        node, "<" + tag + "> in <define> is not known",
+        node, std::string("<") + node.name() + "> in <define> is not known",
         "expected constant, variable, quantity, expression, position, rotation, scale, matrix, loop");
   }
 }

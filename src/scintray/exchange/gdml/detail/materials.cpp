@@ -1,4 +1,4 @@
-#include "scintray/exchange/gdml/detail/materials.hpp"
+#include "scintray/exchange/gdml/detail/optical.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "scintray/exchange/gdml/detail/simple_solids.hpp"
+#include "scintray/config/words.hpp"
+#include "scintray/exchange/gdml/detail/solid_reader.hpp"
 #include "scintray/mesh/combine.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
@@ -12,12 +13,18 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-std::optional<mesh::BooleanOperation> operation_of(Node solid) {
-  const std::string kind = solid.name();
-  if (kind == "union") return mesh::BooleanOperation::unite;
-  if (kind == "subtraction") return mesh::BooleanOperation::subtract;
-  if (kind == "intersection") return mesh::BooleanOperation::intersect;
-  return std::nullopt;
+constexpr config::Word<mesh::BooleanOperation> kBooleans[] = {
+    {"union", mesh::BooleanOperation::unite},
+    {"subtraction", mesh::BooleanOperation::subtract},
+    {"intersection", mesh::BooleanOperation::intersect}};
+
+/// The mesh of a solid that is no boolean; nothing for a kind that is not made here. Measures mean what they
+/// mean in the GDML User's Guide (CERN), chapter "Solids".
+/// @throws InputError for impossible measures, without a place.
+std::optional<mesh::TriMesh> make_simple_solid(Node solid, const Definitions& definitions,
+                                               const mesh::Tessellation& tessellation) {
+  std::optional<mesh::TriMesh> made = make_flat_solid(solid, definitions, tessellation);
+  return made ? std::move(made) : make_round_solid(solid, definitions, tessellation);
 }
 
 /// As Geant4 places the solids of a boolean: turned by the rotation as it is, then moved.
@@ -84,7 +91,7 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
 }
 
 mesh::TriMesh Solids::make(Node solid) {
-  if (operation_of(solid)) return make_boolean(solid);
+  if (config::find_word(kBooleans, solid.name())) return make_boolean(solid);
   std::optional<mesh::TriMesh> mesh = make_simple_solid(solid, definitions_, tessellation_);
   if (!mesh)
     throw core::InputError(
@@ -110,7 +117,7 @@ mesh::TriMesh Solids::make_boolean(Node solid) {
                                                     definitions_.rotation(solid, "firstrotation")));
   const mesh::TriMesh second = mesh::transformed(
       operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
-  mesh::TriMesh result = mesh::combine(first, second, *operation_of(solid));
+  mesh::TriMesh result = mesh::combine(first, second, *config::find_word(kBooleans, solid.name()));
   if (result.triangles.empty())
     throw core::InputError(
         core::Problem{{}, "nothing is left of the boolean", "check where its two solids lie"});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/exchange/gdml/detail/definitions.hpp"
+#include "scintray/exchange/gdml/detail/gdml_file.hpp"
 #include "scintray/mesh/tessellation.hpp"
 #include "scintray/mesh/trimesh.hpp"
 

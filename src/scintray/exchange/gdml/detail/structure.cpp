@@ -3,11 +3,21 @@
 #include <map>
 #include <set>
 
+#include "scintray/config/words.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
 
 namespace scintray::exchange::gdml {
 
 namespace {
+
+/// What the elements of <structure> and of a volume are.
+enum class Element { volume, assembly, skin, border, placement, replica, division };
+constexpr config::Word<Element> kElements[] = {
+    {"volume", Element::volume},        {"assembly", Element::assembly}, {"skinsurface", Element::skin},
+    {"bordersurface", Element::border}, {"physvol", Element::placement}, {"replicavol", Element::replica},
+    {"divisionvol", Element::division}, {"paramvol", Element::division}};
+
+std::optional<Element> element_of(Node node) { return config::find_word(kElements, node.name()); }
 
 class StructureReader {
  public:
@@ -30,20 +40,20 @@ class StructureReader {
 
  private:
   void remember(Node node) {
-    const std::string tag = node.name();
-    if (tag == "volume" || tag == "assembly") {
+    const std::optional<Element> element = element_of(node);
+    if (element == Element::volume || element == Element::assembly) {
       volumes_[definitions_.name(file_.required(node, "name"), node)] = {node, definitions_.loop_variables()};
-    } else if (tag == "skinsurface") {
+    } else if (element == Element::skin) {
       structure_.surfaces.push_back(
           {file_.required(node, "surfaceproperty"), reference(child(node, "volumeref")), "", "", node});
-    } else if (tag == "bordersurface") {
+    } else if (element == Element::border) {
       const Node first = child(node, "physvolref");
       const Node second = first.next_sibling("physvolref");
       if (!second) file_.reject(node, "a border between fewer than two <physvolref>s");
       structure_.surfaces.push_back(
           {file_.required(node, "surfaceproperty"), "", reference(first), reference(second), node});
     } else {
-      structure_.notes.push_back("<" + tag + "> in <structure>");
+      structure_.notes.push_back(std::string("<") + node.name() + "> in <structure>");
     }
   }
 
@@ -64,11 +74,12 @@ class StructureReader {
 
   void place_daughters(Node volume, const Eigen::Affine3d& to_world, std::optional<std::size_t> mother) {
     definitions_.for_each_child(volume, [&](Node node) {
-      const std::string tag = node.name();
-      if (tag == "physvol") place(node, to_world, mother);
-      if (tag == "replicavol") replicate(node, to_world, mother);
-      if (tag == "divisionvol" || tag == "paramvol")
-        file_.reject(node, "<" + tag + "> is not read", "write its copies as <physvol>s");
+      const std::optional<Element> element = element_of(node);
+      if (element == Element::placement) place(node, to_world, mother);
+      if (element == Element::replica) replicate(node, to_world, mother);
+      if (element == Element::division)
+        file_.reject(node, std::string("<") + node.name() + "> is not read",
+                     "write its copies as <physvol>s");
     });
   }
 
@@ -96,7 +107,7 @@ class StructureReader {
     if (!inside_.insert(volume).second)
       file_.reject(where, "volume \"" + volume + "\" is placed inside itself");
     if (inside_.size() > 500) file_.reject(where, "volumes are nested more than 500 deep");
-    if (std::string(element.name()) == "assembly") {
+    if (element_of(element) == Element::assembly) {
       place_daughters(element, to_world, mother);
     } else {
       if (structure_.placed.size() >= kMostPlaced)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/exchange/gdml/detail/definitions.hpp"
+#include "scintray/exchange/gdml/detail/gdml_file.hpp"
 
 namespace scintray::exchange::gdml {
 

@@ -1,4 +1,4 @@
-#include "scintray/exchange/gdml/detail/surfaces.hpp"
+#include "scintray/exchange/gdml/detail/optical.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-
-#include "scintray/exchange/gdml/detail/materials.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -43,16 +41,16 @@ class SurfaceImporter {
 
   ImportedSurface import() {
     note_others();
-    const bool known_model = model_ == "glisur" || model_ == "unified";
+    const bool known_model = glisur() || unified();
     const bool known_finish = std::find(kFinishes.begin(), kFinishes.end(), finish_) != kFinishes.end();
     if (!known_model || !known_finish) {
       result_.notes.push_back("model \"" + model_ + "\", finish \"" + finish_ +
                               "\": its table is not in the file; import one with scintray table import");
       return result_;
     }
-    if (type_ == "dielectric_metal")
+    if (metallic())
       metal();
-    else if (type_ == "dielectric_dielectric")
+    else if (type_ == kTypes[1])
       dielectric();
     else
       result_.notes.push_back("type \"" + type_ + "\" has no counterpart here");
@@ -60,6 +58,9 @@ class SurfaceImporter {
   }
 
  private:
+  bool glisur() const { return model_ == kModels[0]; }
+  bool unified() const { return model_ == kModels[1]; }
+  bool metallic() const { return type_ == kTypes[0]; }
   bool polished() const { return finish_.starts_with("polished"); }
   EnergyTable table(const char* name) const { return property(surface_, name, file_, definitions_); }
   double constant(const char* name) const {
@@ -74,7 +75,7 @@ class SurfaceImporter {
 
   /// What goes through goes straight on in Geant4, as it does here through a film.
   bool lets_through_as_film() const {
-    return polished() && (type_ == "dielectric_metal" || finish_.ends_with("frontpainted"));
+    return polished() && (metallic() || finish_.ends_with("frontpainted"));
   }
   std::string transmittance() const {
     const EnergyTable values = lets_through_as_film() ? table("TRANSMITTANCE") : EnergyTable{};
@@ -82,14 +83,14 @@ class SurfaceImporter {
   }
 
   /// Geant4 calls the number "value": sigma alpha of the unified model, polish of glisur.
-  double roughness() const { return definitions_.number(surface_, "value", model_ == "glisur" ? 1.0 : 0.0); }
+  double roughness() const { return definitions_.number(surface_, "value", glisur() ? 1.0 : 0.0); }
 
   std::string facets() const {
     return fmt::format(
         "unified = {{ sigma_alpha = \"{:.9g} rad\", lobe = {:.9g}, spike = {:.9g}, backscatter = "
         "{:.9g} }}\n",
-        model_ == "unified" ? roughness() : 0.0, constant("SPECULARLOBECONSTANT"),
-        constant("SPECULARSPIKECONSTANT"), constant("BACKSCATTERCONSTANT"));
+        unified() ? roughness() : 0.0, constant("SPECULARLOBECONSTANT"), constant("SPECULARSPIKECONSTANT"),
+        constant("BACKSCATTERCONSTANT"));
   }
 
   bool lobes_given() const {
@@ -99,16 +100,16 @@ class SurfaceImporter {
   }
 
   void metal() {
-    if (!polished() && model_ == "glisur" && roughness() < 1.0) return no_polish();
+    if (!polished() && glisur() && roughness() < 1.0) return no_polish();
     if (!table("REALRINDEX").empty() && table("REFLECTIVITY").empty()) {
       result_.notes.push_back("its reflectance follows from a complex index, which has no counterpart here");
       return;
     }
-    if (!polished() && model_ == "unified" && lobes_given()) {
+    if (!polished() && unified() && lobes_given()) {
       result_.notes.push_back("a rough metal with lobes has no counterpart here");
       return;
     }
-    const bool mirror = polished() || model_ == "glisur";
+    const bool mirror = polished() || glisur();
     result_.toml = std::string("base = \"geant4_") + (mirror ? "polished" : "ground") + "frontpainted\"\n" +
                    reflectance() + transmittance();
   }
@@ -134,9 +135,9 @@ class SurfaceImporter {
     if (std::any_of(reflectivity.value.begin(), reflectivity.value.end(), [](double r) { return r < 1.0; }))
       result_.notes.push_back(
           "its REFLECTIVITY below 1, by which Geant4 absorbs light before it is reflected or refracted");
-    if (polished() || (model_ == "glisur" && roughness() >= 1.0)) {
+    if (polished() || (glisur() && roughness() >= 1.0)) {
       result_.toml = "base = \"geant4_polished\"\n";
-    } else if (model_ == "glisur") {
+    } else if (glisur()) {
       no_polish();
     } else {
       result_.toml = "base = \"geant4_ground\"\n" + facets();

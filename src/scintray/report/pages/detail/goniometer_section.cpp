@@ -1,4 +1,4 @@
-#include "scintray/report/pages/detail/goniometer_section.hpp"
+#include "scintray/report/pages/detail/sections.hpp"
 
 #include <fmt/format.h>
 

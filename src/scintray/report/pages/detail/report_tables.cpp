@@ -1,4 +1,4 @@
-#include "scintray/report/pages/detail/report_tables.hpp"
+#include "scintray/report/pages/detail/sections.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "scintray/report/pages/detail/shift_section.hpp"
+#include "scintray/report/pages/detail/sections.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "scintray/report/pages/detail/tally_section.hpp"
+#include "scintray/report/pages/detail/sections.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scintray/analysis/light_analysis.hpp"
+#include "scintray/config/words.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/report/pages/detail/html_parts.hpp"
@@ -23,14 +24,27 @@ constexpr std::size_t kMostCells = 16;
 /// Rows of a table of names that are shown at once.
 constexpr std::size_t kMostRows = 400;
 
+/// How a tally is shown where its axes do not decide it.
+enum class TallyView { by_axes, crosstalk, etendue, hemisphere, hidden };
+constexpr config::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
+                                                   {"etendue", TallyView::etendue},
+                                                   {"angles", TallyView::hemisphere},
+                                                   {"emitted", TallyView::hidden}};
+
+TallyView view_of(const tally::TallyResult& tally) {
+  return config::find_word(kTallyViews, tally.type).value_or(TallyView::by_axes);
+}
+
 bool is_angle(const tally::TallyAxis& axis) { return axis.unit == "rad"; }
+
+bool is_position(const tally::TallyAxis& axis) { return axis.variable == "position"; }
 
 /// "x (mm)" for a position along an axis of the world, else the variable with its unit.
 std::string axis_label(const tally::TallyAxis& axis) {
   std::string name = axis.variable;
   static const char* const kAxes[] = {"x", "y", "z"};
   for (std::size_t k = 0; k < 3; ++k)
-    if (axis.variable == "position" && axis.along[k] == 1.0) name = kAxes[k];
+    if (is_position(axis) && axis.along[k] == 1.0) name = kAxes[k];
   std::replace(name.begin(), name.end(), '_', ' ');
   return axis.unit.empty() || axis.unit == "1" ? name
                                                : name + (is_angle(axis) ? " (deg)" : " (" + axis.unit + ")");
@@ -48,7 +62,6 @@ bool both(const tally::TallyResult& tally, bool (*is)(const tally::TallyAxis&)) 
 }
 bool is_named(const tally::TallyAxis& axis) { return !axis.names.empty(); }
 bool is_number(const tally::TallyAxis& axis) { return axis.names.empty(); }
-bool is_position(const tally::TallyAxis& axis) { return axis.variable == "position"; }
 
 std::string spread_text(const tally::TallyResult& tally) {
   const analysis::LightSpread spread = analysis::light_spread(tally);
@@ -150,16 +163,18 @@ std::string histogram(const tally::TallyResult& tally, const tally::PointResult&
 }
 
 std::string drawing(const tally::TallyResult& tally, const tally::PointResult& point, std::string& caption) {
-  if (tally.type == "crosstalk" && tally.axes[0].bins() <= kMostCells && tally.axes[1].bins() <= kMostCells) {
+  const TallyView view = view_of(tally);
+  if (view == TallyView::crosstalk && tally.axes[0].bins() <= kMostCells &&
+      tally.axes[1].bins() <= kMostCells) {
     caption += ". Share of the light of each row that each sensor detected.";
     return crosstalk_table(point, tally);
   }
   if (tally.axes.empty()) return "<p>" + escape_html(with_error(tally.at(0, point.photons))) + "</p>\n";
-  if (tally.type == "etendue") {
+  if (view == TallyView::etendue) {
     caption += ": " + etendue_text(tally);
     return "";
   }
-  if (tally.type == "angles") {
+  if (view == TallyView::hemisphere) {
     caption +=
         ". Seen along the normal; circles at 30, 60 and 90 deg; every cell has the same projected solid "
         "angle.";
@@ -194,7 +209,7 @@ std::string tally_section(const tally::RunResult& run) {
   std::string first, others;
   for (std::size_t i = 0; i < run.points.size(); ++i)
     for (const tally::TallyResult& tally : run.points[i].tallies) {
-      if (tally.type == "emitted") continue;
+      if (view_of(tally) == TallyView::hidden) continue;
       (i < kFewPoints ? first : others) += figure(tally, run.points[i]);
     }
   if (first.empty()) return "";
@@ -221,11 +236,12 @@ std::string tally_lines(const tally::PointResult& point) {
              within(tally.outside) + "\n";
   }
   for (const tally::TallyResult& tally : point.tallies) {
-    if (tally.type == "emitted") continue;
+    const TallyView view = view_of(tally);
+    if (view == TallyView::hidden) continue;
     if (tally.axes.empty())
       lines += tally.name + ": " + with_error(tally.per_photon(0, point.photons)) + " " + tally.score +
                " per photon\n";
-    else if (tally.type == "etendue")
+    else if (view == TallyView::etendue)
       lines += tally.name + ": " + etendue_text(tally) + "\n";
     else if (both(tally, is_position))
       lines += tally.name + ": " + spread_text(tally) + "\n";

@@ -5,6 +5,12 @@
 #include <vector>
 
 #include "scintray/analysis/event_analysis.hpp"
+#include "scintray/analysis/position/depth_curve.hpp"
+#include "scintray/analysis/position/depth_of_interaction.hpp"
+#include "scintray/analysis/position/flood_map.hpp"
+#include "scintray/analysis/spectrum/spread.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/event_orders.hpp"
 #include "scintray/report/plots/detail/grid_map.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 

@@ -5,6 +5,13 @@
 #include <string>
 
 #include "scintray/analysis/event_analysis.hpp"
+#include "scintray/analysis/position/confusion.hpp"
+#include "scintray/analysis/position/depth_curve.hpp"
+#include "scintray/analysis/position/depth_of_interaction.hpp"
+#include "scintray/analysis/position/flood_map.hpp"
+#include "scintray/analysis/spectrum/spread.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/event_orders.hpp"
 
 namespace scintray::report {
 

@@ -53,4 +53,23 @@ RawMap parse_converted_gwy(std::string_view content, const ReadRequest& request)
 /// size that the trailer declares, or what comes out, is more than most_unpacked or than `most` bytes.
 std::string gunzip(std::string_view packed, const std::string& file, std::size_t most);
 
+/// What came of asking the program.
+enum class GwyddionAnswer {
+  converted,
+  not_installed,  ///< no `gwyddion` on PATH
+  refused,        ///< it does not know the format either, or the file is damaged
+  timed_out,
+};
+
+struct GwyddionResult {
+  GwyddionAnswer answer = GwyddionAnswer::not_installed;
+  std::optional<RawMap> map;
+};
+
+/// Lets `gwyddion --convert-to-gwy` convert the file into a folder of its own and reads what came
+/// out. The program is started without a shell, a display or input, and is ended when the time is over.
+/// InputError from reading what it wrote (a channel that is not there, for one).
+GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
+                            std::chrono::milliseconds time_limit = std::chrono::minutes(1));
+
 }  // namespace scintray::topography

@@ -1,4 +1,4 @@
-#include "scintray/topography/detail/readers/gwyddion_program.hpp"
+#include "scintray/topography/detail/readers/formats.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -16,7 +16,6 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/input_file.hpp"
-#include "scintray/topography/detail/readers/formats.hpp"
 
 namespace scintray::topography {
 
@@ -24,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 31;
+constexpr std::uintmax_t kMostConverted = std::uintmax_t{1} << 31;
 
 /// A folder that is gone when this goes out of scope.
 class TemporaryFolder {
@@ -110,7 +109,7 @@ GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest
   if (!status) return {GwyddionAnswer::timed_out, {}};
   std::error_code missing;
   const auto size = fs::file_size(converted, missing);
-  if (*status != 0 || missing || size > kMostBytes) return {GwyddionAnswer::refused, {}};
+  if (*status != 0 || missing || size > kMostConverted) return {GwyddionAnswer::refused, {}};
   const std::optional<std::string> content = core::read_whole_file(converted);
   if (!content || !is_gwy(*content)) return {GwyddionAnswer::refused, {}};
   RawMap map = parse_converted_gwy(*content, request);

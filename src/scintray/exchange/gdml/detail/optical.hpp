@@ -1,5 +1,5 @@
 #pragma once
-/// The materials of a GDML file as media.
+/// The optics of a GDML file: its materials as media, its optical surfaces as surface definitions.
 
 #include <array>
 #include <map>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/exchange/gdml/detail/definitions.hpp"
+#include "scintray/exchange/gdml/detail/gdml_file.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -42,5 +43,15 @@ EnergyTable property(Node owner, const std::string& name, const GdmlFile& file,
 /// { wavelength = [...], ... } of a table, or its one number when it has one value only; carried on flat to
 /// the two wavelengths when they lie beyond it (0: not).
 std::string curve_toml(const EnergyTable& table, const std::string& unit, double low_nm, double high_nm);
+
+struct ImportedSurface {
+  std::string toml;                ///< the keys of [surfaces.NAME]; empty when it cannot be carried over
+  std::vector<std::string> notes;  ///< what was not carried over, and why
+};
+
+/// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
+/// dielectric_dielectric and dielectric_metal, the six finishes polished to groundbackpainted, as presets
+/// geant4_... of the library. Tables (LUT, Davis, dichroic) are not in the file and cannot be carried over.
+ImportedSurface import_surface(Node surface, const GdmlFile& file, const Definitions& definitions);
 
 }  // namespace scintray::exchange::gdml

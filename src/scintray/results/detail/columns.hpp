@@ -1,12 +1,51 @@
 #pragma once
-/// The tables of events, of what channels saw of them, and of the channels, column by column.
+/// The columns of a results file's tables: detected photons, events, what channels saw of them, the channels,
+/// and what wavelength shifters did.
 
 #include <cmath>
 
+#include "scintray/optics/wavelength_shifter.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/readout_channels.hpp"
+#include "scintray/tally/result.hpp"
 
 namespace scintray::results::format {
+
+/// Calls visit(name, member) for every column of a kind of row, which the null pointer names;
+/// `member(row)` is a reference to its value.
+template <typename Visit>
+void for_each_column(const tally::DetectedPhoton*, const Visit& visit) {
+  visit(
+      "point", [](auto& p) -> auto& { return p.point; });
+  visit(
+      "event", [](auto& p) -> auto& { return p.event; });
+  visit(
+      "photon", [](auto& p) -> auto& { return p.photon; });
+  visit(
+      "part", [](auto& p) -> auto& { return p.part; });
+  visit(
+      "face", [](auto& p) -> auto& { return p.face; });
+  visit(
+      "x_mm", [](auto& p) -> auto& { return p.position_mm[0]; });
+  visit(
+      "y_mm", [](auto& p) -> auto& { return p.position_mm[1]; });
+  visit(
+      "z_mm", [](auto& p) -> auto& { return p.position_mm[2]; });
+  visit(
+      "direction_x", [](auto& p) -> auto& { return p.direction[0]; });
+  visit(
+      "direction_y", [](auto& p) -> auto& { return p.direction[1]; });
+  visit(
+      "direction_z", [](auto& p) -> auto& { return p.direction[2]; });
+  visit(
+      "wavelength_nm", [](auto& p) -> auto& { return p.wavelength_nm; });
+  visit(
+      "time_ns", [](auto& p) -> auto& { return p.time_ns; });
+  visit(
+      "path_mm", [](auto& p) -> auto& { return p.path_mm; });
+  visit(
+      "interactions", [](auto& p) -> auto& { return p.interactions; });
+}
 
 /// A row of /events: an event without its channels, which are rows of /signals.
 struct EventRow {
@@ -89,6 +128,16 @@ void for_each_channel_number(const Visit& visit) {
 /// True when a channel has something to say of an event; other channels have no row.
 inline bool has_signal(const tally::ChannelRecord& record) {
   return record.detected > 0 || !std::isnan(record.charge);  // NaN: no readout
+}
+
+/// Calls `visit(name, member)` for each column; `member` points to the field of ShiftCount that it holds.
+template <typename Visit>
+void for_each_shift_column(Visit&& visit) {
+  visit("shifter_absorbed", &optics::ShiftCount::absorbed);
+  visit("shifter_emitted", &optics::ShiftCount::emitted);
+  visit("energy_before", &optics::ShiftCount::before_eV);
+  visit("energy_after", &optics::ShiftCount::after_eV);
+  visit("energy_kept", &optics::ShiftCount::kept_eV);
 }
 
 }  // namespace scintray::results::format
