@@ -1,6 +1,5 @@
 #include "scintray/mesh/import/import.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -8,14 +7,8 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import/detail/assimp_import.hpp"
 #include "scintray/mesh/import/detail/body_choice.hpp"
-#include "scintray/mesh/import/detail/collada_import.hpp"
 #include "scintray/mesh/import/detail/file_unit.hpp"
-#include "scintray/mesh/import/detail/gltf_import.hpp"
-#include "scintray/mesh/import/detail/ply_import.hpp"
-#include "scintray/mesh/import/detail/step_import.hpp"
-#include "scintray/mesh/import/detail/three_mf_import.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/weld.hpp"
 
@@ -28,17 +21,11 @@ std::string number_text(double value) {
   return text;
 }
 
-RawMesh read_raw(const std::filesystem::path& path, const std::string& extension,
+RawMesh read_raw(const std::filesystem::path& path, const MeshFormat& format,
                  const Tessellation& tessellation) {
   const std::string content = read_mesh_file(path);
-  check_claimed_sizes(path, extension, content);
-  if (extension == ".gltf") return import_gltf(path, content, false);
-  if (extension == ".glb") return import_gltf(path, content, true);
-  if (extension == ".ply") return import_ply(path, content);
-  if (extension == ".3mf") return import_3mf(path, content);
-  if (is_step(extension)) return import_step(path, content, tessellation);
-  if (extension == ".dae") return import_collada(path, content);
-  return import_through_assimp(path);
+  check_claimed_sizes(path, format.extension, content);
+  return format.read({path, content, tessellation});
 }
 
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {
@@ -58,17 +45,16 @@ void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {
 
 }  // namespace
 
-const std::vector<std::string>& mesh_extensions() {
-  static const std::vector<std::string> extensions = {".stl", ".obj",  ".ply", ".off",  ".3mf",
-                                                      ".dae", ".gltf", ".glb", ".step", ".stp"};
-  return extensions;
+const std::vector<std::string>& mesh_extensions() { return MeshFormats::built_in().extensions(); }
+
+bool is_step(const std::string& extension) {
+  const MeshFormat* format = MeshFormats::built_in().find(extension);
+  return format && format->is_step;
 }
 
-bool is_step(const std::string& extension) { return extension == ".step" || extension == ".stp"; }
-
 bool states_its_unit(const std::string& extension) {
-  return extension == ".gltf" || extension == ".glb" || extension == ".3mf" || extension == ".dae" ||
-         is_step(extension);
+  const MeshFormat* format = MeshFormats::built_in().find(extension);
+  return format && format->states_unit;
 }
 
 MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
@@ -79,18 +65,18 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
 
 MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string extension = lower_extension(path);
-  const auto& known = mesh_extensions();
-  if (std::find(known.begin(), known.end(), extension) == known.end()) {
+  const MeshFormat* format = options.formats->find(extension);
+  if (!format) {
     reject_file(path,
                 "\"" + extension + "\" is not a mesh format that can be read; expected one of " +
-                    core::list_of(mesh_extensions()),
+                    core::list_of(options.formats->extensions()),
                 "export the mesh in one of these formats");
   }
   if (!std::isfinite(options.scale) || options.scale <= 0.0)
     reject_file(path, "the mesh's scale is not a positive number", "give a factor above 0");
   Tessellation tessellation = options.tessellation;
   tessellation.deviation_mm /= options.scale;
-  RawMesh raw = read_raw(path, extension, tessellation);
+  RawMesh raw = read_raw(path, *format, tessellation);
   std::vector<std::string> unit_notes;
   const double scale = options.scale * resolve_unit(path, options.mm_per_unit, raw.unit, unit_notes);
   raw.notes.insert(raw.notes.begin(), unit_notes.begin(), unit_notes.end());

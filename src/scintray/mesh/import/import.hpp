@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/mesh/tessellation.hpp"
 #include "scintray/mesh/trimesh.hpp"
 
@@ -18,6 +19,9 @@ struct ImportOptions {
   double scale = 1.0;         ///< extra factor
   std::string body;           ///< name of the one body to take, or its number from 1 on; empty: all of them
   Tessellation tessellation;  ///< of curved CAD faces, after `scale`
+  /// What may be read; lives as long as the reading. Formats from outside are added to a list of the
+  /// caller's.
+  const MeshFormats* formats = &MeshFormats::built_in();
 };
 
 struct MeshImport {
@@ -58,14 +62,14 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
 /// The same with nothing but a unit: see ImportOptions::mm_per_unit.
 MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit);
 
-/// Endings (with the dot, lower case) that import_mesh reads.
+/// Endings (with the dot, lower case) of the formats that are built in.
 const std::vector<std::string>& mesh_extensions();
 
 /// Whether the ending (with the dot, lower case) is that of STEP, whose curved faces are cut in triangles.
 bool is_step(const std::string& extension);
 
 /// Whether files of this ending (with the dot, lower case) say in which unit they are, or their format
-/// does.
+/// does. False for one that is not built in.
 bool states_its_unit(const std::string& extension);
 
 }  // namespace scintray::mesh

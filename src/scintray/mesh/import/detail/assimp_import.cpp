@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/assimp_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
@@ -174,7 +174,8 @@ class SceneReader {
 
 }  // namespace
 
-RawMesh import_through_assimp(const std::filesystem::path& path) {
+RawMesh import_through_assimp(const MeshFile& file) {
+  const std::filesystem::path& path = file.path;
   WarningCapture warnings;
   Assimp::Importer importer;
   const aiScene* scene = nullptr;

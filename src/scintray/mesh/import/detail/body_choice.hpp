@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scintray/mesh/import/detail/raw_mesh.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::mesh {
 

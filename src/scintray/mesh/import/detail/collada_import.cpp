@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/collada_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -326,8 +326,6 @@ class ColladaReader {
 
 }  // namespace
 
-RawMesh import_collada(const std::filesystem::path& path, const std::string& content) {
-  return ColladaReader(path, content).read();
-}
+RawMesh import_collada(const MeshFile& file) { return ColladaReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/mesh/import/detail/raw_mesh.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::mesh {
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <string>
 
-#include "scintray/mesh/import/detail/raw_mesh.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/gltf_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <tiny_gltf.h>
 
@@ -249,14 +249,18 @@ class ModelReader {
   std::size_t without_positions_ = 0, leftover_indices_ = 0, skins_ = 0, morphs_ = 0;
 };
 
-}  // namespace
-
-RawMesh import_gltf(const std::filesystem::path& path, const std::string& content, bool binary) {
+RawMesh read_gltf(const MeshFile& file, bool binary) {
   std::vector<std::string> notes;
-  const tinygltf::Model model = load(path, content, binary, notes);
-  RawMesh raw = ModelReader(model, path).read();
+  const tinygltf::Model model = load(file.path, file.content, binary, notes);
+  RawMesh raw = ModelReader(model, file.path).read();
   raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
   return raw;
 }
+
+}  // namespace
+
+RawMesh import_gltf(const MeshFile& file) { return read_gltf(file, false); }
+
+RawMesh import_glb(const MeshFile& file) { return read_gltf(file, true); }
 
 }  // namespace scintray::mesh

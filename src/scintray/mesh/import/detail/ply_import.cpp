@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/ply_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <bit>
 #include <charconv>
@@ -187,8 +187,6 @@ class PlyReader {
 
 }  // namespace
 
-RawMesh import_ply(const std::filesystem::path& path, const std::string& content) {
-  return PlyReader(path, content).read();
-}
+RawMesh import_ply(const MeshFile& file) { return PlyReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "scintray/mesh/import/detail/raw_mesh.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::mesh {
 

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/step_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -340,20 +340,19 @@ std::string step_answer(const std::filesystem::path& path, const std::string& co
 
 }  // namespace
 
-RawMesh import_step(const std::filesystem::path& path, const std::string& content,
-                    const Tessellation& tessellation) {
+RawMesh import_step(const MeshFile& file) {
   constexpr std::size_t kAlways = std::size_t{2} << 30, kPerByte = 2000;
   constexpr unsigned kMostSeconds = 3600;
-  check_step_references(path, content);
+  check_step_references(file.path, file.content);
   const core::ChildAnswer answer =
-      core::run_in_child([&] { return step_answer(path, content, tessellation); },
-                         kAlways + kPerByte * content.size(), kMostSeconds);
+      core::run_in_child([&] { return step_answer(file.path, file.content, file.tessellation); },
+                         kAlways + kPerByte * file.content.size(), kMostSeconds);
   if (!answer.trouble.empty() || answer.bytes.empty())
-    reject_step(path, "Open CASCADE could not cope with it: " + answer.trouble);
+    reject_step(file.path, "Open CASCADE could not cope with it: " + answer.trouble);
   const std::string_view payload = std::string_view(answer.bytes).substr(1);
   if (answer.bytes.front() == kMesh) return from_bytes(payload);
   const std::size_t end = std::min(payload.find('\0'), payload.size() - 1);
-  reject_file(path, std::string(payload.substr(0, end)), std::string(payload.substr(end + 1)));
+  reject_file(file.path, std::string(payload.substr(0, end)), std::string(payload.substr(end + 1)));
 }
 
 }  // namespace scintray::mesh

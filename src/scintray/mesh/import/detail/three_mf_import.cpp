@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/three_mf_import.hpp"
+#include "scintray/mesh/import/detail/formats.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -227,8 +227,6 @@ class ThreeMfReader {
 
 }  // namespace
 
-RawMesh import_3mf(const std::filesystem::path& path, const std::string& content) {
-  return ThreeMfReader(path, content).read();
-}
+RawMesh import_3mf(const MeshFile& file) { return ThreeMfReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/raw_mesh.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 #include <algorithm>
 #include <array>

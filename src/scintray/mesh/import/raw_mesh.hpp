@@ -1,5 +1,5 @@
 #pragma once
-/// What a file format's reader hands over.
+/// What the reader of a mesh format returns.
 
 #include <cstddef>
 #include <cstdint>
