@@ -12,6 +12,10 @@
 
 #ifdef SCINTRAY_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
+/// Of a function that reads what TBB copied to it, before it can state the order.
+#define SCINTRAY_UNSEEN_BY_THREAD_SANITIZER __attribute__((no_sanitize_thread))
+#else
+#define SCINTRAY_UNSEEN_BY_THREAD_SANITIZER
 #endif
 
 namespace scintray::transport {
