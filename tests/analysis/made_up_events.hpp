@@ -16,8 +16,8 @@ struct MadeUpDetector {
   static constexpr std::size_t kSide = 4;
   static constexpr double kPitch_mm = 3.2, kLength_mm = 20.0, kAttenuation_mm = 50.0;
 
-  analysis::StudySetup setup() const {
-    analysis::StudySetup setup;
+  analysis::AnalysisSetup setup() const {
+    analysis::AnalysisSetup setup;
     for (const double z : {0.0, kLength_mm})
       for (std::size_t k = 0; k < kSide * kSide; ++k) setup.channels_mm.push_back(crystal_mm(k, z));
     setup.depth = analysis::DepthAxis{core::Vec3::Zero(), core::Vec3::UnitZ()};

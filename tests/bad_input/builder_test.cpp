@@ -1,4 +1,4 @@
-// Mistakes in builders and shapes: what is said, where, and how to mend it.
+// Mistakes in builders and shapes: what is stated, where, and how to mend it.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
@@ -171,7 +171,7 @@ TEST_CASE("what is wrong with every element is said once") {
       kScene, "[array.septa]",
       "[[array.element.face]]\nselect = { normal = [1, 1, 0] }\nsurface = \"polished\"\n[array.septa]"));
   REQUIRE(found.size() >= 1);
-  check_says(found[0].what, {"matches no face", "\"block[0,0,0]\""});
+  check_contains(found[0].what, {"matches no face", "\"block[0,0,0]\""});
   std::size_t times = 0;
   for (const Problem& problem : found) times += contains(problem.what, "matches no face");
   CHECK(times == 1);

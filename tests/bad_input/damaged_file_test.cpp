@@ -13,7 +13,7 @@ using namespace scintray::test;
 
 namespace {
 
-/// True when the text is refused. Every problem must say where and what.
+/// True when the text is refused. Every problem must state where and what.
 bool refused(const std::string& text) {
   const std::vector<Problem> found = problems_of([&] { SceneFile::from_text(text, "scene.toml"); });
   for (const Problem& problem : found) {

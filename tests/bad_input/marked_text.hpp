@@ -42,8 +42,8 @@ inline void check_one_problem(const MarkedText& input, const std::vector<core::P
   for (const core::Problem& problem : found) all += problem.text() + "\n";
   INFO("problems:\n" << all);
   REQUIRE(found.size() == 1);
-  check_says(found[0].what, what);
-  check_says(found[0].hint, hint);
+  check_contains(found[0].what, what);
+  check_contains(found[0].hint, hint);
   CHECK(found[0].where.line == input.line);
   CHECK(found[0].where.column == input.column);
 }

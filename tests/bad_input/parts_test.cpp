@@ -1,4 +1,4 @@
-// Parts that do not go together: the message names them and says where both stand.
+// Parts that do not go together: the message names them and states where both stand.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"

@@ -89,15 +89,15 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
     CAPTURE(picture);
     const Ended ended = run_program({"check", "bad.toml", "--picture", picture}, folder);
     CHECK(ended.exit_code == 1);
-    check_says(ended.output, {"\"crystal\"", "3 open edges"});
-    check_says(ended.output, {"medium", "cannot be known"});
-    check_says(ended.output, {"\"bare\"", "without a surface"});
-    check_says(ended.output, {"\"+z\"", "\"top\"", "\"bare\"", "triangle at"});
+    check_contains(ended.output, {"\"crystal\"", "3 open edges"});
+    check_contains(ended.output, {"medium", "cannot be known"});
+    check_contains(ended.output, {"\"bare\"", "without a surface"});
+    check_contains(ended.output, {"\"+z\"", "\"top\"", "\"bare\"", "triangle at"});
     CHECK(contains(ended.output, "parts: 2, marked problems: 3"));
     CHECK(std::filesystem::file_size(folder / picture) > 1000);
   }
   const std::string svg = content(folder / "bad.svg");
-  check_says(svg, {"&quot;crystal&quot;", "3 open edges"});
+  check_contains(svg, {"&quot;crystal&quot;", "3 open edges"});
   // Each of the three views has a ring for every place: 3 open edges, 1 bare face, 1 face of two rules,
   // some on one spot; and the legend one for each problem.
   std::size_t rings = 0;
@@ -109,7 +109,7 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
 
   const Ended other = run_program({"check", "bad.toml", "--picture", "bad.jpeg"}, folder);
   CHECK(other.exit_code == 1);
-  check_says(other.output, {".glb", ".svg"});
+  check_contains(other.output, {".glb", ".svg"});
 }
 
 TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
@@ -134,12 +134,12 @@ TEST_CASE("repair writes what it has, says what is left, and returns 1, when it 
   const Ended ended =
       run_program({"repair", "open.stl", "--unit", "mm", "--largest-hole", "1 mm", "-o", "same.stl"}, folder);
   CHECK(ended.exit_code == 1);
-  check_says(ended.output, {"not done:", "1 hole", "limit of 1 mm"});
-  check_says(ended.output, {"left:", "\"open.stl\"", "3 open edges"});
+  check_contains(ended.output, {"not done:", "1 hole", "limit of 1 mm"});
+  check_contains(ended.output, {"left:", "\"open.stl\"", "3 open edges"});
   CHECK(std::filesystem::exists(folder / "same.stl"));
-  check_says(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output, {"not", "which unit"});
-  check_says(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
-             {".stl", ".ply", "groups", ".glb"});
+  check_contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output, {"not", "which unit"});
+  check_contains(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
+                 {".stl", ".ply", "groups", ".glb"});
 }
 
 TEST_CASE("repair of a scene mends every mesh and writes a scene that names them") {
@@ -164,8 +164,8 @@ TEST_CASE("repair of a scene mends every mesh and writes a scene that names them
   const Ended checked = run_program({"check", "mended/scene.toml"}, folder);
   CHECK(checked.exit_code == 0);
   CHECK(contains(checked.output, "131097"));  // 8 cubic inches in mm3
-  check_says(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
-             {"output folder", "scene itself"});
+  check_contains(run_program({"repair", "scene.toml", "-o", "."}, folder).output,
+                 {"output folder", "scene itself"});
 }
 
 TEST_CASE("repair of a scene mends the meshes of arrays, of single bodies, and of sweeps") {
@@ -220,7 +220,7 @@ TEST_CASE("repair of a scene says which meshes it left, where, and how to mend t
   const Ended ended = run_program({"repair", "scene.toml", "--largest-hole", "3 mm", "-o", "mended"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == 1);
-  check_says(ended.output, {"left as it was: scene.toml:4:8: \"open.stl\"", "unit is swept"});
+  check_contains(ended.output, {"left as it was: scene.toml:4:8: \"open.stl\"", "unit is swept"});
   CHECK(contains(ended.output, "left as it was: scene.toml:10:8: \"broken.stl\""));
   CHECK(contains(ended.output, "scintray repair open.stl -o MENDED.glb"));
   CHECK(contains(content(folder / "mended/scene.toml"), "mesh = \"../open.stl\""));
@@ -239,6 +239,6 @@ TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mi
   const Ended ended = run_program({"check", "scene.toml", "--picture", "gaps.svg"}, folder);
   CHECK(ended.exit_code == 0);
   CHECK(contains(ended.output, "note: 2 separate surfaces"));
-  check_says(ended.output, {"warning:", "\"two\"", "\"plate\"", "0.001 mm apart at ("});
+  check_contains(ended.output, {"warning:", "\"two\"", "\"plate\"", "0.001 mm apart at ("});
   CHECK(contains(content(folder / "gaps.svg"), "are 0.001 mm apart"));
 }

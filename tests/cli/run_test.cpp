@@ -150,14 +150,14 @@ TEST_CASE("replay follows a photon to its end") {
   CHECK(contains(ended.output, "DETECTED"));
 }
 
-TEST_CASE("reweigh prints light under other optics and writes a table, and says what it cannot") {
+TEST_CASE("reweight prints light under other optics and writes a table, and says what it cannot") {
   std::string text = scene_text(5'000, false);
   text.replace(text.find("reflectance = 1.0"), 17, "reflectance = 0.9");
   text.replace(text.find("photon_list = false"), 19, "photon_history = true");
-  const auto folder = folder_with("reweigh", text);
+  const auto folder = folder_with("reweight", text);
   CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
   const auto did = [&](std::vector<std::string> arguments, int code, const std::string& words) {
-    arguments.insert(arguments.begin(), {"reweigh", "scene.h5"});
+    arguments.insert(arguments.begin(), {"reweight", "scene.h5"});
     const Ended ended = run_program(arguments, folder);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == code);

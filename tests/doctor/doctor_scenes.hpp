@@ -47,23 +47,23 @@ inline double area_between(const scene::Scene& scene, const std::string& a, cons
   return area;
 }
 
-/// Follows the first photons one by one and checks that each flight lies in the region it is said to be in.
-inline void check_flights(const scene::Scene& scene, const scene_file::SourceSpec& spec,
-                          std::uint64_t photons) {
-  constexpr double kShort_mm = 0.01;  // shorter flights say nothing about sides
+/// Follows the first photons one by one and checks that each flight lies in the region it is stated to be in.
+inline void check_propagation(const scene::Scene& scene, const scene_file::SourceSpec& spec,
+                              std::uint64_t photons) {
+  constexpr double kShort_mm = 0.01;  // shorter flights hold nothing about sides
   const source::PhotonSource source(spec, scene);
-  std::size_t flights = 0, astray = 0;
+  std::size_t propagations = 0, astray = 0;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {
     std::optional<source::Photon> before;
     simulation::replay(scene, source, {}, 0, photon, [&](const source::Photon& now, const transport::Step&) {
       if (before && (now.position - before->position).norm() > kShort_mm) {
-        ++flights;
+        ++propagations;
         astray += !scene.region_contains(before->region, 0.5 * (before->position + now.position));
       }
       before = now;
     });
   }
-  CHECK(flights > photons);
+  CHECK(propagations > photons);
   CHECK(astray == 0);
 }
 

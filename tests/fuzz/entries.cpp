@@ -81,7 +81,7 @@ bool run_gzip(const std::uint8_t* data, std::size_t size) {
   }
 }
 
-/// Whatever the content says that it is, as in read_height_map.
+/// Whatever the content states that it is, as in read_height_map.
 bool run_any(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   const topography::Format* format = topography::find_format(content);

@@ -215,7 +215,7 @@ std::vector<std::string> gdml_seeds() {
 
 /// A vertex of six bytes of text becomes three doubles in several copies, and its cell of the welding grid.
 constexpr std::size_t kPerMeshByte = 256;
-/// A few digits ask for a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
+/// A few digits request a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
 constexpr std::size_t kPerGdmlByte = 200'000;
 
 #ifdef SCINTRAY_TESTS_STEP

@@ -252,7 +252,7 @@ TEST_CASE("what a table absorbs is named when a pair is written, and can be aske
         doctest::Approx(1.0 - read.nodes(Side::inside)[40].reflectance));
   Rng rng(55, StreamKind::other, 0);
   Ray ray{{0.6, 0.0, -0.8}, Vec3::Zero()};
-  CHECK(read.meet(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
+  CHECK(read.interact(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
 }
 
 TEST_CASE(

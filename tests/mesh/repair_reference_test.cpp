@@ -95,7 +95,7 @@ TEST_CASE("Meshes of public collections: what each is diagnosed as, and what rep
     CHECK(repaired.after.bodies == expected.bodies);
     if (expected.mended)
       CHECK(repaired.after.volume_mm3 == doctest::Approx(expected.volume_mm3).epsilon(1e-4));
-    // Nothing is said to be mended that is not, and nothing changes that was sound.
+    // Nothing is stated to be mended that is not, and nothing changes that was sound.
     CHECK(repaired.after.sound() == mesh_problems(repaired.after, "x").empty());
   }
 }

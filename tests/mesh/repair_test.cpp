@@ -11,7 +11,7 @@
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::mesh;
-using test::check_says;
+using test::check_contains;
 using test::contains;
 
 namespace {
@@ -65,7 +65,7 @@ TEST_CASE("Holes are filled up to the stated size, with their neighbours' group"
   const RepairedMesh left = repair_mesh(box, small);
   CHECK(left.after.open_edges.count == 3);
   REQUIRE(left.refused.size() == 1);
-  check_says(left.refused[0], {"1 hole", "limit of 0.1 mm"});
+  check_contains(left.refused[0], {"1 hole", "limit of 0.1 mm"});
 }
 
 TEST_CASE("A large hole over several faces is filled when the limit allows it") {
@@ -176,7 +176,7 @@ TEST_CASE("What cannot be mended is said: sheets, and bodies that touch along an
   const RepairedMesh open = repair_mesh(sheet, settings);
   CHECK(open.after.open_edges.count == 4);
   REQUIRE(open.refused.size() == 1);
-  check_says(open.refused[0], {"1 open sheet", "encloses nothing"});
+  check_contains(open.refused[0], {"1 open sheet", "encloses nothing"});
 
   const RepairedMesh hinge = repair_mesh(welded(joined(unit_box(), unit_box({1, 1, 0}))));
   CHECK_FALSE(hinge.after.sound());

@@ -109,7 +109,7 @@ TEST_CASE("Law: diffuse reflectance of a smooth interface, both ways, and its n 
       Ray ray;
       ray.direction = sample_lambertian(-Vec3::UnitZ(), rng);
       ray.polarisation = sample_polarisation(ray.direction, rng);
-      reflected += !meet_facet(ray, Vec3::UnitZ(), n1, n2, rng);
+      reflected += !interact_at_facet(ray, Vec3::UnitZ(), n1, n2, rng);
       REQUIRE(std::abs(ray.direction.norm() - 1.0) < 1e-12);
       REQUIRE(std::abs(ray.polarisation.dot(ray.direction)) < 1e-9);
     }

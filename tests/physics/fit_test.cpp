@@ -41,7 +41,8 @@ struct FitCase {
 };
 
 std::string fit_scene_text(const FitCase& c, const std::filesystem::path& csv) {
-  std::string text = c.scene + kLibrary + fmt::format("[fit]\nmeasurement = \"{}\"\n{}", csv.string(), c.fit);
+  std::string text =
+      c.scene + kDatabase + fmt::format("[fit]\nmeasurement = \"{}\"\n{}", csv.string(), c.fit);
   for (const FittedKey& key : c.keys)
     text += fmt::format("[[fit.parameter]]\nkey = \"{}\"\nstart = {}\nlow = {}\nhigh = {}\n", key.key,
                         key.start, key.low, key.high);

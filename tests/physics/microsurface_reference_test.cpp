@@ -22,7 +22,7 @@ struct Depth {
 constexpr std::array<Depth, 5> kRough{
     {{2, 0.2117, 3.55}, {6, 0.1237, 3.90}, {10, 0.0764, 4.09}, {14, 0.0496, 4.11}, {18, 0.0363, 4.12}}};
 constexpr double kReferencePhotons = 100'000;
-/// Share of photons that the reference program says it may have misclassified.
+/// Share of photons that the reference program states it may have misclassified.
 constexpr double kReferenceSystematic = 0.003;
 
 std::string rough_map() { return source_file("tests/reference/microsurface/gaussian_rough.gsf").string(); }

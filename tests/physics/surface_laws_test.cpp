@@ -72,7 +72,7 @@ BothWays illuminate(const Surface& surface, Side side, std::uint64_t rays, std::
     Ray ray;
     ray.direction = sample_lambertian(into, rng);
     ray.polarisation = Vec3::Zero();
-    const SurfaceOutcome outcome = surface.meet(ray, side, kNormal, kIndex, 420.0, rng);
+    const SurfaceOutcome outcome = surface.interact(ray, side, kNormal, kIndex, 420.0, rng);
     if (outcome == SurfaceOutcome::absorbed) {
       ++counts.absorbed;
       continue;

@@ -19,7 +19,7 @@
 namespace scintray::test {
 
 /// Media, surfaces and sensors that the scenes of the tests share: indices without dispersion.
-inline const std::string kLibrary = R"(
+inline const std::string kDatabase = R"(
 [media.vacuum_n1]
 index = { n = 1.0 }
 absorption = { none = true }
@@ -71,12 +71,12 @@ struct Traced {
 
 /// Scene text plus the library above, with `photons` from `[source]`.
 inline scene_file::SceneSpec scene_spec(const std::string& text) {
-  return scene_file::SceneFile::from_text(text + kLibrary, source_file("test.toml").string()).spec(0);
+  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string()).spec(0);
 }
 
 /// A scene ready to be traced, with surface tables of its own.
 inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::SceneSpec spec) {
-  materials::SurfaceMaker::Hooks hooks;
+  materials::SurfaceFactory::Hooks hooks;
   hooks.cache.clear();
   scene::SceneBuilder builder(hooks);
   return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);

@@ -1,4 +1,4 @@
-/// The quickstart scene against what README says it prints, with another seed.
+/// The quickstart scene against what README states it prints, with another seed.
 
 #include <doctest/doctest.h>
 

@@ -49,7 +49,7 @@ std::size_t point_of(const Simulation& simulation, const std::vector<std::string
 
 /// Photoelectrons at 511 keV of a point.
 Estimate light_at(const SimulationPoint& point) {
-  StudySetup setup;
+  AnalysisSetup setup;
   for (const ReadoutChannel& channel : point.plan().channels.list)
     setup.channels_mm.push_back(channel.position);
   EventCollector collector(setup);
@@ -88,7 +88,7 @@ TEST_CASE("The curves and surfaces that the paper's claims name exist") {
   points.points.resize(file.points());
   for (std::size_t i = 0; i < file.points(); ++i) points.points[i].parameters = file.parameters(i);
   const SceneSpec spec = file.spec(0);
-  CHECK(spec.claims.size() == 25);
-  CHECK_NOTHROW(report::check_curves(points, spec.analysis.reference, spec.claims));
-  CHECK_NOTHROW(report::check_surface_claims(spec.benches, spec.claims));
+  CHECK(spec.criteria.size() == 25);
+  CHECK_NOTHROW(report::check_curves(points, spec.analysis.reference, spec.criteria));
+  CHECK_NOTHROW(report::check_surface_criteria(spec.goniometers, spec.criteria));
 }

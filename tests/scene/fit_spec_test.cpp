@@ -1,4 +1,4 @@
-// [fit] of scene files: what is read, and what is said of mistakes.
+// [fit] of scene files: what is read, and what is stated of mistakes.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -133,15 +133,15 @@ TEST_CASE("Mistakes in [fit] are named with their place and how to mend them") {
       with("\"surfaces.wrapped.mixture.ground.share\"", "@@\"surfaces.ground.unified.sigma_alpha\""),
       "is fitted twice", "one [[fit.parameter]]");
   const auto complaint = [&](const std::string& fit) { return complaint_of([&] { fit_file(fit); }); };
-  check_says(complaint(with("at = \"source.region.slab_z.center\"\n", "")),
-             {"[fit]", "no \"at\"", "detected_fraction"});
+  check_contains(complaint(with("at = \"source.region.slab_z.center\"\n", "")),
+                 {"[fit]", "no \"at\"", "detected_fraction"});
   const std::string reflectance = complaint(with("\"detected_fraction\"", "\"reflectance\""));
-  check_says(reflectance, {"\"at\"", "reflectance"});
-  check_says(reflectance, "[fit] has no \"goniometer\"");
-  check_says(reflectance, {"not a unit", "angle"});
-  check_says(complaint(with("scale = \"free\"\n", "")), "scale");
-  check_says(complaint(kFitTable.substr(0, kFitTable.find("[[fit.parameter]]"))), "nothing to find");
-  check_says(complaint(with("unit = \"mm\"\n", "unit = \"mm\"\nsacle = 1\n")), "sacle");
+  check_contains(reflectance, {"\"at\"", "reflectance"});
+  check_contains(reflectance, "[fit] has no \"goniometer\"");
+  check_contains(reflectance, {"not a unit", "angle"});
+  check_contains(complaint(with("scale = \"free\"\n", "")), "scale");
+  check_contains(complaint(kFitTable.substr(0, kFitTable.find("[[fit.parameter]]"))), "nothing to find");
+  check_contains(complaint(with("unit = \"mm\"\n", "unit = \"mm\"\nsacle = 1\n")), "sacle");
 }
 
 TEST_CASE("A value that a scene refuses at the bounds of a fit is found when the scene is read") {
@@ -149,5 +149,5 @@ TEST_CASE("A value that a scene refuses at the bounds of a fit is found when the
     fit_file(replaced(kFitTable, "key = \"surfaces.wrapped.mixture.ground.share\"\nstart = 0.4\nlow = 0",
                       "key = \"source.photons\"\nstart = 0.4\nlow = -1"));
   });
-  check_says(text, "photons");
+  check_contains(text, "photons");
 }

@@ -34,7 +34,7 @@ TEST_CASE("The boxes that touch another are those that a search through all find
     for (const Box& query : grid_boxes(2, 200)) {
       std::vector<std::uint32_t> expected;
       for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (boxes[i].meets(query)) expected.push_back(i);
+        if (boxes[i].overlaps(query)) expected.push_back(i);
       CHECK(tree.touching(query) == expected);
     }
     CHECK(tree.box(0).low == boxes[0].low);

@@ -150,9 +150,9 @@ TEST_CASE(
 }
 
 TEST_CASE("BGO makes more Cherenkov light of 511 keV than LSO; the numbers are printed") {
-  const Library library = Library::shipped();
-  const CherenkovEmitter in_bgo(library.medium("BGO"), 360.0, 690.0),
-      in_lso(library.medium("LSO"), 360.0, 690.0);
+  const MaterialDatabase database = MaterialDatabase::shipped();
+  const CherenkovEmitter in_bgo(database.medium("BGO"), 360.0, 690.0),
+      in_lso(database.medium("LSO"), 360.0, 690.0);
   for (const auto& row : {std::pair{"BGO", &in_bgo}, {"LSO", &in_lso}})
     MESSAGE(std::string(row.first) << ", 360 to 690 nm: threshold " << row.second->threshold_keV()
                                    << " keV, photons of 511 keV " << row.second->mean_photons(511.0)

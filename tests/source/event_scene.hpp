@@ -30,7 +30,7 @@ photons = 1
 [surfaces.flat]
 model = "smooth"
 )";
-  materials::SurfaceMaker::Hooks hooks;
+  materials::SurfaceFactory::Hooks hooks;
   hooks.cache.clear();
   return scene::SceneBuilder(hooks).build(scene_file::SceneFile::from_text(text, scene_path()).spec(0)).scene;
 }
@@ -87,7 +87,7 @@ inline double deposited_keV(const source::Event& event) {
   return sum;
 }
 
-/// What an InputError says in full.
+/// What an InputError states in full.
 template <class Action>
 std::string complaint(const Action& action) {
   try {

@@ -33,7 +33,7 @@ std::set<std::string> documented_keys() {
   return keys;
 }
 
-/// Keys that the reader asks for, whatever is in the file.
+/// Keys that the reader requests, whatever is in the file.
 std::set<std::string> read_keys() {
   std::set<std::string> keys;
   for (const std::string text :

@@ -5,21 +5,21 @@
 
 namespace scintray::test {
 
-inline analysis::SurfaceStudy made_up_surface(const std::string& surface, const std::string& outside) {
-  analysis::SurfaceStudy study;
-  study.bench = "Faces";
-  study.place = {surface, "LSO", outside, 420.0};
-  study.index = {1.82, 1.0};
-  study.rays = 1000;
-  study.incidence_rad = {0.0, 20.0 * core::kDegree, 45.0 * core::kDegree};
-  study.reflectance = {{0.15, 0.011}, {0.33, 0.015}, {0.8, 0.013}};
-  study.slope_rad = {{18.0 * core::kDegree, 0.1 * core::kDegree},
-                     {19.0 * core::kDegree, 0.2 * core::kDegree},
-                     {21.0 * core::kDegree, 0.0}};
-  analysis::GoniometerReading& reading = study.directions;
+inline analysis::SurfaceAnalysis made_up_surface(const std::string& surface, const std::string& outside) {
+  analysis::SurfaceAnalysis analysis;
+  analysis.goniometer = "Faces";
+  analysis.place = {surface, "LSO", outside, 420.0};
+  analysis.index = {1.82, 1.0};
+  analysis.rays = 1000;
+  analysis.incidence_rad = {0.0, 20.0 * core::kDegree, 45.0 * core::kDegree};
+  analysis.reflectance = {{0.15, 0.011}, {0.33, 0.015}, {0.8, 0.013}};
+  analysis.slope_rad = {{18.0 * core::kDegree, 0.1 * core::kDegree},
+                        {19.0 * core::kDegree, 0.2 * core::kDegree},
+                        {21.0 * core::kDegree, 0.0}};
+  analysis::GoniometerReading& reading = analysis.directions;
   reading.settings.incidence_rad = 45.0 * core::kDegree;
   reading.settings.wavelength_nm = 420.0;
-  reading.settings.rays = study.rays;
+  reading.settings.rays = analysis.rays;
   reading.reflected = 800;
   reading.transmitted = 190;
   reading.absorbed = 10;
@@ -30,7 +30,7 @@ inline analysis::SurfaceStudy made_up_surface(const std::string& surface, const 
   reading.transmitted_directions.profile[90] = 17;
   reading.reflected_lobe.rays = reading.reflected;
   reading.reflected_lobe.width_in_plane = 0.5;  // sine of 30 deg
-  return study;
+  return analysis;
 }
 
 }  // namespace scintray::test

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests ask of texts and of errors.
+/// What the tests check of texts and of errors.
 
 #include <doctest/doctest.h>
 
@@ -46,7 +46,7 @@ class Fragments {
 };
 
 /// Checks for these fragments in one line, and shows the text where they are missing.
-inline void check_says(const std::string& text, const Fragments& fragments) {
+inline void check_contains(const std::string& text, const Fragments& fragments) {
   CAPTURE(text);
   CAPTURE(fragments.text());
   CHECK(fragments.all_in_one_line(text));

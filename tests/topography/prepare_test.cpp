@@ -231,7 +231,7 @@ TEST_CASE("a map without any height cannot be filled, and one with gaps is no su
   CHECK(contains(complaint_of([&] { make_height_field(holed); }), "fill"));
   const std::size_t steps = holed.steps.size();
   fill_missing(holed);
-  fill_missing(holed);  // nothing is left to do, and nothing is said
+  fill_missing(holed);  // nothing is left to do, and nothing is stated
   CHECK(holed.steps.size() == steps + 1);
 }
 

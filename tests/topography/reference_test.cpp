@@ -40,7 +40,7 @@ Estimate reflectance(const HeightField& field, Side side, double incidence, std:
 struct Reference {
   const char* file;
   std::array<double, 11> reflectance;
-  std::vector<std::pair<double, double>> slopes;  // incidence, mean slope met, deg
+  std::vector<std::pair<double, double>> slopes;  // incidence, mean visible slope, deg
 };
 
 }  // namespace
@@ -75,7 +75,7 @@ TEST_CASE("reflectance and slopes met agree with an independent tracing of two G
     for (const auto& row : reference.slopes) {
       const auto& incidence = row.first;
       const auto& slope = row.second;
-      const Estimate ours = mean_slope_met(field, Side::inside, incidence * kDegree, kRays);
+      const Estimate ours = mean_visible_slope(field, Side::inside, incidence * kDegree, kRays);
       test::evidence("microsurface_slope",
                      {std::filesystem::path(reference.file).stem().string(), fmt::format("{:g}", incidence),
                       fmt::format("{:.3f} ± {:.3f}", ours.value / kDegree, ours.error / kDegree),
@@ -180,7 +180,7 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
           const HeightFieldExit exit = field.follow(ray, side, x, y, kCrystalInAir, rng);
           disagree += (ray.direction.z() > 0.0) != (exit.side == Side::outside) ? 1 : 0;
           cut += exit.cut ? 1 : 0;
-          facets += exit.facets_met > 0 ? 1 : 0;
+          facets += exit.facet_interactions > 0 ? 1 : 0;
         }
     CHECK(disagree == 0);
     if (published.rays != kFewRays) CHECK(cut == 0);

@@ -16,8 +16,8 @@ using namespace scintray::optics;
 using namespace scintray::topography;
 
 namespace {
-double met(const HeightField& field, Side side, double degrees) {
-  return mean_slope_met(field, side, degrees * kDegree).value / kDegree;
+double visible_slope_deg(const HeightField& field, Side side, double degrees) {
+  return mean_visible_slope(field, side, degrees * kDegree).value / kDegree;
 }
 }  // namespace
 
@@ -35,8 +35,8 @@ TEST_CASE(
     CHECK(s.sq_um == doctest::Approx(0.45).epsilon(0.03));
     const HeightField field = make_height_field(map);
     for (const Side side : {Side::inside, Side::outside}) {
-      CHECK(std::abs(met(field, side, 0.0) - 18.0) < 1.0);
-      CHECK(std::abs(met(field, side, kGrazingStated_rad / kDegree) - 35.0) < 3.0);
+      CHECK(std::abs(visible_slope_deg(field, side, 0.0) - 18.0) < 1.0);
+      CHECK(std::abs(visible_slope_deg(field, side, kGrazingStated_rad / kDegree) - 35.0) < 3.0);
     }
     CHECK(map_warnings(map, s, map_texture(map)).empty());
   }
@@ -49,7 +49,7 @@ TEST_CASE("the polished recipe meets 1.25 deg at any incidence within +-0.05 um"
   CHECK(s.lowest_um > -0.056);
   const HeightField field = make_height_field(map);
   for (const double degrees : {0.0, 45.0, 80.0, 85.0})
-    CHECK(std::abs(met(field, Side::inside, degrees) - 1.25) < 0.05);
+    CHECK(std::abs(visible_slope_deg(field, Side::inside, degrees) - 1.25) < 0.05);
 }
 
 TEST_CASE("a Gaussian relief has its rms height and the slope of its correlation length") {

@@ -83,11 +83,13 @@ TEST_CASE("Every event's energy is in its record, and its photons in the fates")
   CHECK(energy.events_requested == 60);
   CHECK(energy.events == 60);
   CHECK(energy.started == doctest::Approx(60 * 300.0));
-  CHECK(energy.deposited + energy.escaped + energy.unseen == doctest::Approx(energy.started).epsilon(1e-9));
+  CHECK(energy.deposited + energy.escaped + energy.non_scintillating ==
+        doctest::Approx(energy.started).epsilon(1e-9));
   CHECK(energy.silent > 0);
   CHECK(energy.silent < 60);
   for (const EventRecord& event : traced.events) {
-    CHECK(event.energy_keV + event.escaped_keV + event.unseen_keV == doctest::Approx(300.0).epsilon(1e-5));
+    CHECK(event.energy_keV + event.escaped_keV + event.non_scintillating_keV ==
+          doctest::Approx(300.0).epsilon(1e-5));
     CHECK((event.energy_keV > 0.0f) == (event.emitted > 0));
     REQUIRE(event.channels.size() == 1);
     CHECK(event.channels[0].detected == event.detected);

@@ -1,6 +1,6 @@
 /// Speed of tracing a periodic height map, and of building tables from it.
 ///
-/// Embree is given one period of the map as triangles, and asked for the first hit only; a ray of ours is
+/// Embree is given one period of the map as triangles, and requested the first hit only; a ray of ours is
 /// followed until it leaves the map, over as many facets and periods as it takes.
 
 #include <fmt/format.h>
@@ -65,8 +65,8 @@ Followed follow(const optics::HeightField& field, double incidence) {
     optics::Ray ray{{std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
                      std::cos(incidence)},
                     core::Vec3::Zero()};
-    facets +=
-        static_cast<std::uint64_t>(field.follow(ray, optics::Side::inside, x, y, kIndex, rng).facets_met);
+    facets += static_cast<std::uint64_t>(
+        field.follow(ray, optics::Side::inside, x, y, kIndex, rng).facet_interactions);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {kRays / seconds, static_cast<double>(facets) / seconds};

@@ -1,5 +1,5 @@
 #pragma once
-/// All studies that the events of one point allow.
+/// All analyses that the events of one point allow.
 
 #include <array>
 #include <cstdint>
@@ -24,8 +24,8 @@
 
 namespace scintray::analysis {
 
-/// What the events do not say themselves, and how to look at them.
-struct StudySetup {
+/// What the events do not state themselves, and how to look at them.
+struct AnalysisSetup {
   std::vector<core::Vec3> channels_mm;                 ///< position of each readout channel, in order
   std::optional<DepthAxis> depth;                      ///< without: no depth, no depth of interaction
   std::map<std::uint32_t, std::size_t> layer_of_part;  ///< for parts in layers: 0, 1, ...; else empty
@@ -41,7 +41,7 @@ struct StudySetup {
       true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
 };
 
-struct EventStudy {
+struct EventAnalysis {
   std::uint64_t events = 0;    ///< of the point
   std::uint64_t pulses = 0;    ///< events with light in a channel
   std::uint64_t selected = 0;  ///< pulses that flood map, depth of interaction and timing saw
@@ -54,15 +54,15 @@ struct EventStudy {
   core::Estimate light_per_keV;  ///< light of the events over the energy that they left in scintillators
   std::optional<core::Estimate> mean_depth_mm;
   std::optional<DepthCurve> light_against_depth;  ///< the reference is the middle of the depths
-  std::optional<DoiStudy> doi;
-  std::optional<LayerStudy> layers_by_ratio;
+  std::optional<DoiAnalysis> doi;
+  std::optional<LayerAnalysis> layers_by_ratio;
   std::optional<Confusion> layers_by_flood;
   std::optional<FloodMap> flood;
   std::optional<Spread> pair_difference_ns;  ///< CTR: two such detectors, pick-off (first photon without)
   std::optional<Spread> first_photon_difference_ns;  ///< the same by the first photon
   std::optional<Spread> end_difference_ns;           ///< near end minus far end of one event
   std::optional<TimingDepth> timing_against_depth;
-  std::optional<OrderStudy> orders;  ///< CTR by the n-th photon, behind a readout that keeps their times
+  std::optional<OrderAnalysis> orders;  ///< CTR by the n-th photon, behind a readout that keeps their times
   std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
   std::vector<OrderSlice> orders_against_depth;
   std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
@@ -73,10 +73,10 @@ struct EventStudy {
 class EventCollector {
  public:
   /// @throws std::invalid_argument when a direction has no unit length
-  explicit EventCollector(StudySetup setup);
+  explicit EventCollector(AnalysisSetup setup);
   /// @throws InputError when the event has another number of channels than the setup
   void add(const tally::EventRecord& event);
-  EventStudy finish() const;
+  EventAnalysis finish() const;
 
  private:
   struct Row {
@@ -87,16 +87,16 @@ class EventCollector {
   };
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;
-  void study_light(EventStudy& study) const;
-  void study_depth(const std::vector<double>& depths, const std::vector<double>& light,
-                   EventStudy& study) const;
-  std::vector<const Row*> select(EventStudy& study) const;
-  void study_flood(const std::vector<const Row*>& rows, EventStudy& study) const;
-  void study_ends(const std::vector<const Row*>& rows, EventStudy& study) const;
-  void study_timing(const std::vector<const Row*>& rows, EventStudy& study) const;
-  void study_photon_orders(const std::vector<const Row*>& rows, EventStudy& study) const;
+  void analyze_light(EventAnalysis& analysis) const;
+  void analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,
+                     EventAnalysis& analysis) const;
+  std::vector<const Row*> select(EventAnalysis& analysis) const;
+  void analyze_flood(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_ends(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_timing(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_photon_orders(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
 
-  StudySetup setup_;
+  AnalysisSetup setup_;
   std::optional<ChannelLayout> layout_;
   std::vector<std::array<double, 2>> plane_mm_;  ///< across positions of the channels that make the flood map
   std::vector<std::size_t> plane_channels_;
@@ -108,10 +108,10 @@ class EventCollector {
 };
 
 /// The same for events at hand.
-EventStudy study_events(std::span<const tally::EventRecord> events, const StudySetup& setup);
+EventAnalysis analyze_events(std::span<const tally::EventRecord> events, const AnalysisSetup& setup);
 
 /// The point of a sweep in a depth curve: mean depth, and the photopeak where a fit locates it, else the
 /// mean light. Nothing without a depth or without light.
-std::optional<DepthPoint> depth_point(const EventStudy& study);
+std::optional<DepthPoint> depth_point(const EventAnalysis& analysis);
 
 }  // namespace scintray::analysis

@@ -1,5 +1,5 @@
 #pragma once
-/// What tallies of a result say about light: crosstalk, light spread, divergence, etendue.
+/// Light from the tallies of a result: crosstalk, light spread, divergence, etendue.
 
 #include <cstdint>
 #include <string>

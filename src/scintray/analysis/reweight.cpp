@@ -15,7 +15,7 @@ namespace {
 using As = WantedProperty::As;
 
 constexpr double kLeastEffective = 100.0, kLeastShare = 0.1, kLargestShare = 0.02, kHeaviestTail = 0.5;
-/// Fewer weights say nothing of a tail.
+/// Fewer weights hold nothing of a tail.
 constexpr std::size_t kLeastTail = 10;
 
 void check_change(const OpticalChange& change) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Lines that say the same of many things.
+/// Lines that are the same for many things.
 
 #include <cstddef>
 #include <map>

@@ -22,8 +22,8 @@ struct AnalyzeOptions {
   std::filesystem::path results, settings, page, readout, output;
 };
 
-/// Makes the electronics again where that is wanted; the result to study.
-std::filesystem::path result_to_study(const AnalyzeOptions& options) {
+/// Reruns the electronics where that is wanted; the result to analyze.
+std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
   if (options.readout.empty() != options.output.empty())
     throw CLI::ValidationError("--readout",
                                "other electronics make another result: give --readout FILE and "
@@ -31,29 +31,28 @@ std::filesystem::path result_to_study(const AnalyzeOptions& options) {
   if (options.readout.empty()) return options.results;
   const detector::ReadoutSpec readout =
       scene_file::readout_of_text(config::read_text_file(options.readout), options.readout.string());
-  simulation::read_out_again(options.results, results::read_results(options.results), readout,
-                             options.output);
+  simulation::rerun_readout(options.results, results::read_results(options.results), readout, options.output);
   return options.output;
 }
 
 void analyze(const AnalyzeOptions& options) {
-  const std::filesystem::path results = result_to_study(options);
+  const std::filesystem::path results = result_to_analyze(options);
   const tally::RunResult run = results::read_results(results);
   const scene_file::AnalysisSpec settings =
       options.settings.empty()
           ? scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file)
           : scene_file::analysis_of_text(config::read_text_file(options.settings), options.settings.string());
-  const std::vector<analysis::EventStudy> studies = simulation::study_results(results, run, settings);
-  if (studies.empty())
+  const std::vector<analysis::EventAnalysis> analyses = simulation::analyze_results(results, run, settings);
+  if (analyses.empty())
     throw core::InputError(
         core::Problem{{results.string()},
                       "this result has no events to analyse",
                       "run a scene whose [source] is one of energy (docs/gamma_sources.md)"});
-  std::vector<report::PointStudy> points;
-  for (std::size_t i = 0; i < studies.size(); ++i) {
-    points.push_back({report::point_label(run.points[i]), studies[i]});
-    if (studies.size() > 1) std::cout << points.back().label << "\n";
-    std::cout << report::event_lines(studies[i]);
+  std::vector<report::PointAnalysis> points;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    points.push_back({report::point_label(run.points[i]), analyses[i]});
+    if (analyses.size() > 1) std::cout << points.back().label << "\n";
+    std::cout << report::event_lines(analyses[i]);
   }
   if (!options.output.empty()) std::cout << "results  " << options.output.string() << "\n";
   if (options.page.empty()) return;
@@ -67,7 +66,7 @@ void analyze(const AnalyzeOptions& options) {
 void add_analyze_command(CLI::App& app) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = app.add_subcommand(
-      "analyze", "Study the events of a result: spectra, light against depth, flood maps, timing");
+      "analyze", "Analyze the events of a result: spectra, light against depth, flood maps, timing");
   command->add_option("RESULT", options->results, "results file (HDF5) of `scintray run`")->required();
   command->add_option("--settings", options->settings,
                       "a file with [analysis] (default: that of the scene in the result)");

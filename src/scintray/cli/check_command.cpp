@@ -99,7 +99,8 @@ void check_scene(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand("check", "Say what a scene is, or everything that is wrong with it");
+  CLI::App* command =
+      app.add_subcommand("check", "Describe a scene, or list everything that is wrong with it");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_flag("--every-point", options->every_point,
                     "print every point of a sweep, not only the first");

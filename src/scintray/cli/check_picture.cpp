@@ -62,8 +62,8 @@ void write_scene_glb(const std::filesystem::path& path, const std::vector<contac
 }  // namespace
 
 std::vector<contact::PlacedMesh> placed_for_picture(const scene_file::SceneSpec& spec) {
-  core::Problems told_elsewhere;
-  return scene::place_parts(spec, told_elsewhere);
+  core::Problems reported_elsewhere;
+  return scene::place_parts(spec, reported_elsewhere);
 }
 
 void expect_picture_name(const std::filesystem::path& path) {

@@ -92,7 +92,7 @@ class Printer {
       const std::string index =
           medium.is_opaque() ? "-" : fmt::format("{:.4f}", scene_.optics.index(region.medium, middle_nm));
       const std::string how = accelerator.uses_planes() ? fmt::format("{} planes", accelerator.plane_count())
-                              : accelerator.size() == 0 ? "nothing to meet"
+                              : accelerator.size() == 0 ? "no boundary"
                                                         : "Embree";
       add(rows, scene_.region_names[i],
           fmt::format("{:<22} {:>9} {:>10} {}", medium.medium().name, accelerator.size(), index, how));

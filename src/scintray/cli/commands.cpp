@@ -14,7 +14,7 @@ namespace scintray::cli {
 using CommandFunction = void(CLI::App& parent);
 CommandFunction add_run_command, add_check_command, add_import_command, add_repair_command,
     add_report_command, add_analyze_command, add_map_command, add_table_command, add_goniometer_command,
-    add_replay_command, add_response_command, add_reweigh_command, add_fit_command;
+    add_replay_command, add_response_command, add_reweight_command, add_fit_command;
 CommandFunction add_map_describe_command, add_map_prepare_command, add_map_synthesize_command;
 CommandFunction add_table_list_command, add_table_compare_command, add_table_build_command,
     add_table_stack_command, add_table_show_command, add_table_export_command, add_table_import_command;
@@ -22,7 +22,7 @@ CommandFunction add_table_list_command, add_table_compare_command, add_table_bui
 namespace {
 
 /// Exit code for a command line that was not run, after explaining it: 0 for --help and --version,
-/// the code a command asked for with CLI::RuntimeError, else bad usage.
+/// the code a command set with CLI::RuntimeError, else bad usage.
 int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out, std::ostream& err) {
   const int code = app.exit(error, out, err);
   const bool asked_for = code == 0 || error.get_name() == "RuntimeError";
@@ -30,9 +30,10 @@ int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out
 }
 
 constexpr std::array<AddCommand, 13> kCommands{
-    add_run_command,      add_check_command,   add_import_command, add_repair_command,     add_report_command,
-    add_analyze_command,  add_map_command,     add_table_command,  add_goniometer_command, add_replay_command,
-    add_response_command, add_reweigh_command, add_fit_command,
+    add_run_command,        add_check_command,   add_import_command,   add_repair_command,
+    add_report_command,     add_analyze_command, add_map_command,      add_table_command,
+    add_goniometer_command, add_replay_command,  add_response_command, add_reweight_command,
+    add_fit_command,
 };
 
 constexpr std::array<AddCommand, 3> kMapCommands{

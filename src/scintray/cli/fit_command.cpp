@@ -68,7 +68,7 @@ void run_fit(const FitOptions& options) {
   report::write_page(page, report::fit_page(record));
   std::cout << "report   " << page.string() << "\n";
   if (record.fit.end == analysis::FitEnd::stopped) {
-    std::cerr << "stopped: the fit is partial and says so\n";
+    std::cerr << "stopped: the fit is partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
   }
 }
@@ -78,7 +78,7 @@ void run_fit(const FitOptions& options) {
 void add_fit_command(CLI::App& app) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* command =
-      app.add_subcommand("fit", "Find parameters of a scene from a measured curve, as its [fit] says");
+      app.add_subcommand("fit", "Find parameters of a scene from a measured curve, as its [fit] states");
   command->add_option("SCENE", options->scene, "scene file (TOML) with [fit]")->required();
   command->add_option("-o,--output", options->output,
                       "results file (default: SCENE's name with _fit.h5, here)");

@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t kRays = 1'000'000;
 
 struct GoniometerOptions {
-  BenchOptions bench;
+  SampleOptions sample;
   std::string surface, outside = "air", side = "inside", half_width = "5 deg", measured, page, csv, cells;
   std::vector<std::string> angles;
   bool on_the_spot = false;
@@ -55,11 +55,11 @@ void print_readings(const std::vector<analysis::GoniometerReading>& readings) {
 }
 
 /// In-plane profiles of all readings. Lines that start with # are passed over by our own reader.
-std::string profile_csv(const analysis::BenchSurface& bench,
+std::string profile_csv(const analysis::SampleSurface& sample,
                         const std::vector<analysis::GoniometerReading>& readings) {
   const analysis::GoniometerSettings& s = readings.front().settings;
   std::string out = fmt::format("# {}, {}; within {:g} deg of the plane of incidence; densities in 1/sr\n",
-                                bench.place.surface, report::bench_text(bench, s.side),
+                                sample.place.surface, report::sample_text(sample, s.side),
                                 s.profile_half_width_rad / core::kDegree);
   out += "incidence_deg,angle_deg,reflected,reflected_error,transmitted,transmitted_error\n";
   const double solid_angle = analysis::profile_bin_sr(s.profile_half_width_rad);
@@ -76,11 +76,11 @@ std::string profile_csv(const analysis::BenchSurface& bench,
   return out;
 }
 
-std::string cell_csv(const analysis::BenchSurface& bench,
+std::string cell_csv(const analysis::SampleSurface& sample,
                      const std::vector<analysis::GoniometerReading>& readings) {
   const analysis::GoniometerSettings& s = readings.front().settings;
-  std::string out = fmt::format("# {}, {}; {} rays an incidence\n", bench.place.surface,
-                                report::bench_text(bench, s.side), s.rays);
+  std::string out = fmt::format("# {}, {}; {} rays an incidence\n", sample.place.surface,
+                                report::sample_text(sample, s.side), s.rays);
   out +=
       "incidence_deg,polar_low_deg,polar_high_deg,azimuth_low_deg,azimuth_high_deg,solid_angle_sr,"
       "reflected_rays,transmitted_rays\n";
@@ -104,8 +104,8 @@ void write(const std::string& path, const std::string& content) {
 void run_goniometer(const GoniometerOptions& options) {
   analysis::GoniometerSettings settings;
   settings.side = options.side == "inside" ? optics::Side::inside : optics::Side::outside;
-  settings.rays = options.bench.rays;
-  settings.seed = options.bench.seed;
+  settings.rays = options.sample.rays;
+  settings.seed = options.sample.seed;
   settings.profile_half_width_rad = angle_rad(options.half_width);
   std::vector<double> angles;
   for (const std::string& angle : options.angles) angles.push_back(angle_rad(angle));
@@ -120,18 +120,18 @@ void run_goniometer(const GoniometerOptions& options) {
 
   const InterruptGuard guard;
   ProgressLine line(true);
-  materials::SurfaceMaker maker = watched_maker(line);
-  const analysis::BenchPlace place = place_of(options.bench, options.surface, options.outside);
+  materials::SurfaceFactory factory = watched_factory(line);
+  const analysis::SamplePlace place = place_of(options.sample, options.surface, options.outside);
   settings.wavelength_nm = place.wavelength_nm;
-  const analysis::BenchSurface bench =
-      analysis::make_bench_surface(library_of(options.bench), maker, place, options.on_the_spot);
+  const analysis::SampleSurface sample =
+      analysis::make_sample_surface(database_of(options.sample), factory, place, options.on_the_spot);
   line.clear();
-  const auto readings = analysis::sweep_incidence(bench.surface, bench.index, settings, angles);
+  const auto readings = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);
 
   std::cout << fmt::format(
       "surface      {}\nbetween      {}\nrays         {} an angle, seed {}, unpolarised\n", options.surface,
-      report::bench_text(bench, settings.side), settings.rays, settings.seed);
-  for (const std::string& warning : bench.warnings) std::cout << "warning: " << warning << "\n";
+      report::sample_text(sample, settings.side), settings.rays, settings.seed);
+  for (const std::string& warning : sample.warnings) std::cout << "warning: " << warning << "\n";
   print_readings(readings);
   std::optional<report::Overlay> overlay;
   if (measured) {
@@ -140,9 +140,9 @@ void run_goniometer(const GoniometerOptions& options) {
                               std::filesystem::path(options.measured).filename().string()};
     std::cout << "\nmeasured     " << report::overlay_text(*overlay) << "\n";
   }
-  if (!options.csv.empty()) write(options.csv, profile_csv(bench, readings));
-  if (!options.cells.empty()) write(options.cells, cell_csv(bench, readings));
-  if (!options.page.empty()) write(options.page, report::goniometer_page(bench, readings, overlay));
+  if (!options.csv.empty()) write(options.csv, profile_csv(sample, readings));
+  if (!options.cells.empty()) write(options.cells, cell_csv(sample, readings));
+  if (!options.page.empty()) write(options.page, report::goniometer_page(sample, readings, overlay));
 }
 
 }  // namespace
@@ -150,12 +150,13 @@ void run_goniometer(const GoniometerOptions& options) {
 void add_goniometer_command(CLI::App& app) {
   auto options = std::make_shared<GoniometerOptions>();
   CLI::App* command = app.add_subcommand(
-      "goniometer", "Shoot a beam at a surface of the library and show where its light goes");
-  command->add_option("SURFACE", options->surface, "Surface of the library, or of the scene")->required();
+      "goniometer", "Shoot a beam at a surface of the material database and show where its light goes");
+  command->add_option("SURFACE", options->surface, "Surface of the material database, or of the scene")
+      ->required();
   command->add_option("--angle", options->angles, "Angle of incidence, as \"45 deg\"; several are allowed")
       ->required()
       ->allow_extra_args(false);
-  add_bench_options(*command, options->bench, kRays);
+  add_sample_options(*command, options->sample, kRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
   command->add_option("--side", options->side, "Side that the light comes from")
       ->check(CLI::IsMember({"inside", "outside"}))

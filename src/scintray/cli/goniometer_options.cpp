@@ -9,7 +9,7 @@
 
 namespace scintray::cli {
 
-void add_bench_options(CLI::App& app, BenchOptions& options, std::uint64_t rays) {
+void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t rays) {
   options.rays = rays;
   app.add_option("--inside", options.inside, "Medium of the part whose face it is")->capture_default_str();
   app.add_option("--wavelength", options.wavelength, "Wavelength of the light")->capture_default_str();
@@ -20,21 +20,21 @@ void add_bench_options(CLI::App& app, BenchOptions& options, std::uint64_t rays)
   app.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 
-materials::Library library_of(const BenchOptions& options) {
-  return options.scene.empty() ? materials::Library::shipped()
-                               : scene::library_for(scene_file::SceneFile::load(options.scene).spec(0));
+materials::MaterialDatabase database_of(const SampleOptions& options) {
+  return options.scene.empty() ? materials::MaterialDatabase::shipped()
+                               : scene::database_for(scene_file::SceneFile::load(options.scene).spec(0));
 }
 
-analysis::BenchPlace place_of(const BenchOptions& options, const std::string& surface,
-                              const std::string& outside) {
+analysis::SamplePlace place_of(const SampleOptions& options, const std::string& surface,
+                               const std::string& outside) {
   return {surface, options.inside, outside,
           core::parse_quantity(options.wavelength, core::Dimension::wavelength)};
 }
 
 double angle_rad(const std::string& text) { return core::parse_quantity(text, core::Dimension::angle); }
 
-materials::SurfaceMaker watched_maker(ProgressLine& line) {
-  return materials::SurfaceMaker(watched_surfaces(line));
+materials::SurfaceFactory watched_factory(ProgressLine& line) {
+  return materials::SurfaceFactory(watched_surfaces(line));
 }
 
 std::string share_text(const core::Estimate& share) {

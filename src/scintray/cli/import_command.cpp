@@ -92,15 +92,15 @@ void add_import_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->output,
                    "Scene file to write (.toml), or a folder for scene.toml")
       ->required();
-  command->add_option("--unit", arguments->unit, "Unit of a mesh file that does not say it, as mm or inch");
+  command->add_option("--unit", arguments->unit, "Unit of a mesh file that does not state it, as mm or inch");
   command->add_option("--deviation", arguments->deviation,
                       "Largest distance of triangles from curved faces (default: \"0.01 mm\")");
   command->add_option("--angle", arguments->angle,
                       "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
   command->add_option("--medium", arguments->media,
-                      "GDML: take this library medium for a material, as Air=air; may be repeated");
+                      "GDML: take this medium of the database for a material, as Air=air; may be repeated");
   command->add_option("--surface", arguments->surfaces,
-                      "GDML: take this library surface for an optical surface; may be repeated");
+                      "GDML: take this surface of the database for an optical surface; may be repeated");
   command->add_flag("--skip-unsupported", arguments->skip_unsupported,
                     "GDML: leave out volumes whose solid cannot be made, instead of stopping");
   command->callback([arguments] { import_scene(*arguments); });

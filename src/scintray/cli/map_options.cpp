@@ -74,9 +74,10 @@ void add_map_options(CLI::App& app, MapOptions& options) {
   app.add_option("--channel", options.channel,
                  "Channel of the file by name, as \"Height Sensor\"; without it, the height that a sensor "
                  "measured, else the height");
-  app.add_option("--pitch", options.pitch, "Distance of points where the file does not say, as \"0.175 um\"");
-  app.add_option("--width", options.width, "Width of the map where the file does not say, as \"90 um\"");
-  app.add_option("--unit", options.unit, "Unit of the heights where the file does not say, as um");
+  app.add_option("--pitch", options.pitch,
+                 "Distance of points where the file does not state it, as \"0.175 um\"");
+  app.add_option("--width", options.width, "Width of the map where the file does not state it, as \"90 um\"");
+  app.add_option("--unit", options.unit, "Unit of the heights where the file does not state it, as um");
   app.add_flag("--periodic", options.periodic, "The map is one period of a periodic surface");
 }
 

@@ -12,7 +12,7 @@ namespace scintray::cli {
 /// A length as "0.175 um", in um. InputError when it is none.
 double length_um(const std::string& text);
 
-/// What the reader is told beyond what the file says.
+/// What the reader is given beyond what the file states.
 struct MapOptions {
   std::string map, channel, pitch, width, unit;
   bool periodic = false;

@@ -53,7 +53,7 @@ void prepare_map(const PrepareArguments& arguments) {
 void add_map_prepare_command(CLI::App& map) {
   auto arguments = std::make_shared<PrepareArguments>();
   CLI::App* app = map.add_subcommand(
-      "prepare", "Crop, mend, filter and level a map, in that order, and say what became of it");
+      "prepare", "Crop, mend, filter and level a map, in that order, and print what became of it");
   add_map_options(*app, arguments->map);
   app->add_option("-o,--output", arguments->output, "Height map to write (.gsf)")->required();
   add_preparation_options(*app, arguments->preparation);

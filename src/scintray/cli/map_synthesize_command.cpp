@@ -145,14 +145,14 @@ topography::SlopeTarget target_of(const SynthesisArguments& a) {
 /// What each seed shows: a recipe is a class of surfaces, and a fit is for their mean.
 void print_seeds(topography::SynthesisRecipe recipe, std::uint32_t seeds) {
   std::cout << fmt::format("\n{:>6}{:>10}{:>12}{:>12}{:>22}{:>22}\n", "seed", "Sq um", "lowest um",
-                           "highest um", "slope met, normal deg", "grazing deg");
+                           "highest um", "visible slope, normal deg", "grazing deg");
   for (std::uint32_t k = 0; k < seeds; ++k, ++recipe.seed) {
     const topography::HeightMap map = topography::synthesize(recipe);
     const optics::HeightField field = topography::make_height_field(map);
     const topography::MapStatistics s = topography::map_statistics(map);
-    const core::Estimate normal = topography::mean_slope_met(field, optics::Side::inside, 0.0),
-                         grazing = topography::mean_slope_met(field, optics::Side::inside,
-                                                              topography::kGrazingStated_rad);
+    const core::Estimate normal = topography::mean_visible_slope(field, optics::Side::inside, 0.0),
+                         grazing = topography::mean_visible_slope(field, optics::Side::inside,
+                                                                  topography::kGrazingStated_rad);
     std::cout << fmt::format("{:>6}{:>10.4f}{:>12.3f}{:>12.3f}{:>13.2f} +- {:>4.2f}{:>14.2f} +- {:>4.2f}\n",
                              recipe.seed, s.sq_um, s.lowest_um, s.highest_um, normal.value / core::kDegree,
                              normal.error / core::kDegree, grazing.value / core::kDegree,
@@ -165,7 +165,7 @@ void synthesize_map(const SynthesisArguments& arguments) {
   if (!arguments.fit_normal.empty()) recipe = topography::fit_recipe(recipe, target_of(arguments));
   const topography::HeightMap map = topography::synthesize(recipe);
   print_summary(map);
-  print_slopes_met(topography::make_height_field(map));
+  print_visible_slopes(topography::make_height_field(map));
   if (arguments.seeds > 1) print_seeds(recipe, arguments.seeds);
   print_warnings(map);
   topography::write_gsf(arguments.output, map);
@@ -202,7 +202,7 @@ void add_map_synthesize_command(CLI::App& map) {
   auto arguments = std::make_shared<SynthesisArguments>();
   SynthesisArguments& a = *arguments;
   CLI::App* app =
-      map.add_subcommand("synthesize", "Make a height map from a recipe and say what slopes it shows");
+      map.add_subcommand("synthesize", "Make a height map from a recipe and print its visible slopes");
   app->add_option("kind", a.kind, "ground, polished, gaussian, fracture, saw_cut, k_correlation or spectrum")
       ->required()
       ->check(CLI::IsMember(

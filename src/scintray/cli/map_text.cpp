@@ -35,15 +35,15 @@ void print_summary(const topography::HeightMap& map) {
                            s.mean_slope_rad / core::kDegree, s.rms_slope_x, s.rms_slope_y);
 }
 
-void print_slopes_met(const optics::HeightField& field) {
+void print_visible_slopes(const optics::HeightField& field) {
   std::cout << fmt::format("\nmean slope met, deg\n{:>11}{:>18}{:>18}\n", "incidence", "from inside",
                            "from outside");
   for (const double degrees :
        {0.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 87.0, topography::kGrazingStated_rad / core::kDegree}) {
     const core::Estimate inside =
-        topography::mean_slope_met(field, optics::Side::inside, degrees * core::kDegree);
+        topography::mean_visible_slope(field, optics::Side::inside, degrees * core::kDegree);
     const core::Estimate outside =
-        topography::mean_slope_met(field, optics::Side::outside, degrees * core::kDegree);
+        topography::mean_visible_slope(field, optics::Side::outside, degrees * core::kDegree);
     std::cout << fmt::format("{:>11.2f}{:>9.2f} +- {:.2f}{:>9.2f} +- {:.2f}\n", degrees,
                              inside.value / core::kDegree, inside.error / core::kDegree,
                              outside.value / core::kDegree, outside.error / core::kDegree);
@@ -65,7 +65,7 @@ void print_description(const topography::HeightMap& map) {
     std::cout << fmt::format("{:<20}{:>16}  {}\n", number.name, number.value, number.meaning);
   const topography::MapStatistics statistics = topography::map_statistics(map);
   print_histogram(statistics);
-  if (statistics.missing == 0) print_slopes_met(topography::make_height_field(map));
+  if (statistics.missing == 0) print_visible_slopes(topography::make_height_field(map));
 }
 
 }  // namespace scintray::cli

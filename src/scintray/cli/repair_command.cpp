@@ -16,7 +16,7 @@ void add_repair_command(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("repair", "Mend a mesh, or all meshes of a scene, and say what was done");
+      app.add_subcommand("repair", "Mend a mesh, or all meshes of a scene, and print what was done");
   command->add_option("FILE", options->in, "mesh file, or scene file (.toml)")->required();
   command
       ->add_option(

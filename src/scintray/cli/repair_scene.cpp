@@ -20,7 +20,7 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
-/// A table that says of which mesh a part, or the elements of an array, are.
+/// A table that states of which mesh a part, or the elements of an array, are.
 struct MeshUse {
   const config::TomlNode* table = nullptr;
   std::string path;                            ///< as sweeps call it; empty where they cannot
@@ -77,7 +77,7 @@ std::vector<MeshUse> meshes_of(const config::TomlNode& scene) {
   return uses;
 }
 
-/// How a use reads its file; what is wrong with that is told where the scene is read.
+/// How a use reads its file; what is wrong with that is reported where the scene is read.
 mesh::ImportOptions options_of(const MeshUse& use) {
   mesh::ImportOptions options;
   if (const config::TomlNode* unit = use.find("unit", Kind::string))
@@ -192,10 +192,10 @@ class SceneRepairer {
     std::error_code error;
     if (node.text.empty() || !std::filesystem::is_regular_file(folder_ / path, error)) return;
     const auto& endings = mesh::mesh_extensions();
-    const bool told = std::any_of(left_.begin(), left_.end(), [&](const core::Problem& left) {
+    const bool reported = std::any_of(left_.begin(), left_.end(), [&](const core::Problem& left) {
       return left.where.text() == node.where.text();
     });
-    if (!told && std::find(endings.begin(), endings.end(), mesh::lower_extension(path)) != endings.end())
+    if (!reported && std::find(endings.begin(), endings.end(), mesh::lower_extension(path)) != endings.end())
       leave(node, "no part and no element of an array takes it as its mesh");
     if (path.is_absolute()) return;
     text.replace(node, std::filesystem::proximate(folder_ / path, out_).generic_string());

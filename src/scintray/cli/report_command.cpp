@@ -19,7 +19,7 @@ struct ReportOptions {
   bool text = false;
 };
 
-/// Beside the results file unless said otherwise; never over the results file itself.
+/// Beside the results file unless stated otherwise; never over the results file itself.
 std::filesystem::path page_path(const ReportOptions& options) {
   auto page = options.output;
   if (page.empty()) page = std::filesystem::path(options.results).replace_extension(".html");
@@ -33,11 +33,11 @@ std::filesystem::path page_path(const ReportOptions& options) {
 void report(const ReportOptions& options) {
   const tally::RunResult run = results::read_results(options.results);
   if (options.text) {
-    std::cout << report::text_summary(run, studies_of(options.results, run));
+    std::cout << report::text_summary(run, analysis_of(options.results, run));
     return;
   }
   const auto page = page_path(options);
-  report::write_report(page, run, studies_of(options.results, run));
+  report::write_report(page, run, analysis_of(options.results, run));
   std::cout << "report   " << page.string() << "\n";
 }
 

@@ -113,7 +113,7 @@ void run(const MappedRunOptions& options) {
   if (!options.quiet) print_events(result.points.front());
   std::cout << "results  " << options.output.string() << "\n";
   if (!result.complete()) {
-    std::cerr << "stopped: the results are partial and say so\n";
+    std::cerr << "stopped: the results are partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
   }
 }

@@ -16,26 +16,26 @@ namespace scintray::cli {
 
 namespace {
 
-struct ReweighOptions {
+struct ReweightOptions {
   std::filesystem::path results, output;
   std::vector<std::string> lengths, reflectances;
 };
 
-std::vector<simulation::PropertyScan> scans_of(const ReweighOptions& options) {
+std::vector<simulation::PropertyScan> scans_of(const ReweightOptions& options) {
   std::vector<simulation::PropertyScan> scans;
   for (const std::string& text : options.lengths)
     scans.push_back(parse_scan("--absorption-length", simulation::OpticalProperty::absorption_length, text));
   for (const std::string& text : options.reflectances)
     scans.push_back(parse_scan("--reflectance", simulation::OpticalProperty::reflectance, text));
   if (scans.empty())
-    throw CLI::ValidationError("reweigh",
+    throw CLI::ValidationError("reweight",
                                "nothing is wanted otherwise; give --absorption-length \"LSO=200 mm\" or "
                                "--reflectance \"PTFE=0.95\"");
   return scans;
 }
 
 std::string setting_text(const std::vector<simulation::PropertyScan>& scans,
-                         const simulation::ReweighedPoint& point) {
+                         const simulation::ReweightedPoint& point) {
   std::string text;
   for (std::size_t i = 0; i < scans.size(); ++i)
     text += (i == 0 ? "" : ", ") + describe(scans[i]) + " " +
@@ -44,9 +44,9 @@ std::string setting_text(const std::vector<simulation::PropertyScan>& scans,
 }
 
 void print(const tally::RunResult& run, const std::vector<simulation::PropertyScan>& scans,
-           const std::vector<simulation::ReweighedPoint>& points) {
+           const std::vector<simulation::ReweightedPoint>& points) {
   std::size_t last = run.points.size();
-  for (const simulation::ReweighedPoint& point : points) {
+  for (const simulation::ReweightedPoint& point : points) {
     if (point.point != last) {
       if (run.points.size() > 1) std::cout << report::point_label(run.points[point.point]) << "\n";
       std::cout << "as traced: detected " << report::percent_with_error(point.traced_fraction);
@@ -83,9 +83,9 @@ std::string column_name(const simulation::PropertyScan& scan) {
   return describe(scan) + (scan.times ? " (factor)" : length ? " (mm)" : "");
 }
 
-std::string csv_of(const ReweighOptions& options, const tally::RunResult& run,
+std::string csv_of(const ReweightOptions& options, const tally::RunResult& run,
                    const std::vector<simulation::PropertyScan>& scans,
-                   const std::vector<simulation::ReweighedPoint>& points) {
+                   const std::vector<simulation::ReweightedPoint>& points) {
   std::string text =
       fmt::format("# {}\n# reweighted by ScintRay {} from {}, which ScintRay {} traced of {}, seed {}\n",
                   run.header.title, core::version(), options.results.filename().string(), run.header.version,
@@ -97,7 +97,7 @@ std::string csv_of(const ReweighOptions& options, const tally::RunResult& run,
       ",traced_fraction,traced_fraction_error,fraction,fraction_error,relative,relative_error,"
       "traced_per_event,traced_per_event_error,per_event,per_event_error,effective_photons,"
       "effective_share,largest_share,tail_shape,valid,reason\n";
-  for (const simulation::ReweighedPoint& point : points) {
+  for (const simulation::ReweightedPoint& point : points) {
     const analysis::Reweighted& light = point.light;
     text += std::to_string(point.point);
     for (const std::string& value : run.points[point.point].parameters) text += "," + csv_field(value);
@@ -113,11 +113,11 @@ std::string csv_of(const ReweighOptions& options, const tally::RunResult& run,
   return text;
 }
 
-void reweigh(const ReweighOptions& options) {
+void reweight(const ReweightOptions& options) {
   const std::vector<simulation::PropertyScan> scans = scans_of(options);
   const tally::RunResult run = results::read_results(options.results);
-  const std::vector<simulation::ReweighedPoint> points =
-      simulation::reweigh_results(options.results, run, scans);
+  const std::vector<simulation::ReweightedPoint> points =
+      simulation::reweight_results(options.results, run, scans);
   if (!run.complete()) std::cout << "partial result: " << run.partial_reason << "\n";
   print(run, scans, points);
   if (options.output.empty()) return;
@@ -127,10 +127,10 @@ void reweigh(const ReweighOptions& options) {
 
 }  // namespace
 
-void add_reweigh_command(CLI::App& app) {
-  auto options = std::make_shared<ReweighOptions>();
+void add_reweight_command(CLI::App& app) {
+  auto options = std::make_shared<ReweightOptions>();
   CLI::App* command = app.add_subcommand(
-      "reweigh", "A result under other absorption lengths and reflectances, without tracing again");
+      "reweight", "A result under other absorption lengths and reflectances, without tracing again");
   command
       ->add_option("RESULT", options->results,
                    "results file (HDF5) of a scene with photon_history = true in [run]")
@@ -146,7 +146,7 @@ void add_reweigh_command(CLI::App& app) {
                    "\"REFLECTOR=x0.98\"")
       ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "write a table (CSV)");
-  command->callback([options] { reweigh(*options); });
+  command->callback([options] { reweight(*options); });
 }
 
 }  // namespace scintray::cli

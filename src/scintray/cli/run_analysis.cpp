@@ -8,22 +8,22 @@
 
 namespace scintray::cli {
 
-void check_claims(const scene_file::SceneFile& scene) {
+void check_criteria(const scene_file::SceneFile& scene) {
   const scene_file::SceneSpec spec = scene.spec(0);
-  report::check_surface_claims(spec.benches, spec.claims);
-  if (spec.claims.empty() && spec.analysis.reference.empty()) return;
+  report::check_surface_criteria(spec.goniometers, spec.criteria);
+  if (spec.criteria.empty() && spec.analysis.reference.empty()) return;
   tally::RunResult points;
   points.header.sweep_keys = scene.sweep_keys();
   points.points.resize(scene.points());
   for (std::size_t i = 0; i < scene.points(); ++i) points.points[i].parameters = scene.parameters(i);
-  report::check_curves(points, spec.analysis.reference, spec.claims);
+  report::check_curves(points, spec.analysis.reference, spec.criteria);
 }
 
-report::RunStudies studies_of(const std::filesystem::path& results, const tally::RunResult& run) {
+report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run) {
   const scene_file::AnalysisSpec analysis =
       scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file);
-  return {simulation::study_results(results, run, analysis), analysis.reference,
-          scene_file::claims_of_text(run.header.scene_text, run.header.scene_file),
+  return {simulation::analyze_results(results, run, analysis), analysis.reference,
+          scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
           results::read_surfaces(results)};
 }
 

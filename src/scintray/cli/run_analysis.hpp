@@ -10,9 +10,10 @@
 namespace scintray::cli {
 
 /// Finds before a run what its page would find too late: curves that the scene does not have.
-void check_claims(const scene_file::SceneFile& scene);
+void check_criteria(const scene_file::SceneFile& scene);
 
-/// Studies of the file's events, with the [analysis] and the claims of the scene that the run is of.
-report::RunStudies studies_of(const std::filesystem::path& results, const tally::RunResult& run);
+/// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene that the run
+/// is of.
+report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
 
 }  // namespace scintray::cli

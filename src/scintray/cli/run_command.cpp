@@ -29,7 +29,7 @@ struct RunOptions {
   bool quick = false;
 };
 
-/// Results go where the command line says, then where the scene says, then beside the working folder
+/// Results go where the command line states, then where the scene states, then beside the working folder
 /// under the scene's name.
 std::filesystem::path output_path(const RunOptions& options, const std::filesystem::path& scene,
                                   const scene_file::SceneFile& file) {
@@ -61,7 +61,7 @@ simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
 
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
-  check_claims(file);
+  check_criteria(file);
   ProgressLine line(!options.quiet);
   const std::filesystem::path output = output_path(options, scene, file);
   simulation::Simulation simulation(file, simulation_options(options, line));
@@ -69,17 +69,17 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const tally::RunResult result = simulation.run_all(results, simulation_hooks(line));
   line.clear();
 
-  const report::RunStudies studies = studies_of(output, result);
-  if (!options.quiet) std::cout << report::text_summary(result, studies);
+  const report::RunAnalysis analyses = analysis_of(output, result);
+  if (!options.quiet) std::cout << report::text_summary(result, analyses);
   std::cout << "results  " << output.string() << "\n";
   if (!options.no_report) {
     auto page = output;
     page.replace_extension(".html");
-    report::write_report(page, result, studies);
+    report::write_report(page, result, analyses);
     std::cout << "report   " << page.string() << "\n";
   }
   if (!result.complete()) {
-    std::cerr << "stopped: the results are partial and say so\n";
+    std::cerr << "stopped: the results are partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
   }
 }

@@ -21,7 +21,7 @@ constexpr std::uint64_t kComparedRays = 200'000;
 constexpr std::uint64_t kDirectionFactor = 10;
 
 struct CompareOptions {
-  BenchOptions bench;
+  SampleOptions sample;
   std::vector<std::string> surfaces, outside{"air"};
   std::string angle = "45 deg", slopes, reflectance, directions;
   bool on_the_spot = false;
@@ -36,15 +36,15 @@ std::vector<double> incidences() {
 }
 
 /// The surfaces between the inside medium and one outside medium.
-std::vector<analysis::BenchSurface> make_all(const CompareOptions& options, const std::string& outside,
-                                             bool on_the_spot) {
+std::vector<analysis::SampleSurface> make_all(const CompareOptions& options, const std::string& outside,
+                                              bool on_the_spot) {
   ProgressLine line(true);
-  materials::SurfaceMaker maker = watched_maker(line);
-  const materials::Library library = library_of(options.bench);
-  std::vector<analysis::BenchSurface> all;
+  materials::SurfaceFactory factory = watched_factory(line);
+  const materials::MaterialDatabase database = database_of(options.sample);
+  std::vector<analysis::SampleSurface> all;
   for (const std::string& name : options.surfaces)
-    all.push_back(
-        analysis::make_bench_surface(library, maker, place_of(options.bench, name, outside), on_the_spot));
+    all.push_back(analysis::make_sample_surface(database, factory, place_of(options.sample, name, outside),
+                                                on_the_spot));
   return all;
 }
 
@@ -71,9 +71,9 @@ class Columns {
 
 analysis::GoniometerSettings settings_of(const CompareOptions& options) {
   analysis::GoniometerSettings settings;
-  settings.rays = options.bench.rays;
-  settings.seed = options.bench.seed;
-  settings.wavelength_nm = place_of(options.bench, "", "").wavelength_nm;
+  settings.rays = options.sample.rays;
+  settings.seed = options.sample.seed;
+  settings.wavelength_nm = place_of(options.sample, "", "").wavelength_nm;
   return settings;
 }
 
@@ -83,14 +83,15 @@ void write(const std::string& path, const report::Plot& plot) {
 }
 
 void slopes(const CompareOptions& options) {
-  const std::vector<analysis::BenchSurface> all = make_all(options, options.outside.front(), true);
-  const Columns columns("mean slope met from inside (deg) against incidence", options.surfaces);
-  report::Plot plot = report::incidence_plot("Mean slope met against incidence", "mean slope met (deg)");
+  const std::vector<analysis::SampleSurface> all = make_all(options, options.outside.front(), true);
+  const Columns columns("mean visible slope from inside (deg) against incidence", options.surfaces);
+  report::Plot plot =
+      report::incidence_plot("Mean visible slope against incidence", "mean visible slope (deg)");
   plot.series.resize(all.size());
   for (const double angle : incidences()) {
     std::vector<std::string> cells;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const core::Estimate slope = analysis::mean_slope_met(all[k].surface, optics::Side::inside, angle);
+      const core::Estimate slope = analysis::mean_visible_slope(all[k].surface, optics::Side::inside, angle);
       cells.push_back(
           fmt::format("{:.3f} +- {:.3f}", slope.value / core::kDegree, slope.error / core::kDegree));
       report::PlotSeries& series = plot.series[k];
@@ -105,14 +106,14 @@ void slopes(const CompareOptions& options) {
 
 /// Prints reflectances into one medium, and adds them to the plot.
 void reflectance_into(const CompareOptions& options, const std::string& outside, report::Plot& plot) {
-  const std::vector<analysis::BenchSurface> all = make_all(options, outside, options.on_the_spot);
+  const std::vector<analysis::SampleSurface> all = make_all(options, outside, options.on_the_spot);
   const optics::IndexPair index = all.front().index;
   const std::vector<double> angles = incidences();
   const std::string suffix = fmt::format(", n {:.2f}", index.outside);
   std::vector<std::vector<analysis::GoniometerReading>> readings;
-  for (const analysis::BenchSurface& bench : all) {
-    readings.push_back(analysis::sweep_incidence(bench.surface, index, settings_of(options), angles));
-    plot.series.push_back(report::reflectance_series(bench.place.surface + suffix, readings.back()));
+  for (const analysis::SampleSurface& sample : all) {
+    readings.push_back(analysis::sweep_incidence(sample.surface, index, settings_of(options), angles));
+    plot.series.push_back(report::reflectance_series(sample.place.surface + suffix, readings.back()));
   }
   plot.series.push_back(report::fresnel_series("Fresnel" + suffix, index.inside, index.outside));
 
@@ -139,7 +140,7 @@ void reflectance(const CompareOptions& options) {
 }
 
 void directions(const CompareOptions& options) {
-  const std::vector<analysis::BenchSurface> all =
+  const std::vector<analysis::SampleSurface> all =
       make_all(options, options.outside.front(), options.on_the_spot);
   analysis::GoniometerSettings settings = settings_of(options);
   settings.rays *= kDirectionFactor;
@@ -147,10 +148,10 @@ void directions(const CompareOptions& options) {
   report::Plot plot = report::profile_plot("Reflected directions in the plane of incidence");
   plot.log_y = true;
   std::vector<analysis::GoniometerReading> readings;
-  for (const analysis::BenchSurface& bench : all) {
-    readings.push_back(analysis::read_goniometer(bench.surface, bench.index, settings));
+  for (const analysis::SampleSurface& sample : all) {
+    readings.push_back(analysis::read_goniometer(sample.surface, sample.index, settings));
     plot.series.push_back(
-        report::profile_series(bench.place.surface, readings.back().reflected_directions, settings));
+        report::profile_series(sample.place.surface, readings.back().reflected_directions, settings));
   }
   const Columns columns(
       fmt::format("reflected light (1/sr) within {:g} deg of the plane of incidence, into {}, "
@@ -171,9 +172,9 @@ void directions(const CompareOptions& options) {
 
 void run_compare(const CompareOptions& options) {
   const InterruptGuard guard;
-  const analysis::BenchPlace place = place_of(options.bench, "", "");
+  const analysis::SamplePlace place = place_of(options.sample, "", "");
   std::cout << fmt::format("inside       {}, {:g} nm, light from inside, seed {}\n", place.inside,
-                           place.wavelength_nm, options.bench.seed);
+                           place.wavelength_nm, options.sample.seed);
   if (!options.slopes.empty()) slopes(options);
   if (!options.reflectance.empty()) reflectance(options);
   if (!options.directions.empty()) directions(options);
@@ -184,9 +185,10 @@ void run_compare(const CompareOptions& options) {
 void add_table_compare_command(CLI::App& table) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* command =
-      table.add_subcommand("compare", "Draw surfaces of the library in one plot, as SVG files");
-  command->add_option("SURFACE", options->surfaces, "Surfaces of the library, or of the scene")->required();
-  add_bench_options(*command, options->bench, kComparedRays);
+      table.add_subcommand("compare", "Draw surfaces of the material database in one plot, as SVG files");
+  command->add_option("SURFACE", options->surfaces, "Surfaces of the material database, or of the scene")
+      ->required();
+  add_sample_options(*command, options->sample, kComparedRays);
   command
       ->add_option("--outside", options->outside,
                    "Medium outside; of several, the first is that of slopes and directions")
@@ -196,8 +198,9 @@ void add_table_compare_command(CLI::App& table) {
       ->capture_default_str();
   command->add_flag("--on-the-spot", options->on_the_spot,
                     "Follow rays on the height maps themselves instead of their tables");
-  auto* slope_file = command->add_option(
-      "--slopes", options->slopes, "SVG file for the mean slope met, always on the height maps themselves");
+  auto* slope_file =
+      command->add_option("--slopes", options->slopes,
+                          "SVG file for the mean visible slope, always on the height maps themselves");
   auto* reflectance_file = command->add_option("--reflectance", options->reflectance,
                                                "SVG file for reflectance against incidence");
   auto* direction_file = command->add_option("--directions", options->directions,

@@ -67,14 +67,13 @@ void add_table_import_command(CLI::App& table) {
       ->check(CLI::IsMember({"davis", "lbnl"}));
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   app->add_option("--inside-index", arguments->settings.index.inside,
-                  "Refractive index of the crystal that the table was made for: the files do not say it")
+                  "Refractive index of the crystal that the table was made for: the files do not state it")
       ->required();
   app->add_option("--outside-index", arguments->settings.index.outside, "Refractive index outside")
       ->required();
-  app->add_option(
-         "--from-outside", arguments->from_outside,
-         "What becomes of light that meets the surface from outside, of which the files say nothing: "
-         "smooth (Fresnel), mirror or absorb")
+  app->add_option("--from-outside", arguments->from_outside,
+                  "What becomes of light incident from outside, of which the files state nothing: "
+                  "smooth (Fresnel), mirror or absorb")
       ->required()
       ->check(CLI::IsMember({"smooth", "mirror", "absorb"}));
   app->add_option("--unreflected", arguments->unreflected,

@@ -23,7 +23,7 @@ constexpr double kStep_deg = 2.5, kProfile_deg = 45.0;
 constexpr double kStated_deg[] = {0.0, 45.0, 80.0};
 
 struct ListOptions {
-  BenchOptions bench;
+  SampleOptions sample;
   std::string outside = "air", page;
 };
 
@@ -33,32 +33,32 @@ std::vector<double> sweep_angles() {
   return angles;
 }
 
-report::SurfaceReadings read_surface(analysis::BenchSurface bench, const BenchOptions& options) {
+report::SurfaceReadings read_surface(analysis::SampleSurface sample, const SampleOptions& options) {
   analysis::GoniometerSettings settings;
-  settings.wavelength_nm = bench.place.wavelength_nm;
+  settings.wavelength_nm = sample.place.wavelength_nm;
   settings.rays = options.rays;
   settings.seed = options.seed;
   report::SurfaceReadings readings;
   const std::vector<double> angles = sweep_angles();
-  readings.sweep = analysis::sweep_incidence(bench.surface, bench.index, settings, angles);
+  readings.sweep = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);
   settings.stream = angles.size();
   settings.incidence_rad = kProfile_deg * core::kDegree;
   settings.rays *= kProfileFactor;
-  readings.profile = analysis::read_goniometer(bench.surface, bench.index, settings);
-  readings.bench = std::move(bench);
+  readings.profile = analysis::read_goniometer(sample.surface, sample.index, settings);
+  readings.sample = std::move(sample);
   return readings;
 }
 
-report::SurfaceEntry make_entry(const std::string& name, const materials::Library& library,
-                                materials::SurfaceMaker& maker, const ListOptions& options) {
+report::SurfaceEntry make_entry(const std::string& name, const materials::MaterialDatabase& database,
+                                materials::SurfaceFactory& factory, const ListOptions& options) {
   report::SurfaceEntry entry;
   entry.name = name;
-  entry.outline = library.outline(name);
+  entry.outline = database.outline(name);
   if (!entry.outline.needs.empty()) return entry;
   try {
     entry.readings = read_surface(
-        analysis::make_bench_surface(library, maker, place_of(options.bench, name, options.outside)),
-        options.bench);
+        analysis::make_sample_surface(database, factory, place_of(options.sample, name, options.outside)),
+        options.sample);
   } catch (const core::InputError& error) {
     entry.not_made = error.problems().front().what;
   }
@@ -101,17 +101,17 @@ void print_entry(const report::SurfaceEntry& entry) {
 void run_list(const ListOptions& options) {
   const InterruptGuard guard;
   ProgressLine line(true);
-  materials::SurfaceMaker maker = watched_maker(line);
-  const materials::Library library = library_of(options.bench);
-  const analysis::BenchPlace place = place_of(options.bench, "", options.outside);
-  library.medium(place.inside);  // a mistake here is one mistake, not one for each surface
-  library.medium(place.outside);
+  materials::SurfaceFactory factory = watched_factory(line);
+  const materials::MaterialDatabase database = database_of(options.sample);
+  const analysis::SamplePlace place = place_of(options.sample, "", options.outside);
+  database.medium(place.inside);  // a mistake here is one mistake, not one for each surface
+  database.medium(place.outside);
   const std::string under =
       fmt::format("{} to {}, {:g} nm, light from inside", place.inside, place.outside, place.wavelength_nm);
   std::cout << "surfaces     " << under << "\n";
   std::vector<report::SurfaceEntry> entries;
-  for (const std::string& name : library.names(materials::LibraryKind::surface)) {
-    entries.push_back(make_entry(name, library, maker, options));
+  for (const std::string& name : database.names(materials::DefinitionKind::surface)) {
+    entries.push_back(make_entry(name, database, factory, options));
     line.clear();
     print_entry(entries.back());
   }
@@ -124,9 +124,9 @@ void run_list(const ListOptions& options) {
 
 void add_table_list_command(CLI::App& table) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command =
-      table.add_subcommand("list", "Print every surface of the library, and show them side by side");
-  add_bench_options(*command, options->bench, kListedRays);
+  CLI::App* command = table.add_subcommand(
+      "list", "Print every surface of the material database, and show them side by side");
+  add_sample_options(*command, options->sample, kListedRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
   command->add_option("--page", options->page, "HTML page to write");
   command->callback([options] { run_list(*options); });

@@ -21,7 +21,7 @@ optics::Medium side_medium(const std::string& name, double index, const std::str
     throw core::InputError({{},
                             "the medium " + side + " is " + (name.empty() ? "not given" : "given twice"),
                             "give either --" + side + " MEDIUM, as LSO, or --" + side + "-index, as 1.82"});
-  if (!name.empty()) return materials::Library::shipped().medium(name);
+  if (!name.empty()) return materials::MaterialDatabase::shipped().medium(name);
   optics::Medium medium;
   medium.name = fmt::format("index {:g}", index);
   medium.index = core::Curve::constant(index);
@@ -50,7 +50,7 @@ void add_tracing_options(CLI::App& app, TracingOptions& options) {
   app.add_flag("--directional", options.settings.directional,
                "For surfaces with direction: a slice of the table for every azimuth of incidence");
   app.add_flag("--reciprocal", options.settings.reciprocal,
-               "Make the table of a lossless surface exactly reciprocal, and say how far it was");
+               "Make the table of a lossless surface exactly reciprocal, and print how far it was");
   app.add_option("--seed", options.settings.seed, "Seed of the random numbers")->capture_default_str();
   app.add_option("--incidence-step", options.incidence_step, "Step of incidence, \"2.25 deg\" unless given");
   app.add_option("--azimuth-step", options.azimuth_step, "Step of azimuth, \"9 deg\" unless given");

@@ -12,7 +12,7 @@ namespace scintray::cli {
 
 /// How a table is traced, and between what.
 struct TracingOptions {
-  std::string inside, outside;                     ///< media of the library
+  std::string inside, outside;                     ///< media of the database
   double inside_index = 0.0, outside_index = 0.0;  ///< in place of media; 0: not given
   std::vector<std::string> wavelengths;
   std::string incidence_step, azimuth_step;
@@ -36,7 +36,7 @@ topography::TableSettings settings_of(const TracingOptions& options);
 using BuildTable = std::function<optics::SurfaceTable(const topography::TableProgress&)>;
 optics::SurfaceTable build_with_progress(const BuildTable& build);
 
-/// Writes the table and says what it holds; a warning when a stated error was not reached.
+/// Writes the table and states what it holds; a warning when a stated error was not reached.
 void write_and_report(const std::string& path, const optics::SurfaceTable& table);
 
 }  // namespace scintray::cli

@@ -33,7 +33,7 @@ std::string axes() {
     svg += text(kLeft + kPlotWidth + 8, y_of(tick / 90.0) + 4, "start", fmt::format("{}", tick));
   svg += text(kLeft + 0.5 * kPlotWidth, kHeight - 18, "middle", "incidence (deg)");
   svg += text(kLeft, kTop - 10, "start", "reflectance (lines)");
-  svg += text(kLeft + kPlotWidth, kTop - 10, "end", "mean slope met, deg (dashed)");
+  svg += text(kLeft + kPlotWidth, kTop - 10, "end", "mean visible slope, deg (dashed)");
   return svg;
 }
 

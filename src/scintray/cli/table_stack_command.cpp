@@ -35,17 +35,17 @@ std::string describe(const materials::SurfaceSpec& spec) {
 }
 
 void build(const StackArguments& arguments) {
-  materials::Library library = materials::Library::shipped();
+  materials::MaterialDatabase database = materials::MaterialDatabase::shipped();
   if (!arguments.scene.empty())
-    scene::add_definitions(library, scene_file::SceneFile::load(arguments.scene).spec(0));
-  const materials::SurfaceSpec spec = materials::traced_on_the_spot(library.surface(arguments.surface));
+    scene::add_definitions(database, scene_file::SceneFile::load(arguments.scene).spec(0));
+  const materials::SurfaceSpec spec = materials::traced_on_the_spot(database.surface(arguments.surface));
   const Between media = between(arguments.tracing);
   core::Problems problems;
   for (const double at : media.wavelengths_nm) materials::check_cover(problems, spec, at, at);
   problems.throw_if_any();
   const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
   const optics::Surface surface =
-      materials::SurfaceMaker().make(spec, media.inside, media.outside, nm, nm, nm).surface;
+      materials::SurfaceFactory().make(spec, media.inside, media.outside, nm, nm, nm).surface;
   optics::TableProvenance provenance;
   if (surface.shifts())
     throw core::InputError(core::Problem{

@@ -4,8 +4,8 @@
 
 namespace scintray::cli {
 
-materials::SurfaceMaker::Hooks watched_surfaces(ProgressLine& line) {
-  materials::SurfaceMaker::Hooks hooks;
+materials::SurfaceFactory::Hooks watched_surfaces(ProgressLine& line) {
+  materials::SurfaceFactory::Hooks hooks;
   hooks.stop = [] { return InterruptGuard::requested().load(); };
   hooks.table_progress = [&line](const std::string& surface, double done) {
     line.show("building the table of " + surface, done, 1.0, "");

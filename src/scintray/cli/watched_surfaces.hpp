@@ -7,6 +7,6 @@
 namespace scintray::cli {
 
 /// Shows on the line how far a table is, and gives up on Ctrl-C. The line must live longer.
-materials::SurfaceMaker::Hooks watched_surfaces(ProgressLine& line);
+materials::SurfaceFactory::Hooks watched_surfaces(ProgressLine& line);
 
 }  // namespace scintray::cli

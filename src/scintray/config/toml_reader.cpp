@@ -19,7 +19,7 @@ struct TomlTable::Session {
   struct Marks {
     TomlNodePtr node;
     std::string path;
-    bool absent = false;  ///< stands for a table that is missing: nothing more is said about it
+    bool absent = false;  ///< stands for a table that is missing: nothing more is stated about it
     std::set<std::string> known, read, bad;
   };
   core::Problems* problems = nullptr;

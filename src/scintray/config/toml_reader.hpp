@@ -6,7 +6,7 @@
 ///     const double density = table.quantity("density", Dimension::density);
 ///     table.expect("density", density > 0.0, "a density must be positive");
 ///     const Curve index = table.curve("index", Dimension::dimensionless);
-///     table.finish();           // keys that nobody asked for are problems
+///     table.finish();           // keys that nobody read are problems
 ///     problems.throw_if_any();
 
 #include <cstdint>
@@ -139,7 +139,7 @@ class TomlTable {
     return find_word(words, choice(key, word_list(words), "")).value_or(fallback);
   }
 
-  /// Arrays. `count` 0 means any length, and one at least unless said otherwise. Empty when wrong
+  /// Arrays. `count` 0 means any length, and one at least unless stated otherwise. Empty when wrong
   /// or absent.
   std::vector<std::string> strings(const std::string& key, std::size_t count = 0, bool required = true) const;
   std::vector<double> numbers(const std::string& key, std::size_t count = 0, bool required = true) const;
@@ -184,7 +184,7 @@ class TomlTable {
   /// known key. Call once, on the outermost table, when everything has been read.
   void finish() const;
 
-  /// Every key asked for so far from this document, as "part.face.select", sorted. For tests that
+  /// Every key read so far from this document, as "part.face.select", sorted. For tests that
   /// compare with the documentation.
   std::vector<std::string> known_keys() const;
 

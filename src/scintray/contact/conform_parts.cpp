@@ -13,41 +13,41 @@ namespace scintray::contact {
 
 namespace {
 
-/// One contact: `keeper` keeps its shape and `taker` takes it over.
+/// One contact: `reference` keeps its shape and `conforming` takes it over.
 class Conformer {
  public:
-  Conformer(const PlacedMesh& keeper, PlacedMesh& taker, double tolerance, double flat_mm)
-      : keeper_(keeper),
-        taker_(taker),
+  Conformer(const PlacedMesh& reference, PlacedMesh& conforming, double tolerance, double flat_mm)
+      : reference_(reference),
+        conforming_(conforming),
         tolerance_(tolerance),
         flat_(flat_mm),
-        keeper_body_(geometry_of(keeper), Eigen::Matrix3d::Identity()),
-        taker_body_(geometry_of(taker), Eigen::Matrix3d::Identity()),
-        facing_(facing(taker_body_, keeper_body_, tolerance, flat_mm)) {}
+        reference_body_(geometry_of(reference), Eigen::Matrix3d::Identity()),
+        conforming_body_(geometry_of(conforming), Eigen::Matrix3d::Identity()),
+        facing_(facing(conforming_body_, reference_body_, tolerance, flat_mm)) {}
 
   bool faces() const { return count(Facing::covered) > 0 || count(Facing::partly) > 0; }
   bool covered() const { return count(Facing::covered) > 0 && count(Facing::partly) == 0; }
   /// Middle of the first triangle that lies partly within the tolerance.
   core::Vec3 partly_at() const {
     const auto found = std::find(facing_.begin(), facing_.end(), Facing::partly);
-    return mesh::centre_of(taker_.mesh, static_cast<std::size_t>(found - facing_.begin()));
+    return mesh::centre_of(conforming_.mesh, static_cast<std::size_t>(found - facing_.begin()));
   }
 
-  /// Changes the taker. Returns why it cannot, or nothing.
+  /// Changes the conforming side. Returns why it cannot, or nothing.
   std::string conform(const Eigen::Matrix3d& axes) {
     constexpr double kPush = 2.0;  // in tolerances: past the deepest sliver, with room
     std::vector<char> contact;
     for (const Facing f : facing_) contact.push_back(f == Facing::covered);
-    const mesh::TriMesh grown = pushed(taker_.mesh, taker_body_, contact, kPush * tolerance_);
-    const mesh::TriMesh tool = pushed(keeper_.mesh, keeper_body_, flush_ends(), kPush * tolerance_);
-    const auto cut = carve(grown, tool, axes, flat_);
+    const mesh::TriMesh grown = pushed(conforming_.mesh, conforming_body_, contact, kPush * tolerance_);
+    const mesh::TriMesh tool = pushed(reference_.mesh, reference_body_, flush_ends(), kPush * tolerance_);
+    const auto cut = difference_on_grid(grown, tool, axes, flat_);
     if (!cut) return "the result would be no proper solid";
     std::vector<std::uint32_t> face_of;
     double moved = 0.0;
     for (std::uint32_t t = 0; t < cut->origin.size(); ++t) {
       const mesh::TriangleOrigin& origin = cut->origin[t];
       if (!origin.of_second && contact[origin.triangle])
-        return "\"" + keeper_.name + "\" is too thin there for this tolerance";
+        return "\"" + reference_.name + "\" is too thin there for this tolerance";
       std::uint32_t own = origin.triangle;
       if (origin.of_second) {
         const Nearest replaced = replaced_by(cut->mesh, t);
@@ -55,43 +55,43 @@ class Conformer {
         moved = std::max(moved, replaced.distance);
         own = replaced.triangle;
       }
-      face_of.push_back(taker_.face_of[own]);
+      face_of.push_back(conforming_.face_of[own]);
     }
     const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
-    const auto unsound = mesh::mesh_problems(diagnosis, taker_.name);
+    const auto unsound = mesh::mesh_problems(diagnosis, conforming_.name);
     if (!unsound.empty()) return "afterwards " + unsound.front().what;
-    taker_.notes.push_back(fmt::format(
+    conforming_.notes.push_back(fmt::format(
         "took the shape of \"{}\" where they touch within {:.4g} mm: {} triangles in place of {}, moved by "
         "up to "
         "{:.2g} mm, volume {:.8g} instead of {:.8g} mm3",
-        keeper_.name, tolerance_,
+        reference_.name, tolerance_,
         std::count_if(cut->origin.begin(), cut->origin.end(), [](const auto& o) { return o.of_second; }),
-        count(Facing::covered), moved, diagnosis.volume_mm3, taker_.diagnosis.volume_mm3));
-    taker_.mesh = cut->mesh;
-    taker_.face_of = std::move(face_of);
-    taker_.diagnosis = diagnosis;
+        count(Facing::covered), moved, diagnosis.volume_mm3, conforming_.diagnosis.volume_mm3));
+    conforming_.mesh = cut->mesh;
+    conforming_.face_of = std::move(face_of);
+    conforming_.diagnosis = diagnosis;
     return {};
   }
 
  private:
   std::ptrdiff_t count(Facing what) const { return std::count(facing_.begin(), facing_.end(), what); }
 
-  /// Triangles of the keeper that lie in one surface with triangles of the taker: pushed outwards, the cut
-  /// does not graze those.
+  /// Triangles of the reference side that lie in one surface with triangles of the conforming side: pushed
+  /// outwards, the cut does not graze those.
   std::vector<char> flush_ends() const {
-    std::vector<char> flush(keeper_body_.triangles.size(), 0);
+    std::vector<char> flush(reference_body_.triangles.size(), 0);
     for (std::uint32_t t = 0; t < flush.size(); ++t)
-      for (const core::Vec3& point : samples_of(keeper_body_, t))
-        flush[t] |= nearest(taker_body_, point, keeper_body_.normal[t], false, tolerance_).found();
+      for (const core::Vec3& point : samples_of(reference_body_, t))
+        flush[t] |= nearest(conforming_body_, point, reference_body_.normal[t], false, tolerance_).found();
     return flush;
   }
 
-  /// The taker's own triangle that a new one stands for, and how far the new one strays from the taker's
-  /// surface.
+  /// The conforming side's own triangle that a new one stands for, and how far the new one strays from the
+  /// conforming side's surface.
   Nearest replaced_by(const mesh::TriMesh& mesh, std::uint32_t t) const {
     const core::Vec3 normal = mesh.area_vector(t).normalized();
     const auto beside = [&](const core::Vec3& point) {
-      return nearest(taker_body_, point, normal, false, 2.0 * tolerance_);
+      return nearest(conforming_body_, point, normal, false, 2.0 * tolerance_);
     };
     Nearest replaced = beside(mesh::centre_of(mesh, t));
     const auto& [a, b, c] = mesh.triangles[t];
@@ -103,11 +103,11 @@ class Conformer {
     return replaced;
   }
 
-  const PlacedMesh& keeper_;
-  PlacedMesh& taker_;
+  const PlacedMesh& reference_;
+  PlacedMesh& conforming_;
   double tolerance_, flat_;
-  Body keeper_body_, taker_body_;
-  std::vector<Facing> facing_;  ///< of the taker's triangles
+  Body reference_body_, conforming_body_;
+  std::vector<Facing> facing_;  ///< of the conforming side's triangles
 };
 
 void conform(PlacedMesh& first, PlacedMesh& second, const ConformingContact& spec,
@@ -153,7 +153,7 @@ void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<Conformi
     };
     const auto first = named(spec.first), second = named(spec.second);
     if (first == parts.end() || second == parts.end()) continue;  // reported where names are looked up
-    conform(*first, *second, spec, carving_axes({*first, *second}), flat_mm, problems);
+    conform(*first, *second, spec, difference_axes({*first, *second}), flat_mm, problems);
   }
 }
 

@@ -338,9 +338,9 @@ class Resolver {
 }  // namespace
 
 std::string also_at(const std::string& name, const core::FileLocation& where,
-                    const core::FileLocation& told) {
+                    const core::FileLocation& reported) {
   const std::string place = where.text();
-  return place.empty() || place == told.text() ? "" : "; '" + name + "' is at " + place;
+  return place.empty() || place == reported.text() ? "" : "; '" + name + "' is at " + place;
 }
 
 std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm) {

@@ -19,9 +19,10 @@ struct PlacedPart {
   core::FileLocation where = {};    ///< in the scene file
 };
 
-/// For a message about two parts whose place is that of the first, `told`: "; 'NAME' is at FILE:LINE:COLUMN"
-/// for the other one, or nothing when that is no other place.
-std::string also_at(const std::string& name, const core::FileLocation& where, const core::FileLocation& told);
+/// For a message about two parts whose place is that of the first, `reported`: "; 'NAME' is at
+/// FILE:LINE:COLUMN" for the other one, or nothing when that is no other place.
+std::string also_at(const std::string& name, const core::FileLocation& where,
+                    const core::FileLocation& reported);
 
 inline constexpr std::int32_t kAmbient = -1;
 inline constexpr std::int32_t kNoFace = -1;

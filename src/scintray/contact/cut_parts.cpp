@@ -50,7 +50,7 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
                     part.priority, by.name, by.priority, why, also_at(by.name, by.where, part.where)),
         hint, {{at.x(), at.y(), at.z()}});
   };
-  const auto cut = carve(part.mesh, by.mesh, axes, tolerance_mm);
+  const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
   if (!cut) return refuse("the result would be no proper solid", "move one of them a little");
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");
@@ -78,7 +78,7 @@ void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Pro
     return part.priority == parts.front().priority;
   });
   if (equal) return;
-  const Eigen::Matrix3d axes = carving_axes(parts);
+  const Eigen::Matrix3d axes = difference_axes(parts);
   for (const Cut& c : find_cuts(parts, axes, tolerance_mm))
     cut(parts[c.part], parts[c.by], axes, tolerance_mm, problems);
 }

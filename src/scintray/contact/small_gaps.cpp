@@ -22,7 +22,7 @@ core::Vec3 place_between(const Body& a, std::uint32_t ta, const Body& b, std::ui
 std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
                                       double share) {
   if (parts.empty()) return {};
-  const Eigen::Matrix3d axes = carving_axes(parts);
+  const Eigen::Matrix3d axes = difference_axes(parts);
   std::vector<Body> bodies;
   std::vector<double> limit;
   for (const PlacedMesh& part : parts) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A stop that was asked for.
+/// A stop that was requested.
 
 #include "scintray/core/error.hpp"
 

@@ -146,7 +146,7 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
                        H5Dclose);
   if (!dataset.valid()) state_->fail("create dataset", name);
   if (values.empty()) return;
-  // Flushed here, because an error at closing could no longer be told from one in another dataset.
+  // Flushed here, because an error at closing could no longer be distinguished from one in another dataset.
   if (H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0 ||
       H5Dflush(dataset.id()) < 0)
     state_->give_up("write dataset", name);

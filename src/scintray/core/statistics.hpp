@@ -62,7 +62,7 @@ ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<con
 
 /// Chi-square that two histograms are samples of one distribution, whatever their totals
 /// (Numerical Recipes 3rd ed., eq. 14.3.3); bins are merged until both together hold at least 20.
-/// An empty histogram says nothing about shape: p = 1, so compare totals as well.
+/// An empty histogram holds nothing about shape: p = 1, so compare totals as well.
 ChiSquare chi_square_two_samples(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b);
 
 }  // namespace scintray::core

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMostDarkCounts = 1e6;
 
-/// Fills what the avalanches themselves say.
+/// Fills what the avalanches themselves give.
 void count(std::span<const Avalanche> avalanches, const ReadoutSpec& readout, ChannelSignal& signal) {
   signal.order_times_ns.resize(readout.photon_order.size());
   std::uint64_t photons = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// A sensor with its electronics: converted photons in, what a digitiser would say out.
+/// A sensor with its electronics: converted photons in, what a digitiser gives out.
 
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace scintray::detector {
 
-/// What one channel says of one event. Times count from the start of the event.
+/// What one channel states of one event. Times count from the start of the event.
 struct ChannelSignal {
   std::uint64_t photoelectrons = 0;  ///< photons that the sensor converted
   /// Avalanches up to the end of the window, by AvalancheCause.

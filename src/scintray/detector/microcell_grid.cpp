@@ -49,15 +49,15 @@ std::uint32_t MicrocellGrid::at(const Arrival& arrival, core::Rng& rng) const {
 }
 
 std::span<const std::uint32_t> MicrocellGrid::neighbours(std::uint32_t cell,
-                                                         std::array<std::uint32_t, 8>& room) const {
+                                                         std::array<std::uint32_t, 8>& buffer) const {
   const std::uint32_t row = cell / columns_, column = cell % columns_;
   std::size_t found = 0;
   for (std::uint32_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, rows_ - 1); ++r)
     for (std::uint32_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, columns_ - 1); ++c) {
       const std::uint32_t other = r * columns_ + c;
-      if (other != cell && other < count_) room[found++] = other;
+      if (other != cell && other < count_) buffer[found++] = other;
     }
-  return {room.data(), found};
+  return {buffer.data(), found};
 }
 
 }  // namespace scintray::detector

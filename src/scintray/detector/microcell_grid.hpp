@@ -22,8 +22,8 @@ class MicrocellGrid {
   /// The cell at a place; beyond the edges the nearest one. Any cell when the place is not known.
   std::uint32_t at(const Arrival& arrival, core::Rng& rng) const;
   std::uint32_t any(core::Rng& rng) const;
-  /// The up to eight cells around one, written to `room`.
-  std::span<const std::uint32_t> neighbours(std::uint32_t cell, std::array<std::uint32_t, 8>& room) const;
+  /// The up to eight cells around one, written to `buffer`.
+  std::span<const std::uint32_t> neighbours(std::uint32_t cell, std::array<std::uint32_t, 8>& buffer) const;
 
  private:
   SensorFace face_;

@@ -1,5 +1,5 @@
 #pragma once
-/// The electronics behind every sensor, as a scene file asks for them (docs/readout.md).
+/// The electronics behind every sensor, as a scene file requests them (docs/readout.md).
 
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ enum class TimePickoff {
   cfd,            ///< constant fraction discriminator: v(t - delay) overtakes fraction * v(t)
 };
 
-/// Most samples of a waveform that a scene may ask for.
+/// Most samples of a waveform that a scene may request.
 inline constexpr std::uint64_t kMostSamples = 1'000'000;
 
 /// Times count from the start of the event. Amplitudes are in photoelectrons: one full avalanche alone has

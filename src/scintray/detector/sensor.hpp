@@ -10,7 +10,7 @@
 
 namespace scintray::detector {
 
-/// A sensor of the library (`materials/sensors/NAME.toml`).
+/// A sensor of the database (`materials/sensors/NAME.toml`).
 struct Sensor {
   std::string name;
   core::Curve efficiency;  ///< conversion probability against wavelength (nm), as published

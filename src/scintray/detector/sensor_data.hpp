@@ -1,5 +1,5 @@
 #pragma once
-/// What a sensor's data sheet says beside its efficiency: how an avalanche looks, and what fires one.
+/// What a sensor's data sheet states beside its efficiency: how an avalanche looks, and what fires one.
 
 #include <cstdint>
 #include <optional>

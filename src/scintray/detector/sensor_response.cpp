@@ -70,8 +70,8 @@ class FiringCells {
   /// geometric, and drawn as exponentials.
   void spread(const Carrier& carrier, double charge, core::Rng& rng) {
     if (neighbour_rate_ <= 0.0) return;
-    std::array<std::uint32_t, 8> room{};
-    const auto around = grid_.neighbours(carrier.cell, room);
+    std::array<std::uint32_t, 8> buffer{};
+    const auto around = grid_.neighbours(carrier.cell, buffer);
     const double rate = neighbour_rate_ * charge;
     double index = std::floor(core::sample_exponential(rng) / rate);
     while (index < static_cast<double>(around.size())) {

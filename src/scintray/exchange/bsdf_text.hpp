@@ -39,7 +39,7 @@ struct BsdfSettings {
 };
 
 /// Of transmitted light, specular angles that no refracted ray has are left out, and so is all light that
-/// meets the surface beyond the critical angle. InputError when nothing is left.
+/// is incident beyond the critical angle. InputError when nothing is left.
 Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
 
 /// Solid angle of each cell weighted by the cosine to the normal (sr), [azimuth][radial], on both sides of

@@ -52,7 +52,7 @@ struct DavisSettings {
 };
 
 /// Writes a table as a pair. Each number stands for the incidences of one whole degree, weighted as diffuse
-/// light meets a surface (sin x cos). Light that the table absorbs appears as transmitted.
+/// light is incident on a surface (sin x cos). Light that the table absorbs appears as transmitted.
 ///
 /// @return what the pair does not hold, one sentence each, for who uses it.
 std::vector<std::string> write_davis(const std::filesystem::path& directions,

@@ -16,8 +16,8 @@ namespace {
 /// Angles are written to 1e-5 rad; smaller ones would read as an empty pair.
 constexpr float kLeastAngle = 1e-5f;
 
-/// The incidences of one degree, weighted as diffuse light meets a surface: sin x cos, and by the share of
-/// the light that leaves one way.
+/// The incidences of one degree, weighted as diffuse light is incident on a surface: sin x cos, and by the
+/// share of the light that leaves one way.
 class Degree {
  public:
   Degree(const TableSide& side, Leaving way, int degree) : side_(side), way_(way) {

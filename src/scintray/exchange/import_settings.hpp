@@ -22,7 +22,7 @@ enum class Unreflected {
 };
 
 struct ImportSettings {
-  optics::IndexPair index;  ///< of the media the table was made for: no file says them
+  optics::IndexPair index;  ///< of the media the table was made for: no file states them
   FromOutside from_outside = FromOutside::smooth;
   Unreflected unreflected = Unreflected::transmitted;  ///< Davis
   double reflectance = 1.0;                            ///< LBNL: Geant4's REFLECTIVITY, in [0, 1]

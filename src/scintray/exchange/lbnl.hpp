@@ -40,7 +40,7 @@ optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSe
                                 const std::string& name);
 
 /// Both of the above from a file. A missing file named as one of the bare finishes, for which no data
-/// exist, says so.
+/// exist, states so.
 optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSettings& settings);
 
 }  // namespace scintray::exchange

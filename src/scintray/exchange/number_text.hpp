@@ -15,7 +15,7 @@ struct NumberCount {
 };
 
 /// The numbers of `content`, a text or one zlib stream (RFC 1950) of such a text; which of the two, the
-/// content itself says. Memory grows with what is there, at most to `count.most` numbers; what a stream
+/// content itself states. Memory grows with what is there, at most to `count.most` numbers; what a stream
 /// unpacks to is read in pieces and never kept. InputError, naming `file` and the number, when a word is no
 /// number or not finite, when there are too few or too many, and when the stream is damaged, unpacks to more
 /// than 32 bytes a number, or is followed by something.

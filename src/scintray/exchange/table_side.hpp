@@ -12,10 +12,10 @@ namespace scintray::exchange {
 enum class Leaving { reflected, transmitted };
 
 /// The slice of a table at one of its wavelengths; without a wavelength, the only one. InputError when there
-/// is none such, or several and none was asked for.
+/// is none such, or several and none was requested.
 std::size_t slice_at(const optics::SurfaceTable& table, std::optional<double> wavelength_nm);
 
-/// Light met from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller says
+/// Light met from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller states
 /// where in the distribution, so that points can be spread evenly.
 class TableSide {
  public:

@@ -24,7 +24,7 @@ struct KindWords {
 constexpr std::array<KindWords, 4> kKinds{
     {{"medium", "media"}, {"surface", "surfaces"}, {"sensor", "sensors"}, {"reflector", "reflectors"}}};
 
-constexpr std::size_t index_of(LibraryKind kind) { return static_cast<std::size_t>(kind); }
+constexpr std::size_t index_of(DefinitionKind kind) { return static_cast<std::size_t>(kind); }
 
 std::string list_or_none(const std::vector<std::string>& words) {
   return words.empty() ? "none" : core::list_of(words);
@@ -32,7 +32,7 @@ std::string list_or_none(const std::vector<std::string>& words) {
 
 }  // namespace
 
-struct Library::Known {
+struct MaterialDatabase::Known {
   // Reading a surface reads the media, reflectors and surfaces that it names.
   std::recursive_mutex mutex;
   std::map<std::string, optics::Medium> media;
@@ -52,7 +52,7 @@ struct Library::Known {
   }
 };
 
-struct Library::Files {
+struct MaterialDatabase::Files {
   std::mutex mutex;
   std::map<std::filesystem::path, config::TomlNodePtr> documents;
   Known alone;  ///< definitions that depend on nothing else
@@ -69,7 +69,7 @@ struct Library::Files {
   }
 };
 
-Library::Library(const std::vector<std::filesystem::path>& folders)
+MaterialDatabase::MaterialDatabase(const std::vector<std::filesystem::path>& folders)
     : folders_(folders), read_(std::make_shared<Files>()), with_own_(std::make_shared<Known>()) {
   core::Problems problems;
   for (const std::filesystem::path& folder : folders) {
@@ -90,43 +90,46 @@ Library::Library(const std::vector<std::filesystem::path>& folders)
   problems.throw_if_any();
 }
 
-Library Library::shipped() { return Library({core::data_folder() / "materials"}); }
+MaterialDatabase MaterialDatabase::shipped() { return MaterialDatabase({core::data_folder() / "materials"}); }
 
-void Library::add(LibraryKind kind, const std::map<std::string, config::TomlNodePtr>& definitions) {
+void MaterialDatabase::add(DefinitionKind kind,
+                           const std::map<std::string, config::TomlNodePtr>& definitions) {
   if (definitions.empty()) return;
   for (const auto& [name, node] : definitions) own_[index_of(kind)].insert_or_assign(name, node);
   with_own_ = std::make_shared<Known>();
 }
 
-Library::Readings Library::readings() const { return {read_->files_read, read_->definitions_read}; }
+MaterialDatabase::Readings MaterialDatabase::readings() const {
+  return {read_->files_read, read_->definitions_read};
+}
 
-Library::Known& Library::known_for(LibraryKind kind, const std::string& name) const {
-  const auto has_own = [this](LibraryKind of) { return !own_[index_of(of)].empty(); };
+MaterialDatabase::Known& MaterialDatabase::known_for(DefinitionKind kind, const std::string& name) const {
+  const auto has_own = [this](DefinitionKind of) { return !own_[index_of(of)].empty(); };
   const auto is_own = [&] {
     switch (kind) {
-      case LibraryKind::medium:
-      case LibraryKind::reflector:
+      case DefinitionKind::medium:
+      case DefinitionKind::reflector:
         return own_[index_of(kind)].contains(name);
-      case LibraryKind::sensor:
-        return has_own(LibraryKind::sensor);
-      case LibraryKind::surface:
-        return has_own(LibraryKind::medium) || has_own(LibraryKind::surface) ||
-               has_own(LibraryKind::reflector);
+      case DefinitionKind::sensor:
+        return has_own(DefinitionKind::sensor);
+      case DefinitionKind::surface:
+        return has_own(DefinitionKind::medium) || has_own(DefinitionKind::surface) ||
+               has_own(DefinitionKind::reflector);
     }
     throw core::InternalError("unknown kind of definition");
   };
   return is_own() ? *with_own_ : read_->alone;
 }
 
-std::vector<std::string> Library::names(LibraryKind kind) const {
+std::vector<std::string> MaterialDatabase::names(DefinitionKind kind) const {
   std::set<std::string> all;
   for (const auto& [name, node] : own_[index_of(kind)]) all.insert(name);
   for (const auto& [name, path] : files_[index_of(kind)]) all.insert(name);
   return {all.begin(), all.end()};
 }
 
-Library::Definition Library::find(LibraryKind kind, const std::string& name,
-                                  const core::FileLocation& where) const {
+MaterialDatabase::Definition MaterialDatabase::find(DefinitionKind kind, const std::string& name,
+                                                    const core::FileLocation& where) const {
   const auto& own = own_[index_of(kind)];
   if (const auto found = own.find(name); found != own.end()) return {found->second, false};
   const auto& files = files_[index_of(kind)];
@@ -144,14 +147,16 @@ Library::Definition Library::find(LibraryKind kind, const std::string& name,
                               list_or_none(known) + "; searched: " + list_or_none(places)});
 }
 
-const optics::Medium& Library::medium(const std::string& name, const core::FileLocation& where) const {
-  return known_for(LibraryKind::medium, name).once(&Known::media, name, [&] {
+const optics::Medium& MaterialDatabase::medium(const std::string& name,
+                                               const core::FileLocation& where) const {
+  return known_for(DefinitionKind::medium, name).once(&Known::media, name, [&] {
     return read_medium_of(name, where);
   });
 }
 
-optics::Medium Library::read_medium_of(const std::string& name, const core::FileLocation& where) const {
-  const Definition definition = find(LibraryKind::medium, name, where);
+optics::Medium MaterialDatabase::read_medium_of(const std::string& name,
+                                                const core::FileLocation& where) const {
+  const Definition definition = find(DefinitionKind::medium, name, where);
   core::Problems problems;
   const config::TomlTable table(definition.node, problems);
   optics::Medium medium =
@@ -162,14 +167,16 @@ optics::Medium Library::read_medium_of(const std::string& name, const core::File
   return medium;
 }
 
-const detector::Sensor& Library::sensor(const std::string& name, const core::FileLocation& where) const {
-  return known_for(LibraryKind::sensor, name).once(&Known::sensors, name, [&] {
+const detector::Sensor& MaterialDatabase::sensor(const std::string& name,
+                                                 const core::FileLocation& where) const {
+  return known_for(DefinitionKind::sensor, name).once(&Known::sensors, name, [&] {
     return read_sensor_of(name, where);
   });
 }
 
-detector::Sensor Library::read_sensor_of(const std::string& name, const core::FileLocation& where) const {
-  const std::vector<Ancestor> ancestors = lineage(LibraryKind::sensor, name, where);
+detector::Sensor MaterialDatabase::read_sensor_of(const std::string& name,
+                                                  const core::FileLocation& where) const {
+  const std::vector<Ancestor> ancestors = lineage(DefinitionKind::sensor, name, where);
   const Definition& own = ancestors.front().definition;
   config::TomlNode merged = *own.node;
   for (const Ancestor& ancestor : ancestors)
@@ -186,14 +193,16 @@ detector::Sensor Library::read_sensor_of(const std::string& name, const core::Fi
   return sensor;
 }
 
-const optics::Reflector& Library::reflector(const std::string& name, const core::FileLocation& where) const {
-  return known_for(LibraryKind::reflector, name).once(&Known::reflectors, name, [&] {
+const optics::Reflector& MaterialDatabase::reflector(const std::string& name,
+                                                     const core::FileLocation& where) const {
+  return known_for(DefinitionKind::reflector, name).once(&Known::reflectors, name, [&] {
     return read_reflector_of(name, where);
   });
 }
 
-optics::Reflector Library::read_reflector_of(const std::string& name, const core::FileLocation& where) const {
-  const Definition definition = find(LibraryKind::reflector, name, where);
+optics::Reflector MaterialDatabase::read_reflector_of(const std::string& name,
+                                                      const core::FileLocation& where) const {
+  const Definition definition = find(DefinitionKind::reflector, name, where);
   core::Problems problems;
   const config::TomlTable table(definition.node, problems);
   optics::Reflector reflector =
@@ -204,21 +213,22 @@ optics::Reflector Library::read_reflector_of(const std::string& name, const core
   return reflector;
 }
 
-std::vector<Library::Ancestor> Library::lineage(LibraryKind kind, const std::string& name,
-                                                const core::FileLocation& where) const {
+std::vector<MaterialDatabase::Ancestor> MaterialDatabase::lineage(DefinitionKind kind,
+                                                                  const std::string& name,
+                                                                  const core::FileLocation& where) const {
   std::vector<Ancestor> ancestors;
   std::vector<std::string> names;
   for (std::string next = name; !next.empty();) {
-    const core::FileLocation asked =
+    const core::FileLocation requested =
         ancestors.empty() ? where : ancestors.back().definition.node->find("base")->where;
     const std::string one = kKinds[index_of(kind)].one;
     if (std::find(names.begin(), names.end(), next) != names.end())
       throw core::InputError(
-          {asked,
+          {requested,
            fmt::format("the {} \"{}\" is based on itself ({}, {})", one, next, list_or_none(names), next),
            fmt::format("base it on another {}", one)});
     names.push_back(next);
-    ancestors.push_back({next, find(kind, next, asked)});
+    ancestors.push_back({next, find(kind, next, requested)});
     core::Problems problems;
     next = config::TomlTable(ancestors.back().definition.node, problems).optional_string("base").value_or("");
     problems.throw_if_any();
@@ -226,10 +236,10 @@ std::vector<Library::Ancestor> Library::lineage(LibraryKind kind, const std::str
   return ancestors;
 }
 
-Library::Chain Library::chain(const std::string& surface, const core::FileLocation& where,
-                              core::Problems& problems) const {
+MaterialDatabase::Chain MaterialDatabase::chain(const std::string& surface, const core::FileLocation& where,
+                                                core::Problems& problems) const {
   Chain chain;
-  const std::vector<Ancestor> ancestors = lineage(LibraryKind::surface, surface, where);
+  const std::vector<Ancestor> ancestors = lineage(DefinitionKind::surface, surface, where);
   for (const Ancestor& ancestor : ancestors) {
     chain.names.push_back(ancestor.name);
     const Definition& definition = ancestor.definition;
@@ -243,7 +253,7 @@ Library::Chain Library::chain(const std::string& surface, const core::FileLocati
   return chain;
 }
 
-SurfaceOutline Library::outline(const std::string& surface, const core::FileLocation& where) const {
+SurfaceOutline MaterialDatabase::outline(const std::string& surface, const core::FileLocation& where) const {
   core::Problems problems;
   Chain found = chain(surface, where, problems);
   const config::TomlNode* model = found.merged.find("model");
@@ -255,33 +265,33 @@ SurfaceOutline Library::outline(const std::string& surface, const core::FileLoca
           : found.merged.find("mixture") ? "mixture"
                                          : "",
           {found.names.begin() + 1, found.names.end()},
-          unmet_needs(found.merged),
+          missing_needs(found.merged),
           std::move(sources)};
 }
 
-const SurfaceSpec& Library::surface(const std::string& name, const core::FileLocation& where) const {
+const SurfaceSpec& MaterialDatabase::surface(const std::string& name, const core::FileLocation& where) const {
   return surface(name, where, {});
 }
 
-const SurfaceSpec& Library::surface(const std::string& name, const core::FileLocation& where,
-                                    const std::vector<std::string>& within) const {
+const SurfaceSpec& MaterialDatabase::surface(const std::string& name, const core::FileLocation& where,
+                                             const std::vector<std::string>& within) const {
   if (std::find(within.begin(), within.end(), name) != within.end())
     throw core::InputError(
         {where, "the surface \"" + name + "\" is a mixture of itself (" + list_or_none(within) + ")",
          "mix other surfaces"});
-  return known_for(LibraryKind::surface, name).once(&Known::surfaces, name, [&] {
+  return known_for(DefinitionKind::surface, name).once(&Known::surfaces, name, [&] {
     return read_surface_of(name, where, within);
   });
 }
 
-SurfaceSpec Library::read_surface_of(const std::string& name, const core::FileLocation& where,
-                                     const std::vector<std::string>& within) const {
+SurfaceSpec MaterialDatabase::read_surface_of(const std::string& name, const core::FileLocation& where,
+                                              const std::vector<std::string>& within) const {
   core::Problems problems;
   Chain chain = this->chain(name, where, problems);
-  const std::vector<std::string> unmet = unmet_needs(chain.merged);
-  if (!unmet.empty())
+  const std::vector<std::string> missing = missing_needs(chain.merged);
+  if (!missing.empty())
     throw core::InputError({chain.names.size() == 1 && !where.file.empty() ? where : chain.merged.where,
-                            "the surface \"" + name + "\" leaves to you: " + list_or_none(unmet),
+                            "the surface \"" + name + "\" leaves to you: " + list_or_none(missing),
                             chain.names.size() == 1
                                 ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
                                 : "add these keys beside base = \"" + chain.names[1] + "\""});

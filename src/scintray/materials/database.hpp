@@ -1,5 +1,5 @@
 #pragma once
-/// The library of media, surfaces, sensors and reflectors, and a scene's own definitions beside it.
+/// The material database: media, surfaces, sensors and reflectors, and a scene's own definitions beside it.
 
 #include <array>
 #include <filesystem>
@@ -16,9 +16,9 @@
 
 namespace scintray::materials {
 
-enum class LibraryKind { medium, surface, sensor, reflector };
+enum class DefinitionKind { medium, surface, sensor, reflector };
 
-/// What a surface's definition says before it is made into a surface.
+/// What a surface's definition states before it is made into a surface.
 struct SurfaceOutline {
   std::string model;  ///< "smooth", "unified", "recipe", ..., "mixture"; empty when none is given
   std::vector<std::string> bases;    ///< what it is based on, nearest first
@@ -37,15 +37,15 @@ struct SurfaceOutline {
 /// The getters throw InputError: at `where` when there is nothing of that name, with the nearest
 /// name and the places searched; at the places in the definition when that is wrong. What they return lives
 /// until add(), or as long as a copy without it.
-class Library {
+class MaterialDatabase {
  public:
   /// Throws InputError when a folder does not exist.
-  explicit Library(const std::vector<std::filesystem::path>& folders);
-  /// The library that comes with ScintRay: data_folder()/materials.
-  static Library shipped();
+  explicit MaterialDatabase(const std::vector<std::filesystem::path>& folders);
+  /// The database that comes with ScintRay: data_folder()/materials.
+  static MaterialDatabase shipped();
 
   /// Adds definitions of a scene ([media.NAME], ...), which need not name sources and win over files.
-  void add(LibraryKind kind, const std::map<std::string, config::TomlNodePtr>& definitions);
+  void add(DefinitionKind kind, const std::map<std::string, config::TomlNodePtr>& definitions);
 
   const optics::Medium& medium(const std::string& name, const core::FileLocation& where = {}) const;
   const SurfaceSpec& surface(const std::string& name, const core::FileLocation& where = {}) const;
@@ -55,9 +55,9 @@ class Library {
   const optics::Reflector& reflector(const std::string& name, const core::FileLocation& where = {}) const;
 
   /// Every name of a kind, sorted.
-  std::vector<std::string> names(LibraryKind kind) const;
+  std::vector<std::string> names(DefinitionKind kind) const;
 
-  /// How often something was read, by this library and those that share its files.
+  /// How often something was read, by this database and those that share its files.
   struct Readings {
     std::size_t files = 0;        ///< of the folders
     std::size_t definitions = 0;  ///< media, surfaces, sensors and reflectors, of files and scenes
@@ -67,7 +67,7 @@ class Library {
  private:
   struct Known;
   /// The cache of definitions of a kind that depend on files alone, or on own definitions too.
-  Known& known_for(LibraryKind kind, const std::string& name) const;
+  Known& known_for(DefinitionKind kind, const std::string& name) const;
   optics::Medium read_medium_of(const std::string& name, const core::FileLocation& where) const;
   detector::Sensor read_sensor_of(const std::string& name, const core::FileLocation& where) const;
   optics::Reflector read_reflector_of(const std::string& name, const core::FileLocation& where) const;
@@ -80,19 +80,19 @@ class Library {
     config::TomlNodePtr node;
     bool from_file = false;
   };
-  Definition find(LibraryKind kind, const std::string& name, const core::FileLocation& where) const;
+  Definition find(DefinitionKind kind, const std::string& name, const core::FileLocation& where) const;
   /// A definition and what it is based on, by their `base`: itself first. Throws InputError when a base is
   /// missing, is no name, or comes twice.
   struct Ancestor {
     std::string name;
     Definition definition;
   };
-  std::vector<Ancestor> lineage(LibraryKind kind, const std::string& name,
+  std::vector<Ancestor> lineage(DefinitionKind kind, const std::string& name,
                                 const core::FileLocation& where) const;
   /// A surface's definition laid over those that it is based on.
   struct Chain {
     config::TomlNode merged;
-    std::vector<std::string> names;  ///< the asked one first
+    std::vector<std::string> names;  ///< the requested one first
     std::vector<std::string> sources;
   };
   Chain chain(const std::string& surface, const core::FileLocation& where, core::Problems& problems) const;

@@ -209,7 +209,7 @@ void read_efficiency(const config::TomlTable& efficiency, const config::TomlTabl
   }
 }
 
-/// [wavelength_shifting], in which every block says its own source.
+/// [wavelength_shifting], in which every block states its own source.
 std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::TomlTable& table, SourceRule rule,
                                                               std::vector<std::string>& sources) {
   const std::size_t problems = table.problem_count();

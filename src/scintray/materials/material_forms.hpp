@@ -11,7 +11,7 @@
 
 namespace scintray::materials {
 
-/// Whether every number must say where it was published: always in the library's files, by choice in
+/// Whether every number must state where it was published: always in the database's files, by choice in
 /// a scene's own definitions.
 enum class SourceRule { required, optional };
 
@@ -25,7 +25,7 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
 detector::Sensor read_sensor(const config::TomlTable& table, const std::string& name, SourceRule rule);
 optics::Reflector read_reflector(const config::TomlTable& table, const std::string& name, SourceRule rule);
 
-/// Reports at `key`, the transmittance, a sheet that gives back and lets through more than it gets.
+/// Reports at `key`, the transmittance, a sheet that re-emits and lets through more than it gets.
 void expect_sheet(const config::TomlTable& table, const std::string& key, const optics::Reflector& reflector);
 
 /// Reads what something is made of from `formula` or `mass_fractions`; empty when wrong.

@@ -72,9 +72,9 @@ void write_cached(const std::filesystem::path& path, const optics::SurfaceTable&
 
 }  // namespace
 
-SurfaceMaker::SurfaceMaker() : SurfaceMaker(Hooks{}) {}
+SurfaceFactory::SurfaceFactory() : SurfaceFactory(Hooks{}) {}
 
-std::filesystem::path SurfaceMaker::default_cache() {
+std::filesystem::path SurfaceFactory::default_cache() {
   const auto variable = [](const char* name) {
     const char* value = std::getenv(name);
     return std::filesystem::path(value ? value : "");
@@ -85,7 +85,7 @@ std::filesystem::path SurfaceMaker::default_cache() {
   return {};
 }
 
-SurfaceMaker::Relief SurfaceMaker::relief(const RecipeSpec& spec) {
+SurfaceFactory::Relief SurfaceFactory::relief(const RecipeSpec& spec) {
   Relief result;
   result.key = key_of(spec.recipe);
   result.provenance.map = describe(spec.recipe);
@@ -100,7 +100,7 @@ SurfaceMaker::Relief SurfaceMaker::relief(const RecipeSpec& spec) {
   return result;
 }
 
-SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
+SurfaceFactory::Relief SurfaceFactory::relief(const HeightMapSpec& spec) {
   topography::HeightMap map = topography::read_height_map(spec.path, spec.options);
   topography::prepare(map, spec.preparation);
   Relief result;
@@ -116,7 +116,7 @@ SurfaceMaker::Relief SurfaceMaker::relief(const HeightMapSpec& spec) {
   return result;
 }
 
-std::shared_ptr<const optics::SurfaceTable> SurfaceMaker::table(
+std::shared_ptr<const optics::SurfaceTable> SurfaceFactory::table(
     const std::string& surface, const Relief& relief, const topography::TableSettings& settings,
     const std::vector<topography::SpectralPoint>& spectrum) {
   const std::string key =
@@ -185,7 +185,7 @@ void warn_of_dispersion(const optics::SurfaceTable& table, const Setting& settin
   double worst = 0.0;
   for (const double nm : {setting.low_nm, setting.reference_nm, setting.high_nm})
     worst = std::max(worst, mismatch(table, setting, nm));
-  if (worst > SurfaceMaker::kIndexTolerance)
+  if (worst > SurfaceFactory::kIndexTolerance)
     warnings.push_back(fmt::format(
         "surface \"{}\" ({} to {}): over the wavelengths in use, {:.0f} to {:.0f} nm, the ratio of indices "
         "differs from its table's by up to {:.1f} %; a table for more wavelengths would follow it "
@@ -203,7 +203,7 @@ std::shared_ptr<const optics::SurfaceTable> load_table(const TableFileSpec& file
          "the table of surface \"" + name + "\" holds a whole stack (" + table->provenance().stack +
              "), and another lies on it",
          "remove the surface's gap and reflector, or name a table of the bare microsurface"});
-  if (mismatch(*table, setting, setting.reference_nm) > SurfaceMaker::kIndexTolerance) {
+  if (mismatch(*table, setting, setting.reference_nm) > SurfaceFactory::kIndexTolerance) {
     const optics::IndexPair own = table->index_pair(), here = setting.indices(setting.reference_nm);
     throw core::InputError(
         {file.where,
@@ -217,9 +217,9 @@ std::shared_ptr<const optics::SurfaceTable> load_table(const TableFileSpec& file
 
 }  // namespace
 
-MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const optics::Medium& inside,
-                               const optics::Medium& outside, double reference_nm, double low_nm,
-                               double high_nm) {
+MadeSurface SurfaceFactory::make(const SurfaceSpec& spec, const optics::Medium& inside,
+                                 const optics::Medium& outside, double reference_nm, double low_nm,
+                                 double high_nm) {
   MadeSurface made;
   optics::Surface& surface = made.surface;
   surface.name = surface.definition = spec.name;
@@ -245,17 +245,17 @@ MadeSurface SurfaceMaker::make(const SurfaceSpec& spec, const optics::Medium& in
     return table(spec.name, map, tracing->settings, setting.spectrum(tracing->wavelengths_nm));
   };
   struct Visitor {
-    SurfaceMaker& maker;
+    SurfaceFactory& factory;
     const decltype(of_relief)& tabulate;
     const Setting& setting;
     optics::Microsurface operator()(const SmoothSpec&) const { return optics::SmoothSurface{}; }
     optics::Microsurface operator()(const PaintedSpec&) const { return optics::PaintedSurface{}; }
     optics::Microsurface operator()(const optics::UnifiedSurface& unified) const { return unified; }
     optics::Microsurface operator()(const HeightMapSpec& map) const {
-      return tabulate(maker.relief(map), map.table);
+      return tabulate(factory.relief(map), map.table);
     }
     optics::Microsurface operator()(const RecipeSpec& recipe) const {
-      return tabulate(maker.relief(recipe), recipe.table);
+      return tabulate(factory.relief(recipe), recipe.table);
     }
     optics::Microsurface operator()(const TableFileSpec& file) const { return load_table(file, setting); }
   };

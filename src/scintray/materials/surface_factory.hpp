@@ -14,28 +14,28 @@
 
 namespace scintray::materials {
 
-/// A surface and what its maker noticed.
+/// A surface and what the factory noticed.
 struct MadeSurface {
   optics::Surface surface;
   std::vector<std::string> warnings;
 };
 
-class SurfaceMaker {
+class SurfaceFactory {
  public:
   struct Hooks {
-    /// Told while a table is built: the surface's name and the share done, 0 to 1.
+    /// Called while a table is built: the surface's name and the share done, 0 to 1.
     std::function<void(const std::string& surface, double done)> table_progress;
-    /// Asked while a table is built; true stops with TableStopped.
+    /// Called while a table is built; true stops with TableStopped.
     std::function<bool()> stop;
     /// Folder in which built tables are kept between runs; empty: none are.
     std::filesystem::path cache = default_cache();
   };
 
-  SurfaceMaker();
-  explicit SurfaceMaker(Hooks hooks) : hooks_(std::move(hooks)) {}
+  SurfaceFactory();
+  explicit SurfaceFactory(Hooks hooks) : hooks_(std::move(hooks)) {}
 
   /// The surface between two media. Tables are for the indices at `reference_nm`, or at the wavelengths that
-  /// the surface names; a warning says so when the ratio of indices departs from the table's by more than
+  /// the surface names; a warning states so when the ratio of indices departs from the table's by more than
   /// kIndexTolerance over [low_nm, high_nm].
   /// @throws InputError for a table file of other indices, an unreadable map, or bad settings.
   MadeSurface make(const SurfaceSpec& spec, const optics::Medium& inside, const optics::Medium& outside,

@@ -1,5 +1,5 @@
 #pragma once
-/// A surface as its definition says it: names looked up, nothing traced or built yet. Which surface
+/// A surface as its definition states it: names looked up, nothing traced or built yet. Which surface
 /// object it becomes depends on the media on its two sides, so it is made per interface.
 
 #include <filesystem>

@@ -15,7 +15,7 @@ void check_cover(core::Problems& problems, const core::FileLocation& where, cons
                  double low_nm, double high_nm, const std::string& whose, const std::string& what,
                  const std::string& hint);
 
-/// The medium's refractive index, and what its wavelength shifter absorbs and gives back.
+/// The medium's refractive index, and what its wavelength shifter absorbs and re-emits.
 void check_cover(core::Problems& problems, const core::FileLocation& where, const optics::Medium& medium,
                  double low_nm, double high_nm);
 

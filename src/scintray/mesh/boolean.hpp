@@ -30,7 +30,7 @@ struct BooleanResult {
 /// Combines two sound meshes (diagnose(...).sound()). Which triangles are cut, and where the result's
 /// boundary runs, is decided exactly (CGAL's corefinement); only then are new vertices rounded, those
 /// within `clean_mm` of each other welded, and triangles flatter than that taken out. Triangles from
-/// the second mesh take the group of the first mesh's first triangle; their origin says what they are.
+/// the second mesh take the group of the first mesh's first triangle; their origin states what they are.
 ///
 /// Nothing when CGAL refuses: an operand crosses itself or bounds no volume, or the result would have
 /// an edge of more than two triangles. An empty mesh when nothing is left.

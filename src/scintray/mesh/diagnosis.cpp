@@ -91,12 +91,12 @@ bool make_consistent(TriMesh& mesh) {
     links[first[0].triangle].push_back({first[1].triangle, agrees});
     links[first[1].triangle].push_back({first[0].triangle, agrees});
   });
-  enum class State : char { unseen, kept, turned };
-  std::vector<State> state(mesh.triangles.size(), State::unseen);
+  enum class State : char { unvisited, kept, turned };
+  std::vector<State> state(mesh.triangles.size(), State::unvisited);
   std::vector<std::uint32_t> stack, patch;
   bool any = false;
   for (std::size_t seed = 0; seed < state.size(); ++seed) {
-    if (state[seed] != State::unseen) continue;
+    if (state[seed] != State::unvisited) continue;
     state[seed] = State::kept;
     stack.assign(1, static_cast<std::uint32_t>(seed));
     patch.clear();
@@ -107,7 +107,7 @@ bool make_consistent(TriMesh& mesh) {
       patch.push_back(t);
       if (state[t] == State::turned) ++turned;
       for (const Link& link : links[t]) {
-        if (state[link.triangle] != State::unseen) continue;
+        if (state[link.triangle] != State::unvisited) continue;
         state[link.triangle] = link.agrees == (state[t] == State::kept) ? State::kept : State::turned;
         stack.push_back(link.triangle);
       }

@@ -24,7 +24,7 @@ struct TriMesh {
   /// Per triangle, index into `groups`: the glTF material or OBJ group it came with.
   std::vector<std::uint32_t> group;
   std::vector<std::string> groups;
-  /// What the file says of each group beside its name; empty when it says nothing of any. Groups that
+  /// What the file states of each group beside its name; empty when it holds nothing of any. Groups that
   /// differ here only have the same name.
   std::vector<FaceTags> group_tags;
 
@@ -32,7 +32,7 @@ struct TriMesh {
   double area() const;                                 ///< mm2
   double volume() const;                               ///< mm3, positive when oriented outwards
 
-  /// Tags of a group; none when the file says nothing.
+  /// Tags of a group; none when the file states nothing.
   const FaceTags& tags_of(std::size_t group_number) const;
   /// Number of the group with this name and these tags, added when it is new.
   std::uint32_t group_index(const std::string& name, const FaceTags& tags = {});

@@ -18,7 +18,7 @@ void refract(Ray& ray, const core::Vec3& m, double ratio, double cos_i, double c
 
 }  // namespace
 
-bool meet_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
+bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
   const double cos_i = cos_incidence(ray, m);
   const Refraction refraction(cos_i, n1, n2);
   if (refraction.total()) {

@@ -84,11 +84,11 @@ inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
 /// @param m   unit normal against the ray: direction . m <= 0
 /// @param n1  index where the ray is; @param n2 index behind the facet
 /// @return true when the ray was refracted into n2.
-bool meet_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng);
+bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng);
 
 /// Refracts `ray` by Snell's law without reflecting any of it, as a thin film with indices n1 and n2 on its
 /// sides does with what it lets through; the shares of the two polarisations stay. Beyond the critical
-/// angle it is reflected instead. Arguments and result as of meet_facet.
+/// angle it is reflected instead. Arguments and result as of interact_at_facet.
 bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2);
 
 }  // namespace scintray::optics

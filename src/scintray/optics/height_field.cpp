@@ -195,10 +195,10 @@ class HeightField::Walk {
     const int shift = kLevelShift * level_;
     if (through_x_) {
       step(du_ > 0.0, shift, field_.columns_, x_, i_);
-      if (level_ > 0) settle(y_, field_.rows_, shift, j_);
+      if (level_ > 0) clamp_to_block(y_, field_.rows_, shift, j_);
     } else {
       step(dv_ > 0.0, shift, field_.rows_, y_, j_);
-      if (level_ > 0) settle(x_, field_.columns_, shift, i_);
+      if (level_ > 0) clamp_to_block(x_, field_.columns_, shift, i_);
     }
     const int top = static_cast<int>(field_.pyramid_.size()) - 1;
     const int parent = kLevelShift * (level_ + 1);
@@ -219,7 +219,7 @@ class HeightField::Walk {
   }
 
   /// Finds the cell along the other axis after a block was skipped, without leaving the block.
-  static void settle(double coordinate, std::uint32_t cells, int shift, std::uint32_t& cell) {
+  static void clamp_to_block(double coordinate, std::uint32_t cells, int shift, std::uint32_t& cell) {
     const std::uint32_t start = (cell >> shift) << shift;
     const std::uint32_t last = std::min(start + (1u << shift), cells) - 1;
     cell = coordinate <= start ? start : std::min(static_cast<std::uint32_t>(coordinate), last);
@@ -262,9 +262,9 @@ class HeightField::Walk {
       const Plane facet = plane(upper);
       const double rate = dz_ - facet.slope_u * du_ - facet.slope_v * dv_;
       const double above = on_surface ? 0.0 : z_ - facet.height;
-      if (meets(above, rate)) {
+      if (crosses_within(above, rate)) {
         advance(std::clamp(-above / rate, 0.0, path_));
-        meet(facet, index, rng);
+        interact(facet, index, rng);
         if (has_left()) return;
         on_surface = true;
         continue;
@@ -284,7 +284,7 @@ class HeightField::Walk {
   }
 
   /// True when the height above the facet changes sign against the medium within `path_`.
-  bool meets(double above, double rate) const {
+  bool crosses_within(double above, double rate) const {
     if (side_ == Side::outside) return rate < 0.0 && above + rate * path_ < 0.0;
     return rate > 0.0 && above + rate * path_ > 0.0;
   }
@@ -295,16 +295,17 @@ class HeightField::Walk {
     z_ += dz_ * path;
   }
 
-  void meet(const Plane& facet, const IndexPair& index, core::Rng& rng) {
+  void interact(const Plane& facet, const IndexPair& index, core::Rng& rng) {
     const core::Vec3 up =
         core::Vec3(-facet.slope_u / field_.pitch_x_, -facet.slope_v / field_.pitch_y_, 1.0).normalized();
-    if (exit_.facets_met++ == 0) exit_.first_slope_rad = std::atan2(std::hypot(up.x(), up.y()), up.z());
+    if (exit_.facet_interactions++ == 0)
+      exit_.first_slope_rad = std::atan2(std::hypot(up.x(), up.y()), up.z());
     const core::Vec3 against = side_ == Side::outside ? up : core::Vec3(-up);
-    if (meet_facet(ray_, against, index.on(side_), index.on(other(side_)), rng)) side_ = other(side_);
+    if (interact_at_facet(ray_, against, index.on(side_), index.on(other(side_)), rng)) side_ = other(side_);
     take_direction();
   }
 
-  /// Facets and diagonals passed in one cell before the step counter is asked again.
+  /// Facets and diagonals passed in one cell before the step counter is read again.
   static constexpr int kPassesPerStep = 64;
 
   const HeightField& field_;

@@ -12,7 +12,7 @@ namespace scintray::optics {
 /// What happened to one ray on the height field.
 struct HeightFieldExit {
   Side side = Side::inside;    ///< medium the ray left in
-  int facets_met = 0;          ///< number of facets met, at least 1
+  int facet_interactions = 0;  ///< number of facet interactions, at least 1
   double first_slope_rad = 0;  ///< angle between the first facet's normal and the mean normal
   double x_um = 0, y_um = 0;   ///< lateral position where it left the plane of extreme heights
   bool cut = false;            ///< followed for longer than the step limit and released as it was
@@ -35,7 +35,7 @@ struct MapPlace {
 /// (i, j+1) to (i+1, j) into two triangles. Units are um, but only ratios matter.
 ///
 /// The height of a ray above the surface is a continuous, piecewise linear function of the path,
-/// and its sign says in which medium the ray is; a crossing is a change of sign. So direction and
+/// and its sign states in which medium the ray is; a crossing is a change of sign. So direction and
 /// medium cannot disagree, and no ray is ever unclassified. Empty space is skipped through a pyramid
 /// of the extreme heights of blocks of 4, 16, 64, ... cells.
 class HeightField {

@@ -29,7 +29,7 @@ struct Medium {
   core::Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm), for good; 0 means none
   core::Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
-  /// Absorbs beside `absorption_per_mm`, and gives light back; most media have none.
+  /// Absorbs beside `absorption_per_mm`, and re-emits light; most media have none.
   std::shared_ptr<const WavelengthShifter> shifter;
 
   // Scintillation; a medium that does not scintillate has a zero yield.

@@ -34,7 +34,7 @@ class ReciprocalKernel {
     std::uint64_t pairs = 0;  ///< degrees of freedom of chi2
     double diffuse_inside = 0.0, diffuse_inside_error = 0.0;    ///< n1^2 (1 - R12), diffuse light
     double diffuse_outside = 0.0, diffuse_outside_error = 0.0;  ///< n2^2 (1 - R21)
-    double largest_scaling = 0.0;  ///< largest |d_a - 1| that equilibrium asked for
+    double largest_scaling = 0.0;  ///< largest |d_a - 1| that equilibrium requested
   };
 
   /// From rays counted by state and target, counts[state * (kStates * kTurns) + target]; every state was

@@ -43,7 +43,7 @@ SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const core:
     const bool to_here = (u < reflectance) == from_here;
     const core::Vec3 out = to_here ? normal : core::Vec3(-normal);
     scatter_lambertian(ray, out, rng);
-    if (meet_facet(ray, -out, reflector.volume_index, to_here ? index_here : index_beyond, rng))
+    if (interact_at_facet(ray, -out, reflector.volume_index, to_here ? index_here : index_beyond, rng))
       return to_here ? SheetOutcome::back : SheetOutcome::through;
     from_here = to_here;
   }
@@ -63,12 +63,13 @@ std::set<double> wavelengths_of(const Reflector& reflector) {
 
 }  // namespace
 
-SheetOutcome meet_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal, double index_here,
-                            double index_beyond, double wavelength_nm, core::Rng& rng, ReflectionLog* log) {
+SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
+                                   double index_here, double index_beyond, double wavelength_nm,
+                                   core::Rng& rng, ReflectionLog* log) {
   const double reflectance = reflector.reflectance(wavelength_nm);
   const double transmittance = reflector.transmittance ? (*reflector.transmittance)(wavelength_nm) : 0.0;
   if (reflector.volume_index > 0.0) {
-    if (!meet_facet(ray, normal, index_here, reflector.volume_index, rng)) return SheetOutcome::back;
+    if (!interact_at_facet(ray, normal, index_here, reflector.volume_index, rng)) return SheetOutcome::back;
     return scatter_in_volume(reflector, ray, normal, index_here, index_beyond, reflectance, transmittance,
                              rng, log);
   }

@@ -44,9 +44,9 @@ enum class SheetOutcome { back, through, absorbed };
 /// @param index_here    of the medium the ray is in; @param index_beyond  of that behind the sheet
 /// @param log           told of what was sent back by a draw against the reflectance, not of what a volume's
 ///                      face mirrored or what passed; may be null
-SheetOutcome meet_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal, double index_here,
-                            double index_beyond, double wavelength_nm, core::Rng& rng,
-                            ReflectionLog* log = nullptr);
+SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
+                                   double index_here, double index_beyond, double wavelength_nm,
+                                   core::Rng& rng, ReflectionLog* log = nullptr);
 
 /// Largest share of the light that is not absorbed, reflectance and transmittance together, over all
 /// wavelengths. At most 1 for a sheet that can be.

@@ -8,11 +8,11 @@ namespace scintray::optics {
 
 namespace {
 
-/// The microsurface of one meeting: a height map keeps its place while light goes to and fro.
-class Meeting {
+/// The microsurface during one interaction: a height map keeps its place while light goes to and fro.
+class Interaction {
  public:
-  Meeting(const Surface& surface, const core::Vec3& normal, double wavelength_nm, ShiftingLight* light,
-          core::Rng& rng)
+  Interaction(const Surface& surface, const core::Vec3& normal, double wavelength_nm, ShiftingLight* light,
+              core::Rng& rng)
       : surface_(surface), normal_(normal), wavelength_nm_(wavelength_nm), light_(light), rng_(rng) {}
 
   double wavelength_nm() const { return wavelength_nm_; }
@@ -25,7 +25,7 @@ class Meeting {
           if constexpr (std::is_same_v<Model, PaintedSurface>) {
             return outcome_on(other(side));  // nothing between the light and the reflector
           } else if constexpr (std::is_same_v<Model, std::shared_ptr<const SurfaceTable>>) {
-            return model->meet(ray, side, normal_, surface_.direction, wavelength_nm_, rng_);
+            return model->interact(ray, side, normal_, surface_.direction, wavelength_nm_, rng_);
           } else if constexpr (std::is_same_v<Model, std::shared_ptr<const HeightField>>) {
             if (!place_) place_ = model->random_place(normal_, surface_.direction, rng_);
             return outcome_on(model->scatter(ray, side, *place_, index, rng_));
@@ -36,7 +36,7 @@ class Meeting {
         surface_.microsurface);
   }
 
-  /// Takes the ray through the gap from one of its faces; says whether it comes out at the far one, or
+  /// Takes the ray through the gap from one of its faces; states whether it comes out at the far one, or
   /// nothing when it is absorbed on the way.
   std::optional<bool> cross_gap(Ray& ray, bool from_far) {
     if (!surface_.gap_thickness_um) {
@@ -112,40 +112,42 @@ struct FarFace {
   enum class After { in_gap, beyond, absorbed };
   After from_gap(Ray& ray) const {
     if (reflector) {
-      const SheetOutcome met =
-          meet_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
-      return after(met, After::in_gap, After::beyond);
+      const SheetOutcome outcome =
+          interact_at_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
+      return after(outcome, After::in_gap, After::beyond);
     }
-    return meet_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
+    return interact_at_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
   }
   After from_beyond(Ray& ray) const {
     if (reflector) {  // the back of the sheet
-      const SheetOutcome met =
-          meet_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
-      return after(met, After::beyond, After::in_gap);
+      const SheetOutcome outcome =
+          interact_at_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
+      return after(outcome, After::beyond, After::in_gap);
     }
-    return meet_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
+    return interact_at_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
   }
-  static After after(SheetOutcome met, After back, After through) {
-    return met == SheetOutcome::back ? back : met == SheetOutcome::through ? through : After::absorbed;
+  static After after(SheetOutcome outcome, After back, After through) {
+    return outcome == SheetOutcome::back      ? back
+           : outcome == SheetOutcome::through ? through
+                                              : After::absorbed;
   }
 };
 
 }  // namespace
 
-SurfaceOutcome Surface::meet(Ray& ray, Side side, const core::Vec3& normal, IndexPair index,
-                             double wavelength_nm, ShiftingLight* light, core::Rng& rng,
-                             ReflectionLog* log) const {
+SurfaceOutcome Surface::interact(Ray& ray, Side side, const core::Vec3& normal, IndexPair index,
+                                 double wavelength_nm, ShiftingLight* light, core::Rng& rng,
+                                 ReflectionLog* log) const {
   if (!mixture.empty())
-    return pick(mixture, rng).meet(ray, side, normal, index, wavelength_nm, light, rng, log);
-  Meeting meeting(*this, normal, wavelength_nm, light, rng);
-  if (!reflector && !gap_thickness_um) return meeting.scatter(ray, side, index);
+    return pick(mixture, rng).interact(ray, side, normal, index, wavelength_nm, light, rng, log);
+  Interaction interaction(*this, normal, wavelength_nm, light, rng);
+  if (!reflector && !gap_thickness_um) return interaction.scatter(ray, side, index);
 
   // Paint lies on the face itself: its light is still in the inside medium.
   const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
   IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
   const auto far = [&] {
-    return FarFace{reflector, normal, under.outside, index.outside, meeting.wavelength_nm(), rng, log};
+    return FarFace{reflector, normal, under.outside, index.outside, interaction.wavelength_nm(), rng, log};
   };
   bool at_far_face = side == Side::outside;
   if (at_far_face) {
@@ -157,18 +159,18 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const core::Vec3& normal, Inde
       case FarFace::After::in_gap:
         break;
     }
-  } else if (const SurfaceOutcome first = meeting.scatter(ray, side, under);
+  } else if (const SurfaceOutcome first = interaction.scatter(ray, side, under);
              first != SurfaceOutcome::outside) {
     return first;
   }
   for (;;) {
-    const double before_nm = meeting.wavelength_nm();
-    const std::optional<bool> crossed = meeting.cross_gap(ray, at_far_face);
+    const double before_nm = interaction.wavelength_nm();
+    const std::optional<bool> crossed = interaction.cross_gap(ray, at_far_face);
     if (!crossed) return SurfaceOutcome::absorbed;
     at_far_face = *crossed;
-    if (meeting.wavelength_nm() != before_nm) {
-      index = light->index(meeting.wavelength_nm());
-      under = {index.inside, gap_index(meeting.wavelength_nm())};
+    if (interaction.wavelength_nm() != before_nm) {
+      index = light->index(interaction.wavelength_nm());
+      under = {index.inside, gap_index(interaction.wavelength_nm())};
     }
     if (at_far_face) {
       const FarFace::After after = far().from_gap(ray);
@@ -176,7 +178,7 @@ SurfaceOutcome Surface::meet(Ray& ray, Side side, const core::Vec3& normal, Inde
       if (after == FarFace::After::beyond) return SurfaceOutcome::outside;
     } else {
       if (painted) return SurfaceOutcome::inside;
-      const SurfaceOutcome after = meeting.scatter(ray, Side::outside, under);
+      const SurfaceOutcome after = interaction.scatter(ray, Side::outside, under);
       if (after != SurfaceOutcome::outside) return after;
     }
   }

@@ -22,7 +22,7 @@ namespace scintray::optics {
 struct SmoothSurface {
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const {
     const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
-    return meet_facet(ray, against, index.on(side), index.on(other(side)), rng) ? other(side) : side;
+    return interact_at_facet(ray, against, index.on(side), index.on(other(side)), rng) ? other(side) : side;
   }
 };
 
@@ -52,7 +52,7 @@ struct ShiftingLight {
 /// The optical stack of a face. Light without a reflector goes on to the other side.
 struct Surface {
   std::string name;
-  std::string definition;  ///< its name in the scene or the library, whatever media it lies between
+  std::string definition;  ///< its name in the scene or the database, whatever media it lies between
   Microsurface microsurface = SmoothSurface{};
 
   /// What lies under the reflector, or, with a thickness and no reflector, between the microsurface and the
@@ -60,7 +60,7 @@ struct Surface {
   core::Curve gap_index = core::Curve::constant(1.0);
   core::Curve gap_absorption_per_mm = core::Curve::constant(0.0);  ///< for good, beside the shifter's
   std::string gap_medium;  ///< name of the medium in the gap; empty: given by an index, or no gap
-  /// A coating: gives light that it absorbs back in all directions, from where it absorbed it. Only in a
+  /// A coating: re-emits light that it absorbs in all directions, from where it was absorbed. Only in a
   /// gap with a thickness.
   std::shared_ptr<const WavelengthShifter> gap_shifter;
   /// Without one the gap is thin but wide: light comes back to the microsurface anywhere on it.
@@ -79,17 +79,18 @@ struct Surface {
   ///
   /// @param normal  outward normal of the part whose face it is
   /// @param index   indices of the media on the two sides
-  /// @param log     told of every reflection at a reflector that was survived; may be null
+  /// @param log     takes every reflection at a reflector that was survived; may be null
   ///
   /// What a wavelength shifter in the gap absorbs is absorbed.
-  SurfaceOutcome meet(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index,
-                      double wavelength_nm, core::Rng& rng, ReflectionLog* log = nullptr) const {
-    return meet(ray, side, normal, index, wavelength_nm, nullptr, rng, log);
+  SurfaceOutcome interact(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index,
+                          double wavelength_nm, core::Rng& rng, ReflectionLog* log = nullptr) const {
+    return interact(ray, side, normal, index, wavelength_nm, nullptr, rng, log);
   }
-  /// As above, and a wavelength shifter gives light back: `light` is the photon's, and changes.
-  SurfaceOutcome meet(Ray& ray, Side side, const core::Vec3& normal, ShiftingLight& light, core::Rng& rng,
-                      ReflectionLog* log = nullptr) const {
-    return meet(ray, side, normal, light.index(light.wavelength_nm), light.wavelength_nm, &light, rng, log);
+  /// As above, and a wavelength shifter re-emits light: `light` is the photon's, and changes.
+  SurfaceOutcome interact(Ray& ray, Side side, const core::Vec3& normal, ShiftingLight& light, core::Rng& rng,
+                          ReflectionLog* log = nullptr) const {
+    return interact(ray, side, normal, light.index(light.wavelength_nm), light.wavelength_nm, &light, rng,
+                    log);
   }
 
   /// True when no light passes to the other side.
@@ -104,8 +105,9 @@ struct Surface {
 
  private:
   bool mixture_shifts() const;
-  SurfaceOutcome meet(Ray& ray, Side side, const core::Vec3& normal, IndexPair index, double wavelength_nm,
-                      ShiftingLight* light, core::Rng& rng, ReflectionLog* log) const;
+  SurfaceOutcome interact(Ray& ray, Side side, const core::Vec3& normal, IndexPair index,
+                          double wavelength_nm, ShiftingLight* light, core::Rng& rng,
+                          ReflectionLog* log) const;
 };
 
 }  // namespace scintray::optics

@@ -192,8 +192,8 @@ std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_n
   return spectral * azimuths_ + azimuth;
 }
 
-SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
-                                  double wavelength_nm, core::Rng& rng) const {
+SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
+                                      double wavelength_nm, core::Rng& rng) const {
   const double cosine = ray.direction.dot(normal);
   const core::Vec3 lateral = ray.direction - cosine * normal;
   const double sine = lateral.norm();
@@ -245,7 +245,8 @@ SurfaceOutcome SurfaceTable::meet(Ray& ray, Side side, const core::Vec3& normal,
 
 Side SurfaceTable::scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair&,
                            core::Rng& rng) const {
-  return meet(ray, side, normal, core::Vec3::Zero(), wavelengths_nm_.front(), rng) == SurfaceOutcome::inside
+  return interact(ray, side, normal, core::Vec3::Zero(), wavelengths_nm_.front(), rng) ==
+                 SurfaceOutcome::inside
              ? Side::inside
              : Side::outside;
 }

@@ -16,11 +16,11 @@ namespace scintray::optics {
 
 /// A table at one wavelength and, for a surface with direction, one azimuth of incidence.
 struct TableSlice {
-  double wavelength_nm = 0.0;  ///< 0: not said, or for any
+  double wavelength_nm = 0.0;  ///< 0: not stated, or for any
   double azimuth_rad = 0.0;    ///< of the lateral direction of travel from the map's x axis, about the normal
   IndexPair index;
   std::vector<TableNode> from_inside, from_outside;
-  /// When there, light is sent where this says, in place of the nodes' distributions.
+  /// When there, light is sent where this states, in place of the nodes' distributions.
   std::shared_ptr<const ReciprocalKernel> reciprocal;
 
   const std::vector<TableNode>& nodes(Side side) const {
@@ -69,17 +69,17 @@ class SurfaceTable {
   /// polarisation, which a table does not hold, is drawn afresh unless the ray is unpolarised.
   /// @param along  for a directional table: direction of the map's x axis (projected onto the face; zero:
   ///               at random)
-  SurfaceOutcome meet(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
-                      double wavelength_nm, core::Rng& rng) const;
+  SurfaceOutcome interact(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
+                          double wavelength_nm, core::Rng& rng) const;
 
   /// As every microsurface, for tables without absorption: the first wavelength, the map at any azimuth.
-  /// `index` is not used: `index_pair()` says what the table is for.
+  /// `index` is not used: `index_pair()` states what the table is for.
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
 
   /// Reflectance met from `side` at an incidence angle (rad): linear between nodes; of a table made
   /// reciprocal, that of the angle's bin.
   double reflectance(Side side, double incidence_rad, std::size_t slice = 0) const;
-  /// Mean angle of the first facet met (rad), linear between nodes.
+  /// Mean angle of the first facet hit (rad), linear between nodes.
   double mean_slope(Side side, double incidence_rad, std::size_t slice = 0) const;
 
   const std::vector<TableSlice>& slices() const { return slices_; }

@@ -71,7 +71,7 @@ struct TableNode {
   double reflectance_error = 0.0;     ///< one-sigma
   double absorptance = 0.0;           ///< zero without a reflector or absorbing layer in the table
   double absorptance_error = 0.0;     ///< one-sigma
-  double mean_slope_rad = 0.0;        ///< mean angle of the first facet met to the mean normal
+  double mean_slope_rad = 0.0;        ///< mean angle of the first facet hit to the mean normal
   double traced_incidence_rad = 0.0;  ///< where it was traced: below incidence_rad at 90 deg only
   std::uint64_t rays = 0;
   DirectionQuantiles reflected, transmitted;

@@ -19,8 +19,8 @@ namespace scintray::optics {
 class TableSampler {
  private:
   /// Between two nodes. Positions are in a measure of the incidence angle that needs no arc function,
-  /// sin / (sin + cos), and `bend` says how the share of the way in angle departs from that in this measure:
-  /// by bend x (1 - x). Nodes 2.25 deg apart: right to 5e-5 of the way.
+  /// sin / (sin + cos), and `bend` states how the share of the way in angle departs from that in this
+  /// measure: by bend x (1 - x). Nodes 2.25 deg apart: right to 5e-5 of the way.
   struct alignas(64) Interval {
     double start = 0.0;  ///< of the lower node
     double per_length = 0.0;

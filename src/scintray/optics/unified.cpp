@@ -92,7 +92,7 @@ Side UnifiedSurface::scatter(Ray& ray, Side side, const core::Vec3& normal, cons
     const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
     const core::Vec3 facet = sample_facet(*this, ray.direction, core::Frame::about(against), rng);
     const Ray before = ray;
-    if (meet_facet(ray, facet, index.on(side), index.on(other(side)), rng))
+    if (interact_at_facet(ray, facet, index.on(side), index.on(other(side)), rng))
       side = other(side);
     else
       apply_lobe(sample_lobe(*this, rng), ray, before, against, rng);

@@ -1,5 +1,5 @@
 #pragma once
-/// Dyes and phosphors: light absorbed at one wavelength and given back at a longer one.
+/// Dyes and phosphors: light absorbed at one wavelength and re-emitted at a longer one.
 
 #include <cstdint>
 #include <optional>
@@ -14,19 +14,19 @@ namespace scintray::optics {
 /// Energy of a photon of a wavelength in vacuum, eV: hc = 1239.841984 eV nm (SI 2019, exact).
 constexpr double photon_energy_eV(double wavelength_nm) { return 1239.8419843320026 / wavelength_nm; }
 
-/// What wavelength shifters did: every photon that one absorbs is given back or kept.
+/// What wavelength shifters did: every photon that one absorbs is re-emitted or kept.
 struct ShiftCount {
   std::uint64_t absorbed = 0;  ///< photons
-  std::uint64_t emitted = 0;   ///< photons given back
-  double before_eV = 0.0;      ///< energy of those given back, as they were absorbed
-  double after_eV = 0.0;       ///< ... and as they were given back; the difference is the Stokes loss
-  double kept_eV = 0.0;        ///< energy of those not given back
+  std::uint64_t emitted = 0;   ///< photons re-emitted
+  double before_eV = 0.0;      ///< energy of those re-emitted, as they were absorbed
+  double after_eV = 0.0;       ///< ... and as they were re-emitted; the difference is the Stokes loss
+  double kept_eV = 0.0;        ///< energy of those not re-emitted
 
   ShiftCount& operator+=(const ShiftCount& other);
   bool operator==(const ShiftCount& other) const = default;
 };
 
-/// A photon given back.
+/// A photon re-emitted.
 struct ShiftedLight {
   double wavelength_nm = 0.0;
   double delay_ns = 0.0;
@@ -42,7 +42,7 @@ struct ShiftedLight {
 class WavelengthShifter {
  public:
   /// @param absorption_per_mm  1/absorption length of the shifter alone, against wavelength (nm)
-  /// @param quantum_yield      photons given back per photon absorbed, 0 to 1, against wavelength (nm)
+  /// @param quantum_yield      photons re-emitted per photon absorbed, 0 to 1, against wavelength (nm)
   /// @param emission           relative number of photons per nm against wavelength (nm), a table
   /// @param decay              at least one component
   /// Throws InputError as CurveSampler does.

@@ -32,37 +32,37 @@ const SweepSeries& named_series(const SweepView& view, const config::NameRef& na
 }
 
 /// A number that the run does not have.
-struct Untold {
+struct NotAvailable {
   std::string why;
 };
 
-class CurveJudge {
+class CurveEvaluator {
  public:
-  CurveJudge(const tally::RunResult& run, const std::vector<analysis::EventStudy>& studies,
-             const SweepView& view)
-      : run_(run), studies_(studies), view_(view) {}
+  CurveEvaluator(const tally::RunResult& run, const std::vector<analysis::EventAnalysis>& analyses,
+                 const SweepView& view)
+      : run_(run), analyses_(analyses), view_(view) {}
 
-  core::Estimate value(const scene_file::ClaimSpec& claim) const {
-    const SweepSeries& curve = series(claim.curve);
-    switch (claim.quantity) {
-      case scene_file::ClaimQuantity::range:
+  core::Estimate value(const scene_file::CriterionSpec& criterion) const {
+    const SweepSeries& curve = series(criterion.curve);
+    switch (criterion.quantity) {
+      case scene_file::CriterionQuantity::range:
         return range(curve);
-      case scene_file::ClaimQuantity::fall:
+      case scene_file::CriterionQuantity::fall:
         return fall(curve);
-      case scene_file::ClaimQuantity::fall_difference: {
-        const core::Estimate a = fall(curve), b = fall(series(claim.over));
+      case scene_file::CriterionQuantity::fall_difference: {
+        const core::Estimate a = fall(curve), b = fall(series(criterion.over));
         return {a.value - b.value, std::hypot(a.error, b.error)};
       }
-      case scene_file::ClaimQuantity::light:
+      case scene_file::CriterionQuantity::light:
         return light(curve.points.front());
-      case scene_file::ClaimQuantity::maximum_ratio:
-        return ratio_of(maximum(curve), maximum(series(claim.over)));
-      case scene_file::ClaimQuantity::resolution:
+      case scene_file::CriterionQuantity::maximum_ratio:
+        return ratio_of(maximum(curve), maximum(series(criterion.over)));
+      case scene_file::CriterionQuantity::resolution:
         return resolution(curve);
-      case scene_file::ClaimQuantity::time_ratio:
-        return {time_per_photon(curve) / time_per_photon(series(claim.over)), 0.0};
+      case scene_file::CriterionQuantity::time_ratio:
+        return {time_per_photon(curve) / time_per_photon(series(criterion.over)), 0.0};
       default:
-        throw core::InternalError("a claim about a surface is judged as one about curves");
+        throw core::InternalError("a criterion about a surface is evaluated as one about curves");
     }
   }
 
@@ -70,7 +70,7 @@ class CurveJudge {
   const SweepSeries& series(const config::NameRef& name) const { return named_series(view_, name); }
 
   core::Estimate light(std::size_t point) const {
-    return studies_.empty() ? run_.points[point].fraction(core::Fate::detected) : light_of(studies_[point]);
+    return analyses_.empty() ? run_.points[point].fraction(core::Fate::detected) : light_of(analyses_[point]);
   }
 
   std::vector<core::Estimate> lights(const SweepSeries& curve) const {
@@ -103,9 +103,9 @@ class CurveJudge {
 
   core::Estimate resolution(const SweepSeries& curve) const {
     const std::size_t point = curve.points.front();
-    if (studies_.empty()) throw Untold{"a run of photons has no photopeak"};
-    if (!studies_[point].peak.has_numbers()) throw Untold{studies_[point].peak.reason};
-    return studies_[point].peak.fit.relative_fwhm;
+    if (analyses_.empty()) throw NotAvailable{"a run of photons has no photopeak"};
+    if (!analyses_[point].peak.has_numbers()) throw NotAvailable{analyses_[point].peak.reason};
+    return analyses_[point].peak.fit.relative_fwhm;
   }
 
   double time_per_photon(const SweepSeries& curve) const {
@@ -118,76 +118,78 @@ class CurveJudge {
   }
 
   const tally::RunResult& run_;
-  const std::vector<analysis::EventStudy>& studies_;
+  const std::vector<analysis::EventAnalysis>& analyses_;
   const SweepView& view_;
 };
 
-bool within(const scene_file::ClaimSpec& claim, double value) {
-  return (!claim.at_least || value >= *claim.at_least) && (!claim.at_most || value <= *claim.at_most);
+bool within(const scene_file::CriterionSpec& criterion, double value) {
+  return (!criterion.at_least || value >= *criterion.at_least) &&
+         (!criterion.at_most || value <= *criterion.at_most);
 }
 
 /// A number as it is printed, angles in deg.
-std::string number_of(const scene_file::ClaimSpec& claim, double value) {
-  return scene_file::is_angle(claim.quantity) ? compact(value / core::kDegree, 4) + " deg"
-                                              : compact(value, 4);
+std::string number_of(const scene_file::CriterionSpec& criterion, double value) {
+  return scene_file::is_angle(criterion.quantity) ? compact(value / core::kDegree, 4) + " deg"
+                                                  : compact(value, 4);
 }
 
-std::string bounds(const scene_file::ClaimSpec& claim) {
-  if (claim.at_least && claim.at_most)
-    return number_of(claim, *claim.at_least) + " to " + number_of(claim, *claim.at_most);
-  return claim.at_least ? "at least " + number_of(claim, *claim.at_least)
-                        : "at most " + number_of(claim, *claim.at_most);
+std::string bounds(const scene_file::CriterionSpec& criterion) {
+  if (criterion.at_least && criterion.at_most)
+    return number_of(criterion, *criterion.at_least) + " to " + number_of(criterion, *criterion.at_most);
+  return criterion.at_least ? "at least " + number_of(criterion, *criterion.at_least)
+                            : "at most " + number_of(criterion, *criterion.at_most);
 }
 
-bool is_about_curves(const scene_file::ClaimSpec& claim) {
-  return !scene_file::is_of_surface(claim.quantity);
+bool is_about_curves(const scene_file::CriterionSpec& criterion) {
+  return !scene_file::is_of_surface(criterion.quantity);
 }
 
-Verdict verdict_on(const scene_file::ClaimSpec& claim, const core::Estimate& ours) {
-  Verdict verdict{claim, {}, ours, within(claim, ours.value), false};
+Evaluation evaluation_of(const scene_file::CriterionSpec& criterion, const core::Estimate& ours) {
+  Evaluation evaluation{criterion, {}, ours, within(criterion, ours.value), false};
   const double margin = kCertain * ours.error;
-  verdict.certain = within(claim, ours.value - margin) == verdict.agrees &&
-                    within(claim, ours.value + margin) == verdict.agrees;
-  return verdict;
+  evaluation.certain = within(criterion, ours.value - margin) == evaluation.agrees &&
+                       within(criterion, ours.value + margin) == evaluation.agrees;
+  return evaluation;
 }
 
 SweepView view_of(const tally::RunResult& run, const core::FileLocation& where) {
   auto view = view_sweep(run);
   if (!view)
     throw core::InputError(
-        {where, "claims and a reference are about curves, but this scene has no sweep over a number",
+        {where,
+         "acceptance criteria and a reference are about curves, but this scene has no sweep over a number",
          "sweep one, as source.region.slab_z.center"});
   return std::move(*view);
 }
 
-std::string ours(const Verdict& verdict) {
-  if (!verdict.untold.empty()) return verdict.untold;
-  if (!(verdict.ours.error > 0.0)) return number_of(verdict.claim, verdict.ours.value);
-  if (!scene_file::is_angle(verdict.claim.quantity)) return with_error(verdict.ours);
-  return with_error({verdict.ours.value / core::kDegree, verdict.ours.error / core::kDegree}) + " deg";
+std::string ours(const Evaluation& evaluation) {
+  if (!evaluation.not_available.empty()) return evaluation.not_available;
+  if (!(evaluation.ours.error > 0.0)) return number_of(evaluation.criterion, evaluation.ours.value);
+  if (!scene_file::is_angle(evaluation.criterion.quantity)) return with_error(evaluation.ours);
+  return with_error({evaluation.ours.value / core::kDegree, evaluation.ours.error / core::kDegree}) + " deg";
 }
 
-std::string words(const Verdict& verdict) {
-  if (!verdict.untold.empty()) return "not told";
-  return std::string(verdict.agrees ? "agrees" : "differs") +
-         (verdict.certain ? "" : ", within two errors of the bound");
+std::string words(const Evaluation& evaluation) {
+  if (!evaluation.not_available.empty()) return "not available";
+  return std::string(evaluation.agrees ? "agrees" : "differs") +
+         (evaluation.certain ? "" : ", within two errors of the bound");
 }
 
-std::string subject(const scene_file::ClaimSpec& claim) {
-  if (scene_file::is_of_surface(claim.quantity))
-    return claim.surface.name + " to " + claim.outside.name + " at " +
-           compact(claim.incidence_rad / core::kDegree, 4) + " deg";
-  return claim.curve.name + (claim.over.empty() ? "" : " over " + claim.over.name);
+std::string subject(const scene_file::CriterionSpec& criterion) {
+  if (scene_file::is_of_surface(criterion.quantity))
+    return criterion.surface.name + " to " + criterion.outside.name + " at " +
+           compact(criterion.incidence_rad / core::kDegree, 4) + " deg";
+  return criterion.curve.name + (criterion.over.empty() ? "" : " over " + criterion.over.name);
 }
 
 }  // namespace
 
 void check_curves(const tally::RunResult& run, const config::NameRef& reference,
-                  const std::vector<scene_file::ClaimSpec>& claims) {
-  const auto about_curves = std::find_if(claims.begin(), claims.end(), is_about_curves);
-  if (about_curves == claims.end() && reference.empty()) return;
+                  const std::vector<scene_file::CriterionSpec>& criteria) {
+  const auto about_curves = std::find_if(criteria.begin(), criteria.end(), is_about_curves);
+  if (about_curves == criteria.end() && reference.empty()) return;
   core::Problems problems;
-  const SweepView view = view_of(run, about_curves == claims.end() ? reference.where : about_curves->where);
+  const SweepView view = view_of(run, about_curves == criteria.end() ? reference.where : about_curves->where);
   const auto check = [&](const config::NameRef& name) {
     try {
       if (!name.empty()) named_series(view, name);
@@ -196,54 +198,55 @@ void check_curves(const tally::RunResult& run, const config::NameRef& reference,
     }
   };
   check(reference);
-  for (const scene_file::ClaimSpec& claim : claims) {
-    check(claim.curve);
-    check(claim.over);
+  for (const scene_file::CriterionSpec& criterion : criteria) {
+    check(criterion.curve);
+    check(criterion.over);
   }
   problems.throw_if_any();
 }
 
-std::vector<Verdict> judge(const tally::RunResult& run, const RunStudies& studies) {
-  std::vector<Verdict> verdicts;
-  if (run.points.empty()) return verdicts;
-  const auto about_curves = std::find_if(studies.claims.begin(), studies.claims.end(), is_about_curves);
+std::vector<Evaluation> evaluate(const tally::RunResult& run, const RunAnalysis& analyses) {
+  std::vector<Evaluation> evaluations;
+  if (run.points.empty()) return evaluations;
+  const auto about_curves = std::find_if(analyses.criteria.begin(), analyses.criteria.end(), is_about_curves);
   std::optional<SweepView> view;
-  if (about_curves != studies.claims.end()) view = view_of(run, about_curves->where);
-  for (const scene_file::ClaimSpec& claim : studies.claims) {
+  if (about_curves != analyses.criteria.end()) view = view_of(run, about_curves->where);
+  for (const scene_file::CriterionSpec& criterion : analyses.criteria) {
     try {
-      verdicts.push_back(verdict_on(claim, is_about_curves(claim)
-                                               ? CurveJudge(run, studies.points, *view).value(claim)
-                                               : surface_value(claim, studies.surfaces)));
-    } catch (const Untold& untold) {
-      verdicts.push_back({claim, untold.why, {}, false, false});
+      evaluations.push_back(evaluation_of(
+          criterion, is_about_curves(criterion) ? CurveEvaluator(run, analyses.points, *view).value(criterion)
+                                                : surface_value(criterion, analyses.surfaces)));
+    } catch (const NotAvailable& not_available) {
+      evaluations.push_back({criterion, not_available.why, {}, false, false});
     }
   }
-  return verdicts;
+  return evaluations;
 }
 
-std::string claim_section(const std::vector<Verdict>& verdicts) {
-  if (verdicts.empty()) return "";
+std::string criterion_section(const std::vector<Evaluation>& evaluations) {
+  if (evaluations.empty()) return "";
   std::string rows;
-  for (const Verdict& verdict : verdicts)
-    rows += "<tr>" + cell(verdict.claim.text, "th") + cell(subject(verdict.claim)) +
-            cell(verdict.claim.published) + cell(bounds(verdict.claim)) + cell(ours(verdict)) +
-            cell(words(verdict)) + cell(verdict.claim.note) + "</tr>\n";
+  for (const Evaluation& evaluation : evaluations)
+    rows += "<tr>" + cell(evaluation.criterion.text, "th") + cell(subject(evaluation.criterion)) +
+            cell(evaluation.criterion.published) + cell(bounds(evaluation.criterion)) +
+            cell(ours(evaluation)) + cell(words(evaluation)) + cell(evaluation.criterion.note) + "</tr>\n";
   return section(
       "What was expected",
       "<div class=\"claims\">" +
-          table({"claim", "of", "published", "expected here", "ours", "verdict", "note"}, rows, 7) +
+          table({"criterion", "of", "published", "expected here", "ours", "evaluation", "note"}, rows, 7) +
           "</div>\n");
 }
 
-std::string claim_lines(const std::vector<Verdict>& verdicts) {
+std::string criterion_lines(const std::vector<Evaluation>& evaluations) {
   std::string lines;
-  for (const Verdict& verdict : verdicts)
-    lines += (!verdict.untold.empty() ? "NOT TOLD "
-              : verdict.agrees        ? "agrees   "
-                                      : "DIFFERS  ") +
-             verdict.claim.text + " [" + subject(verdict.claim) + "]: " + ours(verdict) + " (expected " +
-             bounds(verdict.claim) +
-             (verdict.claim.published.empty() ? "" : "; published " + verdict.claim.published) + ")\n";
+  for (const Evaluation& evaluation : evaluations)
+    lines += (!evaluation.not_available.empty() ? "NOT AVAILABLE "
+              : evaluation.agrees               ? "agrees   "
+                                                : "DIFFERS  ") +
+             evaluation.criterion.text + " [" + subject(evaluation.criterion) + "]: " + ours(evaluation) +
+             " (expected " + bounds(evaluation.criterion) +
+             (evaluation.criterion.published.empty() ? "" : "; published " + evaluation.criterion.published) +
+             ")\n";
   return lines;
 }
 

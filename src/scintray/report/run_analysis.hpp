@@ -9,11 +9,12 @@
 
 namespace scintray::report {
 
-struct RunStudies {
-  std::vector<analysis::EventStudy> points;  ///< in step with RunResult::points; empty for a run of photons
-  config::NameRef reference;                 ///< AnalysisSpec::reference
-  std::vector<scene_file::ClaimSpec> claims;
-  std::vector<analysis::SurfaceStudy> surfaces;  ///< read on the bench
+struct RunAnalysis {
+  std::vector<analysis::EventAnalysis>
+      points;                 ///< in step with RunResult::points; empty for a run of photons
+  config::NameRef reference;  ///< AnalysisSpec::reference
+  std::vector<scene_file::CriterionSpec> criteria;
+  std::vector<analysis::SurfaceAnalysis> surfaces;  ///< read on the goniometer
 };
 
 }  // namespace scintray::report

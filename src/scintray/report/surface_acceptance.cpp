@@ -21,13 +21,13 @@ struct Readable {
   std::string surface, outside;
   std::vector<double> incidence_rad;
   double directions_at_rad = 0.0;
-  const analysis::SurfaceStudy* study = nullptr;  ///< nothing before the run
+  const analysis::SurfaceAnalysis* analysis = nullptr;  ///< nothing before the run
 
-  bool has(const scene_file::ClaimSpec& claim) const {
-    return claim.quantity == scene_file::ClaimQuantity::lobe_width
-               ? same_angle(directions_at_rad, claim.incidence_rad)
+  bool has(const scene_file::CriterionSpec& criterion) const {
+    return criterion.quantity == scene_file::CriterionQuantity::lobe_width
+               ? same_angle(directions_at_rad, criterion.incidence_rad)
                : std::any_of(incidence_rad.begin(), incidence_rad.end(),
-                             [&](double angle) { return same_angle(angle, claim.incidence_rad); });
+                             [&](double angle) { return same_angle(angle, criterion.incidence_rad); });
   }
 };
 
@@ -38,72 +38,75 @@ std::vector<std::string> names(const std::vector<Readable>& readable, std::strin
   return list;
 }
 
-const Readable& find(const std::vector<Readable>& readable, const scene_file::ClaimSpec& claim) {
+const Readable& find(const std::vector<Readable>& readable, const scene_file::CriterionSpec& criterion) {
   if (readable.empty())
-    throw core::InputError({claim.where, "this claim is about a surface, but the scene has no [[bench]]",
+    throw core::InputError({criterion.where,
+                            "this criterion is about a surface, but the scene has no [[bench]]",
                             "add one with the surface, the medium behind it and the wavelength"});
   const auto check_name = [&](const char* kind, const config::NameRef& name, std::string Readable::*member) {
     const std::vector<std::string> known = names(readable, member);
     if (std::find(known.begin(), known.end(), name.name) == known.end())
       throw core::unknown_name(name.where, kind, name.name, known);
   };
-  check_name("surface of a bench", claim.surface, &Readable::surface);
-  check_name("medium behind a surface of a bench", claim.outside, &Readable::outside);
+  check_name("surface on a goniometer", criterion.surface, &Readable::surface);
+  check_name("medium behind a surface on a goniometer", criterion.outside, &Readable::outside);
   for (const Readable& one : readable)
-    if (one.surface == claim.surface.name && one.outside == claim.outside.name && one.has(claim)) return one;
+    if (one.surface == criterion.surface.name && one.outside == criterion.outside.name && one.has(criterion))
+      return one;
   throw core::InputError(
-      {claim.where,
-       fmt::format("no bench reads surface \"{}\" to \"{}\" at {:g} deg", claim.surface.name,
-                   claim.outside.name, claim.incidence_rad / core::kDegree),
-       claim.quantity == scene_file::ClaimQuantity::lobe_width ? "widths are read at directions_at"
-                                                               : "add the angle to its incidence"});
+      {criterion.where,
+       fmt::format("no goniometer reads surface \"{}\" to \"{}\" at {:g} deg", criterion.surface.name,
+                   criterion.outside.name, criterion.incidence_rad / core::kDegree),
+       criterion.quantity == scene_file::CriterionQuantity::lobe_width ? "widths are read at directions_at"
+                                                                       : "add the angle to its incidence"});
 }
 
-std::size_t node_at(const analysis::SurfaceStudy& study, double incidence_rad) {
+std::size_t node_at(const analysis::SurfaceAnalysis& analysis, double incidence_rad) {
   std::size_t node = 0;
-  while (!same_angle(study.incidence_rad[node], incidence_rad)) ++node;
+  while (!same_angle(analysis.incidence_rad[node], incidence_rad)) ++node;
   return node;
 }
 
 }  // namespace
 
-core::Estimate surface_value(const scene_file::ClaimSpec& claim,
-                             const std::vector<analysis::SurfaceStudy>& studies) {
+core::Estimate surface_value(const scene_file::CriterionSpec& criterion,
+                             const std::vector<analysis::SurfaceAnalysis>& analyses) {
   std::vector<Readable> readable;
-  for (const analysis::SurfaceStudy& study : studies)
-    readable.push_back({study.place.surface, study.place.outside, study.incidence_rad,
-                        study.directions.settings.incidence_rad, &study});
-  const analysis::SurfaceStudy& study = *find(readable, claim).study;
-  if (claim.quantity == scene_file::ClaimQuantity::lobe_width)
-    return {std::asin(std::min(1.0, study.directions.reflected_lobe.width_in_plane)), 0.0};
-  const std::size_t node = node_at(study, claim.incidence_rad);
-  if (claim.quantity == scene_file::ClaimQuantity::mean_slope) {
-    if (study.slope_rad.empty())
-      throw core::InputError({claim.surface.where,
-                              "surface \"" + claim.surface.name + "\" has no facets of its own",
+  for (const analysis::SurfaceAnalysis& analysis : analyses)
+    readable.push_back({analysis.place.surface, analysis.place.outside, analysis.incidence_rad,
+                        analysis.directions.settings.incidence_rad, &analysis});
+  const analysis::SurfaceAnalysis& analysis = *find(readable, criterion).analysis;
+  if (criterion.quantity == scene_file::CriterionQuantity::lobe_width)
+    return {std::asin(std::min(1.0, analysis.directions.reflected_lobe.width_in_plane)), 0.0};
+  const std::size_t node = node_at(analysis, criterion.incidence_rad);
+  if (criterion.quantity == scene_file::CriterionQuantity::mean_slope) {
+    if (analysis.slope_rad.empty())
+      throw core::InputError({criterion.surface.where,
+                              "surface \"" + criterion.surface.name + "\" has no facets of its own",
                               "slopes are those of height maps, recipes and their tables"});
-    return study.slope_rad[node];
+    return analysis.slope_rad[node];
   }
-  core::Estimate value = study.reflectance[node];
-  if (claim.quantity == scene_file::ClaimQuantity::over_fresnel)
+  core::Estimate value = analysis.reflectance[node];
+  if (criterion.quantity == scene_file::CriterionQuantity::over_fresnel)
     value.value -=
-        optics::fresnel(std::cos(claim.incidence_rad), study.index.inside, study.index.outside).unpolarised();
+        optics::fresnel(std::cos(criterion.incidence_rad), analysis.index.inside, analysis.index.outside)
+            .unpolarised();
   return value;
 }
 
-void check_surface_claims(const std::vector<scene_file::BenchSpec>& benches,
-                          const std::vector<scene_file::ClaimSpec>& claims) {
+void check_surface_criteria(const std::vector<scene_file::GoniometerSpec>& goniometers,
+                            const std::vector<scene_file::CriterionSpec>& criteria) {
   std::vector<Readable> readable;
-  for (const scene_file::BenchSpec& bench : benches)
-    for (const config::NameRef& outside : bench.outside)
-      for (const config::NameRef& surface : bench.surfaces)
+  for (const scene_file::GoniometerSpec& goniometer : goniometers)
+    for (const config::NameRef& outside : goniometer.outside)
+      for (const config::NameRef& surface : goniometer.surfaces)
         readable.push_back(
-            {surface.name, outside.name, bench.incidence_rad, bench.directions_at_rad, nullptr});
+            {surface.name, outside.name, goniometer.incidence_rad, goniometer.directions_at_rad, nullptr});
   core::Problems problems;
-  for (const scene_file::ClaimSpec& claim : claims) {
-    if (!scene_file::is_of_surface(claim.quantity)) continue;
+  for (const scene_file::CriterionSpec& criterion : criteria) {
+    if (!scene_file::is_of_surface(criterion.quantity)) continue;
     try {
-      find(readable, claim);
+      find(readable, criterion);
     } catch (const core::InputError& error) {
       problems.add(error);
     }

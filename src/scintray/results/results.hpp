@@ -32,8 +32,8 @@ class ResultsWriter {
   /// Without commit() nothing stays.
   ~ResultsWriter();
 
-  /// Adds the surfaces that were read on the bench; once at most.
-  void add_surfaces(const std::vector<analysis::SurfaceStudy>& studies);
+  /// Adds the surfaces that were read on the goniometer; once at most.
+  void add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses);
   /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
   void append_photons(const std::vector<tally::DetectedPhoton>& photons);
   /// Says what the events of a point are read out by, before the first of them; without it the file has
@@ -59,7 +59,7 @@ class ResultsWriter {
   std::unique_ptr<State> state_;
 };
 
-/// What a file says about being partial.
+/// What a file states about being partial.
 struct ResultsStatus {
   bool complete = false;
   std::string reason;  ///< empty when complete
@@ -77,8 +77,8 @@ ResultsStatus read_results_status(const std::filesystem::path& path);
 std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                                 std::uint64_t count);
 
-/// Surfaces that were read on the bench; empty when there are none.
-std::vector<analysis::SurfaceStudy> read_surfaces(const std::filesystem::path& path);
+/// Surfaces that were read on the goniometer; empty when there are none.
+std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path);
 
 /// What the events of a point are read out by; empty when it has none.
 std::vector<tally::ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);

@@ -30,7 +30,7 @@ void describe(core::h5::Group& group, const std::string& name);
 /// Opens a result and checks that this program can read it; InputError when it cannot.
 core::h5::File open_results(const std::filesystem::path& path);
 
-/// True when the root says that the file is a ScintRay result.
+/// True when the root states that the file is a ScintRay result.
 bool has_format(const core::h5::Group& root);
 
 /// The error of a result that contradicts itself.

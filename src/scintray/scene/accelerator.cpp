@@ -251,7 +251,7 @@ Exit Accelerator::find_exit(const core::Vec3& origin, const core::Vec3& directio
     const Approach approach = approach_of(hit.triangle, from, along);
     if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
   }
-  return exit_after_doubt(origin, direction, hit);
+  return exact_exit(origin, direction, hit);
 }
 
 Exit Accelerator::exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const {
@@ -289,8 +289,7 @@ FirstHit Accelerator::first_hit(core::FourFloats origin_and_start, core::FourFlo
   return {hit.ray.tfar, 0.0f, hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.hit.primID, 0};
 }
 
-Exit Accelerator::exit_after_doubt(const core::Vec3& origin, const core::Vec3& direction,
-                                   FirstHit hit) const {
+Exit Accelerator::exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const {
   for (int self_hits = 0;; ++self_hits) {
     if (hit.triangle == kNoTriangle) {
       if (!boundary_.closed) return {};
@@ -350,7 +349,7 @@ bool Accelerator::contains(const core::Vec3& point) const {
   if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
   const auto behind = inside_by_embree(point, -kSkew);
   if (behind == Inside::yes || behind == Inside::no) return behind == Inside::yes;
-  if (ahead == Inside::nothing_met && behind == Inside::nothing_met) return false;
+  if (ahead == Inside::no_hit && behind == Inside::no_hit) return false;
   return inside_by_search(point, kSkew);
 }
 
@@ -358,7 +357,7 @@ Accelerator::Inside Accelerator::inside_by_embree(const core::Vec3& point,
                                                   const core::Vec3& direction) const {
   RTCRayHit hit = make_ray(point, direction, 0.0);
   intersect(embree_->scene, hit);
-  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::nothing_met;
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::no_hit;
   // Near the start or near an edge single precision cannot say which side is met.
   const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
   if (hit.ray.tfar < kBehind * boundary_.size_mm || edge < kClearOfEdge) return Inside::unclear;

@@ -40,7 +40,7 @@ struct Boundary {
   std::vector<std::uint32_t> corners;     ///< three a triangle, indices into `vertices`
   std::vector<TrianglePlane> triangle_planes;
   std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
-  std::vector<std::uint32_t> plane_triangles;  ///< as BoundingPlane says
+  std::vector<std::uint32_t> plane_triangles;  ///< as BoundingPlane states
   double size_mm = 0.0;                        ///< diagonal of the bounding box
   bool closed = true;                          ///< false for the ambient region
 
@@ -56,10 +56,10 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 struct Exit {
   double distance_mm = 0.0;
   std::uint32_t triangle = kNoTriangle;  ///< kNoTriangle: the ray goes to infinity
-  bool resolved = false;                 ///< settled by the exact search
+  bool resolved = false;                 ///< resolved by the exact query
 };
 
-/// What Embree says a ray meets first, in single precision.
+/// What Embree states a ray meets first, in single precision.
 struct FirstHit {
   float distance_mm = 0.0f;  ///< along the ray
   float unused = 0.0f;       ///< so that the distance and the triangle come back in registers
@@ -100,7 +100,7 @@ class Accelerator {
 
   /// find_exit in pieces, for what follows a photon from wall to wall and has the next ray in single
   /// precision before it has it in double: the first hit, the approach to it, and where that does not leave
-  /// the region, or nothing is hit, exit_after_doubt.
+  /// the region, or nothing is hit, exact_exit.
   bool uses_embree() const { return embree_ != nullptr; }
   /// @param origin_and_start  fourth: start_mm(); the others mm
   /// @param direction         fourth: 0
@@ -115,8 +115,7 @@ class Accelerator {
     const double cosine = dot(plane, direction);
     return {cosine, std::max(0.0, -dot(plane, origin) / cosine)};
   }
-  [[gnu::cold]] Exit exit_after_doubt(const core::Vec3& origin, const core::Vec3& direction,
-                                      FirstHit hit) const;
+  [[gnu::cold]] Exit exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const;
 
   /// True when `point` is inside the (closed) boundary.
   bool contains(const core::Vec3& point) const;
@@ -140,8 +139,8 @@ class Accelerator {
  private:
   struct EmbreeScene;
 
-  /// What one ray says of a point.
-  enum class Inside { yes, no, nothing_met, unclear };
+  /// What one ray states of a point.
+  enum class Inside { yes, no, no_hit, unclear };
 
   bool make_planes(const std::vector<std::uint32_t>& labels);
   Exit exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const;

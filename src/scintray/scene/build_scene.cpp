@@ -19,17 +19,17 @@
 
 namespace scintray::scene {
 
-void add_definitions(materials::Library& library, const scene_file::SceneSpec& spec) {
-  library.add(materials::LibraryKind::medium, spec.media);
-  library.add(materials::LibraryKind::surface, spec.surfaces);
-  library.add(materials::LibraryKind::sensor, spec.sensors);
-  library.add(materials::LibraryKind::reflector, spec.reflectors);
+void add_definitions(materials::MaterialDatabase& database, const scene_file::SceneSpec& spec) {
+  database.add(materials::DefinitionKind::medium, spec.media);
+  database.add(materials::DefinitionKind::surface, spec.surfaces);
+  database.add(materials::DefinitionKind::sensor, spec.sensors);
+  database.add(materials::DefinitionKind::reflector, spec.reflectors);
 }
 
-materials::Library library_for(const scene_file::SceneSpec& spec) {
-  materials::Library library = materials::Library::shipped();
-  add_definitions(library, spec);
-  return library;
+materials::MaterialDatabase database_for(const scene_file::SceneSpec& spec) {
+  materials::MaterialDatabase database = materials::MaterialDatabase::shipped();
+  add_definitions(database, spec);
+  return database;
 }
 
 namespace {
@@ -58,13 +58,13 @@ WavelengthRange range_of(const core::Curve& emission) {
 /// Looks up every name of a scene and fills an Assembly.
 class AssemblyMaker {
  public:
-  AssemblyMaker(const scene_file::SceneSpec& spec, const materials::Library& library,
-                materials::SurfaceMaker& surfaces, core::Problems& problems)
-      : spec_(spec), library_(library), surface_maker_(surfaces), problems_(problems) {}
+  AssemblyMaker(const scene_file::SceneSpec& spec, const materials::MaterialDatabase& database,
+                materials::SurfaceFactory& surfaces, core::Problems& problems)
+      : spec_(spec), database_(database), surface_factory_(surfaces), problems_(problems) {}
 
   Assembly make(const std::vector<contact::PlacedMesh>& placed, std::vector<std::string>& warnings) {
     wavelengths_ = find_wavelengths(placed);
-    wavelengths_.high_nm = std::max(wavelengths_.high_nm, longest_shifted_nm(spec_, placed, library_));
+    wavelengths_.high_nm = std::max(wavelengths_.high_nm, longest_shifted_nm(spec_, placed, database_));
     assembly_.low_nm = wavelengths_.low_nm;
     assembly_.high_nm = wavelengths_.high_nm;
     assembly_.ambient = medium_index(spec_.ambient);
@@ -106,7 +106,7 @@ class AssemblyMaker {
           part.medium.name == scene_file::kOpaqueMedium)
         continue;
       try {
-        const optics::Medium& medium = library_.medium(part.medium.name, part.medium.where);
+        const optics::Medium& medium = database_.medium(part.medium.name, part.medium.where);
         const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
         if (emits) {
           const WavelengthRange range = range_of(medium.emission);
@@ -147,7 +147,7 @@ class AssemblyMaker {
     medium.name = ref.name;
     medium.index = core::Curve::constant(1.0);
     try {
-      medium = library_.medium(ref.name, ref.where);
+      medium = database_.medium(ref.name, ref.where);
     } catch (const core::InputError& error) {
       problems_.add(error);
     }
@@ -160,7 +160,7 @@ class AssemblyMaker {
     if (!is_new) return known->second;
     detector::Sensor sensor;
     try {
-      sensor = library_.sensor(ref.name, ref.where);
+      sensor = database_.sensor(ref.name, ref.where);
       materials::check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm,
                              wavelengths_.high_nm, "sensor \"" + sensor.name + "\"", "an efficiency",
                              "extend its efficiency table, with zeros where it does not respond");
@@ -239,7 +239,7 @@ class AssemblyMaker {
     materials::SurfaceSpec& spec = surfaces_[ref.name];
     spec.microsurface = materials::SmoothSpec{};
     try {
-      spec = library_.surface(ref.name, ref.where);
+      spec = database_.surface(ref.name, ref.where);
     } catch (const core::InputError& error) {
       problems_.add(error);
     }
@@ -268,7 +268,7 @@ class AssemblyMaker {
     // An opaque part has no index: where light enters it the indices match.
     const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
     const std::uint32_t seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
-    const materials::MadeSurface made = surface_maker_.make(
+    const materials::MadeSurface made = surface_factory_.make(
         spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
         wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
@@ -276,8 +276,8 @@ class AssemblyMaker {
   }
 
   const scene_file::SceneSpec& spec_;
-  const materials::Library& library_;
-  materials::SurfaceMaker& surface_maker_;
+  const materials::MaterialDatabase& database_;
+  materials::SurfaceFactory& surface_factory_;
   core::Problems& problems_;
   WavelengthRange wavelengths_;
   Assembly assembly_;
@@ -380,20 +380,20 @@ bool same_definitions(const std::array<scene_file::InlineTables, 4>& a,
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(materials::SurfaceMaker::Hooks hooks) : surface_maker_(std::move(hooks)) {}
+SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks) : surface_factory_(std::move(hooks)) {}
 
-const materials::Library& SceneBuilder::library(const scene_file::SceneSpec& spec) {
-  if (!shipped_) shipped_ = materials::Library::shipped();
+const materials::MaterialDatabase& SceneBuilder::database(const scene_file::SceneSpec& spec) {
+  if (!shipped_) shipped_ = materials::MaterialDatabase::shipped();
   const OwnDefinitions own{spec.media, spec.surfaces, spec.sensors, spec.reflectors};
-  if (library_ && same_definitions(own, own_)) return *library_;
-  library_ = shipped_;
-  add_definitions(*library_, spec);
+  if (database_ && same_definitions(own, own_)) return *database_;
+  database_ = shipped_;
+  add_definitions(*database_, spec);
   own_ = own;
-  return *library_;
+  return *database_;
 }
 
-materials::Library::Readings SceneBuilder::readings() const {
-  return shipped_ ? shipped_->readings() : materials::Library::Readings{};
+materials::MaterialDatabase::Readings SceneBuilder::readings() const {
+  return shipped_ ? shipped_->readings() : materials::MaterialDatabase::Readings{};
 }
 
 BuiltScene SceneBuilder::build(const scene_file::SceneSpec& spec) {
@@ -402,10 +402,10 @@ BuiltScene SceneBuilder::build(const scene_file::SceneSpec& spec) {
   if (problems.empty()) contact::cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
   if (problems.empty())
     contact::conform_contacts(placed, conforming_contacts(spec), spec.run.contact_tolerance_mm, problems);
-  const materials::Library& library = this->library(spec);
+  const materials::MaterialDatabase& database = this->database(spec);
   BuiltScene built;
-  AssemblyMaker maker(spec, library, surface_maker_, problems);
-  const Assembly assembly = maker.make(placed, built.warnings);
+  AssemblyMaker factory(spec, database, surface_factory_, problems);
+  const Assembly assembly = factory.make(placed, built.warnings);
   problems.throw_if_any();
   built.scene = assemble(assembly);
   check_sensors(spec, placed, built.scene, problems, built.warnings);

@@ -1,5 +1,5 @@
 #pragma once
-/// From what a scene file says to the scene that photons see.
+/// From what a scene file states to the scene that photons see.
 
 #include <array>
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace scintray::scene {
 
-/// What `scintray check` says of one part beyond the scene itself.
+/// What `scintray check` states of one part beyond the scene itself.
 struct PartReport {
   std::string name;
   mesh::MeshDiagnosis diagnosis;
@@ -34,7 +34,7 @@ struct BuiltScene {
 /// of the material database are read once (Library).
 class SceneBuilder {
  public:
-  explicit SceneBuilder(materials::SurfaceMaker::Hooks hooks = {});
+  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {});
 
   /// Throws InputError with every problem: unsound meshes, faces without or with two surfaces,
   /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
@@ -42,23 +42,23 @@ class SceneBuilder {
   BuiltScene build(const scene_file::SceneSpec& spec);
 
   /// What makes its surfaces, and keeps them.
-  materials::SurfaceMaker& surfaces() { return surface_maker_; }
-  /// The shipped library with a scene's own definitions. Lives until the next scene whose own are others.
-  const materials::Library& library(const scene_file::SceneSpec& spec);
+  materials::SurfaceFactory& surfaces() { return surface_factory_; }
+  /// The shipped database with a scene's own definitions. Lives until the next scene whose own are others.
+  const materials::MaterialDatabase& database(const scene_file::SceneSpec& spec);
   /// How often files and definitions were read for all scenes so far.
-  materials::Library::Readings readings() const;
+  materials::MaterialDatabase::Readings readings() const;
 
  private:
   using OwnDefinitions = std::array<scene_file::InlineTables, 4>;  ///< media, surfaces, sensors, reflectors
 
-  materials::SurfaceMaker surface_maker_;
-  std::optional<materials::Library> shipped_, library_;
-  OwnDefinitions own_;  ///< of `library_`
+  materials::SurfaceFactory surface_factory_;
+  std::optional<materials::MaterialDatabase> shipped_, database_;
+  OwnDefinitions own_;  ///< of `database_`
 };
 
 /// Adds a scene's own media, surfaces, sensors and reflectors to a library.
-void add_definitions(materials::Library& library, const scene_file::SceneSpec& spec);
-/// The shipped library with them.
-materials::Library library_for(const scene_file::SceneSpec& spec);
+void add_definitions(materials::MaterialDatabase& database, const scene_file::SceneSpec& spec);
+/// The shipped database with them.
+materials::MaterialDatabase database_for(const scene_file::SceneSpec& spec);
 
 }  // namespace scintray::scene

@@ -59,7 +59,7 @@ mesh::FaceSelector selector_of(const scene_file::FaceSelectorSpec& spec) {
   return selector;
 }
 
-/// Groups of the mesh, and what the file says of them.
+/// Groups of the mesh, and what the file states of them.
 std::string group_list(const mesh::TriMesh& mesh) {
   constexpr std::size_t kMost = 30;
   std::vector<std::string> names;

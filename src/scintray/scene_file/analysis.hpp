@@ -1,5 +1,5 @@
 #pragma once
-/// [analysis]: how the events of a run are looked at, as a scene file says it (docs/analysis.md).
+/// [analysis]: how the events of a run are looked at, as a scene file states it (docs/analysis.md).
 
 #include <array>
 #include <optional>

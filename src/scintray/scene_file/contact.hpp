@@ -28,7 +28,7 @@ struct ContactSpec {
   ContactKind kind = ContactKind::bonded;
   config::NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
   bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
-  bool by_builder = false;  ///< made with a builder's parts: yields to what the file says, may find no pair
+  bool by_builder = false;  ///< made with a builder's parts: yields to what the file states, may find no pair
   /// Faces this near to each other, curved ones too, are made one (conform_parts.hpp); nothing: only
   /// those within the scene's contact tolerance.
   std::optional<double> tolerance_mm;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene is expected to show, said in its file and judged on its page (docs/analysis.md).
+/// What a scene is expected to show, said in its file and evaluated on its page (docs/analysis.md).
 
 #include <optional>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace scintray::scene_file {
 
-/// What is taken from one or two curves of a sweep, or from a surface on the bench.
-enum class ClaimQuantity {
+/// What is taken from one or two curves of a sweep, or from a surface on the goniometer.
+enum class CriterionQuantity {
   range,            ///< (largest - smallest) / mean of the light of a curve
   fall,             ///< 1 - last / first light of a curve
   fall_difference,  ///< fall of a curve minus that of another
@@ -20,46 +20,46 @@ enum class ClaimQuantity {
   maximum_ratio,    ///< largest light of a curve over that of another
   resolution,       ///< of the photopeak at the first point of a curve, full width at half maximum
   time_ratio,       ///< time per photon of a curve over that of another
-  mean_slope,       ///< mean angle of the facets met by light, rad
+  mean_slope,       ///< mean angle of the facets that light hits, rad
   reflectance,
   over_fresnel,  ///< reflectance minus Fresnel's of a flat face
   lobe_width,    ///< rms width of the reflected light, in the plane of incidence, as the angle of that sine,
                  ///< rad
 };
-inline constexpr config::Word<ClaimQuantity> kClaimQuantities[] = {
-    {"range", ClaimQuantity::range},
-    {"fall", ClaimQuantity::fall},
-    {"fall_difference", ClaimQuantity::fall_difference},
-    {"light", ClaimQuantity::light},
-    {"maximum_ratio", ClaimQuantity::maximum_ratio},
-    {"resolution", ClaimQuantity::resolution},
-    {"time_ratio", ClaimQuantity::time_ratio},
-    {"mean_slope", ClaimQuantity::mean_slope},
-    {"reflectance", ClaimQuantity::reflectance},
-    {"over_fresnel", ClaimQuantity::over_fresnel},
-    {"lobe_width", ClaimQuantity::lobe_width}};
+inline constexpr config::Word<CriterionQuantity> kCriterionQuantities[] = {
+    {"range", CriterionQuantity::range},
+    {"fall", CriterionQuantity::fall},
+    {"fall_difference", CriterionQuantity::fall_difference},
+    {"light", CriterionQuantity::light},
+    {"maximum_ratio", CriterionQuantity::maximum_ratio},
+    {"resolution", CriterionQuantity::resolution},
+    {"time_ratio", CriterionQuantity::time_ratio},
+    {"mean_slope", CriterionQuantity::mean_slope},
+    {"reflectance", CriterionQuantity::reflectance},
+    {"over_fresnel", CriterionQuantity::over_fresnel},
+    {"lobe_width", CriterionQuantity::lobe_width}};
 /// Is about a surface of a [[bench]], not about curves.
-bool is_of_surface(ClaimQuantity quantity);
+bool is_of_surface(CriterionQuantity quantity);
 /// Its numbers are angles.
-bool is_angle(ClaimQuantity quantity);
+bool is_angle(CriterionQuantity quantity);
 
-struct ClaimSpec {
-  std::string text;       ///< the claim in words
-  std::string published;  ///< what its source says
+struct CriterionSpec {
+  std::string text;       ///< the criterion in words
+  std::string published;  ///< what its source states
   std::string note;       ///< why ours differs, when it does
-  ClaimQuantity quantity = ClaimQuantity::light;
+  CriterionQuantity quantity = CriterionQuantity::light;
   config::NameRef curve,
       over;  ///< labels of curves: settings of all keys but the last swept number, "2 mm, polished"
   config::NameRef surface, outside;         ///< of a [[bench]]
-  double incidence_rad = 0.0;               ///< one of the bench's
+  double incidence_rad = 0.0;               ///< one of the goniometer's
   std::optional<double> at_least, at_most;  ///< agreed within, both inclusive; rad when it is an angle
   core::FileLocation where;
 };
 
 /// [[claim]] of a scene. Adds what is wrong to the collector of the table.
-std::vector<ClaimSpec> read_claims(const config::TomlTable& scene);
+std::vector<CriterionSpec> read_criteria(const config::TomlTable& scene);
 
 /// The same of a file's text, of which nothing else is read. @throws InputError with all that is wrong
-std::vector<ClaimSpec> claims_of_text(const std::string& text, const std::string& file);
+std::vector<CriterionSpec> criteria_of_text(const std::string& text, const std::string& file);
 
 }  // namespace scintray::scene_file

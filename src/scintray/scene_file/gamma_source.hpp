@@ -1,5 +1,5 @@
 #pragma once
-/// What leaves energy in the scene, as a scene file says it: [source] of the types "gamma_events",
+/// What leaves energy in the scene, as a scene file states it: [source] of the types "gamma_events",
 /// "gammas" and "hits".
 
 #include <cstdint>
@@ -51,7 +51,7 @@ inline constexpr config::Word<Emission> kEmissions[] = {{"gamma", Emission::gamm
                                                         {"Cs137", Emission::caesium},
                                                         {"Lu176", Emission::lutetium}};
 
-/// What parts are made of, for gammas, where their medium does not say it.
+/// What parts are made of, for gammas, where their medium does not state it.
 struct MatterSpec {
   config::NameRef part;             ///< may have wildcards; "ambient" is what surrounds the parts
   optics::Composition composition;  ///< empty: gammas pass as through empty space
@@ -91,7 +91,7 @@ struct GammaSpec {
   std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else at most so many
   std::optional<std::uint64_t> quick_events;  ///< in their place, for a quick run
   bool cherenkov = false;                     ///< Cherenkov light beside scintillation
-  bool unpolarised = false;                   ///< the light, as SourceSpec says
+  bool unpolarised = false;                   ///< the light, as SourceSpec states
   core::FileLocation where;
 };
 

@@ -9,7 +9,7 @@ namespace scintray::scene_file {
 namespace {
 
 constexpr double kStep_deg = 2.5;
-/// Close to grazing, where the slopes that light meets are steepest.
+/// Close to grazing, where the slopes that light hits are steepest.
 constexpr double kLast_deg = 88.5;
 constexpr double kDirectionsAt_deg = 45.0;
 
@@ -28,44 +28,45 @@ std::vector<config::NameRef> read_names(const config::TomlTable& table, const st
   return names;
 }
 
-BenchSpec read_bench(const config::TomlTable& table) {
-  BenchSpec bench;
-  bench.where = table.where();
-  bench.title = table.string("title", "Surfaces");
-  bench.surfaces = read_names(table, "surfaces");
-  bench.inside = {table.string("inside"), table.where("inside")};
-  bench.outside = read_names(table, "outside");
-  bench.wavelength_nm = table.quantity("wavelength", core::Dimension::wavelength);
-  table.expect("wavelength", bench.wavelength_nm > 0.0, "a wavelength must be positive");
+GoniometerSpec read_goniometer_table(const config::TomlTable& table) {
+  GoniometerSpec goniometer;
+  goniometer.where = table.where();
+  goniometer.title = table.string("title", "Surfaces");
+  goniometer.surfaces = read_names(table, "surfaces");
+  goniometer.inside = {table.string("inside"), table.where("inside")};
+  goniometer.outside = read_names(table, "outside");
+  goniometer.wavelength_nm = table.quantity("wavelength", core::Dimension::wavelength);
+  table.expect("wavelength", goniometer.wavelength_nm > 0.0, "a wavelength must be positive");
 
-  bench.incidence_rad =
+  goniometer.incidence_rad =
       table.has("incidence") ? table.quantities("incidence", core::Dimension::angle) : usual_incidence();
-  const bool rising = std::adjacent_find(bench.incidence_rad.begin(), bench.incidence_rad.end(),
-                                         std::greater_equal<>()) == bench.incidence_rad.end();
-  table.expect("incidence",
-               rising && std::all_of(bench.incidence_rad.begin(), bench.incidence_rad.end(), is_incidence),
-               "angles of incidence rise, from 0 deg to below 90 deg",
-               "as [\"0 deg\", \"45 deg\", \"80 deg\"]");
-  bench.directions_at_rad =
+  const bool rising = std::adjacent_find(goniometer.incidence_rad.begin(), goniometer.incidence_rad.end(),
+                                         std::greater_equal<>()) == goniometer.incidence_rad.end();
+  table.expect(
+      "incidence",
+      rising && std::all_of(goniometer.incidence_rad.begin(), goniometer.incidence_rad.end(), is_incidence),
+      "angles of incidence rise, from 0 deg to below 90 deg", "as [\"0 deg\", \"45 deg\", \"80 deg\"]");
+  goniometer.directions_at_rad =
       table.quantity("directions_at", core::Dimension::angle, kDirectionsAt_deg * core::kDegree);
-  table.expect("directions_at", is_incidence(bench.directions_at_rad),
+  table.expect("directions_at", is_incidence(goniometer.directions_at_rad),
                "an angle of incidence lies from 0 deg to below 90 deg");
 
-  const std::int64_t rays = table.integer("rays", static_cast<std::int64_t>(bench.rays));
-  const bool good = rays >= static_cast<std::int64_t>(BenchSpec::kFewestRays) &&
-                    rays <= static_cast<std::int64_t>(BenchSpec::kMostRays);
+  const std::int64_t rays = table.integer("rays", static_cast<std::int64_t>(goniometer.rays));
+  const bool good = rays >= static_cast<std::int64_t>(GoniometerSpec::kFewestRays) &&
+                    rays <= static_cast<std::int64_t>(GoniometerSpec::kMostRays);
   table.expect("rays", good, "the number of rays is not in 1,000 to 100,000,000",
                "they are shot at each angle of incidence");
-  if (good) bench.rays = static_cast<std::uint64_t>(rays);
-  return bench;
+  if (good) goniometer.rays = static_cast<std::uint64_t>(rays);
+  return goniometer;
 }
 
 }  // namespace
 
-std::vector<BenchSpec> read_benches(const config::TomlTable& scene) {
-  std::vector<BenchSpec> benches;
-  for (const config::TomlTable& table : scene.tables("bench")) benches.push_back(read_bench(table));
-  return benches;
+std::vector<GoniometerSpec> read_goniometers(const config::TomlTable& scene) {
+  std::vector<GoniometerSpec> goniometers;
+  for (const config::TomlTable& table : scene.tables("bench"))
+    goniometers.push_back(read_goniometer_table(table));
+  return goniometers;
 }
 
 }  // namespace scintray::scene_file

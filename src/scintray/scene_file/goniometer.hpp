@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces that a scene wants shown on an optical bench, beside what its crystals give (docs/analysis.md).
+/// Surfaces that a scene wants shown on a goniometer, beside what its crystals give (docs/analysis.md).
 
 #include <cstdint>
 #include <string>
@@ -11,9 +11,9 @@
 
 namespace scintray::scene_file {
 
-struct BenchSpec {
+struct GoniometerSpec {
   std::string title;
-  std::vector<config::NameRef> surfaces;   ///< of the library or the scene, at least one
+  std::vector<config::NameRef> surfaces;   ///< of the database or the scene, at least one
   config::NameRef inside;                  ///< medium from which the light comes
   std::vector<config::NameRef> outside;    ///< media behind the surface, at least one
   double wavelength_nm = 0.0;              ///< above 0
@@ -26,6 +26,6 @@ struct BenchSpec {
 };
 
 /// [[bench]] of a scene. Adds what is wrong to the collector of the table.
-std::vector<BenchSpec> read_benches(const config::TomlTable& scene);
+std::vector<GoniometerSpec> read_goniometers(const config::TomlTable& scene);
 
 }  // namespace scintray::scene_file

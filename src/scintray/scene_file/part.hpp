@@ -46,7 +46,7 @@ struct GroupSpec {
   PlacementSpec placement;
 };
 
-/// A definition written in the scene file, in the form of a library file: the library parses it.
+/// A definition written in the scene file, in the form of a file of the database, which parses it.
 using InlineTables = std::map<std::string, config::TomlNodePtr>;
 
 /// The keys of a [[part]] or of an element, but for its name and place: shape, medium, sensor,

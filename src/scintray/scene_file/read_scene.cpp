@@ -81,9 +81,9 @@ void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& 
     for (const config::TomlNode& value : sweep.values) {
       std::vector<std::string> found;
       if (value.kind == Kind::string && core::is_pattern(value.text)) {
-        core::Problems told_when_the_scene_is_read;
+        core::Problems reported_when_the_scene_is_read;
         if (parts.empty()) {
-          const Bodies bodies = read_bodies(config::TomlTable(document, told_when_the_scene_is_read));
+          const Bodies bodies = read_bodies(config::TomlTable(document, reported_when_the_scene_is_read));
           parts = part_names(bodies.parts, bodies.groups);
         }
         found = core::matching(value.text, parts);
@@ -118,8 +118,8 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text) {
   scene.run = read_run(root);
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
-  scene.claims = read_claims(root);
-  scene.benches = read_benches(root);
+  scene.criteria = read_criteria(root);
+  scene.goniometers = read_goniometers(root);
   read_tallies(root, scene);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");

@@ -6,7 +6,7 @@
 
 namespace scintray::scene_file {
 
-/// The electronics that a scene asks for; nothing when it has no [readout]. Adds what is wrong to the
+/// The electronics that a scene requests; nothing when it has no [readout]. Adds what is wrong to the
 /// collector of the table.
 /// @param scene  the outermost table
 std::optional<detector::ReadoutSpec> read_readout(const config::TomlTable& scene);

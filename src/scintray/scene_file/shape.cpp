@@ -93,7 +93,7 @@ double positive_length(const config::TomlTable& table, const std::string& key, c
   return value;
 }
 
-/// A whole number from `least` to 1000000; `what` is said of a wrong one after the number.
+/// A whole number from `least` to 1000000; `what` is stated of a wrong one after the number.
 int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
                      const std::string& what) {
   const std::int64_t value = table.integer(key, fallback);

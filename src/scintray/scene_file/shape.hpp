@@ -26,7 +26,7 @@ struct BoxSpec {
 /// A mesh file, CAD or triangles.
 struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
-  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must say
+  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must state
   double scale = 1.0;
   std::string body;                 ///< name or number of the one body of the file; empty: all together
   mesh::Tessellation tessellation;  ///< of a CAD file's curved faces

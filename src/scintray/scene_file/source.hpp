@@ -1,5 +1,5 @@
 #pragma once
-/// [source] of photons: where light starts, as a scene file says it. Lengths mm, wavelengths nm, times ns,
+/// [source] of photons: where light starts, as a scene file states it. Lengths mm, wavelengths nm, times ns,
 /// angles rad.
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as its file says it: names and numbers, nothing looked up or built yet. Lengths mm,
+/// A scene as its file states it: names and numbers, nothing looked up or built yet. Lengths mm,
 /// wavelengths nm, times ns, angles rad.
 
 #include <filesystem>
@@ -34,8 +34,8 @@ struct SceneSpec {
   RunSpec run;
   std::optional<detector::ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
   AnalysisSpec analysis;
-  std::vector<ClaimSpec> claims;
-  std::vector<BenchSpec> benches;
+  std::vector<CriterionSpec> criteria;
+  std::vector<GoniometerSpec> goniometers;
   std::optional<FitSpec> fit;  ///< [fit]
   std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;

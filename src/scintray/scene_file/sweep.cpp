@@ -18,7 +18,7 @@ using Kind = config::TomlNode::Kind;
 /// Keys of the run as a whole, which cannot differ between the points of one results file.
 const std::set<std::string> kFixedKeys{"title", "run.output", "run.threads"};
 
-/// Tables that say what is done with the scene, not what the scene is.
+/// Tables that set what is done with the scene, not what the scene is.
 const std::set<std::string> kFixedTables{"sweep", "fit"};
 
 std::vector<std::string> segments_of(const std::string& path) {

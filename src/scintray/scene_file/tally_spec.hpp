@@ -43,7 +43,7 @@ enum class TallyVariable : std::uint8_t {
   position,      ///< component along a direction, mm
   start,         ///< component of the starting point along a direction, mm
   direction,     ///< cosine of the direction of travel to a direction
-  angle_before,  ///< rad, to the face's normal, before meeting it
+  angle_before,  ///< rad, to the face's normal, before the interaction
   angle_after,   ///< ... and after
   sin2_before,   ///< squared sine of the same: equal bins hold equal projected solid angle
   sin2_after,
@@ -52,7 +52,7 @@ enum class TallyVariable : std::uint8_t {
   // names
   part,         ///< where it ends: the sensor's part, or the part it is in
   source_part,  ///< where it started
-  face,         ///< the face met
+  face,         ///< the face of the interaction
   event,        ///< what happened
 };
 inline constexpr int kTallyVariableCount = 19;
@@ -69,7 +69,7 @@ inline bool needs_direction(TallyVariable variable) {
 /// How often a photon counts.
 enum class TallyEach { time, first, last };
 
-/// Which way a face is met, seen from its part.
+/// Direction of incidence on a face, seen from its part.
 enum class FaceWay { out, in, both };
 
 struct TallyAxisSpec {
@@ -93,7 +93,7 @@ struct TallyRangeSpec {
   core::FileLocation where;
 };
 
-/// A count of step events over axes, of photons that meet conditions. Names of parts and faces may have
+/// A count of step events over axes, of photons that fulfil conditions. Names of parts and faces may have
 /// wildcards.
 struct TallySpec {
   std::string name;

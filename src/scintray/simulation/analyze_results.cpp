@@ -26,10 +26,10 @@ std::map<std::uint32_t, std::size_t> layers_of(const scene_file::AnalysisSpec& s
   return layers;
 }
 
-analysis::StudySetup setup_of(const scene_file::AnalysisSpec& spec,
-                              const std::vector<tally::ReadoutChannel>& channels,
-                              const std::vector<std::string>& parts) {
-  analysis::StudySetup setup;
+analysis::AnalysisSetup setup_of(const scene_file::AnalysisSpec& spec,
+                                 const std::vector<tally::ReadoutChannel>& channels,
+                                 const std::vector<std::string>& parts) {
+  analysis::AnalysisSetup setup;
   for (const tally::ReadoutChannel& channel : channels) setup.channels_mm.push_back(channel.position);
   if (spec.depth) setup.depth = {spec.depth->origin, spec.depth->along};
   setup.layer_of_part = layers_of(spec, parts);
@@ -46,19 +46,19 @@ analysis::StudySetup setup_of(const scene_file::AnalysisSpec& spec,
 
 }  // namespace
 
-std::vector<analysis::EventStudy> study_results(const std::filesystem::path& path,
-                                                const tally::RunResult& run,
-                                                const scene_file::AnalysisSpec& spec) {
+std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,
+                                                     const tally::RunResult& run,
+                                                     const scene_file::AnalysisSpec& spec) {
   if (results::read_results_status(path).listed_events == 0) return {};
   const std::vector<std::uint64_t> photon_order = results::read_photon_order(path);
   const results::EventDetail detail =
       photon_order.empty() ? results::EventDetail::numbers : results::EventDetail::photon_times;
-  std::vector<analysis::EventStudy> studies;
+  std::vector<analysis::EventAnalysis> analyses;
   std::uint64_t row = 0;
   std::vector<tally::EventRecord> events;
   std::size_t at = 0;
   for (std::size_t point = 0; point < run.points.size(); ++point) {
-    analysis::StudySetup setup = setup_of(spec, results::read_channels(path, point), run.header.parts);
+    analysis::AnalysisSetup setup = setup_of(spec, results::read_channels(path, point), run.header.parts);
     setup.photon_order = photon_order;
     setup.light_timing = run.points[point].light_timing;
     analysis::EventCollector collector(std::move(setup));
@@ -71,9 +71,9 @@ std::vector<analysis::EventStudy> study_results(const std::filesystem::path& pat
       if (events.empty() || events[at].point != point) break;
       collector.add(events[at++]);
     }
-    studies.push_back(collector.finish());
+    analyses.push_back(collector.finish());
   }
-  return studies;
+  return analyses;
 }
 
 }  // namespace scintray::simulation

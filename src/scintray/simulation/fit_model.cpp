@@ -97,7 +97,7 @@ class SceneCurve : public FitModel {
  private:
   bool energy() const { return fit_.quantity == scene_file::FitQuantity::light_per_keV; }
 
-  /// Where light starts does not change the scene that it meets.
+  /// Where light starts does not change the scene.
   bool only_source_moves() const {
     return fit_.at.key.rfind("source.region.", 0) == 0 || fit_.at.key.rfind("source.position", 0) == 0;
   }
@@ -135,7 +135,7 @@ class SceneCurve : public FitModel {
     }
   }
 
-  /// Light may start nowhere at a measured position: what is wrong then says which it is.
+  /// Light may start nowhere at a measured position: what is wrong then states which it is.
   void check_position(const std::vector<double>& starts, std::size_t point) {
     const analysis::MeasuredCurve::Point& measured = measured_.points[point];
     try {
@@ -218,21 +218,21 @@ class ReflectanceCurve : public FitModel {
         fit_(fit),
         measured_(measured),
         settings_(settings),
-        maker_(settings.run.surface_hooks),
-        shipped_(materials::Library::shipped()),
+        factory_(settings.run.surface_hooks),
+        shipped_(materials::MaterialDatabase::shipped()),
         rays_(settings.run.photons.value_or(fit.goniometer->rays)) {
     check();
   }
 
   std::optional<analysis::ModelCurve> trace(const std::vector<double>& parameters,
                                             std::uint64_t draw) override {
-    const analysis::BenchSurface bench = bench_at(parameters);
+    const analysis::SampleSurface sample = sample_at(parameters);
     const int threads = settings_.run.threads ? *settings_.run.threads : int{tbb::task_arena::automatic};
     tbb::task_arena arena(threads);
     analysis::ModelCurve curve;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       if (settings_.stop && settings_.stop->load()) return std::nullopt;
-      arena.execute([&] { curve.push_back(reflectance(bench, i, draw)); });
+      arena.execute([&] { curve.push_back(reflectance(sample, i, draw)); });
       if (settings_.progress) settings_.progress((i + 1) * rays_, measured_.points.size() * rays_);
     }
     return curve;
@@ -248,12 +248,12 @@ class ReflectanceCurve : public FitModel {
     return measured_.points[point].x * core::unit_factor(fit_.unit, core::Dimension::angle);
   }
 
-  analysis::BenchSurface bench_at(const std::vector<double>& parameters) {
-    materials::Library library = shipped_;
-    scene::add_definitions(library, file_.spec(0, settings_of(fit_, parameters)));
+  analysis::SampleSurface sample_at(const std::vector<double>& parameters) {
+    materials::MaterialDatabase database = shipped_;
+    scene::add_definitions(database, file_.spec(0, settings_of(fit_, parameters)));
     const scene_file::FitGoniometerSpec& place = *fit_.goniometer;
-    return analysis::make_bench_surface(
-        library, maker_, {place.surface.name, place.inside.name, place.outside.name, place.wavelength_nm});
+    return analysis::make_sample_surface(
+        database, factory_, {place.surface.name, place.inside.name, place.outside.name, place.wavelength_nm});
   }
 
   void check() {
@@ -270,16 +270,16 @@ class ReflectanceCurve : public FitModel {
     problems.throw_if_any();
     seed_ = settings_.run.seed.value_or(file_.spec(0).run.seed);
     for (const std::vector<double>& corner : corners_of(fit_))
-      for (const std::string& note : bench_at(corner).warnings)
+      for (const std::string& note : sample_at(corner).warnings)
         if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
   }
 
-  analysis::ModelPoint reflectance(const analysis::BenchSurface& bench, std::size_t point,
+  analysis::ModelPoint reflectance(const analysis::SampleSurface& sample, std::size_t point,
                                    std::uint64_t draw) const {
     analysis::GoniometerSettings settings;
     settings.side = fit_.goniometer->from_inside ? optics::Side::inside : optics::Side::outside;
     settings.incidence_rad = angle_rad(point);
-    settings.wavelength_nm = bench.place.wavelength_nm;
+    settings.wavelength_nm = sample.place.wavelength_nm;
     settings.seed = seed_;
     const std::uint64_t parts = rays_ < kFitParts * kLeastInPart ? 1 : kFitParts;
     analysis::ModelPoint out;
@@ -288,7 +288,7 @@ class ReflectanceCurve : public FitModel {
       settings.stream = (draw * measured_.points.size() + point) * kFitParts + part;
       settings.rays = (rays_ - part + parts - 1) / parts;
       const analysis::GoniometerReading reading =
-          analysis::read_goniometer(bench.surface, bench.index, settings);
+          analysis::read_goniometer(sample.surface, sample.index, settings);
       reflected += reading.reflected;
       if (parts > 1) out.parts.push_back(reading.reflectance().value);
     }
@@ -300,8 +300,8 @@ class ReflectanceCurve : public FitModel {
   const scene_file::FitSpec& fit_;
   const analysis::MeasuredCurve& measured_;
   const FitModelSettings& settings_;
-  materials::SurfaceMaker maker_;
-  materials::Library shipped_;
+  materials::SurfaceFactory factory_;
+  materials::MaterialDatabase shipped_;
   std::uint64_t rays_, seed_ = 0;
   std::vector<std::string> notes_;
 };

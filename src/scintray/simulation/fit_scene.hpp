@@ -8,7 +8,7 @@ namespace scintray::simulation {
 
 struct SceneFitOptions {
   FitModelSettings model;
-  std::function<void(const analysis::CurveFitStep&)> step;  ///< told after each step of the search
+  std::function<void(const analysis::CurveFitStep&)> step;  ///< called after each step of the search
 };
 
 /// Reads the measurement, and searches. What was found is in the record also after an early stop, and then

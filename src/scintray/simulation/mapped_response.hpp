@@ -1,5 +1,5 @@
 #pragma once
-/// A response map, ready to be asked what sensors see of light from any place.
+/// A response map, ready to compute what sensors see of light from any place.
 
 #include <array>
 #include <cstdint>

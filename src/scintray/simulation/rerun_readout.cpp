@@ -109,8 +109,8 @@ class PointElectronics {
 
 }  // namespace
 
-void read_out_again(const std::filesystem::path& path, const tally::RunResult& run,
-                    const detector::ReadoutSpec& readout, const std::filesystem::path& output) {
+void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
+                   const detector::ReadoutSpec& readout, const std::filesystem::path& output) {
   const results::ResultsStatus status = results::read_results_status(path);
   if (status.listed_events == 0)
     throw not_to_read_out(path, "this result has no events to read out",

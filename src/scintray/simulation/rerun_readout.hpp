@@ -1,5 +1,5 @@
 #pragma once
-/// The electronics of a result made again from its recorded photons, without tracing.
+/// The electronics of a result rerun from its recorded photons, without tracing.
 
 #include <filesystem>
 
@@ -17,7 +17,7 @@ namespace scintray::simulation {
 /// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
 /// those of
 ///         the result, and for electronics that do not suit a sensor
-void read_out_again(const std::filesystem::path& path, const tally::RunResult& run,
-                    const detector::ReadoutSpec& readout, const std::filesystem::path& output);
+void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
+                   const detector::ReadoutSpec& readout, const std::filesystem::path& output);
 
 }  // namespace scintray::simulation

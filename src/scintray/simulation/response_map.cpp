@@ -91,7 +91,7 @@ class CellTracer {
     photon.wavelength_nm = emission_.sample(rng.uniform());
     photon.optics = scene_.optics.at(medium_, photon.wavelength_nm);
     photon.optical_depth = core::sample_exponential(rng);
-    const transport::FlightLimits limits = limits_of(run_);
+    const transport::PropagationLimits limits = limits_of(run_);
     for (;;) {
       const transport::Step taken = transport::step(scene_, photon, rng, limits);
       if (taken.event == core::StepEvent::detected) {

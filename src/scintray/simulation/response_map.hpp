@@ -26,7 +26,7 @@ struct ResponseGrid {
   std::vector<std::uint32_t> photons;   ///< emitted, per cell; 0: the cell is empty. z runs fastest
   std::vector<std::uint32_t> detected;  ///< of them, per cell and channel, channels fastest
   /// Times from emission to detection, ns, of the first detected photons of each cell and channel, as many
-  /// as ResponseMap::kept says: one after the other in the order of `detected`.
+  /// as ResponseMap::kept states: one after the other in the order of `detected`.
   std::vector<float> delays_ns;
 
   std::size_t size() const { return std::size_t{cells[0]} * cells[1] * cells[2]; }
@@ -56,7 +56,7 @@ struct ResponseSettings {
 /// Most cells times channels that a map may have, and most delays: 1.6 and 2 GB in memory.
 inline constexpr std::uint64_t kMostResponses = 400'000'000, kMostDelays = 500'000'000;
 
-/// What building tells while it goes on. Either may be empty.
+/// Progress of building while it goes on. Either may be empty.
 struct ResponseHooks {
   std::function<void(std::uint64_t cells, std::uint64_t of)> progress;  ///< from one thread at a time
   const std::atomic<bool>* stop = nullptr;                              ///< set from outside: give up

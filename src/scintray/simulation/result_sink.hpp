@@ -35,7 +35,7 @@ class ResultSink {
   /// Before all others, once.
   virtual void begin(const RunOutline& /*run*/) {}
   /// Surfaces of the scene's goniometers, once, when there are any.
-  virtual void surfaces(const std::vector<analysis::SurfaceStudy>& /*studies*/) {}
+  virtual void surfaces(const std::vector<analysis::SurfaceAnalysis>& /*studies*/) {}
   /// What the events of a point are read out by, before the first of them; for a source of photons never.
   virtual void begin_events(std::size_t /*point*/, const std::vector<tally::ReadoutChannel>& /*channels*/,
                             const std::optional<detector::ReadoutSpec>& /*readout*/) {}

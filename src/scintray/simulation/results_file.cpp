@@ -7,8 +7,8 @@ void ResultsFile::begin(const RunOutline& run) {
   if (run.histories) writer_->begin_histories(*run.histories);
 }
 
-void ResultsFile::surfaces(const std::vector<analysis::SurfaceStudy>& studies) {
-  writer_->add_surfaces(studies);
+void ResultsFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  writer_->add_surfaces(analyses);
 }
 
 void ResultsFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,

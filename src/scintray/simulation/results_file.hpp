@@ -17,7 +17,7 @@ class ResultsFile : public ResultSink {
   /// Opens the file, so that a place that cannot be written is found before hours of work.
   /// @throws InputError, SystemError as ResultsWriter does
   void begin(const RunOutline& run) override;
-  void surfaces(const std::vector<analysis::SurfaceStudy>& studies) override;
+  void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

@@ -50,11 +50,11 @@ class PointReweighting {
     for (std::size_t i = 0; i < choices_.size(); ++i) sums_[i].weight += choices_[i].add(photon);
   }
 
-  std::vector<ReweighedPoint> finish(std::size_t number, const std::vector<std::vector<double>>& values) {
+  std::vector<ReweightedPoint> finish(std::size_t number, const std::vector<std::vector<double>>& values) {
     if (energy()) end_events();
-    std::vector<ReweighedPoint> results;
+    std::vector<ReweightedPoint> results;
     for (std::size_t i = 0; i < choices_.size(); ++i) {
-      ReweighedPoint result;
+      ReweightedPoint result;
       result.point = number;
       result.values = values[i];
       result.traced_fraction = point_.fraction(core::Fate::detected);
@@ -90,7 +90,7 @@ class PointReweighting {
     }
   }
 
-  void add_events(const EventSums& sums, ReweighedPoint& result) const {
+  void add_events(const EventSums& sums, ReweightedPoint& result) const {
     result.traced_fraction = traced_.ratio();
     result.light.detected_fraction = sums.of_emitted.ratio();
     result.light.relative = sums.of_traced.ratio();
@@ -123,12 +123,12 @@ analysis::PhotonHistory history_at(const tally::PhotonHistories& rows, std::size
 
 }  // namespace
 
-std::vector<ReweighedPoint> reweigh_results(const std::filesystem::path& path, const tally::RunResult& run,
-                                            const std::vector<PropertyScan>& scans) {
+std::vector<ReweightedPoint> reweight_results(const std::filesystem::path& path, const tally::RunResult& run,
+                                              const std::vector<PropertyScan>& scans) {
   const results::HistoryReader histories(path);
-  const ReweighPlan plan(path, run, histories.columns(), scans);
+  const ReweightPlan plan(path, run, histories.columns(), scans);
   std::vector<std::map<std::uint64_t, double>> emitted = emitted_by_event(path, run.points.size());
-  std::vector<ReweighedPoint> results;
+  std::vector<ReweightedPoint> results;
   tally::PhotonHistories rows;
   std::uint64_t offset = 0;  // of `rows`
   std::size_t row = 0;       // in `rows`
@@ -154,7 +154,7 @@ std::vector<ReweighedPoint> reweigh_results(const std::filesystem::path& path, c
     if (seen != detected)
       throw results::format::damaged(path,
                                      fmt::format("{} histories for {} detected photons", seen, detected));
-    for (ReweighedPoint& result : reweighting.finish(number, plan.choices()))
+    for (ReweightedPoint& result : reweighting.finish(number, plan.choices()))
       results.push_back(std::move(result));
   }
   return results;

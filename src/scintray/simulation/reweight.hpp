@@ -11,7 +11,7 @@
 namespace scintray::simulation {
 
 /// One point of the run under one choice of values.
-struct ReweighedPoint {
+struct ReweightedPoint {
   std::size_t point = 0;           ///< index into RunResult::points
   std::vector<double> values;      ///< one for each scan
   core::Estimate traced_fraction;  ///< detected over emitted, as traced
@@ -26,7 +26,7 @@ struct ReweighedPoint {
 /// @throws InputError without histories; for names that histories do not know, named with the nearest; for
 /// values
 ///         out of their range; for what reweighting cannot change
-std::vector<ReweighedPoint> reweigh_results(const std::filesystem::path& path, const tally::RunResult& run,
-                                            const std::vector<PropertyScan>& scans);
+std::vector<ReweightedPoint> reweight_results(const std::filesystem::path& path, const tally::RunResult& run,
+                                              const std::vector<PropertyScan>& scans);
 
 }  // namespace scintray::simulation

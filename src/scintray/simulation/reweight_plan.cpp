@@ -139,8 +139,8 @@ std::string describe_value(const PropertyScan& scan, double value) {
   return std::isinf(value) ? "none" : fmt::format("{:.6g} mm", value);
 }
 
-ReweighPlan::ReweighPlan(const std::filesystem::path& path, const tally::RunResult& run,
-                         const results::HistoryColumns& columns, const std::vector<PropertyScan>& scans)
+ReweightPlan::ReweightPlan(const std::filesystem::path& path, const tally::RunResult& run,
+                           const results::HistoryColumns& columns, const std::vector<PropertyScan>& scans)
     : path_(path), scans_(scans) {
   if (scans.empty())
     throw refused(path, "nothing is wanted otherwise than it was traced",
@@ -163,8 +163,8 @@ ReweighPlan::ReweighPlan(const std::filesystem::path& path, const tally::RunResu
   for (const tally::ReflectorSite& site : columns.reflectors) reflector_names_.push_back(site_text(site));
 }
 
-analysis::OpticalChange ReweighPlan::change(const results::TracedOptics& traced,
-                                            const std::vector<double>& chosen) const {
+analysis::OpticalChange ReweightPlan::change(const results::TracedOptics& traced,
+                                             const std::vector<double>& chosen) const {
   analysis::OpticalChange change;
   change.traced_absorption_per_mm = known_ranges(traced.absorption_per_mm, 0.0);
   change.traced_reflectance = known_ranges(traced.reflectance, 1.0);

@@ -28,13 +28,13 @@ std::string describe(const PropertyScan& scan);
 std::string describe_value(const PropertyScan& scan, double value);
 
 /// All combinations of the values of scans.
-class ReweighPlan {
+class ReweightPlan {
  public:
   /// @throws InputError for names that the histories do not know, named with the nearest; for values out of
   /// their
   ///         range; for what reweighting cannot change; for two scans of the same thing
-  ReweighPlan(const std::filesystem::path& path, const tally::RunResult& run,
-              const results::HistoryColumns& columns, const std::vector<PropertyScan>& scans);
+  ReweightPlan(const std::filesystem::path& path, const tally::RunResult& run,
+               const results::HistoryColumns& columns, const std::vector<PropertyScan>& scans);
 
   /// Values of all scans, the last scan's fastest.
   const std::vector<std::vector<double>>& choices() const { return choices_; }

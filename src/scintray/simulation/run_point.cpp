@@ -32,7 +32,7 @@ class BlockTracer {
     const auto pass = [&](const source::Photon& photon, const transport::Step& passed) {
       block.photons.pass(photon, passed);
     };
-    transport::FlightLimits limits = limits_of(settings_);
+    transport::PropagationLimits limits = limits_of(settings_);
     if (block.photons.wants_reflections()) limits.passed = pass;
     source::EventLight light;
     for (const source::PhotonSpan& span : source_.block(number)) {
@@ -52,7 +52,7 @@ class BlockTracer {
 
  private:
   void trace_photon(const source::EventLight& light, std::uint64_t event, std::uint64_t number,
-                    const transport::FlightLimits& limits, Block& block) const {
+                    const transport::PropagationLimits& limits, Block& block) const {
     core::Rng rng = photon_stream(settings_, event, number);
     source::Photon photon = source_.emit(scene_, light, number, rng);
     tally::BlockTally& tally = block.photons;
@@ -148,7 +148,7 @@ source::Photon replay(const scene::Scene& scene, const source::LightSource& sour
         "both count from 0"});
   core::Rng rng = photon_stream(settings, event, number);
   source::Photon photon = source.emit(scene, light, number, rng);
-  transport::FlightLimits limits = limits_of(settings);
+  transport::PropagationLimits limits = limits_of(settings);
   limits.passed = visit;
   for (;;) {
     const transport::Step taken = transport::step(scene, photon, rng, limits);

@@ -20,7 +20,7 @@ struct RunSettings {
   int threads = 0;                           ///< 0: all cores
 };
 
-/// What a run tells while it goes on. Any may be empty. All are called from one thread at a time.
+/// Progress of a run while it goes on. Any may be empty. All are called from one thread at a time.
 struct RunHooks {
   /// Photons traced so far, or events of a source of energy.
   std::function<void(std::uint64_t done)> progress;
@@ -39,8 +39,8 @@ core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
 core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
 
 /// The limits of a run, at which photons are cut.
-inline transport::FlightLimits limits_of(const RunSettings& settings) {
-  transport::FlightLimits limits;
+inline transport::PropagationLimits limits_of(const RunSettings& settings) {
+  transport::PropagationLimits limits;
   limits.interactions = settings.max_interactions;
   if (settings.max_time_ns) limits.time_ns = *settings.max_time_ns;
   return limits;
@@ -48,7 +48,7 @@ inline transport::FlightLimits limits_of(const RunSettings& settings) {
 
 /// Traces all photons of a source. The result does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
-/// the photons of the blocks before the stop and says `complete = false`.
+/// the photons of the blocks before the stop and states `complete = false`.
 /// @throws InternalError when a photon has no fate.
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
                              const tally::TallyPlan& plan, const RunSettings& settings,

@@ -11,11 +11,11 @@ struct MapOptions {
   std::optional<int> threads;  ///< in place of the scene's
   std::optional<std::uint64_t> seed;
   ResponseHooks hooks;
-  materials::SurfaceMaker::Hooks surface_hooks;  ///< told while surface tables are built
+  materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
 };
 
-/// Builds the map of all parts that scintillate. The scene's [source] says whether light is polarised and,
-/// by being one of energy, which wavelengths are in use; its events are not asked for.
+/// Builds the map of all parts that scintillate. The scene's [source] states whether light is polarised and,
+/// by being one of energy, which wavelengths are in use; its events are not requested.
 /// @return without grids when stopped
 /// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map does
 ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options);
@@ -24,8 +24,8 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
 /// the title, [source], [run], [readout], [analysis] and tallies, and light must be polarised or not as then.
 void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& response);
 
-/// Events of the scene from a map, as Simulation::run_all makes them by tracing. The header says in its note
-/// where they come from. Tallies of photons are left out, as no photon is traced.
+/// Events of the scene from a map, as Simulation::run_all makes them by tracing. The header states in its
+/// note where they come from. Tallies of photons are left out, as no photon is traced.
 /// @throws InputError as require_same_scene does, and when parts are not where they were
 tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::filesystem::path& map_file,
                                  ResultSink& sink, const SimulationOptions& options,

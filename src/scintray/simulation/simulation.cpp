@@ -135,9 +135,9 @@ void Simulation::begin(ResultSink& sink, const SimulationHooks& hooks) {
   build(hooks);
   sink.begin(outline_);
   const scene_file::SceneSpec first = spec(0);
-  if (!first.benches.empty())
-    sink.surfaces(analysis::study_surfaces(first.benches, builder_.library(first), builder_.surfaces(),
-                                           first.run.seed));
+  if (!first.goniometers.empty())
+    sink.surfaces(analysis::analyze_surfaces(first.goniometers, builder_.database(first), builder_.surfaces(),
+                                             first.run.seed));
 }
 
 SimulationProgress Simulation::start_of(std::size_t number) const {

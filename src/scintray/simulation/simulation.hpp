@@ -77,7 +77,7 @@ class Simulation {
   /// Opens a sink for the points to come, and has the surfaces on the goniometers read.
   void begin(ResultSink& sink, const SimulationHooks& hooks = {});
   /// Traces one point. Stopped early, the result has what was traced until then and is not complete.
-  /// @param sink  that was begun; takes the photons, events and histories that the scene asks for, and the
+  /// @param sink  that was begun; takes the photons, events and histories that the scene requests, and the
   /// result
   /// @throws InternalError when a photon has no fate
   tally::PointResult run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks = {});
@@ -98,7 +98,7 @@ class Simulation {
   /// What was done so far.
   struct Counts {
     std::size_t scenes_built = 0;
-    materials::Library::Readings definitions;
+    materials::MaterialDatabase::Readings definitions;
   };
   Counts counts() const;
 

@@ -18,8 +18,8 @@ struct SimulationOptions {
   std::optional<std::uint64_t> events;   ///< per point, of a source of energy
   bool quick = false;  ///< the scene's quick_photons or quick_events in place of its full number
   std::function<void(scene_file::SceneSpec&)>
-      change;                                    ///< applied to the scene of every point, after all others
-  materials::SurfaceMaker::Hooks surface_hooks;  ///< called while surface tables are built
+      change;                                      ///< applied to the scene of every point, after all others
+  materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
   /// Points of a sweep are kept from when they are built until they have been traced, as long as their parts
   /// have no more triangles than this: a block of 12 x 12 crystals takes 3 MB. Of the points beyond only the
   /// latest is kept, and the others are built again when they are traced.

@@ -22,7 +22,8 @@ struct Event {
   std::vector<Deposit> deposits;
   double energy_keV = 0.0;   ///< of all particles as they started; 0 when not known (lists of hits)
   double escaped_keV = 0.0;  ///< of it, carried out of the scene
-  double unseen_keV = 0.0;   ///< left in media that do not scintillate; with deposits and escaped, all
+  double non_scintillating_keV =
+      0.0;  ///< left in media that do not scintillate; with deposits and escaped, all
 };
 
 /// Makes events. Immutable; an event depends on its own random stream only, so events can be made in any

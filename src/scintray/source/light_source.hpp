@@ -43,7 +43,7 @@ class LightSource {
   /// Blocks of work, which make results reproducible: fixed by the source, not by the machine.
   virtual std::uint64_t blocks() const = 0;
   virtual std::vector<PhotonSpan> block(std::uint64_t number) const = 0;
-  /// Photons there are over all events; 0 when only the events can tell.
+  /// Photons there are over all events; 0 when only the events determine it.
   virtual std::uint64_t photons() const = 0;
   /// Begins an event.
   /// @param rng  the event's own stream

@@ -17,7 +17,7 @@ struct PhotonShifts {
 };
 
 /// Side tables of the photon under way, owned by what traces a block and used for one photon after the other.
-/// They stay empty where no wavelength shifter absorbs and no history is asked for.
+/// They stay empty where no wavelength shifter absorbs and no history is requested.
 class PhotonRecords {
  public:
   /// @param reflections  whether reflections at reflectors are to be recorded

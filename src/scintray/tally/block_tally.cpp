@@ -114,7 +114,7 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
     case core::StepEvent::not_detected:
       break;
     default:
-      return;  // no end: the run then finds a photon without a fate and says so
+      return;  // no end: the run then finds a photon without a fate and states so
   }
   note_crossing(step);
   const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);

@@ -40,7 +40,7 @@ class BlockTally {
 
   const PointResult& result() const { return result_; }
   const std::vector<DetectedPhoton>& photons() const { return photons_; }
-  /// Histories of the detected photons; null when none are asked for.
+  /// Histories of the detected photons; null when none are requested.
   const PhotonHistories* histories() const { return history_ ? &history_->kept() : nullptr; }
   /// Adds the block to the total of those before it.
   void add_to(PointResult& total) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// Scores the counts that a run was asked for, photon by photon.
+/// Scores the counts requested of a run, photon by photon.
 
 #include <cstdint>
 #include <vector>
@@ -19,7 +19,7 @@ struct Contribution {
 };
 
 /// Follows the photons of one block. What they contribute waits until each has ended, since conditions
-/// may ask for its fate and the error of a bin for all that one photon gave to it.
+/// may request its fate and the error of a bin for all that one photon gave to it.
 class CountScorer {
  public:
   CountScorer(const scene::Scene& scene, const TallyPlan& plan) : scene_(scene), plan_(plan) {}
@@ -52,7 +52,7 @@ class CountScorer {
   const scene::Scene& scene_;
   const TallyPlan& plan_;
   std::vector<Contribution> contributions_, pending_;
-  std::vector<std::uint32_t> visited_;  ///< regions, when some count asks
+  std::vector<std::uint32_t> visited_;  ///< regions, when some count needs them
   core::Vec3 start_ = core::Vec3::Zero(), direction_before_ = core::Vec3::Zero();
   std::int32_t source_part_ = scene::kNone;
   std::uint32_t crossings_ = 0;

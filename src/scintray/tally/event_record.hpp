@@ -17,7 +17,7 @@ struct ChannelRecord {
                                                               ///< response; NaN without [readout]
   float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< of the waveform; NaN without [readout]
   float time_ns = std::numeric_limits<float>::quiet_NaN();    ///< by the readout's pick-off; NaN: none
-  std::vector<float> order_ns;  ///< n-th photons, as ReadoutSpec::photon_order asks; NaN: fewer
+  std::vector<float> order_ns;  ///< n-th photons, as ReadoutSpec::photon_order requests; NaN: fewer
   std::vector<float> waveform;  ///< photoelectrons, when ReadoutSpec::pulses
 };
 
@@ -32,7 +32,7 @@ struct EventRecord {
   std::uint64_t event = 0;
   float energy_keV = 0.0f;                  ///< deposited in scintillators
   float escaped_keV = 0.0f;                 ///< carried out of the scene
-  float unseen_keV = 0.0f;                  ///< left in what does not scintillate
+  float non_scintillating_keV = 0.0f;       ///< left in what does not scintillate
   std::array<float, 3> position_mm{};       ///< mean of the deposits, weighted by energy; zero without any
   std::uint32_t part = kNoPart;             ///< of the largest deposit, index into RunHeader::parts
   std::uint64_t emitted = 0, detected = 0;  ///< photons

@@ -10,7 +10,7 @@ void EventTally::begin(std::uint64_t event, std::uint32_t point, const source::E
   record.point = point;
   record.emitted = light.photons;
   record.escaped_keV = static_cast<float>(light.event.escaped_keV);
-  record.unseen_keV = static_cast<float>(light.event.unseen_keV);
+  record.non_scintillating_keV = static_cast<float>(light.event.non_scintillating_keV);
   record.channels.resize(plan_.channels.list.size());
   double energy = 0.0, most = 0.0;
   core::Vec3 moment = core::Vec3::Zero();
@@ -28,7 +28,7 @@ void EventTally::begin(std::uint64_t event, std::uint32_t point, const source::E
   balance_.started += light.event.energy_keV;
   balance_.deposited += energy;
   balance_.escaped += light.event.escaped_keV;
-  balance_.unseen += light.event.unseen_keV;
+  balance_.non_scintillating += light.event.non_scintillating_keV;
   if (energy > 0.0) {
     const core::Vec3 mean = moment / energy;
     record.position_mm = {static_cast<float>(mean.x()), static_cast<float>(mean.y()),
@@ -82,7 +82,7 @@ void EventTally::add_to(EnergyBalance& total) const {
   total.started += balance_.started;
   total.deposited += balance_.deposited;
   total.escaped += balance_.escaped;
-  total.unseen += balance_.unseen;
+  total.non_scintillating += balance_.non_scintillating;
   total.detected.merge(balance_.detected);
 }
 

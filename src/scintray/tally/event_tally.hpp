@@ -9,7 +9,7 @@
 
 namespace scintray::tally {
 
-/// What a channel's electronics say, in an event's record; its number of detected photons stays.
+/// What a channel's electronics give, in an event's record; its number of detected photons stays.
 void write_signal(detector::ChannelSignal signal, ChannelRecord& record);
 
 /// Gathers one event after the other.
@@ -24,7 +24,7 @@ class EventTally {
   void detected(std::uint32_t channel, const source::Photon& photon);
   /// Photons of it that a sensor converted, at least one, the first of them at `first_ns`.
   void detected(std::uint32_t channel, std::uint64_t count, double first_ns);
-  /// True when each of them is to be told as an arrival, too: there is a readout.
+  /// True when each of them is to be passed on as an arrival, too: there is a readout.
   bool wants_arrivals() const { return !arrivals_.empty(); }
   void arrived(std::uint32_t channel, const detector::Arrival& arrival) {
     arrivals_[channel].push_back(arrival);

@@ -84,15 +84,15 @@ void HistoryRecorder::start(const source::Photon& emitted) {
 
 void HistoryRecorder::step(const source::Photon& photon, const transport::Step& step) {
   const std::int32_t column = plan_.column_of_region(step.region);
-  const double flight_mm = photon.path_mm - path_mm_;
+  const double segment_mm = photon.path_mm - path_mm_;
   if (column != scene::kNone) {
     const std::uint32_t medium = scene_.regions[step.region].medium;
-    path_in_mm_[static_cast<std::size_t>(column)] += flight_mm;
+    path_in_mm_[static_cast<std::size_t>(column)] += segment_mm;
     depth_in_[static_cast<std::size_t>(column)] +=
-        flight_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
+        segment_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
   }
   path_mm_ = photon.path_mm;
-  wavelength_nm_ = photon.wavelength_nm;  // what changed it stands at the end of the flight
+  wavelength_nm_ = photon.wavelength_nm;  // what changed it stands at the end of the segment
 }
 
 void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon,

@@ -27,7 +27,7 @@ struct TracedRange {
   double least = 0.0, most = 0.0;
 };
 
-/// Which media and reflectors histories tell of, and how these were traced.
+/// Which media and reflectors histories refer to, and how these were traced.
 struct HistorySubjects {
   std::vector<std::string> media;  ///< of the regions that light can be in
   std::vector<TracedRange> absorption_per_mm;

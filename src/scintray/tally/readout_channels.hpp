@@ -24,7 +24,7 @@ struct ReadoutChannel {
   double area_mm2 = 0.0;   ///< of them
 };
 
-/// The channels of a scene, in the order of its interfaces, and which of them light meets.
+/// The channels of a scene, in the order of its interfaces, and which of them light reaches.
 struct ReadoutChannels {
   ReadoutChannels() = default;
   explicit ReadoutChannels(const scene::Scene& scene);

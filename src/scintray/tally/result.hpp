@@ -72,7 +72,7 @@ struct EnergyBalance {
   double started = 0.0;                ///< of all particles as they started; 0 when not known (lists of hits)
   double deposited = 0.0;              ///< in scintillators
   double escaped = 0.0;                ///< carried out of the scene
-  double unseen = 0.0;                 ///< left in what does not scintillate
+  double non_scintillating = 0.0;      ///< left in what does not scintillate
   core::Moments detected;              ///< photons detected per event that left energy in a scintillator
 };
 
@@ -104,8 +104,8 @@ struct PointResult {
   core::Moments detected_interactions;
   std::array<std::uint64_t, 51> detected_path_histogram{};  ///< 10 mm bins, last: 500 mm and more
   std::uint64_t scatterings = 0;                            ///< bulk scatterings
-  std::uint64_t segments = 0;                               ///< straight flights traced
-  std::uint64_t resolved_misses = 0;                        ///< ray queries settled by the exact search
+  std::uint64_t segments = 0;                               ///< straight segments traced
+  std::uint64_t resolved_misses = 0;                        ///< ray queries resolved by the exact query
   std::uint64_t lost = 0;  ///< photons without a fate: zero, checked in every run
   double wall_seconds = 0.0;
 
@@ -117,7 +117,7 @@ struct PointResult {
   double cut_bias_bound() const;
 };
 
-/// One detected photon, as streamed to the results file when a list is asked for.
+/// One detected photon, as streamed to the results file when a list is requested.
 struct DetectedPhoton {
   std::uint32_t point = 0;
   std::uint64_t event = 0;

@@ -17,7 +17,7 @@ std::uint32_t find_face(const scene_file::ExitAngleTallySpec& spec, const scene:
                            names);
 }
 
-/// Parts in which light is said to start; empty: not said by part.
+/// Parts in which light is stated to start; empty: not stated by part.
 std::vector<config::NameRef> source_parts(const scene_file::SceneSpec& spec) {
   const std::variant<scene_file::RegionSpec, core::Vec3>* origin = &spec.source.origin;
   if (spec.energy_source) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What to count, derived once from a scene and what it asks for.
+/// What to count, derived once from a scene and what it requests.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace scintray::tally {
 
-/// A histogram of crossing angles that a run is asked for.
+/// A histogram of crossing angles requested of a run.
 struct ExitAngleRequest {
   std::string name;
   std::uint32_t face = 0;  ///< scene-wide face id
@@ -45,7 +45,7 @@ struct CountRange {
   double low = 0.0, high = 0.0;
 };
 
-/// A count that a run is asked for.
+/// A count requested of a run.
 struct CountRequest {
   TallyResult empty;  ///< name, axes and zeros
   std::vector<CountAxis> axes;
@@ -72,7 +72,7 @@ struct TallyPlan {
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
 
   std::vector<CountRequest> counts;
-  /// A count to look at when a face is met, and the face that it is bound to.
+  /// A count to look at at an interaction with a face, and the face that it is bound to.
   struct CountAtFace {
     std::uint32_t count = 0;
     std::uint32_t face = 0;
@@ -82,10 +82,10 @@ struct TallyPlan {
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
   /// Per event: counts that are bound to no face.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
-  bool follows_regions = false;  ///< some count asks which regions a photon visited
+  bool follows_regions = false;  ///< some count needs which regions a photon visited
 
   bool photon_list = false;
-  std::optional<HistoryPlan> history;  ///< when histories are asked for
+  std::optional<HistoryPlan> history;  ///< when histories are requested
   static constexpr std::uint32_t kNoSensor = 0xffffffffu;
 
  private:

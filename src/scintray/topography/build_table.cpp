@@ -361,7 +361,7 @@ optics::SurfaceTable build_stack_table(const optics::Surface& surface,
   lay_along_x(laid);
   const auto send = [&laid](optics::Ray& ray, optics::Side side, const SpectralPoint& at,
                             core::Rng& rng) -> RayEnd {
-    return {laid.meet(ray, side, core::Vec3::UnitZ(), at.index, at.wavelength_nm, rng), 0.0, false};
+    return {laid.interact(ray, side, core::Vec3::UnitZ(), at.index, at.wavelength_nm, rng), 0.0, false};
   };
   return build(send, spectrum, settings, std::move(provenance), progress);
 }

@@ -21,7 +21,7 @@ struct TableSettings {
   std::uint64_t rays = 2000;  ///< per incidence angle and azimuth step
   std::uint64_t seed = 1;
   bool refine = true;           ///< bisect where the reflectance changes fast, as at a critical angle
-  double refine_change = 0.05;  ///< change of reflectance that asks for another node
+  double refine_change = 0.05;  ///< change of reflectance that requests another node
   double refine_down_to_rad = 0.1 * core::kDegree;  ///< intervals not wider than this are left
   double grazing_rad = 89.9 * core::kDegree;        ///< where the node at 90 deg is traced
 
@@ -39,11 +39,11 @@ struct TableSettings {
 
 /// A wavelength to tabulate, and the indices there.
 struct SpectralPoint {
-  double wavelength_nm = 0.0;  ///< 0: not said
+  double wavelength_nm = 0.0;  ///< 0: not stated
   optics::IndexPair index;
 };
 
-/// Told the share of the work done so far, between 0 and 1; returns false to stop.
+/// Called with the share of the work done so far, between 0 and 1; returns false to stop.
 using TableProgress = std::function<bool(double)>;
 
 /// The building of a table was stopped by its progress callback.
@@ -57,9 +57,9 @@ class TableStopped : public core::Cancelled {
 [[nodiscard]] bool leaves_into_medium(optics::SurfaceOutcome outcome, const core::Vec3& direction);
 
 /// Traces unpolarised light from both sides at every incidence node of every wavelength: positions uniform
-/// over the map (so facets are met as the beam sees them), azimuths of the map stratified over the circle
+/// over the map (so facets are hit as the beam sees them), azimuths of the map stratified over the circle
 /// (or, for a directional table, one by one), rays followed until they leave. Nodes are then bisected where
-/// settings.refine says so, and rays added as settings.target_error asks.
+/// settings.refine states so, and rays added as settings.target_error requires.
 ///
 /// Runs on all threads of the calling task arena; the result is the same for any number of them.
 /// @param spectrum   at least one point, in order of wavelength
@@ -74,7 +74,7 @@ optics::SurfaceTable build_table(const optics::HeightField& field, const optics:
                                  const TableProgress& progress = {});
 
 /// A whole stack as one table: the same for any surface, its gap, reflector and shares included. Of a stack
-/// the mean slope met is not known: it is left at zero.
+/// the mean visible slope is not known: it is left at zero.
 optics::SurfaceTable build_stack_table(const optics::Surface& surface,
                                        const std::vector<SpectralPoint>& spectrum,
                                        const TableSettings& settings, optics::TableProvenance provenance = {},

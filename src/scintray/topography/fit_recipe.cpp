@@ -27,15 +27,15 @@ Shown show(SynthesisRecipe recipe, std::uint32_t realisations) {
   for (std::uint32_t k = 0; k < realisations; ++k, ++recipe.seed) {
     const HeightMap map = synthesize(recipe);
     const optics::HeightField field = make_height_field(map);
-    shown.normal_rad += mean_slope_met(field, optics::Side::inside, 0.0, kRays).value / realisations;
+    shown.normal_rad += mean_visible_slope(field, optics::Side::inside, 0.0, kRays).value / realisations;
     shown.grazing_rad +=
-        mean_slope_met(field, optics::Side::inside, kGrazingStated_rad, kRays).value / realisations;
+        mean_visible_slope(field, optics::Side::inside, kGrazingStated_rad, kRays).value / realisations;
     shown.rms_height_um += map_statistics(map).sq_um / realisations;
   }
   return shown;
 }
 
-/// The equations, in the form that Eigen's solvers ask for: unknowns are logarithms of what is
+/// The equations, in the form that Eigen's solvers request: unknowns are logarithms of what is
 /// searched, residuals logarithms of what is shown over what is wanted.
 class Equations {
  public:
@@ -116,7 +116,7 @@ SynthesisRecipe fit_recipe(const SynthesisRecipe& recipe, const SlopeTarget& tar
   solver.parameters.epsfcn = 1e-4;
   solver.parameters.xtol = 1e-4;
   solver.parameters.maxfev = 30;
-  // Its verdict is not asked for: what the recipe shows decides.
+  // Its result is not needed: what the recipe shows decides.
   solver.solveNumericalDiff(logarithms);
   const SynthesisRecipe result = equations.recipe(logarithms);
   const Shown shown = show(result, target.realisations);

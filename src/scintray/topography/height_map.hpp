@@ -1,5 +1,5 @@
 #pragma once
-/// A measured or made height map, before it becomes a surface that light can meet.
+/// A measured or made height map, before it becomes a surface that light interacts with.
 
 #include <cstdint>
 #include <filesystem>
@@ -32,7 +32,7 @@ struct HeightMap {
   std::string history() const;
 };
 
-/// What the reader is told beyond what the file says. A value given here takes the place of the
+/// What the reader is given beyond what the file states. A value given here takes the place of the
 /// file's own.
 struct ReadOptions {
   std::optional<double> pitch_um;        ///< distance of neighbouring points, both ways
@@ -40,7 +40,7 @@ struct ReadOptions {
   std::optional<double> height_unit_um;  ///< um per unit of the numbers in the file
   std::optional<std::string> channel;    ///< by name, or the beginning of one name
   bool periodic = false;                 ///< the map is one period of a periodic surface
-  bool ask_gwyddion = true;              ///< other formats go to the program gwyddion where it is installed
+  bool query_gwyddion = true;            ///< other formats go to the program gwyddion where it is installed
 };
 
 /// Reads a height map; the format is found from the content, through gzip where it is compressed.
@@ -48,13 +48,13 @@ struct ReadOptions {
 /// Formats: Gwyddion (.gwy, also of version 1) and its simple field (.gsf) and text export with an
 /// English or German header, Nanoscope, PicoView (.mi), Igor wave (.ibw), ISO 25178-71 (.sdf) and -72
 /// (.x3p), the text matrix of optical profilers ("h=650 w=650 / pixel size=..."), a bare matrix of
-/// numbers, a list of x y z on a grid; docs/height_maps.md tells them apart. Anything else is given to
+/// numbers, a list of x y z on a grid; docs/height_maps.md tells which is which. Anything else is given to
 /// the program gwyddion, where it is installed and the options allow it.
 ///
-/// Units are read, never guessed: InputError asks for what neither file nor options say. Where a
-/// file has several channels and none is asked for, the height that a sensor measured goes before
+/// Units are read, never guessed: InputError requests what neither file nor options state. Where a
+/// file has several channels and none is requested, the height that a sensor measured goes before
 /// another height, forward before backward; InputError lists the channels when that leaves a choice,
-/// or when the one asked for is not there. The channel and the number of missing points stand in the
+/// or when the one requested is not there. The channel and the number of missing points stand in the
 /// map's steps. InputError also on truncated data, on sizes that the file cannot hold, and on
 /// infinite heights.
 HeightMap read_height_map(const std::filesystem::path& path, const ReadOptions& options = {});
@@ -66,7 +66,7 @@ void write_gsf(const std::filesystem::path& path, const HeightMap& map);
 enum class Tiling {
   mirror,     ///< mirrored at every edge: period 2 (N - 1) points
   periodic,   ///< repeated as it is
-  automatic,  ///< periodic when the map says that it is, else mirror
+  automatic,  ///< periodic when the map states that it is, else mirror
 };
 
 /// "mirror" or "periodic": what `tiling` comes to for this map.

@@ -121,11 +121,11 @@ MapStatistics map_statistics(const HeightMap& map) {
   return result;
 }
 
-core::Estimate mean_slope_met(const optics::HeightField& field, optics::Side side, double incidence_rad,
-                              std::uint64_t rays, std::uint64_t seed) {
+core::Estimate mean_visible_slope(const optics::HeightField& field, optics::Side side, double incidence_rad,
+                                  std::uint64_t rays, std::uint64_t seed) {
   const double up = side == optics::Side::inside ? 1.0 : -1.0;
   const optics::IndexPair straight_on{1.0, 1.0};
-  std::vector<double> met(rays);
+  std::vector<double> slopes_seen(rays);
   tbb::parallel_for(std::uint64_t{0}, rays, [&](std::uint64_t k) {
     core::Rng rng(seed, core::StreamKind::other, static_cast<std::uint64_t>(side), k);
     const double azimuth = core::kTwoPi * rng.uniform();
@@ -133,11 +133,11 @@ core::Estimate mean_slope_met(const optics::HeightField& field, optics::Side sid
     optics::Ray ray{{std::sin(incidence_rad) * std::cos(azimuth), std::sin(incidence_rad) * std::sin(azimuth),
                      up * std::cos(incidence_rad)},
                     core::Vec3::Zero()};
-    met[k] = field.follow(ray, side, x, y, straight_on, rng).first_slope_rad;
+    slopes_seen[k] = field.follow(ray, side, x, y, straight_on, rng).first_slope_rad;
   });
   // In the order of the rays, so that the sum does not depend on the threads.
   core::Moments slopes;
-  for (const double slope : met) slopes.add(slope);
+  for (const double slope : slopes_seen) slopes.add(slope);
   return slopes.mean();
 }
 

@@ -12,7 +12,7 @@ namespace scintray::topography {
 
 /// Height and slope statistics of a map as it is (ISO 25178-2:2012, 4.1 and 4.3), heights from their
 /// mean; missing points are left out. Slopes are those of neighbouring points and of the two
-/// triangles of each cell, as light meets them; a periodic map goes on over its edges.
+/// triangles of each cell, as light hits them; a periodic map goes on over its edges.
 struct MapStatistics {
   std::uint64_t points = 0;   ///< with a height
   std::uint64_t missing = 0;  ///< without
@@ -39,11 +39,11 @@ struct MapStatistics {
 /// InputError when the map has no point with a height.
 MapStatistics map_statistics(const HeightMap& map);
 
-/// Mean angle (rad) between the mean normal and the first facet met by a parallel beam at an
+/// Mean angle (rad) between the mean normal and the first facet hit by a parallel beam at an
 /// incidence angle in [0, 90 deg), averaged over position and azimuth, with its standard error.
 /// Runs on all threads of the calling task arena; the result is the same for any number of them.
-core::Estimate mean_slope_met(const optics::HeightField& field, optics::Side side, double incidence_rad,
-                              std::uint64_t rays = 20000, std::uint64_t seed = 1);
+core::Estimate mean_visible_slope(const optics::HeightField& field, optics::Side side, double incidence_rad,
+                                  std::uint64_t rays = 20000, std::uint64_t seed = 1);
 
 /// The incidence at which "grazing" slopes of recipes are stated: 88.5 deg.
 inline constexpr double kGrazingStated_rad = 88.5 * core::kDegree;

@@ -16,7 +16,7 @@ namespace scintray::topography {
 namespace {
 
 constexpr int kDirections = 180;
-/// ISO 25178-3:2012, 4.3: the value to which the autocorrelation is followed unless told otherwise.
+/// ISO 25178-3:2012, 4.3: the value to which the autocorrelation is followed unless given otherwise.
 constexpr double kFallenTo = 0.2;
 constexpr double kResolvedRatio = 0.9, kLeastLengths = 10.0;
 
@@ -143,7 +143,7 @@ std::optional<double> lay_direction(const HeightMap& map) {
     }
   }
   if (!(most > 0.0)) return std::nullopt;
-  // The few terms of a map stand in few directions: the middle of the power about the maximum says
+  // The few terms of a map stand in few directions: the middle of the power about the maximum states
   // more than the sector itself. The weight falls smoothly, so that no term jumps in or out.
   constexpr int kRounds = 30;
   double angle = (best + 0.5) * core::kDegree;

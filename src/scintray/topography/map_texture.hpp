@@ -30,7 +30,7 @@ class Autocorrelation {
   double pitch_x_um_ = 0.0, pitch_y_um_ = 0.0, reach_x_um_ = 0.0, reach_y_um_ = 0.0;
 };
 
-/// Spatial and directional parameters of ISO 25178-2:2012, 4.2. Nothing where the map does not say.
+/// Spatial and directional parameters of ISO 25178-2:2012, 4.2. Nothing where the map does not state.
 struct MapTexture {
   /// Sal: the shortest lag in any direction at which the autocorrelation has fallen to 0.2.
   std::optional<double> sal_um;
@@ -55,7 +55,7 @@ MapTexture map_texture(const HeightMap& map);
 /// What makes a map a poor description of its surface, in sentences: points too far apart for its
 /// slopes (the rms slope over two pitches is more than 10 % below that over one, so that the slope
 /// found depends on the pitch), too few autocorrelation lengths (fewer than 10 Sal in the shorter
-/// side, of which Sq is known to about 7 %), missing points. Empty when there is nothing to say.
+/// side, of which Sq is known to about 7 %), missing points. Empty when there is nothing to report.
 std::vector<std::string> map_warnings(const HeightMap& map, const MapStatistics& statistics,
                                       const MapTexture& texture);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The whole way from a raw height map to the surface, as a command or a scene asks for it.
+/// The whole way from a raw height map to the surface, as a command or a scene requests it.
 
 #include <optional>
 #include <variant>
@@ -32,7 +32,7 @@ struct Preparation {
   Leveling leveling;
 };
 
-/// Does the steps that are asked for. InputError as each of them.
+/// Does the steps that are requested. InputError as each of them.
 void prepare(HeightMap& map, const Preparation& preparation);
 
 }  // namespace scintray::topography

@@ -37,12 +37,12 @@ std::string file_content(const std::filesystem::path& path) {
 }
 
 RawMap parse(const std::filesystem::path& path, const std::string& content, const ReadRequest& request,
-             bool may_ask_gwyddion) {
+             bool may_query_gwyddion) {
   if (content.empty())
     throw core::InputError({{request.file}, "the file is empty; expected a height map", ""});
   if (const Format* format = find_format(content)) return format->parse(content, request);
-  if (!may_ask_gwyddion) refuse_format(request.file, GwyddionAnswer::not_installed);
-  GwyddionResult result = ask_gwyddion(path, request);
+  if (!may_query_gwyddion) refuse_format(request.file, GwyddionAnswer::not_installed);
+  GwyddionResult result = query_gwyddion(path, request);
   if (!result.map) refuse_format(request.file, result.answer);
   return std::move(*result.map);
 }
@@ -128,7 +128,7 @@ HeightMap read_height_map(const std::filesystem::path& path, const ReadOptions& 
   const ReadRequest request{path.string(), options.channel};
   std::string content = file_content(path);
   if (content.starts_with("\x1F\x8B")) content = gunzip(content, request.file, kMostBytes);
-  RawMap raw = parse(path, content, request, options.ask_gwyddion);
+  RawMap raw = parse(path, content, request, options.query_gwyddion);
   content = {};
   core::Problems problems;
   set_pitch(options, raw, request.file, problems);

@@ -21,7 +21,7 @@ struct GaussianRelief {
 /// Fracture by grit: bowls chipped out of the surface, side by side, each
 /// depth + (r / radius)^exponent * rise; the surface is the lowest bowl everywhere, so neighbours
 /// meet in sharp ridges that are the steepest part. A second, independent set is laid upside down
-/// on top, so that grooves are as sharp as ridges and light from both sides meets the same slopes.
+/// on top, so that grooves are as sharp as ridges and light from both sides hits the same slopes.
 struct FractureRelief {
   double spacing_um = 0.0;       ///< mean distance of bowls, 1/sqrt(density); 0: no fracture
   double rise_um = 0.0;          ///< height of a bowl at a distance of spacing / 2
@@ -72,7 +72,7 @@ struct SynthesisRecipe {
   std::uint64_t seed = 1;
 };
 
-/// A ground crystal, heavy-tailed in slope: on average over seeds 1 to 5 the mean slope met is 18 deg
+/// A ground crystal, heavy-tailed in slope: on average over seeds 1 to 5 the mean visible slope is 18 deg
 /// at normal incidence and 35 deg at grazing (88.5 deg), heights within about +-3 um (Roncali and
 /// Cherry 2013, Phys. Med. Biol. 58, 2185, section 3.1), and Sq is 0.45 um, which is no part of that
 /// source. Spacing, spreads and correlation length were chosen so that heights stay within those
@@ -81,7 +81,7 @@ struct SynthesisRecipe {
 ///         --fit-rms-height "0.45 um" --seeds 5 -o ground.gsf
 SynthesisRecipe ground_recipe();
 
-/// A polished crystal with scratches: on average over seeds 1 to 5 the mean slope met is 1.25 deg, at
+/// A polished crystal with scratches: on average over seeds 1 to 5 the mean visible slope is 1.25 deg, at
 /// any incidence up to 85 deg within 0.02 deg, heights within about +-0.05 um (as above). The
 /// scratches are an assumption; the height of the Gaussian relief was searched beside them by
 ///     scintray map synthesize polished --fit-normal "1.25 deg" --seeds 5 -o polished.gsf

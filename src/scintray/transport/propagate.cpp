@@ -31,14 +31,14 @@ double critical_sin2(const scene::Scene& scene, std::uint32_t medium, const sour
 struct Wall {
   std::uint32_t triangle = scene::kNoTriangle;
   double distance_mm = 0.0;
-  bool resolved = false;  ///< by the exact search
+  bool resolved = false;  ///< by the exact query
 };
 
 /// A photon that moves where it is stored, for any ray query. What is not Embree's, and the way to the first
 /// total reflection, which is all of it on rough faces, is better served by the photon as it is.
-class StoredFlight {
+class StoredPropagation {
  public:
-  StoredFlight(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
+  StoredPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
   Wall next_wall() const {
@@ -60,7 +60,7 @@ class StoredFlight {
     ++photon_.interactions;
     optics::reflect(photon_.ray, normal_);
   }
-  bool allowed_by(const FlightLimits& limits) const {
+  bool allowed_by(const PropagationLimits& limits) const {
     return limits.allow(photon_.interactions, photon_.time_ns);
   }
   bool goes_on() const { return !accelerator_.uses_embree(); }
@@ -78,9 +78,9 @@ class StoredFlight {
 /// so the next ray starts from Embree's own hit, in single precision, while the exact one is computed beside
 /// it; every piece starts from exact numbers again. Nothing may take the address of what changes, which would
 /// put it into memory. tools/bench crystal shows what this is worth.
-class EmbreeFlight {
+class EmbreePropagation {
  public:
-  EmbreeFlight(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
+  EmbreePropagation(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
       : region_(region),
         accelerator_(scene.accelerator(region)),
         rotated_(region.rotated),
@@ -108,7 +108,7 @@ class EmbreeFlight {
     sure_ = approach.cosine > 0.0;
     if (sure_) [[likely]]
       return {hit.triangle, approach.distance_mm, false};
-    const scene::Exit exit = accelerator_.exit_after_doubt(local_.vec(), ahead_.vec(), hit);
+    const scene::Exit exit = accelerator_.exact_exit(local_.vec(), ahead_.vec(), hit);
     if (exit.triangle != scene::kNoTriangle) cosine_ = dot(accelerator_.plane(exit.triangle), ahead_);
     return {exit.triangle, exit.distance_mm, exit.resolved};
   }
@@ -128,7 +128,9 @@ class EmbreeFlight {
     direction_ = direction_ - cosine * twice;
     polarisation_ = dot(normal, polarisation_) * twice - polarisation_;
   }
-  bool allowed_by(const FlightLimits& limits) const { return limits.allow(interactions_, path_and_time_[1]); }
+  bool allowed_by(const PropagationLimits& limits) const {
+    return limits.allow(interactions_, path_and_time_[1]);
+  }
   static bool goes_on() { return true; }
   /// Makes the next ray.
   void turn() {
@@ -170,17 +172,17 @@ class EmbreeFlight {
   bool sure_ = true;  ///< the last wall is Embree's own
 };
 
-/// From wall to wall until something other than a total reflection decides. Adds to `flight`.
+/// From wall to wall until something other than a total reflection decides. Adds to `propagation`.
 template <typename State>
-void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLimits& limits,
-               Flight& flight) {
+void propagate_as(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits,
+                  Propagation& propagation) {
   const scene::Region& region = scene.regions[photon.region];
   const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
   std::uint32_t known_medium = scene::kNotSmooth;
   double least_sin2 = critical_sin2(scene, known_medium, photon);
-  FlightEnd end;
+  PropagationEnd end;
   Wall wall;
   double cosine = 0.0;
   std::uint32_t segments = 0, resolved = 0;
@@ -189,16 +191,16 @@ void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLi
     wall = state.next_wall();
     resolved += wall.resolved ? 1 : 0;
     if (wall.triangle == scene::kNoTriangle) [[unlikely]] {
-      end = attenuation > 0.0 ? FlightEnd::bulk : FlightEnd::escape;
+      end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
       break;
     }
     const double depth = attenuation * wall.distance_mm;
     if (depth > state.depth_left()) {
-      end = FlightEnd::bulk;
+      end = PropagationEnd::bulk;
       break;
     }
     state.move(wall.distance_mm, depth);
-    end = FlightEnd::boundary;
+    end = PropagationEnd::boundary;
     const std::uint32_t medium = links[wall.triangle].smooth_to;
     if (medium == scene::kNotSmooth) break;
     if (medium != known_medium) {
@@ -209,7 +211,7 @@ void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLi
     if (!(1.0 - cosine * cosine >= least_sin2)) break;
 
     state.reflect_at(wall, cosine);
-    end = FlightEnd::total;
+    end = PropagationEnd::total;
     if (!state.allowed_by(limits)) break;
     if (limits.passed) [[unlikely]] {
       state.store(photon);
@@ -219,7 +221,8 @@ void propagate(const scene::Scene& scene, source::Photon& photon, const FlightLi
     state.turn();
   }
   state.store(photon);
-  flight = {end, wall.triangle, cosine, flight.segments + segments, flight.resolved + resolved};
+  propagation = {end, wall.triangle, cosine, propagation.segments + segments,
+                 propagation.resolved + resolved};
 }
 
 }  // namespace
@@ -237,12 +240,12 @@ Step total_reflection(const scene::Scene& scene, const source::Photon& photon, s
   return step;
 }
 
-Flight fly(const scene::Scene& scene, source::Photon& photon, const FlightLimits& limits) {
-  Flight flight;
-  propagate<StoredFlight>(scene, photon, limits, flight);
-  if (flight.end == FlightEnd::total && limits.allow(photon.interactions, photon.time_ns))
-    propagate<EmbreeFlight>(scene, photon, limits, flight);
-  return flight;
+Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
+  Propagation propagation;
+  propagate_as<StoredPropagation>(scene, photon, limits, propagation);
+  if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
+    propagate_as<EmbreePropagation>(scene, photon, limits, propagation);
+  return propagation;
 }
 
 }  // namespace scintray::transport

@@ -15,9 +15,9 @@ namespace scintray::transport {
 /// Sees a step and the photon after it.
 using StepVisitor = core::FunctionRef<void(const source::Photon&, const Step&)>;
 
-/// A flight goes on through total reflections at smooth boundaries, which nothing but geometry decides, as
+/// Propagation goes on through total reflections at smooth boundaries, which nothing but geometry decides, as
 /// long as the photon is within these limits. By default it ends at the first.
-struct FlightLimits {
+struct PropagationLimits {
   std::uint64_t interactions = 0;  ///< boundary interactions of the photon
   double time_ns = std::numeric_limits<double>::infinity();
   /// Sees every reflection passed, as a step of its own, and changes nothing. May be empty.
@@ -33,25 +33,25 @@ struct FlightLimits {
   }
 };
 
-enum class FlightEnd {
+enum class PropagationEnd {
   bulk,      ///< the photon is where its medium absorbs or scatters it
   escape,    ///< it leaves the scene
   boundary,  ///< it is at a boundary, which decides what happens
   total,     ///< it was totally reflected, and the limits are reached
 };
 
-/// How a flight ended.
-struct Flight {
-  FlightEnd end = FlightEnd::escape;
+/// How a propagation ended.
+struct Propagation {
+  PropagationEnd end = PropagationEnd::escape;
   std::uint32_t triangle = scene::kNoTriangle;  ///< at a boundary: of the region's accelerator
   double cosine = 0.0;                          ///< of incidence, at a smooth boundary
-  std::uint32_t segments = 0;                   ///< straight pieces
-  std::uint32_t resolved = 0;                   ///< ray queries that the exact search settled
+  std::uint32_t segments = 0;                   ///< straight segments
+  std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
 };
 
 /// Moves the photon through the region that it is in, up to the next event. Depends on nothing but its
 /// arguments.
-Flight fly(const scene::Scene& scene, source::Photon& photon, const FlightLimits& limits);
+Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits);
 
 /// Moves the photon straight on. Time advances with the group velocity.
 inline void advance(source::Photon& photon, double distance_mm) {

@@ -24,7 +24,7 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
   }
 }
 
-/// Lets the medium absorb the photon for good (false), or its wavelength shifter take it and give it back.
+/// Lets the medium absorb the photon for good (false), or its wavelength shifter absorb it and re-emit it.
 /// Out of line, as what few scenes have: inlined, it made every other step 3 % slower.
 [[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, std::uint32_t number,
                                                 source::Photon& photon, core::Rng& rng,
@@ -71,7 +71,7 @@ Step interact_in_bulk(const scene::Scene& scene, std::uint32_t number, source::P
 }
 
 /// Outcome at an interface: which region the ray is in, or which surface absorbed it.
-struct Meeting {
+struct InterfaceOutcome {
   bool in_front = false;
   std::int32_t absorbed_by = scene::kNone;
 };
@@ -102,8 +102,8 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   return index;
 }
 
-/// Lets the photon meet a surface in which its wavelength may change; `index` follows it.
-[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome meet_shifting(
+/// Lets the photon interact with a surface in which its wavelength may change; `index` follows it.
+[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(
     const scene::Scene& scene, const scene::Interface& interface, bool at_back, optics::Side side,
     const core::Vec3& outward, InterfaceIndex& index, source::Photon& photon, core::Rng& rng,
     source::PhotonRecords* records) {
@@ -115,7 +115,7 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
     return index.around(at_back);
   };
   light.index = index_at;
-  const optics::SurfaceOutcome outcome = scene.surfaces[static_cast<std::size_t>(id)].meet(
+  const optics::SurfaceOutcome outcome = scene.surfaces[static_cast<std::size_t>(id)].interact(
       photon.ray, side, outward, light, rng, records ? records->reflection_log() : nullptr);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
@@ -124,14 +124,15 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   return outcome;
 }
 
-/// Lets the photon meet the interface's surfaces from the back region to the front region and to and
+/// Lets the photon interact with the interface's surfaces from the back region to the front region and to and
 /// fro between them until it is in one of the regions or absorbed.
-Meeting meet_interface(const scene::Scene& scene, const scene::Interface& interface, bool from_back,
-                       const core::Vec3& normal, InterfaceIndex index, source::Photon& photon, core::Rng& rng,
-                       source::PhotonRecords* records) {
+InterfaceOutcome interact_at_interface(const scene::Scene& scene, const scene::Interface& interface,
+                                       bool from_back, const core::Vec3& normal, InterfaceIndex index,
+                                       source::Photon& photon, core::Rng& rng,
+                                       source::PhotonRecords* records) {
   const bool has_back = interface.back_surface != scene::kNone,
              has_front = interface.front_surface != scene::kNone;
-  bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces is met next
+  bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces comes next
   bool came_from_back = from_back;
   for (;;) {
     const std::int32_t id = at_back ? interface.back_surface : interface.front_surface;
@@ -141,9 +142,9 @@ Meeting meet_interface(const scene::Scene& scene, const scene::Interface& interf
     const optics::Side side = came_from_back == at_back ? optics::Side::inside : optics::Side::outside;
     const optics::SurfaceOutcome outcome =
         surface.shifts()
-            ? meet_shifting(scene, interface, at_back, side, outward, index, photon, rng, records)
-            : surface.meet(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
-                           records ? records->reflection_log() : nullptr);
+            ? interact_with_shift(scene, interface, at_back, side, outward, index, photon, rng, records)
+            : surface.interact(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
+                               records ? records->reflection_log() : nullptr);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
     if (outcome == optics::SurfaceOutcome::inside) return {!at_back, scene::kNone};
     if (!index.dry) return {at_back, scene::kNone};
@@ -152,8 +153,8 @@ Meeting meet_interface(const scene::Scene& scene, const scene::Interface& interf
   }
 }
 
-Step meet_boundary(const scene::Scene& scene, const scene::Region& region, std::uint32_t triangle,
-                   source::Photon& photon, core::Rng& rng, source::PhotonRecords* records) {
+Step interact_at_boundary(const scene::Scene& scene, const scene::Region& region, std::uint32_t triangle,
+                          source::Photon& photon, core::Rng& rng, source::PhotonRecords* records) {
   const scene::SceneOptics& optics = scene.optics;
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
@@ -174,7 +175,7 @@ Step meet_boundary(const scene::Scene& scene, const scene::Region& region, std::
 
   bool crossed;
   if (interface.plain) {
-    crossed = optics::meet_facet(photon.ray, -outward, here, there, rng);
+    crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
     const bool dry = interface.gap_medium != scene::kNone;
@@ -182,15 +183,15 @@ Step meet_boundary(const scene::Scene& scene, const scene::Region& region, std::
         dry ? optics.index(static_cast<std::uint32_t>(interface.gap_medium), photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
-    const Meeting meeting = meet_interface(scene, interface, link.from_back, normal, {back, front, gap, dry},
-                                           photon, rng, records);
+    const InterfaceOutcome outcome = interact_at_interface(scene, interface, link.from_back, normal,
+                                                           {back, front, gap, dry}, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
-    if (meeting.absorbed_by != scene::kNone) {
+    if (outcome.absorbed_by != scene::kNone) {
       result.event = core::StepEvent::absorbed_at_surface;
-      result.where = static_cast<std::uint32_t>(meeting.absorbed_by);
+      result.where = static_cast<std::uint32_t>(outcome.absorbed_by);
       return result;
     }
-    crossed = meeting.in_front == link.from_back;
+    crossed = outcome.in_front == link.from_back;
   }
   result.cos_after = std::abs(photon.ray.direction.dot(outward));
   if (!crossed) {
@@ -218,31 +219,31 @@ Step meet_boundary(const scene::Scene& scene, const scene::Region& region, std::
 
 }  // namespace
 
-Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const FlightLimits& limits,
+Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {
   const std::uint32_t from = photon.region;
   const scene::Region& region = scene.regions[from];
-  const Flight flight = fly(scene, photon, limits);
+  const Propagation propagation = propagate(scene, photon, limits);
   Step result;
-  switch (flight.end) {
-    case FlightEnd::bulk:
+  switch (propagation.end) {
+    case PropagationEnd::bulk:
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
       result = interact_in_bulk(scene, region.medium, photon, rng, records);
       break;
-    case FlightEnd::escape:
+    case PropagationEnd::escape:
       result.event = core::StepEvent::escaped;
       break;
-    case FlightEnd::boundary:
-      result = meet_boundary(scene, region, flight.triangle, photon, rng, records);
+    case PropagationEnd::boundary:
+      result = interact_at_boundary(scene, region, propagation.triangle, photon, rng, records);
       break;
-    case FlightEnd::total:
-      result = total_reflection(scene, photon, flight.triangle, flight.cosine);
+    case PropagationEnd::total:
+      result = total_reflection(scene, photon, propagation.triangle, propagation.cosine);
       break;
   }
   result.region = from;
-  result.segments = flight.segments;
-  result.resolved = flight.resolved;
+  result.segments = propagation.segments;
+  result.resolved = propagation.resolved;
   return result;
 }
 

@@ -12,8 +12,8 @@ namespace scintray::transport {
 struct Step {
   core::StepEvent event = core::StepEvent::escaped;
   bool from_back = false;                       ///< at a boundary: came from the interface's back region
-  std::uint32_t segments = 1;                   ///< straight pieces: one more than total reflections passed
-  std::uint32_t resolved = 0;                   ///< ray queries that the exact search settled
+  std::uint32_t segments = 1;                   ///< straight segments: one more than total reflections passed
+  std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
   std::uint32_t region = 0;                     ///< in which the step was made
   std::uint32_t interface = 0;                  ///< at a boundary
   std::uint32_t triangle = scene::kNoTriangle;  ///< of the region's boundary; kNoTriangle: not at a boundary

@@ -1,5 +1,5 @@
 #pragma once
-/// A fit of a scene to a measurement, with everything that its file and its page say. Plain data.
+/// A fit of a scene to a measurement, with everything that its file and its page hold. Plain data.
 
 #include <cstdint>
 #include <string>

@@ -36,14 +36,14 @@ void WeightedResiduals::set_common_error(double error) { error_.setConstant(erro
 double WeightedResiduals::match_common_error(const ModelCurve& curve, double degrees) {
   const auto chi2_with = [&](double error) {
     set_common_error(error);
-    reweigh(curve);
+    reweight(curve);
     return chi2(curve);
   };
   // Wide enough for any curve: the residuals of no curve at all are the values themselves.
   double low = 1e-9 * value_.norm(), high = value_.norm();
   if (chi2_with(low) < degrees) {
     set_common_error(0.0);
-    reweigh(curve);
+    reweight(curve);
     return 0.0;
   }
   constexpr int kHalvings = 60;
@@ -55,7 +55,7 @@ double WeightedResiduals::match_common_error(const ModelCurve& curve, double deg
   return high;
 }
 
-void WeightedResiduals::reweigh(const ModelCurve& curve) {
+void WeightedResiduals::reweight(const ModelCurve& curve) {
   const Eigen::VectorXd model_error = errors_of(curve);
   // The scale is in the errors and the errors in the scale: a few rounds settle both.
   constexpr int kRounds = 20;

@@ -18,7 +18,7 @@ struct ModelPoint {
 using ModelCurve = std::vector<ModelPoint>;
 
 /// Residuals (y - s m) / sigma with sigma^2 = measurement error^2 + (s * Monte Carlo error)^2, s being 1 or
-/// the scale that makes their squares least. sigma is that of the curve that was last given to `reweigh`, so
+/// the scale that makes their squares least. sigma is that of the curve that was last given to `reweight`, so
 /// that a search does not run after curves with large errors.
 class WeightedResiduals {
  public:
@@ -32,7 +32,7 @@ class WeightedResiduals {
   /// The common error with which the squares of the residuals of a curve sum to `degrees`; 0 when the Monte
   /// Carlo errors alone are larger than the scatter. Weights follow.
   double match_common_error(const ModelCurve& curve, double degrees);
-  void reweigh(const ModelCurve& curve);
+  void reweight(const ModelCurve& curve);
 
   /// The scale under the weights of the moment, in closed form: sum(w y m) / sum(w m^2).
   double scale(const ModelCurve& curve) const;

@@ -75,11 +75,11 @@ Lobe lobe_of(const DirectionSums& sums) {
 void check(const GoniometerSettings& s) {
   core::Problems problems;
   if (!(s.incidence_rad >= 0.0 && s.incidence_rad < 0.5 * core::kPi))
-    problems.add(
-        {},
-        fmt::format("an incidence angle of {:g} deg; expected at least 0 and less than 90 deg",
-                    s.incidence_rad / core::kDegree),
-        "angles are from the surface's normal: at 90 deg light passes along the surface and never meets it");
+    problems.add({},
+                 fmt::format("an incidence angle of {:g} deg; expected at least 0 and less than 90 deg",
+                             s.incidence_rad / core::kDegree),
+                 "angles are from the surface's normal: at 90 deg light passes along the surface and never "
+                 "reaches it");
   if (s.rays == 0) problems.add({}, "0 rays; expected at least 1", "a million give errors of 0.0005 or less");
   if (!(s.wavelength_nm > 0.0))
     problems.add({}, fmt::format("a wavelength of {:g} nm; expected more than 0", s.wavelength_nm), "");
@@ -106,7 +106,7 @@ GoniometerReading read_goniometer(const optics::Surface& surface, const optics::
     core::Rng rng(settings.seed, core::StreamKind::other, number, settings.stream);
     optics::Ray ray{beam, core::Vec3::Zero()};
     const optics::SurfaceOutcome outcome =
-        surface.meet(ray, settings.side, normal, index, settings.wavelength_nm, rng);
+        surface.interact(ray, settings.side, normal, index, settings.wavelength_nm, rng);
     if (outcome == optics::SurfaceOutcome::absorbed) {
       ++tally.absorbed;
       return;

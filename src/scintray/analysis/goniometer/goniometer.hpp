@@ -45,7 +45,7 @@ struct GoniometerReading {
 };
 
 /// Shoots unpolarised light (the mean of Fresnel's two reflectances at every facet, as tables are made) at
-/// a surface. A surface with a direction is met as it lies on a face of normal z, the light travelling
+/// a surface. A surface with a direction lies on a face of normal z, the light travelling
 /// towards +x.
 ///
 /// Runs on all threads of the calling task arena; the reading is the same for any number of them.

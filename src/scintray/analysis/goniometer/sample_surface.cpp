@@ -23,8 +23,9 @@ double slope_in_table(const optics::SurfaceTable& table, optics::Side side, doub
 
 }  // namespace
 
-BenchSurface make_bench_surface(const materials::Library& library, materials::SurfaceMaker& maker,
-                                const BenchPlace& place, bool on_the_spot) {
+SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
+                                  materials::SurfaceFactory& factory, const SamplePlace& place,
+                                  bool on_the_spot) {
   core::Problems problems;
   const auto looked_up = [&](auto look_up, const std::string& name) {
     try {
@@ -35,11 +36,11 @@ BenchSurface make_bench_surface(const materials::Library& library, materials::Su
     }
   };
   const optics::Medium inside =
-      looked_up([&](const std::string& name) { return library.medium(name); }, place.inside);
+      looked_up([&](const std::string& name) { return database.medium(name); }, place.inside);
   const optics::Medium outside =
-      looked_up([&](const std::string& name) { return library.medium(name); }, place.outside);
+      looked_up([&](const std::string& name) { return database.medium(name); }, place.outside);
   materials::SurfaceSpec spec =
-      looked_up([&](const std::string& name) { return library.surface(name); }, place.surface);
+      looked_up([&](const std::string& name) { return database.surface(name); }, place.surface);
   problems.throw_if_any();
 
   const double nm = place.wavelength_nm;
@@ -51,14 +52,14 @@ BenchSurface make_bench_surface(const materials::Library& library, materials::Su
   problems.throw_if_any();
 
   if (on_the_spot) spec = materials::traced_on_the_spot(std::move(spec));
-  materials::MadeSurface made = maker.make(spec, inside, outside, nm, nm, nm);
-  BenchSurface bench;
-  bench.place = place;
-  bench.surface = std::move(made.surface);
-  bench.index = {inside.index(nm), outside.index(nm)};
-  bench.sources = std::move(spec.sources);
-  bench.warnings = std::move(made.warnings);
-  return bench;
+  materials::MadeSurface made = factory.make(spec, inside, outside, nm, nm, nm);
+  SampleSurface sample;
+  sample.place = place;
+  sample.surface = std::move(made.surface);
+  sample.index = {inside.index(nm), outside.index(nm)};
+  sample.sources = std::move(spec.sources);
+  sample.warnings = std::move(made.warnings);
+  return sample;
 }
 
 bool has_facets(const optics::Surface& surface) {
@@ -69,14 +70,14 @@ bool has_facets(const optics::Surface& surface) {
          std::holds_alternative<std::shared_ptr<const optics::HeightField>>(surface.microsurface);
 }
 
-core::Estimate mean_slope_met(const optics::Surface& surface, optics::Side side, double incidence_rad) {
+core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side side, double incidence_rad) {
   if (!has_facets(surface))
     throw core::InputError({{},
-                            "surface \"" + surface.name + "\" has no facets whose slopes could be met",
+                            "surface \"" + surface.name + "\" has no facets whose slopes could be visible",
                             "slopes are those of a height map, a recipe, a table of one, or a smooth face"});
   if (std::holds_alternative<optics::SmoothSurface>(surface.microsurface)) return {};
   if (const auto* map = std::get_if<std::shared_ptr<const optics::HeightField>>(&surface.microsurface))
-    return topography::mean_slope_met(**map, side, incidence_rad, kSlopeRays);
+    return topography::mean_visible_slope(**map, side, incidence_rad, kSlopeRays);
   const auto& table = std::get<std::shared_ptr<const optics::SurfaceTable>>(surface.microsurface);
   return {slope_in_table(*table, side, incidence_rad), 0.0};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A surface of the library between two media at one wavelength, ready for the goniometer.
+/// A surface of the database between two media at one wavelength, ready for the goniometer.
 
 #include <string>
 #include <vector>
@@ -11,14 +11,14 @@
 namespace scintray::analysis {
 
 /// What lies where.
-struct BenchPlace {
+struct SamplePlace {
   std::string surface;
   std::string inside, outside;  ///< media
   double wavelength_nm = 0.0;
 };
 
-struct BenchSurface {
-  BenchPlace place;
+struct SampleSurface {
+  SamplePlace place;
   optics::Surface surface;
   optics::IndexPair index;
   std::vector<std::string> sources, warnings;
@@ -27,17 +27,18 @@ struct BenchSurface {
 /// Looks the names up and makes the surface, its table included.
 /// @param on_the_spot  rays on height maps and recipes are followed on the map itself, without a table
 /// InputError for unknown names (with the nearest), for a medium, gap or reflector that has no value at the
-/// wavelength, and for what the library and the maker refuse.
-BenchSurface make_bench_surface(const materials::Library& library, materials::SurfaceMaker& maker,
-                                const BenchPlace& place, bool on_the_spot = false);
+/// wavelength, and for what the database and the factory refuse.
+SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
+                                  materials::SurfaceFactory& factory, const SamplePlace& place,
+                                  bool on_the_spot = false);
 
-/// True when the surface has facets of its own whose slopes can be met.
+/// True when the surface has facets of its own whose slopes light can hit.
 bool has_facets(const optics::Surface& surface);
 
-/// Mean angle (rad) between the mean normal and the first facet met, by light from `side` at an incidence
+/// Mean angle (rad) between the mean normal and the first facet hit, by light from `side` at an incidence
 /// angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's nodes (then
 /// without an error), 0 for a smooth surface.
 /// InputError for surfaces without facets of their own (UNIFIED, painted, mixtures, tables of stacks).
-core::Estimate mean_slope_met(const optics::Surface& surface, optics::Side side, double incidence_rad);
+core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side side, double incidence_rad);
 
 }  // namespace scintray::analysis

@@ -42,25 +42,27 @@ core::Estimate Confusion::share_right() const {
 
 core::Estimate Confusion::share_right_of(std::size_t truth) const {
   std::uint64_t events = 0;
-  for (std::size_t told = 0; told < classes; ++told) events += at(truth, told);
+  for (std::size_t assigned = 0; assigned < classes; ++assigned) events += at(truth, assigned);
   return core::binomial_estimate(at(truth, truth), events);
 }
 
-Confusion confusion_of(std::span<const std::size_t> truth, std::span<const std::size_t> told,
+Confusion confusion_of(std::span<const std::size_t> truth, std::span<const std::size_t> assigned,
                        std::size_t classes) {
-  if (truth.size() != told.size()) throw std::invalid_argument("true and told classes differ in number");
+  if (truth.size() != assigned.size())
+    throw std::invalid_argument("true and assigned classes differ in number");
   Confusion confusion;
   confusion.classes = classes;
   confusion.counts.assign(classes * classes, 0);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (truth[i] >= classes || told[i] >= classes) throw std::invalid_argument("a class that does not exist");
-    ++confusion.counts[truth[i] * classes + told[i]];
+    if (truth[i] >= classes || assigned[i] >= classes)
+      throw std::invalid_argument("a class that does not exist");
+    ++confusion.counts[truth[i] * classes + assigned[i]];
   }
   return confusion;
 }
 
-LayerStudy tell_layers(std::span<const std::size_t> layer, std::span<const double> value,
-                       std::size_t layers) {
+LayerAnalysis classify_layers(std::span<const std::size_t> layer, std::span<const double> value,
+                              std::size_t layers) {
   if (layer.size() != value.size()) throw std::invalid_argument("layers and values differ in number");
   std::vector<std::vector<double>> values(layers);
   for (std::size_t i = 0; i < layer.size(); ++i) {
@@ -73,25 +75,25 @@ LayerStudy tell_layers(std::span<const std::size_t> layer, std::span<const doubl
     means.push_back(std::accumulate(of_layer.begin(), of_layer.end(), 0.0) /
                     static_cast<double>(of_layer.size()));
   }
-  LayerStudy study;
-  study.order.resize(layers);
-  std::iota(study.order.begin(), study.order.end(), std::size_t{0});
-  std::sort(study.order.begin(), study.order.end(),
+  LayerAnalysis analysis;
+  analysis.order.resize(layers);
+  std::iota(analysis.order.begin(), analysis.order.end(), std::size_t{0});
+  std::sort(analysis.order.begin(), analysis.order.end(),
             [&](std::size_t a, std::size_t b) { return means[a] < means[b]; });
   for (std::size_t i = 0; i + 1 < layers; ++i)
-    study.thresholds.push_back(best_threshold(values[study.order[i]], values[study.order[i + 1]]));
+    analysis.thresholds.push_back(best_threshold(values[analysis.order[i]], values[analysis.order[i + 1]]));
   // Where layers lie on top of each other two cuts may come out in the wrong order.
-  std::sort(study.thresholds.begin(), study.thresholds.end());
-  std::vector<std::size_t> truth, told;
+  std::sort(analysis.thresholds.begin(), analysis.thresholds.end());
+  std::vector<std::size_t> truth, assigned;
   for (std::size_t i = 1; i < layer.size(); i += 2) {
     const auto rank = static_cast<std::size_t>(
-        std::upper_bound(study.thresholds.begin(), study.thresholds.end(), value[i]) -
-        study.thresholds.begin());
+        std::upper_bound(analysis.thresholds.begin(), analysis.thresholds.end(), value[i]) -
+        analysis.thresholds.begin());
     truth.push_back(layer[i]);
-    told.push_back(study.order[rank]);
+    assigned.push_back(analysis.order[rank]);
   }
-  study.confusion = confusion_of(truth, told, layers);
-  return study;
+  analysis.confusion = confusion_of(truth, assigned, layers);
+  return analysis;
 }
 
 }  // namespace scintray::analysis

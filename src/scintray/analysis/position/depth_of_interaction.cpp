@@ -114,9 +114,9 @@ DoiCalibration calibration_of(const Calibrated& calibrated, DoiCalibrationKind k
                                             : monotone_calibration(calibrated);
 }
 
-std::vector<DoiSlice> judge_slices(std::span<const double> depths_mm, std::span<const double> residuals,
-                                   std::size_t slices) {
-  std::vector<DoiSlice> judged;
+std::vector<DoiSlice> evaluate_slices(std::span<const double> depths_mm, std::span<const double> residuals,
+                                      std::size_t slices) {
+  std::vector<DoiSlice> evaluated;
   for (const DepthSlice& slice : slice_by_depth(depths_mm, residuals, slices, kLeastOfDoiSlice)) {
     core::Moments moments, fourth;
     const core::Estimate mean = mean_of(slice.values);
@@ -128,12 +128,12 @@ std::vector<DoiSlice> judge_slices(std::span<const double> depths_mm, std::span<
     const double deviation = moments.standard_deviation();
     // The error of a variance follows from the spread of the squared distances, whatever the shape.
     const double error = deviation > 0.0 ? 0.5 * fourth.mean().error / deviation : 0.0;
-    judged.push_back({slice.depth_mm,
-                      slice.values.size(),
-                      mean,
-                      {core::kFwhmPerSigma * deviation, core::kFwhmPerSigma * error}});
+    evaluated.push_back({slice.depth_mm,
+                         slice.values.size(),
+                         mean,
+                         {core::kFwhmPerSigma * deviation, core::kFwhmPerSigma * error}});
   }
-  return judged;
+  return evaluated;
 }
 
 }  // namespace
@@ -156,8 +156,8 @@ DoiCalibration calibrate_doi(std::span<const double> depths_mm, std::span<const 
   return calibration_of(line_of_means(depths_mm, ratios, slices), kind);
 }
 
-DoiStudy study_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
-                   DoiCalibrationKind kind, std::size_t slices) {
+DoiAnalysis analyze_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
+                        DoiCalibrationKind kind, std::size_t slices) {
   std::array<std::vector<double>, 2> depths, values;
   std::size_t usable = 0;
   for (std::size_t i = 0; i < std::min(depths_mm.size(), ratios.size()); ++i) {
@@ -170,18 +170,18 @@ DoiStudy study_doi(std::span<const double> depths_mm, std::span<const double> ra
     throw no_doi(std::to_string(usable) + " events with light at both ends; " +
                      std::to_string(kLeastWithBothEnds) + " are needed",
                  "simulate more events");
-  DoiStudy study;
-  study.ratio = ratio;
-  study.kind = kind;
+  DoiAnalysis analysis;
+  analysis.ratio = ratio;
+  analysis.kind = kind;
   const Calibrated calibrated = line_of_means(depths[0], values[0], 2 * slices);
-  study.line = calibrated.line;
-  study.calibration = calibration_of(calibrated, kind);
+  analysis.line = calibrated.line;
+  analysis.calibration = calibration_of(calibrated, kind);
   std::vector<double> residuals;
   for (std::size_t i = 0; i < values[1].size(); ++i)
-    residuals.push_back(study.calibration.depth(values[1][i]) - depths[1][i]);
-  study.residual = spread_of(residuals);
-  study.slices = judge_slices(depths[1], residuals, slices);
-  return study;
+    residuals.push_back(analysis.calibration.depth(values[1][i]) - depths[1][i]);
+  analysis.residual = spread_of(residuals);
+  analysis.slices = evaluate_slices(depths[1], residuals, slices);
+  return analysis;
 }
 
 }  // namespace scintray::analysis

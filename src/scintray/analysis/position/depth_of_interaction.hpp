@@ -46,20 +46,20 @@ struct DoiSlice {
   core::Estimate fwhm_mm;  ///< 2.355 times the standard deviation
 };
 
-struct DoiStudy {
+struct DoiAnalysis {
   EndRatio ratio = EndRatio::share;
   DoiCalibrationKind kind = DoiCalibrationKind::linear;
   DoiCalibration calibration;
   StraightLine line;             ///< of the slice means of the ratio against depth
-  Spread residual;               ///< estimated minus true depth, mm, of all judged events
+  Spread residual;               ///< estimated minus true depth, mm, of all evaluated events
   std::vector<DoiSlice> slices;  ///< the same by depth
 };
 
-/// Calibrates on the even events and judges the odd ones, so that no event is judged by a calibration it
-/// took part in. Ratios that are not finite are left out. The spread of depths within an event, which a
+/// Calibrates on the even events and evaluates the odd ones, so that no event is evaluated by a calibration
+/// it took part in. Ratios that are not finite are left out. The spread of depths within an event, which a
 /// simulation with gammas has, is part of what is found.
 /// @throws InputError with fewer than 100 usable events, or when the ratio does not change with depth
-DoiStudy study_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
-                   DoiCalibrationKind kind, std::size_t slices = 10);
+DoiAnalysis analyze_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
+                        DoiCalibrationKind kind, std::size_t slices = 10);
 
 }  // namespace scintray::analysis

@@ -46,7 +46,7 @@ struct FloodMap {
   std::vector<FloodPeak> peaks;  ///< highest first
   std::vector<FloodNeighbours> neighbours;
   std::vector<std::uint32_t> peak_of_cell;  ///< per cell of the grid
-  std::vector<std::uint32_t> crystals;      ///< parts met in the events, rising
+  std::vector<std::uint32_t> crystals;      ///< parts with an interaction in the events, rising
   /// Of the events, those whose peak's owner is the part they happened in; no number without parts.
   core::Estimate share_right;
   std::size_t crystals_without_peak = 0;  ///< parts that own no peak

@@ -153,8 +153,8 @@ Span span_of(double position, double sigma, double valley, const PhotopeakOption
   return span;
 }
 
-Photopeak verdict(Photopeak peak, PeakVerdict found, std::string reason) {
-  peak.verdict = found;
+Photopeak with_status(Photopeak peak, PeakStatus found, std::string reason) {
+  peak.status = found;
   peak.reason = std::move(reason);
   return peak;
 }
@@ -163,8 +163,8 @@ Photopeak verdict(Photopeak peak, PeakVerdict found, std::string reason) {
 /// quarter of its height makes are no tail.
 bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above) {
   const double sigma = above ? place.sigma_below : place.sigma;
-  const double room = above ? sorted.back() - place.position : place.position - sorted.front();
-  if (room > kLeastBelow * sigma) return false;
+  const double margin = above ? sorted.back() - place.position : place.position - sorted.front();
+  if (margin > kLeastBelow * sigma) return false;
   const double reach = 0.1 * sigma;
   const auto near_end =
       above ? sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), sorted.back() - reach)
@@ -172,9 +172,9 @@ bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above)
   return static_cast<double>(near_end) > 0.25 * place.height * reach;
 }
 
-/// Repeats the fit until the bins it used are those that its result asks for.
-void fit_until_settled(std::span<const double> sorted, const PeakPlace& place,
-                       const PhotopeakOptions& options, Photopeak& peak) {
+/// Repeats the fit until the bins it used are those that its result requests.
+void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, const PhotopeakOptions& options,
+                      Photopeak& peak) {
   double position = place.position, sigma = place.sigma;
   for (int round = 0; round < kMostPeakRounds; ++round) {
     const Span span = span_of(position, sigma, place.valley, options);
@@ -183,10 +183,10 @@ void fit_until_settled(std::span<const double> sorted, const PeakPlace& place,
     if (peak.fitted.total() < kLeastInPeak) return;
     const PeakFit fit = fit_with_background(peak.fitted, start_model(peak.fitted, position, sigma), options);
     if (!fit.converged) return;
-    const bool settled = std::abs(fit.model.position - position) < 0.05 * sigma &&
-                         std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
+    const bool stable = std::abs(fit.model.position - position) < 0.05 * sigma &&
+                        std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
     peak.fit = fit;
-    if (settled) return;
+    if (stable) return;
     position = fit.model.position;
     sigma = std::clamp(fit.model.sigma, 0.5 * sigma, 2.0 * sigma);
   }
@@ -194,19 +194,19 @@ void fit_until_settled(std::span<const double> sorted, const PeakPlace& place,
 
 }  // namespace
 
-const char* verdict_name(PeakVerdict verdict) {
-  switch (verdict) {
-    case PeakVerdict::trusted:
+const char* status_name(PeakStatus status) {
+  switch (status) {
+    case PeakStatus::trusted:
       return "trusted";
-    case PeakVerdict::too_few:
+    case PeakStatus::too_few:
       return "too few events";
-    case PeakVerdict::no_peak:
+    case PeakStatus::no_peak:
       return "no peak";
-    case PeakVerdict::edge_of_range:
+    case PeakStatus::edge_of_range:
       return "peak at the edge";
-    case PeakVerdict::not_converged:
+    case PeakStatus::not_converged:
       return "the fit did not converge";
-    case PeakVerdict::poor_fit:
+    case PeakStatus::poor_fit:
       return "poor fit";
   }
   return "";
@@ -219,7 +219,7 @@ double Photopeak::misfit() const {
 }
 
 bool Photopeak::locates_peak() const {
-  return verdict == PeakVerdict::trusted || (verdict == PeakVerdict::poor_fit && misfit() < kSmallMisfit);
+  return status == PeakStatus::trusted || (status == PeakStatus::poor_fit && misfit() < kSmallMisfit);
 }
 
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {
@@ -232,45 +232,47 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
   }
   if (static_cast<double>(sorted.size()) < kLeastInPeak)
-    return verdict(peak, PeakVerdict::too_few,
-                   fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastInPeak));
+    return with_status(peak, PeakStatus::too_few,
+                       fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastInPeak));
   const std::optional<PeakPlace> place = find_photopeak(sorted);
   if (!place)
-    return verdict(peak, PeakVerdict::no_peak,
-                   sorted.front() == sorted.back() ? "all pulses are equal"
-                                                   : "no maximum stands 4 standard errors above its sides");
+    return with_status(peak, PeakStatus::no_peak,
+                       sorted.front() == sorted.back()
+                           ? "all pulses are equal"
+                           : "no maximum stands 4 standard errors above its sides");
   for (const bool above : {true, false})
     if (cut_off(sorted, *place, above))
-      return verdict(peak, PeakVerdict::edge_of_range,
-                     fmt::format("the data end at {:.4g}, on the slope of the peak at {:.4g}",
-                                 above ? sorted.back() : sorted.front(), place->position));
-  fit_until_settled(sorted, *place, options, peak);
+      return with_status(peak, PeakStatus::edge_of_range,
+                         fmt::format("the data end at {:.4g}, on the slope of the peak at {:.4g}",
+                                     above ? sorted.back() : sorted.front(), place->position));
+  fit_until_stable(sorted, *place, options, peak);
   if (!peak.has_numbers()) {
     if (peak.fitted.total() < kLeastInPeak)
-      return verdict(peak, PeakVerdict::too_few,
-                     fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit needs {:.0f}",
-                                 peak.fitted.total(), place->position, kLeastInPeak));
-    return verdict(peak, PeakVerdict::not_converged,
-                   fmt::format("the fit of the peak near {:.4g} did not come to rest", place->position));
+      return with_status(peak, PeakStatus::too_few,
+                         fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit needs {:.0f}",
+                                     peak.fitted.total(), place->position, kLeastInPeak));
+    return with_status(peak, PeakStatus::not_converged,
+                       fmt::format("the fit of the peak near {:.4g} did not come to rest", place->position));
   }
   const PeakModel& model = peak.fit.model;
-  const double room_above = (sorted.back() - model.position) / model.sigma;
-  const double room_below = (model.position - sorted.front()) / model.sigma;
-  if (room_above < kLeastBelow || room_below < kLeastBelow)
-    return verdict(
-        peak, PeakVerdict::edge_of_range,
+  const double margin_above = (sorted.back() - model.position) / model.sigma;
+  const double margin_below = (model.position - sorted.front()) / model.sigma;
+  if (margin_above < kLeastBelow || margin_below < kLeastBelow)
+    return with_status(
+        peak, PeakStatus::edge_of_range,
         fmt::format("the peak at {:.4g} has {:.1f} sigma of data below it and {:.1f} above; {} are needed",
-                    model.position, room_below, room_above, kLeastBelow));
+                    model.position, margin_below, margin_above, kLeastBelow));
   if (model.events < kLeastInPeak)
-    return verdict(peak, PeakVerdict::too_few,
-                   fmt::format("{:.0f} pulses in the peak; {:.0f} are needed", model.events, kLeastInPeak));
+    return with_status(
+        peak, PeakStatus::too_few,
+        fmt::format("{:.0f} pulses in the peak; {:.0f} are needed", model.events, kLeastInPeak));
   if (peak.fit.goodness.degrees > 0.0 && peak.fit.goodness.p_value < kPoor)
-    return verdict(
-        peak, PeakVerdict::poor_fit,
+    return with_status(
+        peak, PeakStatus::poor_fit,
         fmt::format("chi-square {:.1f} for {:.0f} degrees of freedom (p {:.1g}): the peak is no Gaussian on "
                     "a shoulder",
                     peak.fit.goodness.chi2, peak.fit.goodness.degrees, peak.fit.goodness.p_value));
-  return verdict(peak, PeakVerdict::trusted, "");
+  return with_status(peak, PeakStatus::trusted, "");
 }
 
 }  // namespace scintray::analysis

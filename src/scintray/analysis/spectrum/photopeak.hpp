@@ -11,7 +11,7 @@
 
 namespace scintray::analysis {
 
-enum class PeakVerdict {
+enum class PeakStatus {
   trusted,
   too_few,        ///< not enough events
   no_peak,        ///< nothing stands out of the continuum
@@ -20,7 +20,7 @@ enum class PeakVerdict {
   poor_fit,  ///< the shape is another one (p below 1e-4): position and width are descriptions
 };
 /// "trusted", "too few events", ...
-const char* verdict_name(PeakVerdict verdict);
+const char* status_name(PeakStatus status);
 
 struct PhotopeakOptions {
   /// Only a peak in here is looked for and fitted; without, the highest in energy of those that have at
@@ -33,8 +33,8 @@ struct PhotopeakOptions {
 };
 
 struct Photopeak {
-  PeakVerdict verdict = PeakVerdict::no_peak;
-  std::string reason;  ///< of a verdict other than trusted: what was found, and what was needed
+  PeakStatus status = PeakStatus::no_peak;
+  std::string reason;  ///< of a status other than trusted: what was found, and what was needed
   PeakFit fit;         ///< position, sigma, relative_fwhm (the energy resolution), goodness
   Histogram fitted;    ///< bins that were fitted; without bins when nothing was
 

@@ -38,9 +38,9 @@ void fit_core(std::span<const double> sorted, Spread& spread) {
         fit_peak(spread.fitted, {centre, sigma, std::max(1.0, spread.fitted.total())}, PeakBackground::none);
     if (!fit.converged) return;
     spread.fit = fit;
-    const bool settled = std::abs(fit.model.position - centre) < 0.05 * sigma &&
-                         std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
-    if (settled) break;
+    const bool stable = std::abs(fit.model.position - centre) < 0.05 * sigma &&
+                        std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
+    if (stable) break;
     centre = fit.model.position;
     sigma = std::clamp(fit.model.sigma, 0.5 * sigma, 2.0 * sigma);
   }

@@ -85,19 +85,19 @@ std::vector<std::vector<double>> FirstPhotons::times_ns() const {
   return all;
 }
 
-OrderStudy study_orders(std::span<const OrderTimes> choices) {
-  OrderStudy study;
+OrderAnalysis analyze_orders(std::span<const OrderTimes> choices) {
+  OrderAnalysis analysis;
   for (const OrderTimes& choice : choices) {
     const std::vector<double> single = finite(choice.single), average = finite(choice.average);
-    if (single.size() >= 2 * kLeastPairs) study.single.push_back(timing_of(choice.n, single));
-    if (average.size() >= 2 * kLeastPairs) study.average.push_back(timing_of(choice.n, average));
+    if (single.size() >= 2 * kLeastPairs) analysis.single.push_back(timing_of(choice.n, single));
+    if (average.size() >= 2 * kLeastPairs) analysis.average.push_back(timing_of(choice.n, average));
   }
-  study.best_single = smallest(study.single);
-  study.best_average = smallest(study.average);
-  return study;
+  analysis.best_single = smallest(analysis.single);
+  analysis.best_average = smallest(analysis.average);
+  return analysis;
 }
 
-OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most) {
+OrderAnalysis analyze_orders(std::span<const std::vector<double>> times_ns, std::size_t most) {
   std::vector<OrderTimes> choices;
   std::vector<double> sums(times_ns.size(), 0.0);
   for (std::size_t n = 1; n <= most; ++n) {
@@ -112,7 +112,7 @@ OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size
     if (choice.single.empty()) break;
     choices.push_back(std::move(choice));
   }
-  return study_orders(choices);
+  return analyze_orders(choices);
 }
 
 std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
@@ -135,7 +135,7 @@ std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
       if (!choice.average.empty()) of_slice.back().average = picked(choice.average);
     }
     OrderSlice found{slice.depth_mm, slice.values.size(), mean_of(picked(photons)).value,
-                     study_orders(of_slice)};
+                     analyze_orders(of_slice)};
     if (!found.orders.single.empty()) all.push_back(std::move(found));
   }
   return all;

@@ -54,7 +54,7 @@ struct OrderTimes {
   std::vector<double> average;  ///< mean of the first n; empty: not known
 };
 
-struct OrderStudy {
+struct OrderAnalysis {
   std::vector<OrderTiming> single;   ///< time of the n-th photon
   std::vector<OrderTiming> average;  ///< mean time of the first n photons
   std::size_t best_single = 0;       ///< index of the smallest CTR; 0 when empty
@@ -63,20 +63,20 @@ struct OrderStudy {
 
 /// CTR by each choice of photons, from independent events paired as in paired_differences. Choices that fewer
 /// than 50 pairs have are left out.
-OrderStudy study_orders(std::span<const OrderTimes> choices);
+OrderAnalysis analyze_orders(std::span<const OrderTimes> choices);
 
 /// CTR by the n-th detected photon and by the mean of the first n, each for n = 1 to `most`, from independent
 /// events paired as in paired_differences. Where fewer than 50 pairs have n photons the list ends. The best
 /// is the smallest of numbers with errors, so it is low by a part of its error.
 /// @param times_ns  of each event, rising
-OrderStudy study_orders(std::span<const std::vector<double>> times_ns, std::size_t most);
+OrderAnalysis analyze_orders(std::span<const std::vector<double>> times_ns, std::size_t most);
 
 /// Orders of photons at one depth.
 struct OrderSlice {
   double depth_mm = 0.0;
   std::size_t count = 0;
   double photons = 0.0;  ///< detected per event, mean
-  OrderStudy orders;
+  OrderAnalysis orders;
 };
 
 /// Slices of equal thickness; those with fewer than 100 events are left out.

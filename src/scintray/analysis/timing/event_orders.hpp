@@ -17,7 +17,7 @@ namespace scintray::analysis {
 /// is below the last; those of the first n hold for such light alone.
 struct TimingBound {
   double photons = 0.0;          ///< detected per event, mean
-  std::vector<double> first_ns;  ///< by the first n photons, one for each n asked for
+  std::vector<double> first_ns;  ///< by the first n photons, one for each n requested
   double all_ns = 0.0;           ///< by all photons
 };
 
@@ -34,7 +34,7 @@ class OrderCollector {
   /// The next event; its channels have a time for each order, or none.
   void add(const tally::EventRecord& event);
   /// Times of some events, by their number from 0 in the order in which they were added, by rising n.
-  /// Means of the first n are there where all photons up to the n-th were asked for.
+  /// Means of the first n are there where all photons up to the n-th were requested.
   std::vector<OrderTimes> times(std::span<const std::size_t> events) const;
   bool empty() const { return orders_.empty(); }
 

@@ -8,7 +8,8 @@
 #include <toml.hpp>
 
 #if !defined(TOML11_VERSION_MAJOR) || TOML11_VERSION_MAJOR != 3
-#error "ScintRay knows the regions and the messages of toml11 3 only: see src/scintray/config/detail/toml11.cpp"
+#error \
+    "ScintRay knows the regions and the messages of toml11 3 only: see src/scintray/config/detail/toml11.cpp"
 #endif
 
 namespace scintray::config::toml11 {
@@ -21,7 +22,7 @@ struct Span {
 /// Empty, at the start of the text, for a value that was not read from one.
 [[nodiscard]] Span span_of(const toml::value& value);
 
-/// What a text that is not TOML has wrong, as far as toml11's message tells.
+/// What a text that is not TOML has wrong, as far as toml11's message states.
 enum class Mistake {
   more_on_the_line,  ///< something after the value
   defined_twice,

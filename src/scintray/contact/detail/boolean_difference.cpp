@@ -55,14 +55,14 @@ std::optional<mesh::BooleanResult> on_common_grid(const mesh::TriMesh& part, con
 
 }  // namespace
 
-Eigen::Matrix3d carving_axes(const std::vector<PlacedMesh>& parts) {
+Eigen::Matrix3d difference_axes(const std::vector<PlacedMesh>& parts) {
   std::vector<PlacedPart> geometry;
   for (const PlacedMesh& part : parts) geometry.push_back(geometry_of(part));
   return natural_axes(geometry);
 }
 
-std::optional<mesh::BooleanResult> carve(const mesh::TriMesh& part, const mesh::TriMesh& tool,
-                                         const Eigen::Matrix3d& axes, double tolerance_mm) {
+std::optional<mesh::BooleanResult> difference_on_grid(const mesh::TriMesh& part, const mesh::TriMesh& tool,
+                                                      const Eigen::Matrix3d& axes, double tolerance_mm) {
   return on_common_grid(part, tool, axes, tolerance_mm,
                         [](const mesh::TriMesh& a, const mesh::TriMesh& b, double clean) {
                           return mesh::boolean(a, b, mesh::BooleanOperation::subtract, clean);

@@ -30,7 +30,7 @@ struct Box {
     return box;
   }
   bool empty() const { return (low.array() > high.array()).any(); }
-  bool meets(const Box& other) const {
+  bool overlaps(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
   }
   bool contains(const Box& other) const {

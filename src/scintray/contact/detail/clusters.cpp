@@ -144,7 +144,7 @@ std::vector<BodyPair> near_pairs(const std::vector<Body>& bodies, double reach_m
       const Body& fine = bodies[a_is_finer ? a : b];
       for (std::uint32_t t = 0; t < coarse.triangles.size(); ++t) {
         const Box reach = coarse.box_of(t).grown(reach_mm);
-        if (!reach.meets(fine.box)) continue;
+        if (!reach.overlaps(fine.box)) continue;
         for (const std::uint32_t u : fine.tree.touching(reach)) {
           pair.surfaces_near = true;
           if (std::abs(coarse.normal[t].dot(fine.normal[u])) < kParallel) continue;
@@ -193,10 +193,10 @@ Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<Placed
   }
 
   core::Problems problems;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> reported;
   for (const auto& [a, b] : touching) {
     const std::uint32_t body_a = result.patches[a].body, body_b = result.patches[b].body;
-    if (result.cluster_of[a] == result.cluster_of[b] || !told.insert({body_a, body_b}).second) continue;
+    if (result.cluster_of[a] == result.cluster_of[b] || !reported.insert({body_a, body_b}).second) continue;
     const PlacedPart &one = parts[body_a], &other = parts[body_b];
     problems.add(one.where,
                  "faces of parts '" + one.name + "' and '" + other.name +

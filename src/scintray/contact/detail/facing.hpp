@@ -35,7 +35,7 @@ std::vector<Facing> facing(const Body& body, const Body& other, double tolerance
 
 /// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles go outwards by
 /// `by` and those of their neighbours stay (least squares, weighted by area so that slivers, whose normals
-/// are rounding, have no say; nearly parallel planes count as one).
+/// are rounding, do not count; nearly parallel planes count as one).
 mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<char>& marked, double by);
 
 }  // namespace scintray::contact

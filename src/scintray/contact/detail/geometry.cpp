@@ -29,8 +29,8 @@ struct Hit {
 };
 
 /// Where the line meets the plane of the triangle (Möller and Trumbore 1997); none when parallel.
-std::optional<Hit> meet(const core::Vec3& origin, const core::Vec3& direction, const core::Vec3& a,
-                        const core::Vec3& b, const core::Vec3& c) {
+std::optional<Hit> intersect(const core::Vec3& origin, const core::Vec3& direction, const core::Vec3& a,
+                             const core::Vec3& b, const core::Vec3& c) {
   const core::Vec3 e1 = b - a, e2 = c - a;
   const core::Vec3 p = direction.cross(e2);
   const double determinant = e1.dot(p);
@@ -144,7 +144,7 @@ core::Vec3 Body::area_vector(std::uint32_t triangle) const {
 
 Side Body::side_of(const core::Vec3& point, double margin_mm) const {
   const Box near = box_of(point, point).grown(margin_mm);
-  if (!near.meets(box)) return Side::outside;
+  if (!near.overlaps(box)) return Side::outside;
   for (const std::uint32_t t : tree.touching(near))
     if (mesh::distance_to_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2)) <= margin_mm)
       return Side::on_surface;
@@ -160,7 +160,7 @@ bool Body::encloses(const core::Vec3& point) const {
     bool certain = true;
     for (const std::uint32_t t : tree.on_ray(axes_ * point, axes_ * direction)) {
       if (normal[t].isZero()) continue;
-      const auto hit = meet(point, direction, corner(t, 0), corner(t, 1), corner(t, 2));
+      const auto hit = intersect(point, direction, corner(t, 0), corner(t, 1), corner(t, 2));
       if (!hit || (std::abs(hit->margin) <= kEdge && hit->t > 0.0)) {
         certain = false;
         break;
@@ -194,7 +194,7 @@ core::Vec3 Body::interior_point() const {
     double length = std::numeric_limits<double>::infinity();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       if (t == start) continue;
-      const auto hit = meet(from, inward, corner(t, 0), corner(t, 1), corner(t, 2));
+      const auto hit = intersect(from, inward, corner(t, 0), corner(t, 1), corner(t, 2));
       if (hit && hit->margin >= -1e-9 && hit->t > 0.0) length = std::min(length, hit->t);
     }
     if (std::isfinite(length) && length > longest) {

@@ -12,7 +12,7 @@ namespace {
 struct Found {
   bool inside = false;
   bool outside = false;
-  bool settled() const { return inside && outside; }
+  bool resolved() const { return inside && outside; }
 };
 
 /// Looks where the surface of `body` lies with respect to `other`: at its corners, at the middle of
@@ -28,7 +28,7 @@ class SurfaceSampler {
     const Box reach = other_.box.grown(tolerance_);
     found_.outside = !reach.contains(body_.box);
     for (const std::uint32_t t : body_.tree.touching(reach)) {
-      if (found_.settled()) break;
+      if (found_.resolved()) break;
       if (!body_.normal[t].isZero()) look_at(t);
     }
     return found_;
@@ -48,14 +48,14 @@ class SurfaceSampler {
   }
 
   void look_at(const core::Vec3& point) {
-    if (found_.settled()) return;
+    if (found_.resolved()) return;
     const Side side = other_.side_of(point, tolerance_);
     found_.inside = found_.inside || side == Side::inside;
     found_.outside = found_.outside || side == Side::outside;
   }
 
   void look_along(const core::Vec3& a, const core::Vec3& b) {
-    if (found_.settled()) return;
+    if (found_.resolved()) return;
     std::vector<double> cuts{0.0, 1.0};
     for (const std::uint32_t t : other_.tree.touching(body_.box_of(a, b).grown(tolerance_))) {
       const core::Vec3& origin = other_.corner(t, 0);
@@ -88,9 +88,9 @@ class Relations {
     const core::Vec3 common = a.box.high.cwiseMin(b.box.high) - a.box.low.cwiseMax(b.box.low);
     if (common.minCoeff() <= tolerance_) return Relation::apart;
     const Found of_a = surface(a, b, pair.surfaces_near);
-    if (of_a.settled()) return Relation::overlap;
+    if (of_a.resolved()) return Relation::overlap;
     const Found of_b = surface(b, a, pair.surfaces_near);
-    if (of_b.settled()) return Relation::overlap;
+    if (of_b.resolved()) return Relation::overlap;
     const bool a_center_in_b = inside(pair.a, b), b_center_in_a = inside(pair.b, a);
     if (a_center_in_b && !of_a.outside && !of_b.inside && of_b.outside) return Relation::a_in_b;
     if (b_center_in_a && !of_b.outside && !of_a.inside && of_a.outside) return Relation::b_in_a;

@@ -103,7 +103,7 @@ OverlapVolume exact_overlap(const Body& a, const Body& b) {
   const auto cones_b = cones(b);
   for (const Cone& cone_a : cones(a))
     for (const Cone& cone_b : cones_b) {
-      if (!cone_a.box.meets(cone_b.box)) continue;
+      if (!cone_a.box.overlaps(cone_b.box)) continue;
       for (const Tetrahedron& piece : common_part(cone_a.tetrahedron, cone_b.tetrahedron)) {
         const double volume = std::abs(signed_volume(piece));
         result.volume_mm3 += cone_a.sign * cone_b.sign * volume;

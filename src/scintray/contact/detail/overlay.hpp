@@ -27,7 +27,7 @@ struct Overlay {
   std::vector<OverlayCell> cells;
 };
 
-/// Triangulates the plane so that every edge is made of sides of cells, and says for each cell which
+/// Triangulates the plane so that every edge is made of sides of cells, and states for each cell which
 /// labels wind around it. Crossings are computed exactly; coverage follows from the edges passed on
 /// the way in from infinity, never from a rounded point, so neighbouring cells cannot disagree. Cells
 /// that no label covers are left out. Points must be distinct; edges may cross and overlap.

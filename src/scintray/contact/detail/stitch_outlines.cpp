@@ -54,31 +54,34 @@ class Outline {
 /// Makes one outline of two.
 class OutlineStitcher {
  public:
-  OutlineStitcher(CutPart& keeper, CutPart& taker, const Loop& keeper_loop, const Loop& taker_loop,
-                  double tolerance)
-      : keeper_(keeper),
-        taker_(taker),
-        keeper_loop_(keeper_loop.rbegin(), keeper_loop.rend()),  // the other way round, as seen from here
-        taker_loop_(taker_loop),
-        outline_(keeper.mesh, keeper_loop_),
+  OutlineStitcher(CutPart& reference, CutPart& conforming, const Loop& reference_loop,
+                  const Loop& conforming_loop, double tolerance)
+      : reference_(reference),
+        conforming_(conforming),
+        reference_loop_(reference_loop.rbegin(),
+                        reference_loop.rend()),  // the other way round, as seen from here
+        conforming_loop_(conforming_loop),
+        outline_(reference.mesh, reference_loop_),
         reach_(kContactPush * tolerance),
         same_(kSame * tolerance) {}
 
-  /// The common outline; nothing where the two run too far apart or in another order. Moves the taker's
-  /// corners and cuts edges of both; `merged` says which of the taker's vertices become others.
+  /// The common outline; nothing where the two run too far apart or in another order. Moves the conforming
+  /// side's corners and cuts edges of both; `merged` states which of the conforming side's vertices become
+  /// others.
   std::optional<std::vector<Knot>> stitch(std::map<std::uint32_t, std::uint32_t>& merged, double& moved) {
     if (!place_corners(moved)) return std::nullopt;
     make_knots();
-    if (!move_taker(merged, moved)) return std::nullopt;
-    cut_keeper();
+    if (!move_conforming(merged, moved)) return std::nullopt;
+    cut_reference();
     return knots_;
   }
 
  private:
-  /// Finds the places of the taker's corners along the keeper's outline, each after the one before.
+  /// Finds the places of the conforming side's corners along the reference side's outline, each after the one
+  /// before.
   bool place_corners(double& moved) {
-    for (const std::uint32_t v : taker_loop_) {
-      const Outline::Place place = outline_.nearest(taker_.mesh.vertices[v]);
+    for (const std::uint32_t v : conforming_loop_) {
+      const Outline::Place place = outline_.nearest(conforming_.mesh.vertices[v]);
       if (place.distance > reach_) return false;
       moved = std::max(moved, place.distance);
       places_.push_back(snapped(place.along));
@@ -110,7 +113,7 @@ class OutlineStitcher {
     for (std::size_t edge = 0; edge < outline_.size(); ++edge) {
       const double start = outline_.start(edge);
       const double end = edge + 1 < outline_.size() ? outline_.start(edge + 1) : outline_.length();
-      knots_.push_back({start, outline_.corner(edge), keeper_loop_[edge], ~0U});
+      knots_.push_back({start, outline_.corner(edge), reference_loop_[edge], ~0U});
       double last = start;
       for (const double along : between)
         if (along > last + same_ && along < end - same_ / 2) {
@@ -131,75 +134,78 @@ class OutlineStitcher {
     return best;
   }
 
-  bool move_taker(std::map<std::uint32_t, std::uint32_t>& merged, double& moved) {
+  bool move_conforming(std::map<std::uint32_t, std::uint32_t>& merged, double& moved) {
     std::vector<std::size_t> knot_of;
     for (const double along : places_) knot_of.push_back(knot_at(along));
-    const std::vector<core::Vec3> before = taker_.mesh.vertices;
-    for (std::size_t i = 0; i < taker_loop_.size(); ++i) {
+    const std::vector<core::Vec3> before = conforming_.mesh.vertices;
+    for (std::size_t i = 0; i < conforming_loop_.size(); ++i) {
       Knot& knot = knots_[knot_of[i]];
-      if (knot.of_taker == ~0U)
-        knot.of_taker = taker_loop_[i];
-      else if (knot.of_taker != taker_loop_[i])
-        merged[taker_loop_[i]] = knot.of_taker;
-      taker_.mesh.vertices[taker_loop_[i]] = knot.position;
+      if (knot.of_conforming == ~0U)
+        knot.of_conforming = conforming_loop_[i];
+      else if (knot.of_conforming != conforming_loop_[i])
+        merged[conforming_loop_[i]] = knot.of_conforming;
+      conforming_.mesh.vertices[conforming_loop_[i]] = knot.position;
     }
-    for (std::size_t i = 0; i < taker_loop_.size(); ++i) {
+    for (std::size_t i = 0; i < conforming_loop_.size(); ++i) {
       const std::size_t end = knot_of[(i + 1) % knot_of.size()];
-      const std::uint32_t last = taker_loop_[(i + 1) % taker_loop_.size()];
-      std::uint32_t from = taker_loop_[i];
+      const std::uint32_t last = conforming_loop_[(i + 1) % conforming_loop_.size()];
+      std::uint32_t from = conforming_loop_[i];
       if (end == knot_of[i]) continue;
       for (std::size_t k = (knot_of[i] + 1) % knots_.size(); k != end; k = (k + 1) % knots_.size()) {
         const double off =
-            mesh::distance_to_segment(knots_[k].position, before[taker_loop_[i]], before[last]);
-        if (off > reach_ || knots_[k].of_taker != ~0U) return false;
+            mesh::distance_to_segment(knots_[k].position, before[conforming_loop_[i]], before[last]);
+        if (off > reach_ || knots_[k].of_conforming != ~0U) return false;
         moved = std::max(moved, off);
-        knots_[k].of_taker = add_vertex(taker_.mesh, knots_[k].position);
-        split_edge(taker_, from, last, knots_[k].of_taker);
-        from = knots_[k].of_taker;
+        knots_[k].of_conforming = add_vertex(conforming_.mesh, knots_[k].position);
+        split_edge(conforming_, from, last, knots_[k].of_conforming);
+        from = knots_[k].of_conforming;
       }
     }
     return true;
   }
 
-  void cut_keeper() {
+  void cut_reference() {
     for (std::size_t k = 0; k < knots_.size(); ++k) {
-      if (knots_[k].of_keeper != ~0U) continue;
+      if (knots_[k].of_reference != ~0U) continue;
       std::size_t end = k;
-      while (knots_[end % knots_.size()].of_keeper == ~0U) ++end;
-      knots_[k].of_keeper = add_vertex(keeper_.mesh, knots_[k].position);
-      split_edge(keeper_, knots_[(k + knots_.size() - 1) % knots_.size()].of_keeper,
-                 knots_[end % knots_.size()].of_keeper, knots_[k].of_keeper);
+      while (knots_[end % knots_.size()].of_reference == ~0U) ++end;
+      knots_[k].of_reference = add_vertex(reference_.mesh, knots_[k].position);
+      split_edge(reference_, knots_[(k + knots_.size() - 1) % knots_.size()].of_reference,
+                 knots_[end % knots_.size()].of_reference, knots_[k].of_reference);
     }
   }
 
-  CutPart &keeper_, &taker_;
-  Loop keeper_loop_, taker_loop_;
+  CutPart &reference_, &conforming_;
+  Loop reference_loop_, conforming_loop_;
   Outline outline_;
   double reach_, same_;
-  std::vector<double> places_;  ///< of the taker's corners, along the outline
+  std::vector<double> places_;  ///< of the conforming side's corners, along the outline
   std::vector<Knot> knots_;
 };
 
 }  // namespace
 
-std::optional<std::vector<Knot>> stitch_outlines(CutPart& keeper, CutPart& taker, const Loop& keeper_loop,
-                                                 const Loop& taker_loop, double tolerance,
+std::optional<std::vector<Knot>> stitch_outlines(CutPart& reference, CutPart& conforming,
+                                                 const Loop& reference_loop, const Loop& conforming_loop,
+                                                 double tolerance,
                                                  std::map<std::uint32_t, std::uint32_t>& merged,
                                                  double& moved) {
-  return OutlineStitcher(keeper, taker, keeper_loop, taker_loop, tolerance).stitch(merged, moved);
+  return OutlineStitcher(reference, conforming, reference_loop, conforming_loop, tolerance)
+      .stitch(merged, moved);
 }
 
-std::optional<std::vector<std::size_t>> outline_pairs(const CutPart& keeper, const CutPart& taker) {
-  if (keeper.outlines.size() != taker.outlines.size() || keeper.outlines.empty()) return std::nullopt;
+std::optional<std::vector<std::size_t>> outline_pairs(const CutPart& reference, const CutPart& conforming) {
+  if (reference.outlines.size() != conforming.outlines.size() || reference.outlines.empty())
+    return std::nullopt;
   std::vector<std::size_t> pairs;
-  for (const Loop& loop : taker.outlines) {
+  for (const Loop& loop : conforming.outlines) {
     std::size_t best = 0;
     double least = HUGE_VAL;
-    for (std::size_t k = 0; k < keeper.outlines.size(); ++k) {
-      const Outline outline(keeper.mesh, keeper.outlines[k]);
+    for (std::size_t k = 0; k < reference.outlines.size(); ++k) {
+      const Outline outline(reference.mesh, reference.outlines[k]);
       double farthest = 0.0;
       for (const std::uint32_t v : loop)
-        farthest = std::max(farthest, outline.nearest(taker.mesh.vertices[v]).distance);
+        farthest = std::max(farthest, outline.nearest(conforming.mesh.vertices[v]).distance);
       if (farthest < least) {
         least = farthest;
         best = k;

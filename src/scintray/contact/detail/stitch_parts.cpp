@@ -16,41 +16,41 @@ namespace scintray::contact {
 
 namespace {
 
-/// Triangles of the taker outside the contact, with merged vertices; those that collapse go.
-CutPart without_contact(const CutPart& taker, const std::map<std::uint32_t, std::uint32_t>& merged) {
+/// Triangles of the conforming side outside the contact, with merged vertices; those that collapse go.
+CutPart without_contact(const CutPart& conforming, const std::map<std::uint32_t, std::uint32_t>& merged) {
   CutPart rest;
-  rest.mesh.vertices = taker.mesh.vertices;
-  rest.mesh.groups = taker.mesh.groups;
-  rest.mesh.group_tags = taker.mesh.group_tags;
-  for (std::size_t t = 0; t < taker.mesh.triangles.size(); ++t) {
-    if (taker.contact[t]) continue;
-    auto triangle = taker.mesh.triangles[t];
+  rest.mesh.vertices = conforming.mesh.vertices;
+  rest.mesh.groups = conforming.mesh.groups;
+  rest.mesh.group_tags = conforming.mesh.group_tags;
+  for (std::size_t t = 0; t < conforming.mesh.triangles.size(); ++t) {
+    if (conforming.contact[t]) continue;
+    auto triangle = conforming.mesh.triangles[t];
     for (std::uint32_t& v : triangle)
       if (const auto other = merged.find(v); other != merged.end()) v = other->second;
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
     rest.mesh.triangles.push_back(triangle);
-    rest.mesh.group.push_back(taker.mesh.group[t]);
-    rest.origin.push_back(taker.origin[t]);
+    rest.mesh.group.push_back(conforming.mesh.group[t]);
+    rest.origin.push_back(conforming.origin[t]);
   }
   return rest;
 }
 
-/// Adds the keeper's contact triangles, turned round, to what is left of the taker. False when one strays
-/// from the taker's own surface by more than `reach`.
-bool add_contact(const CutPart& keeper, const ContactSide& taker, const std::vector<Knot>& knots,
+/// Adds the reference side's contact triangles, turned round, to what is left of the conforming side. False
+/// when one strays from the conforming side's own surface by more than `reach`.
+bool add_contact(const CutPart& reference, const ContactSide& conforming, const std::vector<Knot>& knots,
                  double reach, CutPart& rest, double& moved) {
-  std::map<std::uint32_t, std::uint32_t> vertex;  // of the keeper, and the taker's
-  for (const Knot& knot : knots) vertex[knot.of_keeper] = knot.of_taker;
-  for (std::size_t t = 0; t < keeper.mesh.triangles.size(); ++t) {
-    if (!keeper.contact[t]) continue;
-    const auto& [a, b, c] = keeper.mesh.triangles[t];
-    const core::Vec3 normal = -keeper.mesh.area_vector(t).normalized();
+  std::map<std::uint32_t, std::uint32_t> vertex;  // of the reference side, and the conforming side's
+  for (const Knot& knot : knots) vertex[knot.of_reference] = knot.of_conforming;
+  for (std::size_t t = 0; t < reference.mesh.triangles.size(); ++t) {
+    if (!reference.contact[t]) continue;
+    const auto& [a, b, c] = reference.mesh.triangles[t];
+    const core::Vec3 normal = -reference.mesh.area_vector(t).normalized();
     const auto beside = [&](const core::Vec3& point) {
-      return nearest(taker.body, point, normal, false, reach);
+      return nearest(conforming.body, point, normal, false, reach);
     };
-    const Nearest own = beside(mesh::centre_of(keeper.mesh, t));
+    const Nearest own = beside(mesh::centre_of(reference.mesh, t));
     for (const core::Vec3& point :
-         samples_of(keeper.mesh.vertices[a], keeper.mesh.vertices[b], keeper.mesh.vertices[c])) {
+         samples_of(reference.mesh.vertices[a], reference.mesh.vertices[b], reference.mesh.vertices[c])) {
       const Nearest here = beside(point);
       if (!here.found()) return false;
       moved = std::max(moved, here.distance);
@@ -58,11 +58,12 @@ bool add_contact(const CutPart& keeper, const ContactSide& taker, const std::vec
     std::array<std::uint32_t, 3> turned{a, c, b};
     for (std::uint32_t& v : turned) {
       const auto [known, is_new] = vertex.try_emplace(v, 0U);
-      if (is_new) known->second = add_vertex(rest.mesh, keeper.mesh.vertices[v]);
+      if (is_new) known->second = add_vertex(rest.mesh, reference.mesh.vertices[v]);
       v = known->second;
     }
     rest.mesh.triangles.push_back(turned);
-    rest.mesh.group.push_back(taker.part.mesh.group.empty() ? 0 : taker.part.mesh.group[own.triangle]);
+    rest.mesh.group.push_back(conforming.part.mesh.group.empty() ? 0
+                                                                 : conforming.part.mesh.group[own.triangle]);
     rest.origin.push_back(own.triangle);
   }
   return true;
@@ -100,40 +101,42 @@ std::string replace_mesh(PlacedMesh& part, CutPart cut) {
 
 }  // namespace
 
-std::string stitch(PlacedMesh& keeper, PlacedMesh& taker, double tolerance_mm, double flat_mm,
+std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, double tolerance_mm, double flat_mm,
                    const Eigen::Matrix3d& axes) {
-  const ContactSide keeper_side = contact_side(keeper, taker, tolerance_mm, flat_mm),
-                    taker_side = contact_side(taker, keeper, tolerance_mm, flat_mm);
-  auto keeper_cut = cut_at_contact(keeper_side, taker_side, tolerance_mm, flat_mm, axes),
-       taker_cut = cut_at_contact(taker_side, keeper_side, tolerance_mm, flat_mm, axes);
-  if (!keeper_cut || !taker_cut) return "their contact has no plain outline";
-  const auto pairs = outline_pairs(*keeper_cut, *taker_cut);
+  const ContactSide reference_side = contact_side(reference, conforming, tolerance_mm, flat_mm),
+                    conforming_side = contact_side(conforming, reference, tolerance_mm, flat_mm);
+  auto reference_cut = cut_at_contact(reference_side, conforming_side, tolerance_mm, flat_mm, axes),
+       conforming_cut = cut_at_contact(conforming_side, reference_side, tolerance_mm, flat_mm, axes);
+  if (!reference_cut || !conforming_cut) return "their contact has no plain outline";
+  const auto pairs = outline_pairs(*reference_cut, *conforming_cut);
   if (!pairs) return "the outlines of their contact do not fit each other";
 
   double moved = 0.0;
   std::map<std::uint32_t, std::uint32_t> merged;
   std::vector<Knot> knots;
-  const std::vector<Loop> keeper_loops = keeper_cut->outlines, taker_loops = taker_cut->outlines;
+  const std::vector<Loop> reference_loops = reference_cut->outlines,
+                          conforming_loops = conforming_cut->outlines;
   for (std::size_t i = 0; i < pairs->size(); ++i) {
-    const auto joined = stitch_outlines(*keeper_cut, *taker_cut, keeper_loops[(*pairs)[i]], taker_loops[i],
-                                        tolerance_mm, merged, moved);
+    const auto joined = stitch_outlines(*reference_cut, *conforming_cut, reference_loops[(*pairs)[i]],
+                                        conforming_loops[i], tolerance_mm, merged, moved);
     if (!joined) return "the outlines of their contact run too far apart";
     knots.insert(knots.end(), joined->begin(), joined->end());
   }
-  CutPart rest = without_contact(*taker_cut, merged);
-  if (!add_contact(*keeper_cut, taker_side, knots, kContactPush * tolerance_mm, rest, moved))
+  CutPart rest = without_contact(*conforming_cut, merged);
+  if (!add_contact(*reference_cut, conforming_side, knots, kContactPush * tolerance_mm, rest, moved))
     return "a face would move by more than twice the tolerance";
 
-  PlacedMesh new_keeper = keeper, new_taker = taker;
-  for (const std::string& why :
-       {replace_mesh(new_keeper, std::move(*keeper_cut)), replace_mesh(new_taker, std::move(rest))})
+  PlacedMesh new_reference = reference, new_conforming = conforming;
+  for (const std::string& why : {replace_mesh(new_reference, std::move(*reference_cut)),
+                                 replace_mesh(new_conforming, std::move(rest))})
     if (!why.empty()) return why;
-  new_taker.notes.push_back(fmt::format(
+  new_conforming.notes.push_back(fmt::format(
       "stitched to \"{}\" where they touch within {:.4g} mm and each ends within the other: moved by up to "
       "{:.2g} mm, volume {:.8g} instead of {:.8g} mm3",
-      keeper.name, tolerance_mm, moved, new_taker.diagnosis.volume_mm3, taker.diagnosis.volume_mm3));
-  keeper = std::move(new_keeper);
-  taker = std::move(new_taker);
+      reference.name, tolerance_mm, moved, new_conforming.diagnosis.volume_mm3,
+      conforming.diagnosis.volume_mm3));
+  reference = std::move(new_reference);
+  conforming = std::move(new_conforming);
   return {};
 }
 

@@ -172,9 +172,9 @@ Shape Group::State::checked_shape(const Handle& dataset, const std::string& memb
   if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) shape = {0};
   const Handle type(H5Dget_type(dataset.id()), H5Tclose);
   const auto stored = H5Dget_storage_size(dataset.id());
-  const double claimed = std::accumulate(shape.begin(), shape.end(),
-                                         static_cast<double>(H5Tget_size(type.id())), std::multiplies<>());
-  if (claimed > static_cast<double>(stored) * static_cast<double>(kLargestDeflateRatio))
+  const double stated = std::accumulate(shape.begin(), shape.end(),
+                                        static_cast<double>(H5Tget_size(type.id())), std::multiplies<>());
+  if (stated > static_cast<double>(stored) * static_cast<double>(kLargestDeflateRatio))
     refuse("read", member, "its shape does not fit the " + std::to_string(stored) + " bytes stored for it");
   return shape;
 }

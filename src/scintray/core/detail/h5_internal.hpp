@@ -118,7 +118,7 @@ struct Group::State {
   void write_text_attribute(const std::string& member, const std::string& attribute, const char* text) const;
   void write_attribute(const std::string& member, const std::string& attribute, hid_t file_type,
                        hid_t memory_type, const void* value) const;
-  /// An attribute of one value whose type has class text or number, as asked.
+  /// An attribute of one value whose type has class text or number, as requested.
   Handle open_attribute(const std::string& member, const std::string& attribute, bool text) const;
 };
 

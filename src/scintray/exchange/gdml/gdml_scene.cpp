@@ -60,7 +60,7 @@ class SceneMaker {
   void read_media() {
     for (ImportedMedium& medium : import_materials(file_, definitions_))
       media_[medium.material] = std::move(medium);
-    for (const auto& [material, library] : options_.media)
+    for (const auto& [material, definition] : options_.media)
       if (!media_.contains(material))
         throw core::InputError(
             core::Problem{{},

@@ -274,7 +274,7 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
   surface.reflector = surface.face_of_sheet ? optics::face_of_sheet(reflector) : std::move(reflector);
 }
 
-/// The parts of a stack that ask for or exclude each other.
+/// The parts of a stack that request or exclude each other.
 void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
   const bool painted = std::holds_alternative<PaintedSpec>(surface.microsurface);
   const bool reflector = table.has("reflector") || table.has("reflectance");
@@ -314,7 +314,7 @@ config::TomlNode merge_over_base(const config::TomlNode& base, const config::Tom
   const config::TomlNode* model = over.find("model");
   for (const auto& [name, own] : kModels)
     if (model && *own && model->text != name) drop(merged, own);
-  // What a base says of its sheet's light goes with that sheet.
+  // What a base states of its sheet's light goes with that sheet.
   if (over.find("reflector") || (over.find("reflectance") && base.find("reflector")))
     drop(merged, "transmittance");
   if (over.find("reflector")) drop(merged, "reflectance");
@@ -333,20 +333,20 @@ config::TomlNode merge_over_base(const config::TomlNode& base, const config::Tom
   return merged;
 }
 
-std::vector<std::string> unmet_needs(const config::TomlNode& definition) {
-  std::vector<std::string> unmet;
+std::vector<std::string> missing_needs(const config::TomlNode& definition) {
+  std::vector<std::string> missing;
   const config::TomlNode* needs = definition.find("needs");
-  if (!needs || needs->kind != Kind::array) return unmet;
+  if (!needs || needs->kind != Kind::array) return missing;
   for (const config::TomlNode& need : needs->items) {
-    bool met = false;
-    for (std::size_t start = 0; start <= need.text.size() && !met;) {
+    bool present = false;
+    for (std::size_t start = 0; start <= need.text.size() && !present;) {
       const std::size_t end = std::min(need.text.find(" or ", start), need.text.size());
-      met = find_path(definition, need.text.substr(start, end - start)) != nullptr;
+      present = find_path(definition, need.text.substr(start, end - start)) != nullptr;
       start = end + 4;
     }
-    if (!met) unmet.push_back(need.text);
+    if (!present) missing.push_back(need.text);
   }
-  return unmet;
+  return missing;
 }
 
 SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name, const SurfaceLookup& lookup,

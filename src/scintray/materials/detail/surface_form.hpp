@@ -22,7 +22,7 @@ struct SurfaceLookup {
 config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over);
 
 /// What the presets in a definition leave to the user (`needs`) and is not given.
-std::vector<std::string> unmet_needs(const config::TomlNode& definition);
+std::vector<std::string> missing_needs(const config::TomlNode& definition);
 
 /// Reads a merged definition; problems go to the collector of the table.
 SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name, const SurfaceLookup& lookup,

@@ -136,8 +136,8 @@ std::string read_mesh_file(const std::filesystem::path& path) {
   return *std::move(content);
 }
 
-void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
-                         const std::string& content) {
+void check_stated_sizes(const std::filesystem::path& path, const std::string& extension,
+                        const std::string& content) {
   if (content.starts_with("\xFE\xFF") || content.starts_with("\xFF\xFE"))
     reject_file(path, "the file is text in UTF-16, which is not read", "save it as UTF-8 or ASCII");
   if (extension == ".stl") check_stl(path, content);

@@ -20,8 +20,8 @@ std::string read_mesh_file(const std::filesystem::path& path);
 
 /// Refuses files whose own counts cannot be true, since parsers allocate by them before they read:
 /// element counts of OFF and binary STL against the file's size; and text in UTF-16. Throws InputError.
-void check_claimed_sizes(const std::filesystem::path& path, const std::string& extension,
-                         const std::string& content);
+void check_stated_sizes(const std::filesystem::path& path, const std::string& extension,
+                        const std::string& content);
 
 /// What a sound file of nested JSON values or XML elements does not come near.
 inline constexpr std::size_t kDeepestNesting = 500;

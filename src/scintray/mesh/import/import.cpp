@@ -24,7 +24,7 @@ std::string number_text(double value) {
 RawMesh read_raw(const std::filesystem::path& path, const MeshFormat& format,
                  const Tessellation& tessellation) {
   const std::string content = read_mesh_file(path);
-  check_claimed_sizes(path, format.extension, content);
+  check_stated_sizes(path, format.extension, content);
   return format.read({path, content, tessellation});
 }
 

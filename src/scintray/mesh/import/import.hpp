@@ -26,7 +26,7 @@ struct ImportOptions {
 
 struct MeshImport {
   TriMesh mesh;                          ///< mm, vertices welded, no triangle of zero area
-  std::string unit_from_file;            ///< "m" for glTF; "" when the file does not say
+  std::string unit_from_file;            ///< "m" for glTF; "" when the file does not state
   std::vector<std::string> notes;        ///< everything that was left out, repaired or warned about
   std::size_t degenerate_triangles = 0;  ///< triangles of the file that had no area and were kept out
   std::vector<std::string> bodies;       ///< all bodies of the file; empty when its format has none

@@ -12,9 +12,9 @@ namespace scintray::mesh {
 
 /// The unit of length of a mesh file.
 struct FileUnit {
-  std::string name;      ///< as "inch"; empty when neither the file nor its format says
+  std::string name;      ///< as "inch"; empty when neither the file nor its format states
   double mm = 0.0;       ///< length of the unit; 0 when unknown
-  bool written = false;  ///< the file itself says it; otherwise its format prescribes it
+  bool written = false;  ///< the file itself states it; otherwise its format prescribes it
   double read_mm = 0.0;  ///< what one unit of the coordinates, as the library gave them, is
 };
 

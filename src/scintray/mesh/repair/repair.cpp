@@ -41,7 +41,7 @@ class Repairer {
     clear_edges();
     fill();
     clear_edges();  // covers of holes beside each other can meet
-    settle_crossings();
+    resolve_crossings();
     remove_flat();
     orient("");
     weld_vertices(mesh(), rounding_length(mesh()));  // drops vertices that nothing uses
@@ -121,7 +121,7 @@ class Repairer {
     std::vector<TriMesh> body;
     std::vector<Defects> tangled;  ///< pairs of triangles of one body that cross
     std::map<std::pair<std::uint32_t, std::uint32_t>, core::Vec3>
-        meeting;  ///< where each pair of bodies first does
+        first_contact;  ///< where each pair of bodies first does
   };
 
   Bodies take_apart(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings) {
@@ -141,13 +141,13 @@ class Repairer {
       if (label[s] == label[t])
         bodies.tangled[label[s]].add(place);
       else
-        bodies.meeting.try_emplace(std::minmax(label[s], label[t]), place);
+        bodies.first_contact.try_emplace(std::minmax(label[s], label[t]), place);
     }
     return bodies;
   }
 
   /// Takes crossings out of single bodies, then makes one of bodies that cross or touch.
-  void settle_crossings() {
+  void resolve_crossings() {
     const auto crossings = self_intersections(mesh());
     if (crossings.empty()) return;
     Bodies bodies = take_apart(crossings);
@@ -206,7 +206,7 @@ class Repairer {
     };
     Defects united;
     std::size_t refused = 0;
-    for (const auto& [pair, place] : bodies.meeting) {
+    for (const auto& [pair, place] : bodies.first_contact) {
       const std::uint32_t a = find(pair.first), b = find(pair.second);
       if (a == b) continue;
       if (auto one = united_body(bodies.body[a], bodies.body[b])) {

@@ -1,6 +1,6 @@
 #pragma once
 /// Closed bodies of detectors: prisms, chamfered blocks, tapers, Winston cones. Oriented outwards, lengths
-/// in mm, each standing on z = 0 about the z axis unless said otherwise.
+/// in mm, each standing on z = 0 about the z axis unless stated otherwise.
 
 #include <array>
 
@@ -40,7 +40,7 @@ struct WinstonShape {
   double length = 0.0;          ///< shorter than full truncates the entrance; 0 is the full length
   double trough_width = 0.0;    ///< above 0: a two-dimensional trough of this width along y
   int segments = 64;            ///< flat sides about the axis of a cone
-  int rings = 32;               ///< straight pieces of the profile
+  int rings = 32;               ///< straight segments of the profile
 };
 
 /// Full length of a concentrator, (a + a') cot(theta) with a = a' / sin(theta), a' the exit's radius.

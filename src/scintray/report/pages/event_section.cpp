@@ -34,76 +34,80 @@ std::string difference_figure(const analysis::Spread& differences, const std::st
 std::string layers_table(const analysis::Confusion& confusion) {
   std::vector<std::string> head{"true layer"};
   std::string rows;
-  for (std::size_t told = 0; told < confusion.classes; ++told) head.push_back("told " + std::to_string(told));
+  for (std::size_t assigned = 0; assigned < confusion.classes; ++assigned)
+    head.push_back("assigned " + std::to_string(assigned));
   for (std::size_t truth = 0; truth < confusion.classes; ++truth) {
     rows += "<tr>" + cell(std::to_string(truth), "th");
-    for (std::size_t told = 0; told < confusion.classes; ++told)
-      rows += number_cell(grouped(confusion.at(truth, told)));
+    for (std::size_t assigned = 0; assigned < confusion.classes; ++assigned)
+      rows += number_cell(grouped(confusion.at(truth, assigned)));
     rows += "</tr>\n";
   }
   return table(head, rows);
 }
 
-std::string figures(const PointStudy& point) {
-  const analysis::EventStudy& study = point.study;
+std::string figures(const PointAnalysis& point) {
+  const analysis::EventAnalysis& analysis = point.analysis;
   std::string out;
-  if (study.spectrum)
-    out += event_figure(svg_plot(spectrum_plot(study)), point.label, "energy spectrum", peak_text(study));
-  if (study.light_against_depth)
-    out += event_figure(svg_plot(depth_plot(*study.light_against_depth)), point.label, "light against depth",
-                        depth_text(*study.light_against_depth));
-  if (study.flood)
-    out += event_figure(grid_map(flood_picture(*study.flood)), point.label, "flood map",
-                        flood_text(*study.flood));
-  if (study.doi && !study.doi->slices.empty())
-    out += event_figure(svg_plot(doi_plot(*study.doi)), point.label, "depth of interaction",
-                        doi_text(*study.doi));
-  if (study.pair_difference_ns)
-    out += difference_figure(*study.pair_difference_ns, point.label, "coincidence of two such detectors");
-  if (study.first_photon_difference_ns)
+  if (analysis.spectrum)
     out +=
-        difference_figure(*study.first_photon_difference_ns, point.label, "coincidence by the first photon");
-  if (study.end_difference_ns)
-    out += difference_figure(*study.end_difference_ns, point.label, "one end minus the other");
-  if (study.timing_against_depth)
-    out += event_figure(svg_plot(timing_depth_plot(*study.timing_against_depth)), point.label,
-                        "timing against depth", timing_depth_text(*study.timing_against_depth));
-  if (study.orders)
-    out += event_figure(svg_plot(order_plot(*study.orders, study.orders_bound)), point.label,
+        event_figure(svg_plot(spectrum_plot(analysis)), point.label, "energy spectrum", peak_text(analysis));
+  if (analysis.light_against_depth)
+    out += event_figure(svg_plot(depth_plot(*analysis.light_against_depth)), point.label,
+                        "light against depth", depth_text(*analysis.light_against_depth));
+  if (analysis.flood)
+    out += event_figure(grid_map(flood_picture(*analysis.flood)), point.label, "flood map",
+                        flood_text(*analysis.flood));
+  if (analysis.doi && !analysis.doi->slices.empty())
+    out += event_figure(svg_plot(doi_plot(*analysis.doi)), point.label, "depth of interaction",
+                        doi_text(*analysis.doi));
+  if (analysis.pair_difference_ns)
+    out += difference_figure(*analysis.pair_difference_ns, point.label, "coincidence of two such detectors");
+  if (analysis.first_photon_difference_ns)
+    out += difference_figure(*analysis.first_photon_difference_ns, point.label,
+                             "coincidence by the first photon");
+  if (analysis.end_difference_ns)
+    out += difference_figure(*analysis.end_difference_ns, point.label, "one end minus the other");
+  if (analysis.timing_against_depth)
+    out += event_figure(svg_plot(timing_depth_plot(*analysis.timing_against_depth)), point.label,
+                        "timing against depth", timing_depth_text(*analysis.timing_against_depth));
+  if (analysis.orders)
+    out += event_figure(svg_plot(order_plot(*analysis.orders, analysis.orders_bound)), point.label,
                         "coincidence of two such detectors by order of photons",
-                        order_text(*study.orders, study.orders_bound));
-  if (!study.orders_against_depth.empty())
-    out += event_figure(svg_plot(order_depth_plot(study)), point.label,
-                        "coincidence by order of photons against depth", order_depth_text(study));
-  if (study.layers_by_ratio)
-    out += event_figure(layers_table(study.layers_by_ratio->confusion), point.label,
-                        "layers by the ratio of the ends", layers_text(study.layers_by_ratio->confusion));
-  if (study.layers_by_flood)
-    out += event_figure(layers_table(*study.layers_by_flood), point.label, "layers by the flood map",
-                        layers_text(*study.layers_by_flood));
+                        order_text(*analysis.orders, analysis.orders_bound));
+  if (!analysis.orders_against_depth.empty())
+    out += event_figure(svg_plot(order_depth_plot(analysis)), point.label,
+                        "coincidence by order of photons against depth", order_depth_text(analysis));
+  if (analysis.layers_by_ratio)
+    out += event_figure(layers_table(analysis.layers_by_ratio->confusion), point.label,
+                        "layers by the ratio of the ends", layers_text(analysis.layers_by_ratio->confusion));
+  if (analysis.layers_by_flood)
+    out += event_figure(layers_table(*analysis.layers_by_flood), point.label, "layers by the flood map",
+                        layers_text(*analysis.layers_by_flood));
   return out;
 }
 
-std::string numbers_row(const PointStudy& point) {
-  const analysis::EventStudy& study = point.study;
-  const bool peak = study.peak.has_numbers();
-  const std::string doubt =
-      study.peak.verdict == analysis::PeakVerdict::trusted ? "" : analysis::verdict_name(study.peak.verdict);
-  return "<tr>" + cell(point.label, "th") + number_cell(grouped(study.pulses)) +
-         number_cell(study.pulses > 0 ? with_error(study.mean_light) : "") +
-         number_cell(peak ? with_error(study.peak.fit.position) : "") +
-         number_cell(peak ? percent_with_error(study.peak.fit.relative_fwhm) : "") + cell(doubt) +
-         number_cell(study.doi ? with_error(study.doi->residual.quantile_fwhm) : "") +
-         number_cell(study.flood ? std::to_string(study.flood->peaks.size()) : "") +
-         number_cell(study.pair_difference_ns ? picoseconds(analysis::quoted_fwhm(*study.pair_difference_ns))
-                                              : "") +
+std::string numbers_row(const PointAnalysis& point) {
+  const analysis::EventAnalysis& analysis = point.analysis;
+  const bool peak = analysis.peak.has_numbers();
+  const std::string not_trusted = analysis.peak.status == analysis::PeakStatus::trusted
+                                      ? ""
+                                      : analysis::status_name(analysis.peak.status);
+  return "<tr>" + cell(point.label, "th") + number_cell(grouped(analysis.pulses)) +
+         number_cell(analysis.pulses > 0 ? with_error(analysis.mean_light) : "") +
+         number_cell(peak ? with_error(analysis.peak.fit.position) : "") +
+         number_cell(peak ? percent_with_error(analysis.peak.fit.relative_fwhm) : "") + cell(not_trusted) +
+         number_cell(analysis.doi ? with_error(analysis.doi->residual.quantile_fwhm) : "") +
+         number_cell(analysis.flood ? std::to_string(analysis.flood->peaks.size()) : "") +
+         number_cell(analysis.pair_difference_ns
+                         ? picoseconds(analysis::quoted_fwhm(*analysis.pair_difference_ns))
+                         : "") +
          "</tr>\n";
 }
 
-std::string numbers_table(const std::vector<PointStudy>& points) {
+std::string numbers_table(const std::vector<PointAnalysis>& points) {
   std::string rows;
-  for (const PointStudy& point : points) rows += numbers_row(point);
-  return table({"point", "pulses", "mean light", "photopeak", "resolution (FWHM)", "doubt", "DOI FWHM (mm)",
+  for (const PointAnalysis& point : points) rows += numbers_row(point);
+  return table({"point", "pulses", "mean light", "photopeak", "resolution (FWHM)", "status", "DOI FWHM (mm)",
                 "flood peaks", "CTR (FWHM)"},
                rows);
 }
@@ -117,17 +121,17 @@ bool are_apart(std::vector<double> depths_mm, double spread_mm) {
 }
 
 /// Points of a sweep over depth, all by photopeak or all by mean, as one curve.
-std::string curve_over_points(const std::vector<PointStudy>& points) {
+std::string curve_over_points(const std::vector<PointAnalysis>& points) {
   std::vector<analysis::DepthPoint> curve_points;
   std::vector<double> depths;
   double spread = 0.0;
-  for (const PointStudy& point : points) {
-    const auto depth = analysis::depth_point(point.study);
+  for (const PointAnalysis& point : points) {
+    const auto depth = analysis::depth_point(point.analysis);
     if (!depth || !(depth->value.error > 0.0)) return "";
     curve_points.push_back(*depth);
     depths.push_back(depth->depth_mm);
     spread =
-        std::max(spread, point.study.mean_depth_mm->error * std::sqrt(static_cast<double>(depth->count)));
+        std::max(spread, point.analysis.mean_depth_mm->error * std::sqrt(static_cast<double>(depth->count)));
   }
   const bool alike = std::all_of(
       curve_points.begin(), curve_points.end(),
@@ -139,10 +143,10 @@ std::string curve_over_points(const std::vector<PointStudy>& points) {
 }
 
 /// Timing by order of photons of all points, where several have it and the eye can tell them apart.
-std::string orders_over_points(const std::vector<PointStudy>& points) {
-  std::vector<std::pair<std::string, analysis::OrderStudy>> with_orders;
-  for (const PointStudy& point : points)
-    if (point.study.orders) with_orders.emplace_back(point.label, *point.study.orders);
+std::string orders_over_points(const std::vector<PointAnalysis>& points) {
+  std::vector<std::pair<std::string, analysis::OrderAnalysis>> with_orders;
+  for (const PointAnalysis& point : points)
+    if (point.analysis.orders) with_orders.emplace_back(point.label, *point.analysis.orders);
   if (with_orders.size() < 2 || with_orders.size() > kCurvesTogether) return "";
   std::string text;
   for (const auto& [label, orders] : with_orders)
@@ -153,10 +157,10 @@ std::string orders_over_points(const std::vector<PointStudy>& points) {
                       "coincidence of two such detectors by the n-th photon", text);
 }
 
-std::string left_out_list(const std::vector<PointStudy>& points) {
+std::string left_out_list(const std::vector<PointAnalysis>& points) {
   std::string items;
-  for (const PointStudy& point : points)
-    for (const std::string& line : point.study.left_out)
+  for (const PointAnalysis& point : points)
+    for (const std::string& line : point.analysis.left_out)
       items += "<li>" + escape_html(point.label + ": " + line) + "</li>\n";
   return items.empty() ? ""
                        : "<details><summary>What was left out</summary><ul>\n" + items + "</ul></details>\n";
@@ -164,9 +168,9 @@ std::string left_out_list(const std::vector<PointStudy>& points) {
 
 }  // namespace
 
-std::string event_section(const std::vector<PointStudy>& points) {
+std::string event_section(const std::vector<PointAnalysis>& points) {
   const bool any = std::any_of(points.begin(), points.end(),
-                               [](const PointStudy& point) { return point.study.events > 0; });
+                               [](const PointAnalysis& point) { return point.analysis.events > 0; });
   if (!any) return "";
   std::string first = curve_over_points(points) + orders_over_points(points), others;
   for (std::size_t i = 0; i < points.size(); ++i) (i < kPointsShown ? first : others) += figures(points[i]);
@@ -178,40 +182,41 @@ std::string event_section(const std::vector<PointStudy>& points) {
 }
 
 std::string event_page(const std::string& title, const std::string& under,
-                       const std::vector<PointStudy>& points) {
+                       const std::vector<PointAnalysis>& points) {
   return html_page(title, under, kEventStyle + grid_map_style(), event_section(points));
 }
 
-std::string event_lines(const analysis::EventStudy& study) {
-  if (study.events == 0) return "";
-  std::string lines = "pulses: " + grouped(study.pulses) + " of " + grouped(study.events) + " events";
-  if (study.pulses > 0) lines += ", mean light " + with_error(study.mean_light) + " " + light_unit(study);
-  lines += "\nspectrum: " + peak_text(study) + "\n";
-  if (study.light_against_depth)
-    lines += "light against depth: " + depth_text(*study.light_against_depth) + "\n";
-  if (study.flood || study.doi || study.pair_difference_ns)
-    lines += "the following from " + study.selection + " (" + grouped(study.selected) + ")\n";
-  if (study.flood) lines += "flood map: " + flood_text(*study.flood) + "\n";
-  if (study.doi) lines += "depth of interaction: " + doi_text(*study.doi) + "\n";
-  if (study.layers_by_ratio)
-    lines += "layers by the ratio of the ends: " + layers_text(study.layers_by_ratio->confusion) + "\n";
-  if (study.layers_by_flood)
-    lines += "layers by the flood map: " + layers_text(*study.layers_by_flood) + "\n";
-  if (study.pair_difference_ns)
-    lines += "coincidence of two such detectors: " + spread_text(*study.pair_difference_ns) + "\n";
-  if (study.first_photon_difference_ns)
-    lines += "coincidence by the first photon: " + spread_text(*study.first_photon_difference_ns) + "\n";
-  if (study.end_difference_ns)
-    lines += "one end minus the other: " + spread_text(*study.end_difference_ns) + "\n";
-  if (study.timing_against_depth)
-    lines += "timing against depth: " + timing_depth_text(*study.timing_against_depth) + "\n";
-  if (study.orders) {
-    lines += "timing by order of photons: " + order_text(*study.orders, study.orders_bound) + "\n";
-    lines += "CTR by the n-th photon: " + order_list(*study.orders, study.orders_bound) + "\n";
+std::string event_lines(const analysis::EventAnalysis& analysis) {
+  if (analysis.events == 0) return "";
+  std::string lines = "pulses: " + grouped(analysis.pulses) + " of " + grouped(analysis.events) + " events";
+  if (analysis.pulses > 0)
+    lines += ", mean light " + with_error(analysis.mean_light) + " " + light_unit(analysis);
+  lines += "\nspectrum: " + peak_text(analysis) + "\n";
+  if (analysis.light_against_depth)
+    lines += "light against depth: " + depth_text(*analysis.light_against_depth) + "\n";
+  if (analysis.flood || analysis.doi || analysis.pair_difference_ns)
+    lines += "the following from " + analysis.selection + " (" + grouped(analysis.selected) + ")\n";
+  if (analysis.flood) lines += "flood map: " + flood_text(*analysis.flood) + "\n";
+  if (analysis.doi) lines += "depth of interaction: " + doi_text(*analysis.doi) + "\n";
+  if (analysis.layers_by_ratio)
+    lines += "layers by the ratio of the ends: " + layers_text(analysis.layers_by_ratio->confusion) + "\n";
+  if (analysis.layers_by_flood)
+    lines += "layers by the flood map: " + layers_text(*analysis.layers_by_flood) + "\n";
+  if (analysis.pair_difference_ns)
+    lines += "coincidence of two such detectors: " + spread_text(*analysis.pair_difference_ns) + "\n";
+  if (analysis.first_photon_difference_ns)
+    lines += "coincidence by the first photon: " + spread_text(*analysis.first_photon_difference_ns) + "\n";
+  if (analysis.end_difference_ns)
+    lines += "one end minus the other: " + spread_text(*analysis.end_difference_ns) + "\n";
+  if (analysis.timing_against_depth)
+    lines += "timing against depth: " + timing_depth_text(*analysis.timing_against_depth) + "\n";
+  if (analysis.orders) {
+    lines += "timing by order of photons: " + order_text(*analysis.orders, analysis.orders_bound) + "\n";
+    lines += "CTR by the n-th photon: " + order_list(*analysis.orders, analysis.orders_bound) + "\n";
   }
-  if (!study.orders_against_depth.empty())
-    lines += "timing by order of photons against depth: " + order_depth_text(study) + "\n";
-  for (const std::string& line : study.left_out) lines += "left out: " + line + "\n";
+  if (!analysis.orders_against_depth.empty())
+    lines += "timing by order of photons against depth: " + order_depth_text(analysis) + "\n";
+  for (const std::string& line : analysis.left_out) lines += "left out: " + line + "\n";
   return lines;
 }
 

@@ -64,7 +64,7 @@ double refracted_rad(const optics::IndexPair& index, optics::Side side, double i
   return sine < 1.0 ? std::asin(sine) : -1.0;
 }
 
-std::string reading_section(const analysis::BenchSurface& bench, const analysis::GoniometerReading& reading,
+std::string reading_section(const analysis::SampleSurface& sample, const analysis::GoniometerReading& reading,
                             const std::optional<Overlay>& overlay) {
   const analysis::GoniometerSettings& s = reading.settings;
   std::string out =
@@ -90,11 +90,11 @@ std::string reading_section(const analysis::BenchSurface& bench, const analysis:
   };
   if (reading.reflected > 0) map("Reflected", reading.reflected_directions, s.incidence_rad);
   if (reading.transmitted > 0)
-    map("Transmitted", reading.transmitted_directions, refracted_rad(bench.index, s.side, s.incidence_rad));
+    map("Transmitted", reading.transmitted_directions, refracted_rad(sample.index, s.side, s.incidence_rad));
   return out + "</div>\n</section>\n";
 }
 
-std::string notes(const analysis::BenchSurface& bench, const analysis::GoniometerSettings& s) {
+std::string notes(const analysis::SampleSurface& sample, const analysis::GoniometerSettings& s) {
   std::string out =
       "<h2>How to read this</h2>\n<p class=\"note\">Shares are of the " + grouped(s.rays) +
       " rays shot at each angle, in unpolarised light, with their binomial standard errors. Densities are "
@@ -106,22 +106,22 @@ std::string notes(const analysis::BenchSurface& bench, const analysis::Goniomete
       "the "
       "light, and colours span three decades of density.</p>\n<p class=\"note\">Seed " +
       std::to_string(s.seed) + ".</p>\n";
-  if (!bench.sources.empty()) {
+  if (!sample.sources.empty()) {
     out += "<h2>Sources of the surface</h2>\n<ul>\n";
-    for (const std::string& source : bench.sources) out += "<li>" + escape_html(source) + "</li>\n";
+    for (const std::string& source : sample.sources) out += "<li>" + escape_html(source) + "</li>\n";
     out += "</ul>\n";
   }
-  for (const std::string& warning : bench.warnings)
+  for (const std::string& warning : sample.warnings)
     out += "<p class=\"note\">Warning: " + escape_html(warning) + "</p>\n";
   return out;
 }
 
 }  // namespace
 
-std::string bench_text(const analysis::BenchSurface& bench, optics::Side side) {
-  return fmt::format("{} (n {:.4f}) to {} (n {:.4f}), {:g} nm, light from {}", bench.place.inside,
-                     bench.index.inside, bench.place.outside, bench.index.outside, bench.place.wavelength_nm,
-                     side == optics::Side::inside ? "inside" : "outside");
+std::string sample_text(const analysis::SampleSurface& sample, optics::Side side) {
+  return fmt::format("{} (n {:.4f}) to {} (n {:.4f}), {:g} nm, light from {}", sample.place.inside,
+                     sample.index.inside, sample.place.outside, sample.index.outside,
+                     sample.place.wavelength_nm, side == optics::Side::inside ? "inside" : "outside");
 }
 
 std::string overlay_text(const Overlay& overlay) {
@@ -133,15 +133,15 @@ std::string overlay_text(const Overlay& overlay) {
       overlay.scaled.factor, profile.angle_deg.front(), profile.angle_deg.back(), 100.0 * overlay.scaled.rms);
 }
 
-std::string goniometer_page(const analysis::BenchSurface& bench,
+std::string goniometer_page(const analysis::SampleSurface& sample,
                             const std::vector<analysis::GoniometerReading>& readings,
                             const std::optional<Overlay>& overlay) {
   const analysis::GoniometerSettings& settings = readings.front().settings;
   std::string body = "<h2>Where the light goes</h2>\n" + share_table(readings);
   for (const analysis::GoniometerReading& reading : readings)
-    body += reading_section(bench, reading, overlay);
-  return html_page("Goniometer: " + bench.place.surface, bench_text(bench, settings.side),
-                   hemisphere_map_style() + kGoniometerStyle, body + notes(bench, settings));
+    body += reading_section(sample, reading, overlay);
+  return html_page("Goniometer: " + sample.place.surface, sample_text(sample, settings.side),
+                   hemisphere_map_style() + kGoniometerStyle, body + notes(sample, settings));
 }
 
 }  // namespace scintray::report

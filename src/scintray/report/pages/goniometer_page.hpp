@@ -18,11 +18,11 @@ struct Overlay {
 };
 
 /// "LSO (n 1.8270) to air (n 1.0003), 420 nm, from inside".
-std::string bench_text(const analysis::BenchSurface& bench, optics::Side side);
+std::string sample_text(const analysis::SampleSurface& sample, optics::Side side);
 
 /// One self-contained page: shares with errors, mean directions and widths, and for each reading the
 /// in-plane profile and maps of reflected and transmitted light.
-std::string goniometer_page(const analysis::BenchSurface& bench,
+std::string goniometer_page(const analysis::SampleSurface& sample,
                             const std::vector<analysis::GoniometerReading>& readings,
                             const std::optional<Overlay>& overlay);
 

@@ -71,30 +71,30 @@ std::string partial_banner(const tally::RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
-std::string events(const tally::RunResult& run, const RunStudies& studies) {
-  std::vector<PointStudy> points;
-  for (std::size_t i = 0; i < std::min(studies.points.size(), run.points.size()); ++i)
-    points.push_back({point_label(run.points[i]), studies.points[i]});
+std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
+  std::vector<PointAnalysis> points;
+  for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
+    points.push_back({point_label(run.points[i]), analyses.points[i]});
   return event_section(points);
 }
 
-std::string answer(const tally::RunResult& run, const RunStudies& studies) {
+std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
   if (run.points.empty()) return "<p>No point was finished.</p>\n";
   if (run.points.size() == 1) return run.traced_photons() ? headline(run.points.front()) : "";
   const auto view = view_sweep(run);
   if (!view) return "";
-  if (studies.points.size() == run.points.size())
-    return light_section(*view, studies.points, studies.reference);
+  if (analyses.points.size() == run.points.size())
+    return light_section(*view, analyses.points, analyses.reference);
   return sweep_section(run, *view);
 }
 
 }  // namespace
 
-std::string html_report(const tally::RunResult& run, const RunStudies& studies) {
+std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses) {
   const std::string title = run.header.title.empty() ? "ScintRay run" : run.header.title;
   std::string page;
-  page += partial_banner(run) + answer(run, studies) + claim_section(judge(run, studies)) +
-          bench_sections(studies.surfaces) + events(run, studies);
+  page += partial_banner(run) + answer(run, analyses) + criterion_section(evaluate(run, analyses)) +
+          goniometer_sections(analyses.surfaces) + events(run, analyses);
   if (run.traced_photons())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
@@ -104,8 +104,9 @@ std::string html_report(const tally::RunResult& run, const RunStudies& studies) 
                     kReportStyle + grid_map_style() + hemisphere_map_style(), page);
 }
 
-void write_report(const std::filesystem::path& path, const tally::RunResult& run, const RunStudies& studies) {
-  core::write_whole_file(path, html_report(run, studies), "the report");
+void write_report(const std::filesystem::path& path, const tally::RunResult& run,
+                  const RunAnalysis& analyses) {
+  core::write_whole_file(path, html_report(run, analyses), "the report");
 }
 
 }  // namespace scintray::report

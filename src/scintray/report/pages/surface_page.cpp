@@ -34,7 +34,8 @@ std::string incidence(const SurfaceReadings& readings, const std::string& name) 
   plot.x_step = 30.0;
   plot.y_high = 1.0;
   plot.series.push_back(reflectance_series("reflected", readings.sweep));
-  plot.series.push_back(fresnel_series("Fresnel", readings.bench.index.inside, readings.bench.index.outside));
+  plot.series.push_back(
+      fresnel_series("Fresnel", readings.sample.index.inside, readings.sample.index.outside));
   PlotSeries absorbed = plot.series.front();
   absorbed.label = "absorbed";
   bool any = false;
@@ -83,7 +84,7 @@ std::string surface_page(const std::vector<SurfaceEntry>& entries, const std::st
   for (const bool made : {true, false})  // those that show something first
     for (const SurfaceEntry& entry : entries)
       if (entry.readings.has_value() == made) body += card(entry);
-  return html_page("Surfaces of the library", under, kSurfaceStyle, body + "</div>\n");
+  return html_page("Surfaces of the material database", under, kSurfaceStyle, body + "</div>\n");
 }
 
 }  // namespace scintray::report

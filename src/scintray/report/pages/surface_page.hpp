@@ -13,7 +13,7 @@ namespace scintray::report {
 
 /// What was read of a surface that could be made.
 struct SurfaceReadings {
-  analysis::BenchSurface bench;
+  analysis::SampleSurface sample;
   std::vector<analysis::GoniometerReading> sweep;  ///< over incidence, increasing
   analysis::GoniometerReading profile;             ///< at one incidence
 };
@@ -26,7 +26,7 @@ struct SurfaceEntry {
 };
 
 /// One self-contained page: for each surface its model, sources and needs, and, where it was made,
-/// reflectance and absorptance against incidence beside Fresnel, and the in-plane profile. `under` says
+/// reflectance and absorptance against incidence beside Fresnel, and the in-plane profile. `under` states
 /// between what and at which wavelength.
 std::string surface_page(const std::vector<SurfaceEntry>& entries, const std::string& under);
 

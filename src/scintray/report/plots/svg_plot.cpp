@@ -74,9 +74,9 @@ Axis linear_axis(Range range, int count, bool tight) {
   Axis axis;
   axis.ticks = nice_ticks(range.low, range.high, count);
   if (tight) {
-    const double room = 0.03 * (range.high - range.low);
-    axis.low = range.low - room;
-    axis.high = range.high + room;
+    const double margin = 0.03 * (range.high - range.low);
+    axis.low = range.low - margin;
+    axis.high = range.high + margin;
     std::erase_if(axis.ticks, [&](double tick) { return tick < axis.low || tick > axis.high; });
   } else {
     axis.low = axis.ticks.front();

@@ -78,9 +78,9 @@ std::string fit_goodness_text(const analysis::FitRecord& record) {
   if (fit.common_error)
     return fmt::format(
         "{} degrees of freedom; the error of a measured value, found from the scatter, is {:.3g}, so "
-        "chi-square says nothing",
+        "chi-square holds no information",
         fit.goodness.degrees, *fit.common_error);
-  if (!(fit.goodness.degrees > 0.0)) return "no degrees of freedom are left to judge the fit by";
+  if (!(fit.goodness.degrees > 0.0)) return "no degrees of freedom are left to evaluate the fit by";
   return fmt::format("chi-square {:.2f} for {} degrees of freedom, p = {:.3g}", fit.goodness.chi2,
                      fit.goodness.degrees, fit.goodness.p_value);
 }

@@ -86,8 +86,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& table) {
   for (const auto& row : table) {
     text += "  ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string room(widths[i] - display_width(row[i]), ' ');
-      text += (i == 0 ? row[i] + room : "   " + room + row[i]);
+      const std::string padding(widths[i] - display_width(row[i]), ' ');
+      text += (i == 0 ? row[i] + padding : "   " + padding + row[i]);
     }
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';

@@ -10,7 +10,7 @@ namespace scintray::report {
 
 struct MapNumber {
   std::string name;     ///< "Sq"
-  std::string value;    ///< "0.4961 um", or "-" when the map does not say
+  std::string value;    ///< "0.4961 um", or "-" when the map does not state
   std::string meaning;  ///< "root mean square height"
 };
 

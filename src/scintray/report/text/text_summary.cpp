@@ -83,7 +83,7 @@ std::string energy_lines(const tally::PointResult& point) {
   std::string text = std::to_string(energy.events) + " events, " + std::to_string(energy.silent) +
                      " of them without energy in a scintillator; keV deposited " +
                      compact(energy.deposited, 6) + ", escaped " + compact(energy.escaped, 6) +
-                     ", left elsewhere " + compact(energy.unseen, 6) + "\n";
+                     ", in non-scintillating parts " + compact(energy.non_scintillating, 6) + "\n";
   if (energy.detected.count > 0)
     text += "detected per event " + with_error(energy.detected.mean()) + " photons\n";
   return text;
@@ -91,22 +91,22 @@ std::string energy_lines(const tally::PointResult& point) {
 
 }  // namespace
 
-std::string text_summary(const tally::RunResult& run, const RunStudies& studies) {
+std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyses) {
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
     return (run.traced_photons() ? fate_table(run.points.front()) : "") +
            shift_lines(run.header, run.points.front()) + tally_lines(run.points.front()) +
            energy_lines(run.points.front()) +
-           (studies.points.empty() ? "" : event_lines(studies.points.front())) +
-           claim_lines(judge(run, studies)) + warnings(run);
+           (analyses.points.empty() ? "" : event_lines(analyses.points.front())) +
+           criterion_lines(evaluate(run, analyses)) + warnings(run);
   const auto view = view_sweep(run);
   const std::string table =
       !view ? point_table(run)
-      : studies.points.size() == run.points.size()
+      : analyses.points.size() == run.points.size()
           ? "Light of events at 511 keV\n" +
-                aligned(upright(light_table(*view, studies.points, studies.reference), kMostColumns))
+                aligned(upright(light_table(*view, analyses.points, analyses.reference), kMostColumns))
           : sweep_table(run, *view);
-  return table + claim_lines(judge(run, studies)) + warnings(run);
+  return table + criterion_lines(evaluate(run, analyses)) + warnings(run);
 }
 
 }  // namespace scintray::report

@@ -71,7 +71,7 @@ void for_each_column(const EventRow*, const Visit& visit) {
   visit(
       "escaped_keV", [](auto& r) -> auto& { return r.event.escaped_keV; });
   visit(
-      "unseen_keV", [](auto& r) -> auto& { return r.event.unseen_keV; });
+      "unseen_keV", [](auto& r) -> auto& { return r.event.non_scintillating_keV; });
   visit(
       "mean_x_mm", [](auto& r) -> auto& { return r.event.position_mm[0]; });
   visit(

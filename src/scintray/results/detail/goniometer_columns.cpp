@@ -45,20 +45,20 @@ void put_cells(core::h5::Group& group) {
   put(group, "cell_solid_angle_sr", solid_angle);
 }
 
-void put_study(core::h5::Group group, const analysis::SurfaceStudy& study) {
-  group.set_attribute("", "bench", study.bench);
-  group.set_attribute("", "surface", study.place.surface);
-  group.set_attribute("", "inside", study.place.inside);
-  group.set_attribute("", "outside", study.place.outside);
-  put(group, "wavelength_nm", study.place.wavelength_nm);
-  put(group, "index_inside", study.index.inside);
-  put(group, "index_outside", study.index.outside);
-  put(group, "rays", study.rays);
-  put(group, "incidence_deg", in_degrees(study.incidence_rad));
-  put_estimates(group, "reflectance", "reflectance_error", study.reflectance, 1.0);
-  if (!study.slope_rad.empty())
-    put_estimates(group, "mean_slope_deg", "mean_slope_error_deg", study.slope_rad, core::kDegree);
-  const analysis::GoniometerReading& reading = study.directions;
+void put_analysis(core::h5::Group group, const analysis::SurfaceAnalysis& analysis) {
+  group.set_attribute("", "bench", analysis.goniometer);
+  group.set_attribute("", "surface", analysis.place.surface);
+  group.set_attribute("", "inside", analysis.place.inside);
+  group.set_attribute("", "outside", analysis.place.outside);
+  put(group, "wavelength_nm", analysis.place.wavelength_nm);
+  put(group, "index_inside", analysis.index.inside);
+  put(group, "index_outside", analysis.index.outside);
+  put(group, "rays", analysis.rays);
+  put(group, "incidence_deg", in_degrees(analysis.incidence_rad));
+  put_estimates(group, "reflectance", "reflectance_error", analysis.reflectance, 1.0);
+  if (!analysis.slope_rad.empty())
+    put_estimates(group, "mean_slope_deg", "mean_slope_error_deg", analysis.slope_rad, core::kDegree);
+  const analysis::GoniometerReading& reading = analysis.directions;
   put(group, "directions_at_deg", reading.settings.incidence_rad / core::kDegree);
   put(group, "rays_reflected", reading.reflected);
   put(group, "rays_transmitted", reading.transmitted);
@@ -93,24 +93,24 @@ std::vector<core::Estimate> get_estimates(const core::h5::Group& group, const ch
   return estimates;
 }
 
-analysis::SurfaceStudy get_study(const core::h5::Group& group) {
-  analysis::SurfaceStudy study;
-  study.bench = group.string_attribute("", "bench");
-  study.place = {group.string_attribute("", "surface"), group.string_attribute("", "inside"),
-                 group.string_attribute("", "outside"), get_number<double>(group, "wavelength_nm")};
-  study.index = {get_number<double>(group, "index_inside"), get_number<double>(group, "index_outside")};
-  study.rays = get_number<std::uint64_t>(group, "rays");
-  study.incidence_rad = group.read<double>("incidence_deg");
-  for (double& angle : study.incidence_rad) angle *= core::kDegree;
-  const std::size_t size = study.incidence_rad.size();
-  study.reflectance = get_estimates(group, "reflectance", "reflectance_error", size, 1.0);
+analysis::SurfaceAnalysis get_analysis(const core::h5::Group& group) {
+  analysis::SurfaceAnalysis analysis;
+  analysis.goniometer = group.string_attribute("", "bench");
+  analysis.place = {group.string_attribute("", "surface"), group.string_attribute("", "inside"),
+                    group.string_attribute("", "outside"), get_number<double>(group, "wavelength_nm")};
+  analysis.index = {get_number<double>(group, "index_inside"), get_number<double>(group, "index_outside")};
+  analysis.rays = get_number<std::uint64_t>(group, "rays");
+  analysis.incidence_rad = group.read<double>("incidence_deg");
+  for (double& angle : analysis.incidence_rad) angle *= core::kDegree;
+  const std::size_t size = analysis.incidence_rad.size();
+  analysis.reflectance = get_estimates(group, "reflectance", "reflectance_error", size, 1.0);
   if (group.has("mean_slope_deg"))
-    study.slope_rad = get_estimates(group, "mean_slope_deg", "mean_slope_error_deg", size, core::kDegree);
+    analysis.slope_rad = get_estimates(group, "mean_slope_deg", "mean_slope_error_deg", size, core::kDegree);
 
-  analysis::GoniometerReading& reading = study.directions;
+  analysis::GoniometerReading& reading = analysis.directions;
   reading.settings.incidence_rad = get_number<double>(group, "directions_at_deg") * core::kDegree;
-  reading.settings.wavelength_nm = study.place.wavelength_nm;
-  reading.settings.rays = study.rays;
+  reading.settings.wavelength_nm = analysis.place.wavelength_nm;
+  reading.settings.rays = analysis.rays;
   reading.reflected = get_number<std::uint64_t>(group, "rays_reflected");
   reading.transmitted = get_number<std::uint64_t>(group, "rays_transmitted");
   reading.absorbed = get_number<std::uint64_t>(group, "rays_absorbed");
@@ -124,28 +124,28 @@ analysis::SurfaceStudy get_study(const core::h5::Group& group) {
   };
   reading.reflected_directions = counts("reflected_cells", "reflected_profile");
   reading.transmitted_directions = counts("transmitted_cells", "transmitted_profile");
-  return study;
+  return analysis;
 }
 
 }  // namespace
 
-void put_surface_studies(core::h5::Group& root, const std::vector<analysis::SurfaceStudy>& studies) {
-  if (studies.empty()) return;
+void put_surface_analyses(core::h5::Group& root, const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  if (analyses.empty()) return;
   core::h5::Group group = root.create_group(kGroup);
   group.set_attribute("", "description",
                       std::string("surfaces read on a bench, one group a surface and place"));
   put_cells(group);
   core::h5::Group list = group.create_group("surfaces");
   list.set_attribute("", "description", std::string("the surfaces, in the order of the scene"));
-  for (std::size_t i = 0; i < studies.size(); ++i) put_study(list.create_group(numbered(i)), studies[i]);
+  for (std::size_t i = 0; i < analyses.size(); ++i) put_analysis(list.create_group(numbered(i)), analyses[i]);
 }
 
-std::vector<analysis::SurfaceStudy> get_surface_studies(const core::h5::Group& root) {
-  std::vector<analysis::SurfaceStudy> studies;
-  if (!root.has(kGroup)) return studies;
+std::vector<analysis::SurfaceAnalysis> get_surface_analyses(const core::h5::Group& root) {
+  std::vector<analysis::SurfaceAnalysis> analyses;
+  if (!root.has(kGroup)) return analyses;
   const core::h5::Group list = root.open_group(kGroup).open_group("surfaces");
-  for (const std::string& name : list.members()) studies.push_back(get_study(list.open_group(name)));
-  return studies;
+  for (const std::string& name : list.members()) analyses.push_back(get_analysis(list.open_group(name)));
+  return analyses;
 }
 
 }  // namespace scintray::results::format

@@ -119,7 +119,7 @@ class PointReader {
     energy.started = get<double>(group, "started_keV");
     energy.deposited = get<double>(group, "deposited_keV");
     energy.escaped = get<double>(group, "escaped_total_keV");
-    energy.unseen = get<double>(group, "unseen_total_keV");
+    energy.non_scintillating = get<double>(group, "unseen_total_keV");
     energy.detected = get_moments(group, "detected_per_event");
     return energy;
   }
@@ -155,14 +155,15 @@ class PointReader {
     const core::h5::Group group = group_.open_group("sensor_faces");
     const auto part = group.read<std::uint32_t>("part"), face = group.read<std::uint32_t>("face");
     const auto detected = group.read<std::uint64_t>("detected");
-    const auto unconverted = group.read<std::uint64_t>("unconverted");
-    require(face.size() == part.size() && detected.size() == part.size() && unconverted.size() == part.size(),
-            "the columns of sensor_faces differ in length");
+    const auto not_detected = group.read<std::uint64_t>("unconverted");
+    require(
+        face.size() == part.size() && detected.size() == part.size() && not_detected.size() == part.size(),
+        "the columns of sensor_faces differ in length");
     std::vector<tally::SensorFaceCount> counts;
     for (std::size_t i = 0; i < part.size(); ++i) {
       require(part[i] < header_.parts.size() && face[i] < header_.faces.size(),
               "sensor_faces names a part or face that does not exist");
-      counts.push_back({part[i], face[i], detected[i], unconverted[i]});
+      counts.push_back({part[i], face[i], detected[i], not_detected[i]});
     }
     return counts;
   }
@@ -355,10 +356,10 @@ std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& pat
   return std::move(*photons);
 }
 
-std::vector<analysis::SurfaceStudy> read_surfaces(const std::filesystem::path& path) {
+std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path) {
   const core::h5::File file = format::open_results(path);
   try {
-    return format::get_surface_studies(file.root());
+    return format::get_surface_analyses(file.root());
   } catch (const std::invalid_argument& contradiction) {
     throw format::damaged(path, contradiction.what());
   }

@@ -58,17 +58,17 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   core::h5::Group group = point.create_group("sensor_faces");
   group.set_attribute("", "description", std::string("photons that reached each sensor through each face"));
   std::vector<std::uint32_t> part, face;
-  std::vector<std::uint64_t> detected, unconverted;
+  std::vector<std::uint64_t> detected, not_detected;
   for (const tally::SensorFaceCount& count : faces) {
     part.push_back(count.part);
     face.push_back(count.face);
     detected.push_back(count.detected);
-    unconverted.push_back(count.not_detected);
+    not_detected.push_back(count.not_detected);
   }
   format::put(group, "part", part);
   format::put(group, "face", face);
   format::put(group, "detected", detected);
-  format::put(group, "unconverted", unconverted);
+  format::put(group, "unconverted", not_detected);
 }
 
 void put_exit_angles(core::h5::Group& point, const std::vector<tally::ExitAngleTally>& tallies) {
@@ -129,7 +129,7 @@ void put_energy(core::h5::Group& point, const tally::EnergyBalance& energy) {
   format::put(group, "started_keV", energy.started);
   format::put(group, "deposited_keV", energy.deposited);
   format::put(group, "escaped_total_keV", energy.escaped);
-  format::put(group, "unseen_total_keV", energy.unseen);
+  format::put(group, "unseen_total_keV", energy.non_scintillating);
   put_moments(group, "detected_per_event", "1",
               "photons detected per event that left energy in a scintillator", energy.detected);
 }
@@ -226,8 +226,8 @@ ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
 
-void ResultsWriter::add_surfaces(const std::vector<analysis::SurfaceStudy>& studies) {
-  format::put_surface_studies(state_->root, studies);
+void ResultsWriter::add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  format::put_surface_analyses(state_->root, analyses);
 }
 
 void ResultsWriter::append_photons(const std::vector<tally::DetectedPhoton>& photons) {

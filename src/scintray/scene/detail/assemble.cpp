@@ -101,7 +101,7 @@ class InterfaceMaker {
     result.front_surface = surface(front, medium(t.front), assembly_.ambient);
   }
 
-  /// Where a part lies in another, its own finish counts unless a contact says otherwise.
+  /// Where a part lies in another, its own finish counts unless a contact states otherwise.
   void make_nested(const contact::InterfaceTriangle& t, Interface& result) {
     const scene_file::ContactSpec* contact = find_contact(t).first;
     const std::string& own = face(t.back_face).surface;
@@ -158,8 +158,9 @@ class InterfaceMaker {
            (of_face != contact::kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
   }
 
-  /// How much a contact says of a pair; of several that match, the one that says most holds. What the file
-  /// says goes before what builders say, then more faces before fewer, then more letters of both names.
+  /// How much a contact states of a pair; of several that match, the one that states most holds. What the
+  /// file states goes before what builders say, then more faces before fewer, then more letters of both
+  /// names.
   static std::tuple<bool, int, std::size_t> weight(const scene_file::ContactSpec& contact) {
     return {!contact.by_builder, !contact.faces[0].empty() + !contact.faces[1].empty(),
             core::literal_length(contact.between[0].name) + core::literal_length(contact.between[1].name)};

@@ -24,7 +24,7 @@ double longest_of(const materials::SurfaceSpec& surface) {
 }  // namespace
 
 double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
-                          const materials::Library& library) {
+                          const materials::MaterialDatabase& database) {
   std::set<std::string> media{spec.ambient.name}, surfaces;
   for (const contact::PlacedMesh& part : placed) {
     if (!part.medium.empty() && part.medium.name != scene_file::kOpaqueMedium) media.insert(part.medium.name);
@@ -44,10 +44,10 @@ double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<c
   };
   for (const std::string& name : media)
     look_up([&] {
-      const optics::Medium& medium = library.medium(name);
+      const optics::Medium& medium = database.medium(name);
       return medium.shifter ? end_of(medium.shifter->emission()) : 0.0;
     });
-  for (const std::string& name : surfaces) look_up([&] { return longest_of(library.surface(name)); });
+  for (const std::string& name : surfaces) look_up([&] { return longest_of(database.surface(name)); });
   return longest;
 }
 

@@ -9,10 +9,10 @@
 
 namespace scintray::scene {
 
-/// The longest wavelength (nm) that a wavelength shifter of the scene gives back: in a medium, or in the
+/// The longest wavelength (nm) that a wavelength shifter of the scene re-emits: in a medium, or in the
 /// gap of a surface, that its parts, faces or contacts name. 0 when there is no shifter. Names that are
-/// not in the library are passed over.
+/// not in the database are passed over.
 double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
-                          const materials::Library& library);
+                          const materials::MaterialDatabase& database);
 
 }  // namespace scintray::scene

@@ -52,32 +52,33 @@ class BodyReader {
   Bodies take() { return std::move(bodies_); }
 
  private:
-  void claim(const config::TomlTable& table, const std::string& name, const std::string& hint) {
+  void take_name(const config::TomlTable& table, const std::string& name, const std::string& hint) {
     if (name.empty()) return;
     if (!names_.insert(name).second)
       table.report("name", "the name \"" + name + "\" is already taken by another part", hint);
   }
 
-  void claim_body(const config::TomlTable& table, const std::string& name, const PlacementSpec& placement) {
-    claim(table, name, "give each [[part]], [[array]] and [[light_guide]] a name of its own");
+  void take_names_of_body(const config::TomlTable& table, const std::string& name,
+                          const PlacementSpec& placement) {
+    take_name(table, name, "give each [[part]], [[array]] and [[light_guide]] a name of its own");
     touchable_.push_back(name);
     if (has_fill(placement)) {
-      claim(table, name + kFillSuffix, "the fill of a gap is a part of this name: rename one of the two");
+      take_name(table, name + kFillSuffix, "the fill of a gap is a part of this name: rename one of the two");
       touchable_.push_back(name + kFillSuffix);
     }
   }
 
   void add_part(const config::TomlTable& table) {
     PartSpec part = read_part(table, touchable_);
-    claim_body(table, part.name.name, part.placement);
+    take_names_of_body(table, part.name.name, part.placement);
     bodies_.parts.push_back(std::move(part));
   }
 
   void add_group(const config::TomlTable& table, const config::NameRef& name, const PlacementSpec& placement,
                  BuiltBody built) {
-    claim_body(table, name.name, placement);
+    take_names_of_body(table, name.name, placement);
     for (const PartSpec& part : built.parts) {
-      claim(table, part.name.name, "a builder names its parts after itself: rename one of the two");
+      take_name(table, part.name.name, "a builder names its parts after itself: rename one of the two");
       touchable_.push_back(part.name.name);
     }
     if (built.parts.empty())

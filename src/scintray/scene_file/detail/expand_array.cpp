@@ -176,7 +176,7 @@ class ArrayExpander {
     }
   }
 
-  /// What glue and fillers touch they wet; sheets keep the contact that was asked for.
+  /// What glue and fillers touch they wet; sheets keep the contact that was requested.
   void add_contacts() {
     const auto add = [&](const std::string& a, const std::string& b, ContactKind kind,
                          const config::NameRef& surface = {}) {

@@ -206,7 +206,7 @@ TallyRangeSpec read_range(const config::TomlTable& table) {
 const std::vector<core::StepEvent> kReaching = {core::StepEvent::detected, core::StepEvent::not_detected};
 const std::vector<core::StepEvent> kThrough = {core::StepEvent::transmitted, core::StepEvent::detected,
                                                core::StepEvent::not_detected};
-const std::vector<core::StepEvent> kMeeting = {
+const std::vector<core::StepEvent> kAtInterface = {
     core::StepEvent::reflected,    core::StepEvent::transmitted,         core::StepEvent::detected,
     core::StepEvent::not_detected, core::StepEvent::absorbed_at_surface, core::StepEvent::absorbed_in_medium};
 
@@ -355,7 +355,7 @@ void read_tally(const config::TomlTable& table, const std::string& type, std::ve
     read_etendue(table, tally);
   } else if (type == "ledger") {
     if (tally.faces.empty()) tally.faces = {{"*:*", table.where()}};
-    tally.at = kMeeting;
+    tally.at = kAtInterface;
     tally.way = read_way(table, "out");
     tally.axes = {axis_of(TallyVariable::face), axis_of(TallyVariable::event)};
   } else {

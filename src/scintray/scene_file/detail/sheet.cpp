@@ -33,7 +33,7 @@ config::TomlNode true_node(const std::string& key, const core::FileLocation& whe
 }
 
 /// A surface that is nothing but one face of a sheet: what [surfaces.NAME] with model = "painted" and
-/// face_of_sheet = true says.
+/// face_of_sheet = true states.
 config::NameRef sheet_of(const config::NameRef& reflector, InlineTables& surfaces) {
   const std::string name = "sheet of " + reflector.name;
   auto node = std::make_shared<config::TomlNode>();

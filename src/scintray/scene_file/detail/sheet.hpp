@@ -1,6 +1,6 @@
 #pragma once
-/// Thin sheets of builders: what their table says, and how those between the cells of a grid are cut so that
-/// they do not cross. Lengths mm.
+/// Thin sheets of builders: what their table states, and how those between the cells of a grid are cut so
+/// that they do not cross. Lengths mm.
 
 #include <array>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// When one photon of a scene's events is detected, as far as the scene itself says it.
+/// When one photon of a scene's events is detected, as far as the scene itself states it.
 
 #include <optional>
 

@@ -20,7 +20,9 @@ void MemorySink::begin(const RunOutline& run) {
   result.partial_reason = "not committed";
 }
 
-void MemorySink::surfaces(const std::vector<analysis::SurfaceStudy>& studies) { surface_studies = studies; }
+void MemorySink::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  surface_analyses = analyses;
+}
 
 void MemorySink::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                               const std::optional<detector::ReadoutSpec>& readout) {

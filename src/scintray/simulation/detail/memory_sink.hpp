@@ -22,14 +22,14 @@ class MemorySink : public ResultSink {
 
   RunOutline outline;
   tally::RunResult result;  ///< complete() is false until the run is committed as such
-  std::vector<analysis::SurfaceStudy> surface_studies;
+  std::vector<analysis::SurfaceAnalysis> surface_analyses;
   std::vector<PointReadout> readouts;  ///< per point
   std::vector<tally::DetectedPhoton> photon_list;
   std::vector<tally::EventRecord> event_list;
   std::vector<PointHistories> history_list;  ///< per point that has any, in order
 
   void begin(const RunOutline& run) override;
-  void surfaces(const std::vector<analysis::SurfaceStudy>& studies) override;
+  void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

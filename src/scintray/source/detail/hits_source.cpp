@@ -71,7 +71,7 @@ void HitsEventSource::add(const Hit& hit, const scene::Scene& scene) {
   if (region == scene::kAmbientRegion) {
     ++report_.outside;
     name_first(report_.first_outside, hit);
-    event.unseen_keV += hit.energy_keV;
+    event.non_scintillating_keV += hit.energy_keV;
   } else {
     leave_energy(scene, {hit.position, region, hit.energy_keV, hit.time_ns}, event);
   }

@@ -12,13 +12,13 @@ namespace scintray::source {
 /// What came of the rows of a list of hits.
 struct HitsReport {
   std::uint64_t rows = 0;
-  std::uint64_t outside = 0;       ///< hits in no part; their energy counts as unseen
+  std::uint64_t outside = 0;       ///< hits in no part; their energy counts as non-scintillating
   std::uint64_t out_of_order = 0;  ///< hits of an event that came after hits of another; they join it
   std::vector<std::string> first_outside, first_out_of_order;  ///< the first few, by name
 };
 
 /// Events of a list of hits, in the order of their numbers there. Times count from an event's first hit.
-/// Hits outside every part, and in parts that do not scintillate, count as unseen. Immutable.
+/// Hits outside every part, and in parts that do not scintillate, count as non-scintillating. Immutable.
 class HitsEventSource : public EventSource {
  public:
   /// @param most  events to take; 0 for all

@@ -15,7 +15,7 @@ class PhotonSource : public LightSource {
  public:
   /// Binds a specification to a built scene. A pattern of parts is the union of those that have some
   /// of the source's box. Throws InputError when the region is empty, no part has that name, the media
-  /// there differ, or have no emission or decay that was asked for.
+  /// there differ, or have no emission or decay that was requested.
   PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene);
 
   std::uint64_t events() const override;

@@ -23,7 +23,7 @@ void leave_energy(const scene::Scene& scene, const Deposit& deposit, Event& even
   if (scintillates(scene, deposit.region))
     event.deposits.push_back(deposit);
   else
-    event.unseen_keV += deposit.energy_keV;
+    event.non_scintillating_keV += deposit.energy_keV;
 }
 
 }  // namespace scintray::source

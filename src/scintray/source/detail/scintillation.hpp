@@ -13,7 +13,8 @@ void require_scintillators(const scene::Scene& scene, const std::vector<std::uin
 /// True when energy left in the region makes light.
 bool scintillates(const scene::Scene& scene, std::uint32_t region);
 
-/// Adds energy to an event: as a deposit where it makes light, else as unseen. Nothing when it is none.
+/// Adds energy to an event: as a deposit where it makes light, else as non-scintillating. Nothing when it is
+/// none.
 void leave_energy(const scene::Scene& scene, const Deposit& deposit, Event& event);
 
 }  // namespace scintray::source

@@ -1,5 +1,5 @@
 #pragma once
-/// Interactions placed where the scene says, with energies drawn from a spectrum: no transport.
+/// Interactions placed where the scene states, with energies drawn from a spectrum: no transport.
 
 #include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/source/detail/origin.hpp"

@@ -39,7 +39,7 @@ std::size_t wrapped(long k, std::uint32_t n) {
   return static_cast<std::size_t>(((k % size) + size) % size);
 }
 
-void carve(const SynthesisRecipe& recipe, const Scratch& scratch, std::vector<double>& heights) {
+void difference_on_grid(const SynthesisRecipe& recipe, const Scratch& scratch, std::vector<double>& heights) {
   const double half = 0.5 * recipe.scratches.length_um, width = recipe.scratches.width_um;
   const double reach = kReach * width, pitch = recipe.pitch_um;
   const Range columns = within(scratch.x, half * std::abs(scratch.cosine) + reach, pitch);
@@ -64,7 +64,8 @@ void add_scratches(const SynthesisRecipe& recipe, std::vector<double>& heights_u
   core::Rng rng = relief_random(recipe, ReliefPart::scratches);
   for (long k = 0; k < number; ++k) {
     const double x = width_x * rng.uniform(), y = width_y * rng.uniform(), angle = core::kPi * rng.uniform();
-    carve(recipe, {x, y, std::cos(angle), std::sin(angle), s.depth_um * rng.uniform()}, heights_um);
+    difference_on_grid(recipe, {x, y, std::cos(angle), std::sin(angle), s.depth_um * rng.uniform()},
+                       heights_um);
   }
 }
 

@@ -209,7 +209,7 @@ FitSearch::Outlook FitSearch::outlook() const {
   return outlook;
 }
 
-void FitSearch::tell() {
+void FitSearch::report_step() {
   CurveFitStep step;
   step.number = steps_.size();
   step.evaluations = evaluations_;
@@ -224,7 +224,7 @@ void FitSearch::tell() {
 void FitSearch::accept(const std::vector<double>& at) {
   best_ = at;
   curve_ = evaluate(at);
-  tell();
+  report_step();
 }
 
 /// Down by GSL's trust region, from the best so far.
@@ -254,15 +254,15 @@ void FitSearch::descend() {
   }
 }
 
-void FitSearch::settle_weights() {
+void FitSearch::update_weights() {
   if (options_.errors_from_scatter && degrees() > 0.0 && steps_.size() > 1)
     common_error_ = residuals_.match_common_error(*curve_, degrees());
   else
-    residuals_.reweigh(*curve_);
+    residuals_.reweight(*curve_);
 }
 
 /// After a stop in the middle of a step: the best of all curves that were traced.
-void FitSearch::keep_best_known() {
+void FitSearch::accept_best_known() {
   const auto chi2_of = [&](const auto& entry) { return residuals_.chi2(entry.second); };
   const auto least = std::min_element(known_.begin(), known_.end(),
                                       [&](const auto& a, const auto& b) { return chi2_of(a) < chi2_of(b); });
@@ -289,7 +289,7 @@ bool FitSearch::estimate() {
     const std::optional<ModelCurve> fresh = evaluate(best_);
     if (!fresh) return false;
     curve_ = fresh;
-    if (!options_.errors_from_scatter) residuals_.reweigh(*curve_);
+    if (!options_.errors_from_scatter) residuals_.reweight(*curve_);
     if (!find_slopes(best_)) return false;
     const Outlook next = outlook();
     std::vector<double> at = best_;
@@ -297,8 +297,8 @@ bool FitSearch::estimate() {
     const bool last = next.fall < kStraight || i + 1 == kMostEstimates;
     curve_ = carried_on(at);
     best_ = at;
-    if (last) settle_weights();
-    tell();
+    if (last) update_weights();
+    report_step();
     if (last) {
       converged_ = next.fall < kMostStraight;
       slopes_at_ = best_;
@@ -317,16 +317,16 @@ FitEnd FitSearch::run() {
     throw core::InputError({{},
                             "at the start no light arrives at any of the measured points",
                             "start nearer to what is measured, or trace more photons"});
-  settle_weights();
-  tell();
+  update_weights();
+  report_step();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     descend();
     const Eigen::VectorXd before = residuals_.inverse_sigma();
-    settle_weights();
+    update_weights();
     const Eigen::ArrayXd change = residuals_.inverse_sigma().array() / before.array() - 1.0;
     if (change.abs().maxCoeff() < kSameErrors) break;
   }
-  if (stopped_) keep_best_known();
+  if (stopped_) accept_best_known();
   if (!stopped_ && estimate()) return converged_ ? FitEnd::converged : FitEnd::not_converged;
   slopes_.reset();
   return FitEnd::stopped;

@@ -1,5 +1,5 @@
 #pragma once
-/// The search for the least squares of a noisy curve (curve_fit.hpp says how it goes).
+/// The search for the least squares of a noisy curve (curve_fit.hpp states how it goes).
 
 #include <map>
 #include <optional>
@@ -47,13 +47,13 @@ class FitSearch {
   bool find_slopes(const std::vector<double>& at);
   void choose_spans();
   Outlook outlook() const;
-  void settle_weights();
+  void update_weights();
   void descend();
   bool estimate();
-  void keep_best_known();
+  void accept_best_known();
   ModelCurve carried_on(const std::vector<double>& to) const;
   void accept(const std::vector<double>& at);
-  void tell();
+  void report_step();
   std::vector<double> outer(const double* inner) const;
   double snapped(std::size_t parameter, double value) const;
   double inner(std::size_t parameter, double value) const;

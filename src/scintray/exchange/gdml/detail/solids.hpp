@@ -12,12 +12,12 @@
 
 namespace scintray::exchange::gdml {
 
-/// Solids by name. Each is made when it is asked for, once.
+/// Solids by name. Each is made when it is requested, once.
 ///
 /// Made are: box, tube, cone, trd, trap, para, arb8, tet, tessellated, xtru, polycone, genericPolycone,
 /// polyhedra, genericPolyhedra, sphere, orb, torus, ellipsoid, eltube, elcone, paraboloid, hype, and union,
 /// subtraction, intersection of these. Curved walls have their corners on the true surface and the segments
-/// that the tessellation asks for, in steps of doubling, so that bodies that touch along a cylinder mostly
+/// that the tessellation requests, in steps of doubling, so that bodies that touch along a cylinder mostly
 /// get the same.
 class Solids {
  public:

@@ -11,7 +11,7 @@ namespace scintray::mesh {
 
 /// What coordinates have to be multiplied with to be mm. `given_mm` is the unit that the user states, 0 for
 /// none. Adds a note when it replaces the unit that the format prescribes. Throws InputError when nobody
-/// states a unit, and when the user's contradicts what the file itself says.
+/// states a unit, and when the user's contradicts what the file itself states.
 double resolve_unit(const std::filesystem::path& path, double given_mm, const FileUnit& unit,
                     std::vector<std::string>& notes);
 

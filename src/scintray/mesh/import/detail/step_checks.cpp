@@ -80,15 +80,15 @@ constexpr const char* kDamaged = "the file is damaged; export it again";
 class CycleSearch {
  public:
   CycleSearch(const std::filesystem::path& path, const StepReferences& references)
-      : path_(path), references_(references), state_(references.number.size(), State::unseen) {}
+      : path_(path), references_(references), state_(references.number.size(), State::unvisited) {}
 
   void run() {
     for (std::size_t start = 0; start < state_.size(); ++start)
-      if (state_[start] == State::unseen) follow(start);
+      if (state_[start] == State::unvisited) follow(start);
   }
 
  private:
-  enum class State : char { unseen, open, done };
+  enum class State : char { unvisited, open, done };
   struct Step {
     std::size_t entity, next;
   };

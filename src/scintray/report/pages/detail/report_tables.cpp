@@ -49,7 +49,7 @@ std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
   add("escaped", "f4", fate(core::Fate::escaped));
   add("cut: interactions", "f5", fate(core::Fate::cut_interactions));
   add("cut: time", "f5", fate(core::Fate::cut_time));
-  // What no photon met says nothing; that none was cut does.
+  // What no photon met states nothing; that none was cut does.
   std::erase_if(entries,
                 [](const LedgerEntry& entry) { return entry.colour != "f5" && total(entry.counts) == 0; });
   return entries;
@@ -341,10 +341,10 @@ std::string condition_section(const tally::RunResult& run) {
   row("lost photons", grouped(lost));
   row("largest bias from cut photons",
       bias == 0.0 ? "none: no photon was cut" : compact(bias, 2) + " of a fraction");
-  row("straight flights", grouped(segments) + ", " + grouped(misses) + " settled by the exact search");
+  row("straight segments", grouped(segments) + ", " + grouped(misses) + " resolved by the exact query");
   row("time", compact(seconds, 3) + " s");
   if (seconds > 0.0)
-    row("speed", rate(static_cast<double>(segments) / seconds) + " flights/s, " +
+    row("speed", rate(static_cast<double>(segments) / seconds) + " segments/s, " +
                      rate(static_cast<double>(photons) / seconds) + " photons/s");
   std::string notes;
   if (!run.header.note.empty()) {

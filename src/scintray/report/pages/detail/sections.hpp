@@ -36,9 +36,9 @@ std::string tally_section(const tally::RunResult& run);
 /// One line a tally, for a terminal; empty when there is none.
 std::string tally_lines(const tally::PointResult& point);
 
-/// A section for each bench: mean slope met and reflectance against incidence, the latter beside Fresnel's
-/// for each medium behind the surfaces, and where reflected light goes. Empty without studies. The page needs
-/// hemisphere_map_style().
-std::string bench_sections(const std::vector<analysis::SurfaceStudy>& studies);
+/// A section for each bench: mean visible slope and reflectance against incidence, the latter beside
+/// Fresnel's for each medium behind the surfaces, and where reflected light goes. Empty without studies. The
+/// page needs hemisphere_map_style().
+std::string goniometer_sections(const std::vector<analysis::SurfaceAnalysis>& analyses);
 
 }  // namespace scintray::report

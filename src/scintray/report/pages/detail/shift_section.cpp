@@ -15,7 +15,7 @@ struct ShiftRow {
   optics::ShiftCount count;
 
   std::string kept() const { return grouped(count.absorbed - count.emitted); }
-  /// Energy after shifting over energy before, of the light given back.
+  /// Energy after shifting over energy before, of the light re-emitted.
   std::string energy_share() const {
     return count.emitted == 0 ? "-" : fixed(100.0 * count.after_eV / count.before_eV, 2) + " %";
   }
@@ -39,7 +39,7 @@ std::string shift_lines(const tally::RunHeader& header, const tally::PointResult
   std::string text;
   for (const ShiftRow& row : shift_rows(header, point))
     text += "Wavelength shifting " + row.where + ": " + grouped(row.count.absorbed) + " times absorbed, " +
-            grouped(row.count.emitted) + " times given back with " + row.energy_share() + " of the energy, " +
+            grouped(row.count.emitted) + " times re-emitted with " + row.energy_share() + " of the energy, " +
             row.kept() + " kept.\n";
   return text;
 }
@@ -54,10 +54,10 @@ std::string shift_section(const tally::RunResult& run) {
   if (rows.empty()) return "";
   return section(
       "Wavelength shifting",
-      table({"point", "where", "absorbed by the shifter", "given back", "kept", "energy after / before"},
+      table({"point", "where", "absorbed by the shifter", "re-emitted", "kept", "energy after / before"},
             rows, 2) +
-          "<p>A photon may be absorbed and given back several times; one that is kept counts as "
-          "absorbed there. Energies are those of the photons given back.</p>\n");
+          "<p>A photon may be absorbed and re-emitted several times; one that is kept counts as "
+          "absorbed there. Energies are those of the photons re-emitted.</p>\n");
 }
 
 }  // namespace scintray::report

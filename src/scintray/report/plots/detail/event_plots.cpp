@@ -61,15 +61,17 @@ PlotSeries points_series(const std::string& label, const Items& items,
 
 }  // namespace
 
-std::string light_unit(const analysis::EventStudy& study) {
-  return study.has_readout ? "photoelectrons" : "photons";
+std::string light_unit(const analysis::EventAnalysis& analysis) {
+  return analysis.has_readout ? "photoelectrons" : "photons";
 }
 
-Plot spectrum_plot(const analysis::EventStudy& study) {
-  Plot plot = small_plot("energy spectrum", "light of a pulse (" + light_unit(study) + ")", "pulses per bin");
-  plot.series.push_back(histogram_series("pulses", *study.spectrum, 1.0));
-  if (study.peak.has_numbers())
-    plot.series.push_back(model_series(study.peak.fit.model, study.peak.fitted, study.spectrum->width, 1.0));
+Plot spectrum_plot(const analysis::EventAnalysis& analysis) {
+  Plot plot =
+      small_plot("energy spectrum", "light of a pulse (" + light_unit(analysis) + ")", "pulses per bin");
+  plot.series.push_back(histogram_series("pulses", *analysis.spectrum, 1.0));
+  if (analysis.peak.has_numbers())
+    plot.series.push_back(
+        model_series(analysis.peak.fit.model, analysis.peak.fitted, analysis.spectrum->width, 1.0));
   return plot;
 }
 
@@ -95,7 +97,7 @@ Plot depth_plot(const analysis::DepthCurve& curve) {
   return plot;
 }
 
-Plot doi_plot(const analysis::DoiStudy& doi) {
+Plot doi_plot(const analysis::DoiAnalysis& doi) {
   Plot plot = small_plot("depth of interaction", "true depth (mm)", "mm");
   plot.y_from_zero = false;
   const auto depth = [](const analysis::DoiSlice& slice) { return slice.depth_mm; };
@@ -159,7 +161,7 @@ const analysis::OrderTiming* timing_by(const std::vector<analysis::OrderTiming>&
 }
 
 PlotSeries depth_series(const std::string& label, const std::vector<analysis::OrderSlice>& slices,
-                        std::vector<analysis::OrderTiming> analysis::OrderStudy::*kind, std::size_t n) {
+                        std::vector<analysis::OrderTiming> analysis::OrderAnalysis::*kind, std::size_t n) {
   PlotSeries series;
   series.label = label;
   for (const analysis::OrderSlice& slice : slices) {
@@ -182,7 +184,7 @@ PlotSeries bound_series(const std::string& label) {
 
 }  // namespace
 
-Plot order_plot(const analysis::OrderStudy& orders, const std::optional<analysis::TimingBound>& bound) {
+Plot order_plot(const analysis::OrderAnalysis& orders, const std::optional<analysis::TimingBound>& bound) {
   Plot plot = small_plot("timing by order of photons", "n", "CTR, FWHM (ps)");
   const auto n = [](const analysis::OrderTiming& timing) { return static_cast<double>(timing.n); };
   const auto ctr = [](const analysis::OrderTiming& timing) { return timing.ctr_fwhm_ns; };
@@ -199,31 +201,31 @@ Plot order_plot(const analysis::OrderStudy& orders, const std::optional<analysis
   return plot;
 }
 
-Plot order_depth_plot(const analysis::EventStudy& study) {
+Plot order_depth_plot(const analysis::EventAnalysis& analysis) {
   Plot plot = small_plot("timing by order of photons against depth", "depth (mm)", "CTR, FWHM (ps)");
-  const analysis::OrderStudy& whole = *study.orders;
-  const std::vector<analysis::OrderSlice>& slices = study.orders_against_depth;
+  const analysis::OrderAnalysis& whole = *analysis.orders;
+  const std::vector<analysis::OrderSlice>& slices = analysis.orders_against_depth;
   const auto add = [&](const std::string& label,
-                       std::vector<analysis::OrderTiming> analysis::OrderStudy::*kind, std::size_t n) {
+                       std::vector<analysis::OrderTiming> analysis::OrderAnalysis::*kind, std::size_t n) {
     PlotSeries series = depth_series(fmt::format(fmt::runtime(label), n), slices, kind, n);
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
-  add("photon {}", &analysis::OrderStudy::single, whole.single.front().n);
+  add("photon {}", &analysis::OrderAnalysis::single, whole.single.front().n);
   if (whole.best_single > 0)
-    add("photon {}", &analysis::OrderStudy::single, whole.single[whole.best_single].n);
+    add("photon {}", &analysis::OrderAnalysis::single, whole.single[whole.best_single].n);
   if (!whole.average.empty())
-    add("mean of the first {}", &analysis::OrderStudy::average, whole.average[whole.best_average].n);
+    add("mean of the first {}", &analysis::OrderAnalysis::average, whole.average[whole.best_average].n);
   PlotSeries line = bound_series("bound by all");
   for (std::size_t i = 0; i < slices.size(); ++i) {
-    if (!study.depth_bounds[i]) continue;
+    if (!analysis.depth_bounds[i]) continue;
     line.x.push_back(slices[i].depth_mm);
-    line.y.push_back(kPicoseconds * study.depth_bounds[i]->all_ns);
+    line.y.push_back(kPicoseconds * analysis.depth_bounds[i]->all_ns);
   }
   if (!line.x.empty()) plot.series.push_back(std::move(line));
   return plot;
 }
 
-Plot orders_plot(const std::vector<std::pair<std::string, analysis::OrderStudy>>& points) {
+Plot orders_plot(const std::vector<std::pair<std::string, analysis::OrderAnalysis>>& points) {
   Plot plot = small_plot("timing by order of photons", "n", "CTR by the n-th photon, FWHM (ps)");
   for (const auto& [label, orders] : points)
     plot.series.push_back(points_series(

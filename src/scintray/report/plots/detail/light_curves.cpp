@@ -13,34 +13,35 @@ namespace scintray::report {
 
 namespace {
 
-using LightOf = std::function<core::Estimate(const analysis::EventStudy&)>;
+using LightOf = std::function<core::Estimate(const analysis::EventAnalysis&)>;
 
-core::Estimate photopeak_of(const analysis::EventStudy& study) { return study.peak.fit.position; }
+core::Estimate photopeak_of(const analysis::EventAnalysis& analysis) { return analysis.peak.fit.position; }
 
-bool any_events(const std::vector<analysis::EventStudy>& studies) {
-  return std::any_of(studies.begin(), studies.end(),
-                     [](const analysis::EventStudy& study) { return study.events > 0; });
+bool any_events(const std::vector<analysis::EventAnalysis>& analyses) {
+  return std::any_of(analyses.begin(), analyses.end(),
+                     [](const analysis::EventAnalysis& analysis) { return analysis.events > 0; });
 }
 
-bool has_peaks(const SweepSeries& series, const std::vector<analysis::EventStudy>& studies) {
+bool has_peaks(const SweepSeries& series, const std::vector<analysis::EventAnalysis>& analyses) {
   return std::all_of(series.points.begin(), series.points.end(), [&](std::size_t point) {
-    return studies.at(point).peak.has_numbers() && studies[point].peak.locates_peak();
+    return analyses.at(point).peak.has_numbers() && analyses[point].peak.locates_peak();
   });
 }
 
-std::string unit_of(const std::vector<analysis::EventStudy>& studies) {
-  const bool charge = std::any_of(studies.begin(), studies.end(),
-                                  [](const analysis::EventStudy& study) { return study.has_readout; });
+std::string unit_of(const std::vector<analysis::EventAnalysis>& analyses) {
+  const bool charge =
+      std::any_of(analyses.begin(), analyses.end(),
+                  [](const analysis::EventAnalysis& analysis) { return analysis.has_readout; });
   return charge ? "photoelectrons" : "photons";
 }
 
 /// What light is divided by.
-double scale_of(const SweepView& view, const std::vector<analysis::EventStudy>& studies,
+double scale_of(const SweepView& view, const std::vector<analysis::EventAnalysis>& analyses,
                 const config::NameRef& reference, const LightOf& light) {
   if (reference.empty()) return 1.0;
   std::vector<std::string> labels;
   for (const SweepSeries& series : view.series) {
-    if (series.label == reference.name) return light(studies.at(series.points.front())).value;
+    if (series.label == reference.name) return light(analyses.at(series.points.front())).value;
     labels.push_back(series.label);
   }
   throw core::unknown_name(reference.where, "curve", reference.name, labels);
@@ -60,13 +61,13 @@ std::string group_of(const SweepView& view, const SweepSeries& series) {
   return comma == std::string::npos ? "" : series.label.substr(0, comma);
 }
 
-PlotSeries curve(const SweepSeries& series, const std::vector<analysis::EventStudy>& studies,
+PlotSeries curve(const SweepSeries& series, const std::vector<analysis::EventAnalysis>& analyses,
                  const LightOf& light, double scale, const std::string& group) {
   PlotSeries drawn;
   drawn.label = group.empty() ? series.label : series.label.substr(group.size() + 2);
   drawn.x = series.x;
   for (const std::size_t point : series.points) {
-    const core::Estimate value = scaled(light(studies.at(point)), scale);
+    const core::Estimate value = scaled(light(analyses.at(point)), scale);
     drawn.y.push_back(value.value);
     drawn.error.push_back(value.error);
   }
@@ -74,18 +75,18 @@ PlotSeries curve(const SweepSeries& series, const std::vector<analysis::EventStu
 }
 
 /// A plot for each group of curves, all with the same upper end.
-std::string figures(const SweepView& view, const std::vector<analysis::EventStudy>& studies,
+std::string figures(const SweepView& view, const std::vector<analysis::EventAnalysis>& analyses,
                     const config::NameRef& reference, const std::string& what, const LightOf& light,
                     bool peaks_only) {
-  const double scale = scale_of(view, studies, reference, light);
+  const double scale = scale_of(view, analyses, reference, light);
   if (!(scale > 0.0)) return "";
   std::vector<std::pair<std::string, std::vector<PlotSeries>>> groups;
   double highest = 0.0;
   for (const SweepSeries& series : view.series) {
-    if (peaks_only && !has_peaks(series, studies)) continue;
+    if (peaks_only && !has_peaks(series, analyses)) continue;
     const std::string group = group_of(view, series);
     if (groups.empty() || groups.back().first != group) groups.push_back({group, {}});
-    groups.back().second.push_back(curve(series, studies, light, scale, group));
+    groups.back().second.push_back(curve(series, analyses, light, scale, group));
     for (const double y : groups.back().second.back().y) highest = std::max(highest, y);
   }
   std::string out;
@@ -93,7 +94,7 @@ std::string figures(const SweepView& view, const std::vector<analysis::EventStud
     Plot plot;
     plot.title = what + " against " + view.key;
     plot.x_label = view.key + (view.unit.empty() ? "" : " (" + view.unit + ")");
-    plot.y_label = reference.empty() ? unit_of(studies) : "relative";
+    plot.y_label = reference.empty() ? unit_of(analyses) : "relative";
     plot.y_high = highest;
     plot.legend_above = curves.size() > 4;
     plot.height = plot.legend_above ? 480.0 : 380.0;
@@ -109,26 +110,27 @@ std::string figures(const SweepView& view, const std::vector<analysis::EventStud
 
 }  // namespace
 
-core::Estimate light_of(const analysis::EventStudy& study) {
-  return {core::kElectronMass_keV * study.light_per_keV.value,
-          core::kElectronMass_keV * study.light_per_keV.error};
+core::Estimate light_of(const analysis::EventAnalysis& analysis) {
+  return {core::kElectronMass_keV * analysis.light_per_keV.value,
+          core::kElectronMass_keV * analysis.light_per_keV.error};
 }
 
 std::vector<std::vector<std::string>> light_table(const SweepView& view,
-                                                  const std::vector<analysis::EventStudy>& studies,
+                                                  const std::vector<analysis::EventAnalysis>& analyses,
                                                   const config::NameRef& reference) {
-  if (!any_events(studies)) return {};
-  const double scale = scale_of(view, studies, reference, light_of);
+  if (!any_events(analyses)) return {};
+  const double scale = scale_of(view, analyses, reference, light_of);
   std::vector<std::vector<std::string>> rows{{view.key}};
   for (const SweepSeries& series : view.series)
-    rows.front().push_back(series.label.empty() ? unit_of(studies) + " at 511 keV" : series.label);
+    rows.front().push_back(series.label.empty() ? unit_of(analyses) + " at 511 keV" : series.label);
   for (std::size_t r = 0; r < view.rows.size(); ++r) {
     rows.push_back({view.rows[r]});
     for (const SweepSeries& series : view.series) {
       const auto found = std::find(series.x.begin(), series.x.end(), view.row_values[r]);
       const auto at = static_cast<std::size_t>(found - series.x.begin());
-      rows.back().push_back(
-          found == series.x.end() ? "-" : with_error(scaled(light_of(studies.at(series.points[at])), scale)));
+      rows.back().push_back(found == series.x.end()
+                                ? "-"
+                                : with_error(scaled(light_of(analyses.at(series.points[at])), scale)));
     }
   }
   return rows;
@@ -143,11 +145,11 @@ std::vector<std::vector<std::string>> upright(const std::vector<std::vector<std:
   return turned;
 }
 
-std::string light_section(const SweepView& view, const std::vector<analysis::EventStudy>& studies,
+std::string light_section(const SweepView& view, const std::vector<analysis::EventAnalysis>& analyses,
                           const config::NameRef& reference) {
-  if (!any_events(studies)) return "";
+  if (!any_events(analyses)) return "";
   const std::vector<std::vector<std::string>> rows =
-      upright(light_table(view, studies, reference), kMostCurves);
+      upright(light_table(view, analyses, reference), kMostCurves);
   std::string body;
   for (std::size_t r = 1; r < rows.size(); ++r) {
     body += "<tr>" + cell(rows[r].front(), "th");
@@ -156,10 +158,10 @@ std::string light_section(const SweepView& view, const std::vector<analysis::Eve
   }
   return section(
       "Light output of events",
-      figures(view, studies, reference, "Light at 511 keV, of all events over their energy", light_of,
+      figures(view, analyses, reference, "Light at 511 keV, of all events over their energy", light_of,
               false) +
           table(rows.front(), body) +
-          figures(view, studies, reference, "Position of the photopeak, where it is found at every point",
+          figures(view, analyses, reference, "Position of the photopeak, where it is found at every point",
                   photopeak_of, true));
 }
 

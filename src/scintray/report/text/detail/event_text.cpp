@@ -36,16 +36,16 @@ std::string picoseconds(const core::Estimate& time_ns) {
   return with_error({1e3 * time_ns.value, 1e3 * time_ns.error}) + " ps";
 }
 
-std::string peak_text(const analysis::EventStudy& study) {
-  const analysis::Photopeak& peak = study.peak;
+std::string peak_text(const analysis::EventAnalysis& analysis) {
+  const analysis::Photopeak& peak = analysis.peak;
   std::string text;
   if (peak.has_numbers())
-    text = "photopeak " + with_error(peak.fit.position) + " " + light_unit(study) + ", energy resolution " +
-           percent_with_error(peak.fit.relative_fwhm) + " FWHM; " + background_text(peak.fit.background) +
-           ", " + goodness_text(peak.fit.goodness);
-  if (peak.verdict == analysis::PeakVerdict::trusted) return text;
+    text = "photopeak " + with_error(peak.fit.position) + " " + light_unit(analysis) +
+           ", energy resolution " + percent_with_error(peak.fit.relative_fwhm) + " FWHM; " +
+           background_text(peak.fit.background) + ", " + goodness_text(peak.fit.goodness);
+  if (peak.status == analysis::PeakStatus::trusted) return text;
   const std::string why =
-      std::string("not to be trusted: ") + analysis::verdict_name(peak.verdict) + " (" + peak.reason + ")";
+      std::string("not to be trusted: ") + analysis::status_name(peak.status) + " (" + peak.reason + ")";
   return text.empty() ? "no photopeak: " + peak.reason : text + "; " + why;
 }
 
@@ -68,14 +68,14 @@ std::string depth_text(const analysis::DepthCurve& curve) {
   return text;
 }
 
-std::string doi_text(const analysis::DoiStudy& doi) {
+std::string doi_text(const analysis::DoiAnalysis& doi) {
   const analysis::Spread& residual = doi.residual;
   std::string text = doi.ratio == analysis::EndRatio::share ? "from A / (A + B)" : "from ln(A / B)";
   text += doi.kind == analysis::DoiCalibrationKind::linear ? ", one line" : ", monotone calibration";
   text += ": FWHM " + with_error(residual.quantile_fwhm) + " mm (quantiles)";
   if (residual.fit.converged) text += ", " + with_error(residual.gaussian_fwhm) + " mm (Gaussian)";
   return text + ", bias " + with_error(residual.mean) + " mm, " + std::to_string(residual.count) +
-         " events judged";
+         " events evaluated";
 }
 
 std::string flood_text(const analysis::FloodMap& flood) {
@@ -105,7 +105,7 @@ std::string timing_depth_text(const analysis::TimingDepth& timing) {
   return "mean time changes by " + picoseconds(timing.line.slope) + " per mm";
 }
 
-std::string order_text(const analysis::OrderStudy& orders,
+std::string order_text(const analysis::OrderAnalysis& orders,
                        const std::optional<analysis::TimingBound>& bound) {
   const analysis::OrderTiming& first = orders.single.front();
   std::string text = fmt::format("photon {} at {}, CTR by it {}", first.n, picoseconds(first.mean_ns),
@@ -124,7 +124,7 @@ std::string order_text(const analysis::OrderStudy& orders,
   return text;
 }
 
-std::string order_list(const analysis::OrderStudy& orders,
+std::string order_list(const analysis::OrderAnalysis& orders,
                        const std::optional<analysis::TimingBound>& bound) {
   std::string text;
   for (std::size_t i = 0; i < orders.single.size(); ++i) {
@@ -135,21 +135,21 @@ std::string order_list(const analysis::OrderStudy& orders,
   return text;
 }
 
-std::string order_depth_text(const analysis::EventStudy& study) {
+std::string order_depth_text(const analysis::EventAnalysis& analysis) {
   std::string text;
-  for (std::size_t i = 0; i < study.orders_against_depth.size(); ++i) {
-    const analysis::OrderSlice& slice = study.orders_against_depth[i];
+  for (std::size_t i = 0; i < analysis.orders_against_depth.size(); ++i) {
+    const analysis::OrderSlice& slice = analysis.orders_against_depth[i];
     const analysis::OrderTiming& best = slice.orders.single[slice.orders.best_single];
     text += fmt::format("{}{} mm: photon {}, {}", i == 0 ? "" : ", ", compact(slice.depth_mm, 3), best.n,
                         picoseconds(best.ctr_fwhm_ns));
-    if (study.depth_bounds[i])
-      text += fmt::format(" (bound by all {:.3g})", 1e3 * study.depth_bounds[i]->all_ns);
+    if (analysis.depth_bounds[i])
+      text += fmt::format(" (bound by all {:.3g})", 1e3 * analysis.depth_bounds[i]->all_ns);
   }
   return "best photon at each depth: " + text;
 }
 
 std::string layers_text(const analysis::Confusion& confusion) {
-  return percent_with_error(confusion.share_right()) + " of the events told the right of " +
+  return percent_with_error(confusion.share_right()) + " of the events assigned the right of " +
          std::to_string(confusion.classes) + " layers";
 }
 

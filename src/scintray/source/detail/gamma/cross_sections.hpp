@@ -9,7 +9,7 @@
 
 namespace scintray::source {
 
-/// What a gamma meets next.
+/// The next interaction of a gamma.
 struct GammaEncounter {
   GammaProcess process = GammaProcess::photoelectric;
   const ElementData* element = nullptr;

@@ -1,8 +1,8 @@
 #pragma once
-/// How the atoms of one element meet gammas of 10 keV to 3 MeV.
+/// Interaction of the atoms of one element with gammas of 10 keV to 3 MeV.
 ///
 /// Data from xraylib 4 (T. Schoonjans et al. 2011, Spectrochim. Acta B 66 776,
-/// doi:10.1016/j.sab.2011.09.011), and where they end, formulae that say their source below.
+/// doi:10.1016/j.sab.2011.09.011), and where they end, formulae with their source below.
 
 #include <array>
 #include <vector>

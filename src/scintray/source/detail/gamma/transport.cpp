@@ -121,23 +121,23 @@ void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
 
 /// Lets the gamma interact where it is. False when it is no more.
 bool GammaTransport::interact(Walk& walk, Gamma& gamma) const {
-  const GammaEncounter met = matter_[gamma.region]->sample(gamma.energy_keV, walk.rng);
-  switch (met.process) {
+  const GammaEncounter encounter = matter_[gamma.region]->sample(gamma.energy_keV, walk.rng);
+  switch (encounter.process) {
     case GammaProcess::photoelectric:
-      absorb(walk, gamma, *met.element);
+      absorb(walk, gamma, *encounter.element);
       return false;
     case GammaProcess::pair:
       make_pair(walk, gamma);
       return false;
     case GammaProcess::rayleigh:
       gamma.direction =
-          core::turned(gamma.direction, met.element->sample_rayleigh_cosine(gamma.energy_keV, walk.rng),
+          core::turned(gamma.direction, encounter.element->sample_rayleigh_cosine(gamma.energy_keV, walk.rng),
                        core::kTwoPi * walk.rng.uniform());
       return true;
     case GammaProcess::compton:
       break;
   }
-  const ComptonScattering scattering = sample_compton(*met.element, gamma.energy_keV, walk.rng);
+  const ComptonScattering scattering = sample_compton(*encounter.element, gamma.energy_keV, walk.rng);
   walk.leave(gamma, gamma.energy_keV - scattering.energy_keV);
   gamma.energy_keV = scattering.energy_keV;
   gamma.direction = core::turned(gamma.direction, scattering.cosine, core::kTwoPi * walk.rng.uniform());

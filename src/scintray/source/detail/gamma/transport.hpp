@@ -22,10 +22,10 @@ struct Gamma {
 /// Transport of gammas of 10 keV to 3 MeV: photoelectric absorption, with K X-rays, Compton and Rayleigh
 /// scattering, pair production. Interfaces do not stop or turn gammas. Electrons and positrons leave
 /// their energy where they are made, and positrons annihilate there; so do gammas below 10 keV and X-rays
-/// of other shells. A gamma that meets no part any more has escaped. Immutable.
+/// of other shells. A gamma with no part ahead of it has escaped. Immutable.
 class GammaTransport {
  public:
-  /// Throws InputError with every medium that gammas can come through and that says neither what it is
+  /// Throws InputError with every medium that gammas can come through and that states neither what it is
   /// made of nor that it is empty space.
   /// @param where  of the source, for messages
   GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,

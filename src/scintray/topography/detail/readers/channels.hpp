@@ -8,12 +8,12 @@
 
 namespace scintray::topography {
 
-/// What a file says of one of its channels.
+/// What a file states of one of its channels.
 struct ChannelInfo {
   std::string name;
   std::string unit;       ///< as the file writes it; empty when it writes none
   bool length = false;    ///< the unit is one of length
-  std::string direction;  ///< "Trace", "Retrace" where the file says it beside the name
+  std::string direction;  ///< "Trace", "Retrace" where the file states it beside the name
 };
 
 /// A channel and what it is called in messages and steps.
@@ -23,10 +23,10 @@ struct ChosenChannel {
   std::vector<std::string> names;  ///< of all channels, likewise
 };
 
-/// The channel asked for by name: exactly, upper and lower case alike; else the only one whose
+/// The channel requested by name: exactly, upper and lower case alike; else the only one whose
 /// name begins so. InputError lists those there when none or several fit.
 ///
-/// When none is asked for: the only channel of the file; else, among those in a unit of length or
+/// When none is requested: the only channel of the file; else, among those in a unit of length or
 /// without unit, the one named as the height that a sensor measured ("Height Sensor", "ZSensor",
 /// "height (measured)"), else as a height ("Height", "Topography", "Topo", "Z"), else the only one
 /// in a unit of length. A scan forward goes before the same scan backward. InputError lists the
@@ -37,7 +37,7 @@ ChosenChannel choose_channel(std::vector<ChannelInfo> channels, const ReadReques
 void take_channel(RawMap& map, const ChosenChannel& chosen, const ChannelInfo& info);
 
 /// For formats with one channel: `name` is what the file calls it, or empty. InputError when
-/// another is asked for.
+/// another is requested.
 void require_channel(const std::string& name, const ReadRequest& request);
 
 }  // namespace scintray::topography

@@ -69,7 +69,7 @@ struct GwyddionResult {
 /// Lets `gwyddion --convert-to-gwy` convert the file into a folder of its own and reads what came
 /// out. The program is started without a shell, a display or input, and is ended when the time is over.
 /// InputError from reading what it wrote (a channel that is not there, for one).
-GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
-                            std::chrono::milliseconds time_limit = std::chrono::minutes(1));
+GwyddionResult query_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
+                              std::chrono::milliseconds time_limit = std::chrono::minutes(1));
 
 }  // namespace scintray::topography

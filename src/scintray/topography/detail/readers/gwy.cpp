@@ -2,7 +2,7 @@
 /// version 2 ("GWYP") and, as found in files, version 1 ("GWYO"), whose container differs only in
 /// that a GLib type number stands before each key.
 ///
-/// Numbers are in base units whatever prefix the unit's text carries: the description says that
+/// Numbers are in base units whatever prefix the unit's text carries: the description states that
 /// prefixes are ignored, and files with xreal = 8e-05 and "µm" for 80 um exist.
 
 #include <cmath>
@@ -214,7 +214,7 @@ void read_field(const Reader& reader, const Components& field, RawMap& map) {
   }
 }
 
-/// What a mask says is the reader's to know: points to leave out, grains, or a scratch to study.
+/// What a mask states is the reader's to know: points to leave out, grains, or a scratch to examine.
 void read_mask(const Reader& reader, const Component& mask, bool marks_missing, RawMap& map) {
   if (!marks_missing) {
     map.notes.push_back("the mask in the file was not applied");

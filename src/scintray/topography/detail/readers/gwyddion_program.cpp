@@ -98,8 +98,8 @@ std::optional<int> wait_for(pid_t child, std::chrono::milliseconds time_limit) {
 
 }  // namespace
 
-GwyddionResult ask_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
-                            std::chrono::milliseconds time_limit) {
+GwyddionResult query_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
+                              std::chrono::milliseconds time_limit) {
   const TemporaryFolder folder;
   const fs::path converted = folder.path() / "converted.gwy";
   const auto child =

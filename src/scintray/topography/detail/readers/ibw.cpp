@@ -152,7 +152,7 @@ Wave parse_wave(std::string_view content, const std::string& file) {
 }
 
 /// Asylum's software writes metres into the wave's header even where a channel holds an angle. The
-/// note has "<name>Unit" for the user's inputs; else the name tells.
+/// note has "<name>Unit" for the user's inputs; else the name decides.
 std::string channel_unit(const std::string& label, const Wave& wave) {
   std::string base = label;
   for (const std::string_view ending : {"Retrace", "Trace"})

@@ -18,7 +18,7 @@ namespace scintray::topography {
 namespace {
 
 constexpr std::string_view kNanoscopeMagic = "\\*File list", kEnd = "\\*File list end";
-/// From this version on, files exist that say 2 bytes a pixel and hold 4.
+/// From this version on, files exist that state 2 bytes a pixel and hold 4.
 constexpr double kWideSince = 0x09200000;
 /// No offset, length or number of points lies above the size of the largest file.
 constexpr double kMostNumber = 1 << 30;
@@ -118,7 +118,7 @@ double positive(const Header& header, const Entry& entry, const std::string& wor
 /// What a full range of the stored numbers stands for.
 struct Scale {
   double full = 0.0;  ///< in `unit`
-  double step = 0.0;  ///< per stored unit, as the header rounds it; 0 when it does not say
+  double step = 0.0;  ///< per stored unit, as the header rounds it; 0 when it does not state
   std::string unit;
 };
 

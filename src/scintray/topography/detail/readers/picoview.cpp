@@ -1,5 +1,5 @@
 /// Agilent (Molecular Imaging, Keysight) PicoView. Keys fill 14 characters; a "bufferLabel" begins
-/// the lines of one channel; "data" ends the header and says how the numbers behind it are stored,
+/// the lines of one channel; "data" ends the header and states how the numbers behind it are stored,
 /// as parts of the channel's range, bottom row first.
 
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-/// What a height map file says, before units that it lacks are supplied. Internal to the readers.
+/// What a height map file states, before units that it lacks are supplied. Internal to the readers.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ inline constexpr double kUmPerMetre = 1e6;
 /// Most points of a map that is read: 1 GiB of heights.
 inline constexpr std::size_t kMostPoints = std::size_t{1} << 27;
 
-/// What a parser is asked for, and what the file is called in messages.
+/// What a parser is requested, and what the file is called in messages.
 struct ReadRequest {
   std::string file;
   std::optional<std::string> channel;  ///< by name; nothing: the rule of choose_channel

@@ -49,7 +49,7 @@ struct Journey {
 };
 
 Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t number,
-               const FlightLimits& limits) {
+               const PropagationLimits& limits) {
   Rng rng(3, StreamKind::photon, number);
   Journey followed;
   followed.photon = source.emit(scene, rng);
@@ -77,7 +77,7 @@ TEST_CASE("A photon that passes over total reflections goes the way of one that 
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
     const TwoBodies scene(accelerator);
-    FlightLimits far;
+    PropagationLimits far;
     far.interactions = 2'000;
     std::uint64_t passed = 0;
     for (std::uint64_t i = 0; i < scene.spec.source.photons; ++i) {
@@ -106,15 +106,15 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
     const TwoBodies scene(accelerator);
-    FlightLimits alone;
+    PropagationLimits alone;
     alone.interactions = 2'000;
     for (std::uint64_t i = 0; i < scene.spec.source.photons / 4; ++i) {
       CAPTURE(i);
-      const Journey unseen = travel(scene.built.scene, scene.source, i, alone);
-      std::uint64_t told = 0, segments = 0;
+      const Journey unwatched = travel(scene.built.scene, scene.source, i, alone);
+      std::uint64_t reported = 0, segments = 0;
       double path_mm = 0.0;
       const auto visit = [&](const Photon& photon, const Step& passed) {
-        ++told;
+        ++reported;
         CHECK(passed.event == StepEvent::reflected);
         CHECK(passed.region == photon.region);
         CHECK(passed.segments == 1);
@@ -127,7 +127,7 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
         const Vec3 corner = scene.built.scene.triangle(region, passed.triangle)[0];
         CHECK(std::abs((photon.position - corner).dot(normal)) < 1e-9);
       };
-      FlightLimits watched = alone;
+      PropagationLimits watched = alone;
       watched.passed = visit;
       Rng rng(3, StreamKind::photon, i);
       Photon photon = scene.source.emit(scene.built.scene, rng);
@@ -137,14 +137,14 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
         segments += taken.segments;
         ++steps;
       }
-      CHECK(segments == unseen.segments);
-      CHECK(segments == steps + told);
-      CHECK(photon.position == unseen.photon.position);
-      CHECK(photon.ray.direction == unseen.photon.ray.direction);
-      CHECK(photon.ray.polarisation == unseen.photon.ray.polarisation);
-      CHECK(photon.path_mm == unseen.photon.path_mm);
-      CHECK(photon.time_ns == unseen.photon.time_ns);
-      CHECK(photon.interactions == unseen.photon.interactions);
+      CHECK(segments == unwatched.segments);
+      CHECK(segments == steps + reported);
+      CHECK(photon.position == unwatched.photon.position);
+      CHECK(photon.ray.direction == unwatched.photon.ray.direction);
+      CHECK(photon.ray.polarisation == unwatched.photon.ray.polarisation);
+      CHECK(photon.path_mm == unwatched.photon.path_mm);
+      CHECK(photon.time_ns == unwatched.photon.time_ns);
+      CHECK(photon.interactions == unwatched.photon.interactions);
     }
   }
 }
@@ -154,7 +154,7 @@ TEST_CASE("A flight ends at the reflection that reaches a limit, and no sooner")
   std::uint64_t by_count = 0, by_time = 0;
   for (std::uint64_t i = 0; i < 1'000; ++i) {
     for (const bool count : {true, false}) {
-      FlightLimits limits;
+      PropagationLimits limits;
       limits.interactions = count ? 5 : 2'000;
       if (!count) limits.time_ns = 0.1;
       Rng rng(3, StreamKind::photon, i);

@@ -12,31 +12,31 @@
 
 namespace scintray {
 
-inline const materials::Library& shipped_library() {
-  static const materials::Library library({test::source_file("materials")});
-  return library;
+inline const materials::MaterialDatabase& shipped_database() {
+  static const materials::MaterialDatabase database({test::source_file("materials")});
+  return database;
 }
 
-/// The shipped library and one definition as a scene would give it, in "scene.toml".
-inline materials::Library library_with(materials::LibraryKind kind, const std::string& name,
-                                       const std::string& text) {
-  materials::Library library = shipped_library();
-  library.add(kind, {{name, config::parse_toml(text, "scene.toml")}});
-  return library;
+/// The shipped database and one definition as a scene would give it, in "scene.toml".
+inline materials::MaterialDatabase database_with(materials::DefinitionKind kind, const std::string& name,
+                                                 const std::string& text) {
+  materials::MaterialDatabase database = shipped_database();
+  database.add(kind, {{name, config::parse_toml(text, "scene.toml")}});
+  return database;
 }
 
 /// A folder of library files that goes when the test ends.
-class TemporaryLibrary {
+class TemporaryDatabase {
  public:
-  explicit TemporaryLibrary(const std::string& name)
+  explicit TemporaryDatabase(const std::string& name)
       : folder_(std::filesystem::temp_directory_path() / ("scintray_test_" + name)) {
     std::filesystem::remove_all(folder_);
     for (const char* below : {"media", "surfaces", "sensors", "reflectors"})
       std::filesystem::create_directories(folder_ / below);
   }
-  ~TemporaryLibrary() { std::filesystem::remove_all(folder_); }
-  TemporaryLibrary(const TemporaryLibrary&) = delete;
-  TemporaryLibrary& operator=(const TemporaryLibrary&) = delete;
+  ~TemporaryDatabase() { std::filesystem::remove_all(folder_); }
+  TemporaryDatabase(const TemporaryDatabase&) = delete;
+  TemporaryDatabase& operator=(const TemporaryDatabase&) = delete;
 
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(folder_ / file) << text;

@@ -1,4 +1,4 @@
-// Electronics made again from the photons of a result.
+// Electronics rerun from the photons of a result.
 #include "scintray/simulation/rerun_readout.hpp"
 
 #include <doctest/doctest.h>
@@ -52,7 +52,7 @@ Made made(const std::string& name, const std::string& more) {
 
 std::string refusal(const Made& of, const std::filesystem::path& output) {
   try {
-    read_out_again(of.path, of.run, readout_of_text(kElectronics, "other.toml"), output);
+    rerun_readout(of.path, of.run, readout_of_text(kElectronics, "other.toml"), output);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -64,7 +64,7 @@ std::string refusal(const Made& of, const std::filesystem::path& output) {
 TEST_CASE("With the electronics of the run its own signals come back, with others theirs") {
   const Made traced = made("same", kElectronics + "[run]\nphoton_list = true\n");
   const auto again = traced.path.parent_path() / "again.h5";
-  read_out_again(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
+  rerun_readout(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
   const auto before = read_events(traced.path, 0, 100), after = read_events(again, 0, 100);
   REQUIRE(after.size() == before.size());
   REQUIRE(before.size() == 5);
@@ -84,13 +84,13 @@ TEST_CASE("With the electronics of the run its own signals come back, with other
     for (std::size_t k = 0; k < a.waveform.size(); ++k)
       CHECK(std::abs(a.waveform[k] - b.waveform[k]) < 0.02F);
   }
-  check_says(read_results(again).header.note, "electronics made again by same.toml");
+  check_contains(read_results(again).header.note, "electronics made again by same.toml");
 
   // Half the gate, of a run without electronics: less charge of the same photons.
   const Made bare = made("bare", "[run]\nphoton_list = true\n");
   const auto gated = bare.path.parent_path() / "gated.h5";
-  read_out_again(bare.path, bare.run,
-                 readout_of_text(kElectronics + "gate = [\"-5 ns\", \"20 ns\"]\n", "gated.toml"), gated);
+  rerun_readout(bare.path, bare.run,
+                readout_of_text(kElectronics + "gate = [\"-5 ns\", \"20 ns\"]\n", "gated.toml"), gated);
   const auto short_gate = read_events(gated, 0, 100);
   REQUIRE(short_gate.size() == before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -102,8 +102,8 @@ TEST_CASE("With the electronics of the run its own signals come back, with other
 
 TEST_CASE("What cannot be read out again is refused in words") {
   const Made unlisted = made("unlisted", "");
-  check_says(refusal(unlisted, unlisted.path.parent_path() / "new.h5"), "photon_list = true");
+  check_contains(refusal(unlisted, unlisted.path.parent_path() / "new.h5"), "photon_list = true");
   const Made listed = made("listed", "[run]\nphoton_list = true\n");
-  check_says(refusal(listed, listed.path), "would replace");
+  check_contains(refusal(listed, listed.path), "would replace");
   CHECK_THROWS_AS(readout_of_text("title = \"x\"\n", "none.toml"), InputError);
 }

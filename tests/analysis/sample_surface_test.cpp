@@ -16,21 +16,22 @@ using namespace scintray::test;
 
 namespace {
 
-std::string refusal(const BenchPlace& place) {
-  SurfaceMaker maker;
-  return complaint_of([&] { make_bench_surface(Library::shipped(), maker, place); });
+std::string refusal(const SamplePlace& place) {
+  SurfaceFactory factory;
+  return complaint_of([&] { make_sample_surface(MaterialDatabase::shipped(), factory, place); });
 }
 
 }  // namespace
 
 TEST_CASE("a surface comes with the indices of its media at the wavelength, and its sources") {
-  SurfaceMaker maker;
-  const BenchSurface bench = make_bench_surface(
-      Library::shipped(), maker, {"polished", "LSO_roncali2013", "optical_grease_roncali2013", 420.0});
-  CHECK(bench.index.inside == 1.82);
-  CHECK(bench.index.outside == 1.5);
-  CHECK(bench.surface.name == "polished");
-  CHECK(bench.sources.size() == 1);
+  SurfaceFactory factory;
+  const SampleSurface goniometer =
+      make_sample_surface(MaterialDatabase::shipped(), factory,
+                          {"polished", "LSO_roncali2013", "optical_grease_roncali2013", 420.0});
+  CHECK(goniometer.index.inside == 1.82);
+  CHECK(goniometer.index.outside == 1.5);
+  CHECK(goniometer.surface.name == "polished");
+  CHECK(goniometer.sources.size() == 1);
 }
 
 TEST_CASE("unknown names are answered with the nearest ones, all at once") {
@@ -72,20 +73,21 @@ none = true
 none = true
 )",
                                  "scene.toml");
-  Library library = Library::shipped();
+  MaterialDatabase database = MaterialDatabase::shipped();
   for (const char* name : {"half", "glued"})
-    library.add(LibraryKind::surface, {{name, std::make_shared<const TomlNode>(*document->find(name))}});
-  library.add(LibraryKind::medium, {{"short", std::make_shared<const TomlNode>(*medium->find("short"))}});
+    database.add(DefinitionKind::surface, {{name, std::make_shared<const TomlNode>(*document->find(name))}});
+  database.add(DefinitionKind::medium, {{"short", std::make_shared<const TomlNode>(*medium->find("short"))}});
 
-  CHECK(library.outline("half").model == "mixture");
-  SurfaceMaker maker;
-  const BenchSurface bench = make_bench_surface(library, maker, {"half", "LSO", "air", 420.0}, true);
-  REQUIRE(bench.surface.mixture.size() == 2);
+  CHECK(database.outline("half").model == "mixture");
+  SurfaceFactory factory;
+  const SampleSurface goniometer =
+      make_sample_surface(database, factory, {"half", "LSO", "air", 420.0}, true);
+  REQUIRE(goniometer.surface.mixture.size() == 2);
   using Map = std::shared_ptr<const HeightField>;
-  CHECK(std::holds_alternative<Map>(bench.surface.mixture.front().surface->microsurface));
-  CHECK_THROWS_AS(mean_slope_met(bench.surface, Side::inside, 0.5), InputError);
+  CHECK(std::holds_alternative<Map>(goniometer.surface.mixture.front().surface->microsurface));
+  CHECK_THROWS_AS(mean_visible_slope(goniometer.surface, Side::inside, 0.5), InputError);
   try {
-    make_bench_surface(library, maker, {"half", "LSO", "air", 500.0}, true);
+    make_sample_surface(database, factory, {"half", "LSO", "air", 500.0}, true);
     FAIL("a gap without an index was accepted");
   } catch (const InputError& error) {
     CHECK(contains(error.problems().front().text(), "the gap of surface \"glued\""));
@@ -93,24 +95,24 @@ none = true
 }
 
 TEST_CASE("what a definition says is told of presets as well") {
-  const Library library = Library::shipped();
-  const SurfaceOutline preset = library.outline("geant4_ground");
+  const MaterialDatabase database = MaterialDatabase::shipped();
+  const SurfaceOutline preset = database.outline("geant4_ground");
   CHECK(preset.model == "unified");
   CHECK(preset.needs.size() == 4);
   CHECK(preset.bases.empty());
-  const SurfaceOutline derived = library.outline("lso_ground_30um_lambertian_097");
+  const SurfaceOutline derived = database.outline("lso_ground_30um_lambertian_097");
   CHECK(derived.model == "recipe");
   CHECK(derived.bases == std::vector<std::string>{"lso_ground_30um"});
   CHECK(derived.needs.empty());
   CHECK(derived.sources.size() == 2);
-  CHECK_THROWS_AS(library.outline("nothing_like_it"), InputError);
+  CHECK_THROWS_AS(database.outline("nothing_like_it"), InputError);
 }
 
 TEST_CASE("slopes met: none on a flat face, of a table as of its map, no answer where there are no facets") {
-  CHECK(mean_slope_met(Surface{}, Side::inside, 0.5).value == 0.0);
+  CHECK(mean_visible_slope(Surface{}, Side::inside, 0.5).value == 0.0);
   Surface facets;
   facets.microsurface = UnifiedSurface{};
-  CHECK_THROWS_AS(mean_slope_met(facets, Side::inside, 0.5), InputError);
+  CHECK_THROWS_AS(mean_visible_slope(facets, Side::inside, 0.5), InputError);
 
   TableNode low, high;
   low.mean_slope_rad = 0.2;
@@ -123,10 +125,10 @@ TEST_CASE("slopes met: none on a flat face, of a table as of its map, no answer 
   Surface table;
   table.microsurface = std::make_shared<const SurfaceTable>(
       SurfaceTable({1.82, 1.0}, {low, high}, {low, high}, TableProvenance{}));
-  CHECK(mean_slope_met(table, Side::inside, 0.125 * kPi).value == doctest::Approx(0.25));
+  CHECK(mean_visible_slope(table, Side::inside, 0.125 * kPi).value == doctest::Approx(0.25));
   TableProvenance stack;
   stack.stack = "with its reflector";
   table.microsurface =
       std::make_shared<const SurfaceTable>(SurfaceTable({1.82, 1.0}, {low, high}, {low, high}, stack));
-  CHECK_THROWS_AS(mean_slope_met(table, Side::inside, 0.5), InputError);
+  CHECK_THROWS_AS(mean_visible_slope(table, Side::inside, 0.5), InputError);
 }

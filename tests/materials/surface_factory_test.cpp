@@ -47,14 +47,14 @@ SurfaceSpec small_relief(std::vector<double> wavelengths_nm) {
   return spec;
 }
 
-SurfaceMaker maker_without_cache() {
-  SurfaceMaker::Hooks hooks;
+SurfaceFactory factory_without_cache() {
+  SurfaceFactory::Hooks hooks;
   hooks.cache.clear();
-  return SurfaceMaker(hooks);
+  return SurfaceFactory(hooks);
 }
 
 std::vector<std::string> warnings(const SurfaceSpec& spec, double low_nm, double high_nm) {
-  return maker_without_cache().make(spec, dispersive(), air(), 500.0, low_nm, high_nm).warnings;
+  return factory_without_cache().make(spec, dispersive(), air(), 500.0, low_nm, high_nm).warnings;
 }
 
 std::string message(const std::function<void()>& action) {
@@ -95,7 +95,7 @@ TEST_CASE("a table file of other indices is refused, and so is a stack laid on a
   SurfaceSpec spec;
   spec.name = "from a file";
   spec.microsurface = TableFileSpec{folder / "other.h5", {}};
-  const auto make = [&] { maker_without_cache().make(spec, dispersive(), air(), 500.0, 500.0, 500.0); };
+  const auto make = [&] { factory_without_cache().make(spec, dispersive(), air(), 500.0, 500.0, 500.0); };
   CHECK(message(make).find("is for indices 1.5000 to 1.0000") != std::string::npos);
   spec.microsurface = TableFileSpec{folder / "stack.h5", {}};
   CHECK(message(make).empty());
@@ -104,17 +104,17 @@ TEST_CASE("a table file of other indices is refused, and so is a stack laid on a
 }
 
 TEST_CASE("mixtures are read from the library, with shares that sum to one and without themselves") {
-  const auto library_with = [](const std::string& text) {
+  const auto database_with = [](const std::string& text) {
     Problems problems;
-    Library library = Library::shipped();
+    MaterialDatabase database = MaterialDatabase::shipped();
     std::map<std::string, TomlNodePtr> definitions;
     const TomlNodePtr document = parse_toml(text, "mix.toml");
     for (const TomlNode& surface : document->find("surfaces")->items)
       definitions[surface.key] = std::make_shared<const TomlNode>(surface);
-    library.add(LibraryKind::surface, definitions);
-    return library;
+    database.add(DefinitionKind::surface, definitions);
+    return database;
   };
-  const SurfaceSpec good = library_with(R"(
+  const SurfaceSpec good = database_with(R"(
 [surfaces.half]
 mixture = [{ surface = "lso_polished_esr_air", share = 0.4 }, { surface = "lso_polished_esr_grease", share = 0.6 }]
 )")
@@ -124,11 +124,11 @@ mixture = [{ surface = "lso_polished_esr_air", share = 0.4 }, { surface = "lso_p
   CHECK(good.mixture[1].surface->gap == "optical_grease");
 
   const auto complaint = [&](const std::string& text) {
-    return message([&] { library_with("[surfaces.half]\n" + text).surface("half"); });
+    return message([&] { database_with("[surfaces.half]\n" + text).surface("half"); });
   };
   CHECK(complaint("mixture = [{ surface = \"polished\", share = 0.4 }]").find("sum to 0.4") !=
         std::string::npos);
-  const SurfaceSpec rest = library_with(
+  const SurfaceSpec rest = database_with(
                                "[surfaces.rest]\nmixture = [{ surface = \"polished\" }, { surface = "
                                "\"lso_polished\", share = 0.3 }]\n")
                                .surface("rest");
