@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "scenes.hpp"
-#include "scintray/simulation/detail/memory_sink.hpp"
+#include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 using namespace scintray;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes.hpp"
-#include "scintray/simulation/detail/memory_sink.hpp"
+#include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 using namespace scintray;

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "scenes.hpp"
-#include "scintray/simulation/detail/memory_sink.hpp"
+#include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The height map formats that ScintRay reads itself. Internal to the readers.
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "scintray/simulation/detail/memory_sink.hpp"
+#include "scintray/simulation/memory_sink.hpp"
 
 #include <algorithm>
 
