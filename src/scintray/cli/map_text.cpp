@@ -36,7 +36,7 @@ void print_summary(const topography::HeightMap& map) {
 }
 
 void print_visible_slopes(const optics::HeightField& field) {
-  std::cout << fmt::format("\nmean slope met, deg\n{:>11}{:>18}{:>18}\n", "incidence", "from inside",
+  std::cout << fmt::format("\nmean visible slope, deg\n{:>11}{:>18}{:>18}\n", "incidence", "from inside",
                            "from outside");
   for (const double degrees :
        {0.0, 30.0, 45.0, 60.0, 75.0, 80.0, 85.0, 87.0, topography::kGrazingStated_rad / core::kDegree}) {

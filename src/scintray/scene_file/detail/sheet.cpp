@@ -8,6 +8,10 @@ namespace scintray::scene_file {
 
 namespace {
 
+/// What is between a sheet and its neighbours, the usual one first.
+constexpr config::Word<ContactKind> kSheetContacts[] = {{"dry", ContactKind::dry},
+                                                        {"bonded", ContactKind::bonded}};
+
 using Kind = config::TomlNode::Kind;
 
 /// The keys by which a file gives what a sheet does to light.
@@ -68,7 +72,7 @@ SheetSpec read_sheet(const config::TomlTable& table, InlineTables& surfaces) {
     const config::NameRef name = read_name(table, optics->word, true);
     sheet.surface = optics->value == SheetOptics::reflector ? sheet_of(name, surfaces) : name;
   }
-  sheet.contact = table.choice("contact", kContactKinds, ContactKind::dry);
+  sheet.contact = table.choice("contact", kSheetContacts, ContactKind::dry);
   return sheet;
 }
 
