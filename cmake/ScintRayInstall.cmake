@@ -11,12 +11,10 @@ target_link_libraries(scintray INTERFACE ${libraries})
 set_target_properties(scintray_options PROPERTIES EXPORT_NAME options)
 
 install(TARGETS scintray scintray_options ${libraries} EXPORT ScintRayTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET scintray_cli)
   install(TARGETS scintray_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-install(DIRECTORY src/ DESTINATION include/scintray FILES_MATCHING PATTERN "*.hpp"
-  PATTERN cli EXCLUDE PATTERN python EXCLUDE)
 install(DIRECTORY materials scenes geometry DESTINATION share/scintray)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/scintray)
 

@@ -1,23 +1,27 @@
-# scintray_module(NAME SOURCES... [LINK modules and libraries]) makes the static library
-# scintray_NAME of src/NAME. Headers are included as "scintray/NAME/header.hpp", here through a link
-# in the build folder, and in the same way once installed.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${PROJECT_BINARY_DIR}/include/scintray SYMBOLIC)
-
+# scintray_module(NAME [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]) makes the static
+# library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT. Headers are included as
+# "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not installed.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
   # GCC 12 takes temporaries of a throw expression for uninitialised, and "literal" + std::string for
   # overlapping memory (its bugs 105562 and 105651).
-  $<BUILD_INTERFACE:-Wno-maybe-uninitialized -Wno-restrict>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-restrict>>
   # Nothing here asks errno about a square root.
   $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
-if(SCINTRAY_SANITIZE)
+if(SCINTRAY_SANITIZE STREQUAL "address")
   target_compile_options(scintray_options INTERFACE
     $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
+elseif(SCINTRAY_SANITIZE STREQUAL "thread")
+  target_compile_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+  target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+elseif(SCINTRAY_SANITIZE)
+  message(FATAL_ERROR "SCINTRAY_SANITIZE is \"${SCINTRAY_SANITIZE}\"; it may be address, thread or empty")
+endif()
+if(SCINTRAY_SANITIZE)
   # For files of CGAL's templates: optimising what the sanitizers add to them takes half of two minutes each.
   set(scintray_slow_to_compile -O0)
 endif()
@@ -31,13 +35,25 @@ if(SCINTRAY_FUZZ)
 endif()
 
 function(scintray_module name)
-  cmake_parse_arguments(MODULE "" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(MODULE "" "" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
+  foreach(source IN LISTS MODULE_WITHOUT)
+    if(NOT source IN_LIST sources)
+      message(FATAL_ERROR "scintray_module(${name} WITHOUT ${source}): there is no such file")
+    endif()
+    list(REMOVE_ITEM sources ${source})
+  endforeach()
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS *.hpp)
+  set(internal_headers ${headers})
+  list(FILTER headers EXCLUDE REGEX "/detail/")
+  list(FILTER internal_headers INCLUDE REGEX "/detail/")
   set(target scintray_${name})
-  add_library(${target} STATIC ${MODULE_SOURCES})
+  add_library(${target} STATIC ${sources})
   add_library(scintray::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_sources(${target}
+    PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${headers}
+    PRIVATE FILE_SET internal TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${internal_headers})
   target_link_libraries(${target} PUBLIC scintray_options ${MODULE_LINK} PRIVATE ${MODULE_PRIVATE_LINK})
   set_property(GLOBAL APPEND PROPERTY SCINTRAY_LIBRARIES ${target})
 endfunction()

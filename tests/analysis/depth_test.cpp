@@ -4,13 +4,15 @@
 #include <limits>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/confusion.hpp"
-#include "scintray/analysis/depth_curve.hpp"
-#include "scintray/analysis/depth_of_interaction.hpp"
+#include "scintray/analysis/position/confusion.hpp"
+#include "scintray/analysis/position/depth_curve.hpp"
+#include "scintray/analysis/position/depth_of_interaction.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 
@@ -116,13 +118,13 @@ TEST_CASE("A depth curve of events takes photopeaks where all slices have one, m
 
 TEST_CASE("Law: the logarithm of the two ends' light falls by 2 / attenuation length a mm") {
   const Ends ends = two_ends(8000, 23);
-  const DoiStudy study = study_doi(ends.depths, ratios_of(ends, EndRatio::logarithm), EndRatio::logarithm,
-                                   DoiCalibrationKind::linear);
-  CHECK(sigmas(study.line.slope, {-2.0 / kAttenuation_mm, 0.0}) < kSigmas);
+  const DoiAnalysis analysis = analyze_doi(ends.depths, ratios_of(ends, EndRatio::logarithm),
+                                           EndRatio::logarithm, DoiCalibrationKind::linear);
+  CHECK(sigmas(analysis.line.slope, {-2.0 / kAttenuation_mm, 0.0}) < kSigmas);
   // Poisson light at both ends: the variance of the logarithm is 1 / A + 1 / B, the same at all depths but
   // for cosh(2 z / attenuation length), which changes by 5 % here.
-  REQUIRE(study.slices.size() == 10);
-  for (const DoiSlice& slice : study.slices) {
+  REQUIRE(analysis.slices.size() == 10);
+  for (const DoiSlice& slice : analysis.slices) {
     const double a = kLight * std::exp(-slice.depth_mm / kAttenuation_mm);
     const double b = kLight * std::exp(-(kLength_mm - slice.depth_mm) / kAttenuation_mm);
     const double fwhm = kFwhmPerSigma * 0.5 * kAttenuation_mm * std::sqrt(1.0 / a + 1.0 / b);
@@ -130,15 +132,15 @@ TEST_CASE("Law: the logarithm of the two ends' light falls by 2 / attenuation le
     // The calibration's own error, not in that of the slice, is a tenth of it and less.
     CHECK(std::abs(slice.bias_mm.value) < (kSigmas + 1.0) * slice.bias_mm.error);
   }
-  CHECK(study.residual.count == 4000);
+  CHECK(analysis.residual.count == 4000);
 }
 
 TEST_CASE("The share of one end, calibrated monotonously, resolves depth as well") {
   const Ends ends = two_ends(8000, 24);
-  const DoiStudy share =
-      study_doi(ends.depths, ratios_of(ends, EndRatio::share), EndRatio::share, DoiCalibrationKind::monotone);
-  const DoiStudy logarithm = study_doi(ends.depths, ratios_of(ends, EndRatio::logarithm), EndRatio::logarithm,
-                                       DoiCalibrationKind::linear);
+  const DoiAnalysis share = analyze_doi(ends.depths, ratios_of(ends, EndRatio::share), EndRatio::share,
+                                        DoiCalibrationKind::monotone);
+  const DoiAnalysis logarithm = analyze_doi(ends.depths, ratios_of(ends, EndRatio::logarithm),
+                                            EndRatio::logarithm, DoiCalibrationKind::linear);
   CHECK(share.residual.quantile_fwhm.value == Approx(logarithm.residual.quantile_fwhm.value).epsilon(0.1));
   CHECK(std::is_sorted(share.calibration.ratio.begin(), share.calibration.ratio.end()));
   CHECK(std::is_sorted(share.calibration.depth_mm.rbegin(), share.calibration.depth_mm.rend()));
@@ -151,17 +153,17 @@ TEST_CASE("A polished crystal, whose ends see the same from everywhere, has no d
     depths.push_back(20.0 * rng.uniform());
     ratios.push_back(0.5 + 0.02 * sample_normal(rng));
   }
-  CHECK(
-      contains(complaint_of([&] { study_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
-               "does not change with depth"));
+  CHECK(contains(
+      complaint_of([&] { analyze_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
+      "does not change with depth"));
   depths.assign(1000, 7.0);
-  CHECK(
-      contains(complaint_of([&] { study_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
-               "at one depth"));
+  CHECK(contains(
+      complaint_of([&] { analyze_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
+      "at one depth"));
   ratios.assign(1000, std::numeric_limits<double>::quiet_NaN());
-  CHECK(
-      contains(complaint_of([&] { study_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
-               "0 events"));
+  CHECK(contains(
+      complaint_of([&] { analyze_doi(depths, ratios, EndRatio::share, DoiCalibrationKind::linear); }),
+      "0 events"));
   CHECK(std::isnan(end_ratio(EndRatio::share, 0.0, 5.0)));
 }
 
@@ -175,12 +177,12 @@ TEST_CASE("Law: two Gaussian layers are told apart as often as Phi(distance / 2 
     static constexpr double kMeans[] = {3.0, 0.0, 8.0};
     value.push_back(kMeans[layer.back()] + sample_normal(rng));
   }
-  const LayerStudy study = tell_layers(layer, value, 3);
-  CHECK(study.order == std::vector<std::size_t>{1, 0, 2});
-  CHECK(study.confusion.total() == 6000);
+  const LayerAnalysis analysis = classify_layers(layer, value, 3);
+  CHECK(analysis.order == std::vector<std::size_t>{1, 0, 2});
+  CHECK(analysis.confusion.total() == 6000);
   const double phi = 0.5 * std::erfc(-1.5 / std::sqrt(2.0)), far = 0.5 * std::erfc(-2.5 / std::sqrt(2.0));
   // Thresholds of 4000 events are not the best ones by a little; that costs less than the error allowed.
-  CHECK(sigmas(study.confusion.share_right(), {(phi + (phi + far - 1.0) + far) / 3.0, 0.0}) < kSigmas);
-  CHECK(study.confusion.at(1, 2) == 0);
-  CHECK_THROWS_AS(tell_layers(layer, value, 2), std::invalid_argument);
+  CHECK(sigmas(analysis.confusion.share_right(), {(phi + (phi + far - 1.0) + far) / 3.0, 0.0}) < kSigmas);
+  CHECK(analysis.confusion.at(1, 2) == 0);
+  CHECK_THROWS_AS(classify_layers(layer, value, 2), std::invalid_argument);
 }

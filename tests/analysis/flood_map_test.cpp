@@ -1,15 +1,17 @@
 // Anger positions and the segmentation of flood maps.
-#include "scintray/analysis/flood_map.hpp"
+#include "scintray/analysis/position/flood_map.hpp"
 
 #include <doctest/doctest.h>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/anger.hpp"
-#include "scintray/analysis/watershed.hpp"
+#include "scintray/analysis/position/anger.hpp"
+#include "scintray/analysis/position/detail/watershed.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 

@@ -1,4 +1,4 @@
-#include "scintray/analysis/goniometer.hpp"
+#include "scintray/analysis/goniometer/goniometer.hpp"
 
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
@@ -7,6 +7,9 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

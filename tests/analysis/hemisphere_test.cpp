@@ -1,10 +1,12 @@
-#include "scintray/analysis/hemisphere.hpp"
+#include "scintray/analysis/goniometer/hemisphere.hpp"
 
 #include <doctest/doctest.h>
 
 #include "scintray/core/sampling.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 
 TEST_CASE("the cells of the hemisphere cover it once and are nearly alike") {
   const HemisphereGrid& grid = hemisphere_grid();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/analysis/event_analysis.hpp"
 
 namespace scintray::test {
 
@@ -16,25 +16,25 @@ struct MadeUpDetector {
   static constexpr std::size_t kSide = 4;
   static constexpr double kPitch_mm = 3.2, kLength_mm = 20.0, kAttenuation_mm = 50.0;
 
-  StudySetup setup() const {
-    StudySetup setup;
+  analysis::AnalysisSetup setup() const {
+    analysis::AnalysisSetup setup;
     for (const double z : {0.0, kLength_mm})
       for (std::size_t k = 0; k < kSide * kSide; ++k) setup.channels_mm.push_back(crystal_mm(k, z));
-    setup.depth = DepthAxis{Vec3::Zero(), Vec3::UnitZ()};
+    setup.depth = analysis::DepthAxis{core::Vec3::Zero(), core::Vec3::UnitZ()};
     return setup;
   }
 
-  std::vector<EventRecord> events(std::size_t count, bool readout) const {
-    std::vector<EventRecord> all;
+  std::vector<tally::EventRecord> events(std::size_t count, bool readout) const {
+    std::vector<tally::EventRecord> all;
     for (std::size_t number = 0; number < count; ++number) {
-      Rng rng = toy_rng(60, number);
+      core::Rng rng = toy_rng(60, number);
       all.push_back(event(number, readout, rng));
     }
     return all;
   }
 
  private:
-  static Vec3 crystal_mm(std::size_t k, double z) {
+  static core::Vec3 crystal_mm(std::size_t k, double z) {
     return {kPitch_mm * static_cast<double>(k % kSide), kPitch_mm * static_cast<double>(k / kSide), z};
   }
 
@@ -42,12 +42,12 @@ struct MadeUpDetector {
     return std::exp(-(crystal_mm(to, 0.0) - crystal_mm(from, 0.0)).norm() / kPitch_mm);
   }
 
-  EventRecord event(std::size_t number, bool readout, Rng& rng) const {
-    EventRecord event;
+  tally::EventRecord event(std::size_t number, bool readout, core::Rng& rng) const {
+    tally::EventRecord event;
     event.event = number;
     const auto crystal = static_cast<std::size_t>(16.0 * rng.uniform());
     const double z = kLength_mm * rng.uniform();
-    const Vec3 at = crystal_mm(crystal, z);
+    const core::Vec3 at = crystal_mm(crystal, z);
     event.position_mm = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())};
     event.part = static_cast<std::uint32_t>(crystal + 1);
     // Six in ten deposit everything, the others up to the Compton edge.
@@ -68,18 +68,21 @@ struct MadeUpDetector {
     return event;
   }
 
-  static void fill(ChannelRecord& channel, double expected, double way_mm, bool readout, Rng& rng) {
+  static void fill(tally::ChannelRecord& channel, double expected, double way_mm, bool readout,
+                   core::Rng& rng) {
     const float none = std::numeric_limits<float>::quiet_NaN();
-    const double photons = std::max(0.0, std::round(expected + std::sqrt(expected) * sample_normal(rng)));
+    const double photons =
+        std::max(0.0, std::round(expected + std::sqrt(expected) * core::sample_normal(rng)));
     channel.detected = static_cast<std::uint32_t>(photons);
     channel.charge = channel.amplitude = none;
     if (photons > 0.0)
-      channel.first_ns = static_cast<float>(way_mm * 1.82 / kSpeedOfLight_mm_per_ns +
-                                            40.0 / photons * sample_exponential(rng));
+      channel.first_ns = static_cast<float>(way_mm * 1.82 / core::kSpeedOfLight_mm_per_ns +
+                                            40.0 / photons * core::sample_exponential(rng));
     if (!readout) return;
-    channel.charge = static_cast<float>(photons * (1.0 + 0.02 * sample_normal(rng)));
+    channel.charge = static_cast<float>(photons * (1.0 + 0.02 * core::sample_normal(rng)));
     channel.amplitude = 0.01F * channel.charge;
-    if (photons > 20.0) channel.time_ns = channel.first_ns + 0.05F * static_cast<float>(sample_normal(rng));
+    if (photons > 20.0)
+      channel.time_ns = channel.first_ns + 0.05F * static_cast<float>(core::sample_normal(rng));
   }
 };
 

@@ -1,4 +1,4 @@
-#include "scintray/analysis/measured_curve.hpp"
+#include "scintray/analysis/fit/measured_curve.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +8,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

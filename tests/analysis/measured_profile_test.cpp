@@ -1,4 +1,4 @@
-#include "scintray/analysis/measured_profile.hpp"
+#include "scintray/analysis/goniometer/measured_profile.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +10,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

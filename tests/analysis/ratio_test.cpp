@@ -5,6 +5,8 @@
 #include "scintray/core/sampling.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 
 TEST_CASE("A ratio of sums is their ratio, with the error that repetitions show") {
   // Light 3 per keV with a Poisson-like spread, energies of a wide spectrum. 2000 repetitions: the mean of

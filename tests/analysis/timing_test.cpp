@@ -4,13 +4,16 @@
 #include <limits>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/coincidence_timing.hpp"
-#include "scintray/analysis/event_study.hpp"
-#include "scintray/analysis/photon_time.hpp"
+#include "scintray/analysis/event_analysis.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/detail/photon_time.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 
@@ -158,9 +161,9 @@ TEST_CASE("The study of orders finds the best photon near where the bound has it
   REQUIRE(kept.size() == events.size());
   for (std::size_t event = 0; event < 20; ++event)
     CHECK(std::equal(kept[event].begin(), kept[event].end(), events[event].begin()));
-  const OrderStudy study = study_orders(kept, 40);
-  REQUIRE(study.single.size() == 40);
-  const OrderTiming& best = study.single[study.best_single];
+  const OrderAnalysis analysis = analyze_orders(kept, 40);
+  REQUIRE(analysis.single.size() == 40);
+  const OrderTiming& best = analysis.single[analysis.best_single];
   std::size_t expected = 1;
   for (std::size_t n = 1; n <= 40; ++n)
     if (time_information_of_photon(time, photons, n) > time_information_of_photon(time, photons, expected))
@@ -171,8 +174,8 @@ TEST_CASE("The study of orders finds the best photon near where the bound has it
   CHECK(best.ctr_fwhm_ns.value > bound - kSigmas * best.ctr_fwhm_ns.error);
   CHECK(best.ctr_fwhm_ns.value < 1.15 * bound);
   // The mean of the first n uses more of them than the n-th alone.
-  CHECK(study.average[study.best_average].ctr_fwhm_ns.value < best.ctr_fwhm_ns.value);
-  CHECK(study_orders(std::vector<std::vector<double>>(20, {0.1}), 5).single.empty());
+  CHECK(analysis.average[analysis.best_average].ctr_fwhm_ns.value < best.ctr_fwhm_ns.value);
+  CHECK(analyze_orders(std::vector<std::vector<double>>(20, {0.1}), 5).single.empty());
 }
 
 TEST_CASE("Pairs use each event once and leave out what has no time") {
@@ -238,8 +241,8 @@ TEST_CASE("Recorded orders give the CTR of the photons they are of, in all and b
   const double photons = 1000.0;
   const LightTiming timing{{{40.0, 0.1, 1.0}}, 0.12};
   const auto events = emit(2000, photons, 40.0, 0.1, 0.12, 4);
-  const OrderStudy all = study_orders(events, 10);
-  StudySetup setup;
+  const OrderAnalysis all = analyze_orders(events, 10);
+  AnalysisSetup setup;
   setup.channels_mm = {Vec3::Zero()};
   setup.depth = DepthAxis{Vec3::Zero(), Vec3::UnitZ()};
   setup.photon_order = {1, 2, 3, 10};
@@ -260,23 +263,23 @@ TEST_CASE("Recorded orders give the CTR of the photons they are of, in all and b
     collector.add(event);
   }
   setup.photopeak_only = false;
-  const EventStudy study = collector.finish();
-  REQUIRE(study.orders);
-  REQUIRE(study.orders->single.size() == 4);
-  CHECK(study.orders->average.size() == 3);
-  REQUIRE(study.orders_bound);
-  CHECK(study.orders_bound->photons == doctest::Approx(photons).epsilon(0.01));
-  CHECK(study.orders->single[3].n == 10);
-  if (study.selected == events.size())
-    CHECK(study.orders->single[3].ctr_fwhm_ns.value ==
+  const EventAnalysis analysis = collector.finish();
+  REQUIRE(analysis.orders);
+  REQUIRE(analysis.orders->single.size() == 4);
+  CHECK(analysis.orders->average.size() == 3);
+  REQUIRE(analysis.orders_bound);
+  CHECK(analysis.orders_bound->photons == doctest::Approx(photons).epsilon(0.01));
+  CHECK(analysis.orders->single[3].n == 10);
+  if (analysis.selected == events.size())
+    CHECK(analysis.orders->single[3].ctr_fwhm_ns.value ==
           doctest::Approx(all.single[9].ctr_fwhm_ns.value).epsilon(1e-3));
   for (std::size_t i = 0; i < 4; ++i) {
-    const Estimate& ctr = study.orders->single[i].ctr_fwhm_ns;
-    CHECK(ctr.value > study.orders_bound->first_ns[i] - kSigmas * ctr.error);
-    CHECK(study.orders_bound->first_ns[i] >= study.orders_bound->all_ns);
+    const Estimate& ctr = analysis.orders->single[i].ctr_fwhm_ns;
+    CHECK(ctr.value > analysis.orders_bound->first_ns[i] - kSigmas * ctr.error);
+    CHECK(analysis.orders_bound->first_ns[i] >= analysis.orders_bound->all_ns);
   }
-  CHECK(study.orders_against_depth.size() == 10);
-  CHECK(study.depth_bounds.size() == 10);
-  CHECK_FALSE(timing_bound({{{40.0, 0.1, 1.0}}, 0.0}, photons, study.orders->single));
-  CHECK_FALSE(timing_bound(timing, 0.0, study.orders->single));
+  CHECK(analysis.orders_against_depth.size() == 10);
+  CHECK(analysis.depth_bounds.size() == 10);
+  CHECK_FALSE(timing_bound({{{40.0, 0.1, 1.0}}, 0.0}, photons, analysis.orders->single));
+  CHECK_FALSE(timing_bound(timing, 0.0, analysis.orders->single));
 }

@@ -4,14 +4,16 @@
 #include "bad_input/good_scene.hpp"
 #include "bad_input/marked_text.hpp"
 #include "scintray/core/philox.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {
 
-/// True when the text is refused. Every problem must say where and what.
+/// True when the text is refused. Every problem must state where and what.
 bool refused(const std::string& text) {
   const std::vector<Problem> found = problems_of([&] { SceneFile::from_text(text, "scene.toml"); });
   for (const Problem& problem : found) {

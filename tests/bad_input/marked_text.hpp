@@ -34,16 +34,16 @@ struct MarkedText {
   }
 };
 
-/// Checks that exactly one problem was found, with these words in its message and hint, at the mark.
-inline void check_one_problem(const MarkedText& input, const std::vector<Problem>& found,
-                              const std::string& what, const std::string& hint) {
+/// Checks that exactly one problem was found, with these fragments in its message and hint, at the mark.
+inline void check_one_problem(const MarkedText& input, const std::vector<core::Problem>& found,
+                              const Fragments& what, const Fragments& hint) {
   INFO("input:\n" << input.text);
   std::string all;
-  for (const Problem& problem : found) all += problem.text() + "\n";
+  for (const core::Problem& problem : found) all += problem.text() + "\n";
   INFO("problems:\n" << all);
   REQUIRE(found.size() == 1);
-  CHECK(contains(found[0].what, what));
-  CHECK(contains(found[0].hint, hint));
+  check_contains(found[0].what, what);
+  check_contains(found[0].hint, hint);
   CHECK(found[0].where.line == input.line);
   CHECK(found[0].where.column == input.column);
 }

@@ -1,9 +1,12 @@
-// Parts that do not go together: the message names them and says where both stand.
+// Parts that do not go together: the message names them and states where both stand.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {
@@ -27,7 +30,7 @@ std::vector<Problem> problems_of_scene(const MarkedText& scene) {
   return problems_of([&] { SceneBuilder().build(SceneFile::from_text(scene.text, "scene.toml").spec(0)); });
 }
 
-void check_scene(const std::string& marked, const std::string& what, const std::string& hint) {
+void check_scene(const std::string& marked, const Fragments& what, const Fragments& hint) {
   const MarkedText scene(marked);
   check_one_problem(scene, problems_of_scene(scene), what, hint);
 }
@@ -44,13 +47,13 @@ std::string at(const std::string& x, const std::string& x_high) {
 
 TEST_CASE("Parts that overlap are told with the places of both") {
   const std::string scene = boxes(at("0", "2") + kPolished, at("1", "3") + kPolished);
-  check_scene(scene, "parts 'a' and 'b' overlap by 4 mm3", "move one of them");
-  check_scene(scene, "; 'b' is at scene.toml:7:1", "higher priority");
+  check_scene(scene, {"'a'", "'b'", "overlap by 4 mm3"}, "move one of them");
+  check_scene(scene, {"'b'", "scene.toml:7:1"}, "higher priority");
 }
 
 TEST_CASE("Bonded faces of different surfaces are told with the places of both parts") {
   check_scene(boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n"),
-              "an interface has one surface; 'b' is at scene.toml:7:1", "add [[contact]]");
+              {"interface", "one surface", "'b'", "scene.toml:7:1"}, "add [[contact]]");
 }
 
 TEST_CASE("With a contact, its place is told") {
@@ -58,7 +61,7 @@ TEST_CASE("With a contact, its place is told") {
       boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n",
             "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
   scene.erase(scene.find("@@"), 2);
-  check_scene(scene, "an interface has one surface; 'b' is at scene.toml:7:1", "the joint");
+  check_scene(scene, {"interface", "one surface", "'b'", "scene.toml:7:1"}, "the joint");
 }
 
 TEST_CASE("A part thinner than the contact tolerance is told with its place") {
@@ -68,7 +71,7 @@ TEST_CASE("A part thinner than the contact tolerance is told with its place") {
 
 TEST_CASE("A part that another one swallows is told with the places of both") {
   check_scene(boxes(at("0", "2") + kPolished, at("-0.00000001", "2") + kPolished + "priority = 1\n"),
-              "nothing of it would be left; 'b' is at scene.toml:7:1", "change the priorities");
+              {"nothing", "left", "'b'", "scene.toml:7:1"}, "change the priorities");
 }
 
 TEST_CASE("A medium without an index at the wavelengths in use is told where it is named") {
@@ -76,7 +79,6 @@ TEST_CASE("A medium without an index at the wavelengths in use is told where it 
       replaced(boxes(at("0", "2") + kPolished, at("4", "6") + kPolished), "\"420 nm\"", "\"600 nm\"");
   scene.erase(scene.find("@@"), 2);
   scene.insert(scene.find("\"thin\""), "@@");
-  check_scene(scene,
-              "medium \"thin\" has refractive indices from 400 to 500 nm, but light of 600 nm is in use",
-              "extend its index table, or choose other wavelengths");
+  check_scene(scene, {"medium \"thin\"", "refractive indices", "400 to 500 nm", "600 nm"},
+              {"index table", "other wavelengths"});
 }

@@ -5,6 +5,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 TEST_CASE("a table is exported in every format, and the Davis pair imported again") {

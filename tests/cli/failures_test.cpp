@@ -7,9 +7,12 @@
 #include <stdexcept>
 
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::cli;
 
 TEST_CASE("A command that returns gives success and prints nothing") {
   std::ostringstream err;
@@ -27,6 +30,12 @@ TEST_CASE("Every problem of an InputError is printed with its place and hint") {
   CHECK(err.str() ==
         "scene.toml:3:7: error: unknown key \"surfce\"\n  hint: did you mean \"surface\"?\n"
         "scene.toml:9:1: error: no source\n2 problems\n");
+}
+
+TEST_CASE("A stop that the user asked for is no defect") {
+  std::ostringstream err;
+  CHECK(cli::run_guarded([] { throw Cancelled("a table was being built"); }, err) == cli::kInterrupted);
+  CHECK(err.str() == "stopped: a table was being built\n");
 }
 
 TEST_CASE("The machine's refusals and our own defects have exit codes of their own") {

@@ -5,6 +5,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::test;
 
 namespace {
@@ -62,13 +63,13 @@ class DarkCrystal {
     arguments.insert(arguments.begin(), {"fit", "scene.toml"});
     return run_program(arguments, folder);
   }
-  void refuses(const std::string& what, const std::string& hint,
+  void refuses(const Fragments& what, const Fragments& hint,
                const std::vector<std::string>& arguments = {}) const {
     const Ended ended = fit(arguments);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == cli::kBadInput);
-    CHECK(contains(ended.output, what));
-    CHECK(contains(ended.output, hint));
+    check_contains(ended.output, what);
+    check_contains(ended.output, hint);
   }
 
   std::filesystem::path folder;
@@ -121,17 +122,16 @@ TEST_CASE("A fit prints its steps and what it found, and writes a file and a pag
 TEST_CASE("A measurement that cannot be fitted is refused with its place and what to do") {
   const DarkCrystal crystal("fit_refusals");
   crystal.write(kDarkFit, "5,190,7\n1,310,9\n3,240,-8\n");
-  crystal.refuses("light.csv:2: error: a position of 1 after 5; expected them to increase", "sort the rows");
-  crystal.refuses("light.csv:3: error: an error of -8; expected more than 0", "standard deviation");
+  crystal.refuses({"light.csv:2: error:", "position of 1 after 5"}, "sort the rows");
+  crystal.refuses({"light.csv:3: error:", "error of -8", "more than 0"}, "standard deviation");
   crystal.write(kDarkFit, "1,310,9\n");
-  crystal.refuses("1 measured points; expected 2 at least, for 1 parameters, a scale",
-                  "fit fewer parameters");
+  crystal.refuses({"1 measured points", "2 at least", "1 parameters", "scale"}, "fit fewer parameters");
   crystal.write(kDarkFit, "1,310\n3,240\n5,180\n");
   crystal.refuses("has no errors", "errors = \"from_scatter\"");
   crystal.write(changed(kDarkFit, "scale = ", "errors = \"from_scatter\"\nscale = "), kRows);
-  crystal.refuses("has a column of errors", "remove errors");
+  crystal.refuses("column of errors", "remove errors");
   crystal.write(kDarkFit, changed(kRows, "9,120", "25,120"));
-  crystal.refuses("at the measured position 25 mm (", "light.csv:6): the source region lies outside part");
+  crystal.refuses("measured position 25 mm (", {"light.csv:6)", "source region", "outside part"});
   std::filesystem::remove(crystal.folder / "light.csv");
   crystal.refuses("scene.toml:24:15", "light.csv");
 }
@@ -139,19 +139,19 @@ TEST_CASE("A measurement that cannot be fitted is refused with its place and wha
 TEST_CASE("A scene that leaves a fit open is refused") {
   const DarkCrystal crystal("fit_open");
   crystal.write("", kRows);
-  crystal.refuses("this scene has no [fit]", "docs/fit.md");
+  crystal.refuses("no [fit]", "docs/fit.md");
   crystal.write(changed(kDarkFit, "detected_fraction", "light_per_keV"), kRows);
-  crystal.refuses("a fit of light_per_keV, but [source] is one of photons", "detected_fraction");
+  crystal.refuses({"light_per_keV", "[source]", "photons"}, "detected_fraction");
   crystal.write("[[sweep]]\nkey = \"source.photons\"\nvalues = [100, 200]\n" + kDarkFit, kRows);
-  crystal.refuses("the sweep over \"source.photons\" makes 2", "leave it one value");
+  crystal.refuses({"sweep", "\"source.photons\"", "makes 2"}, "leave it one value");
   crystal.write(changed(kDarkFit, "low = \"2 mm\"", "low = \"-2 mm\""), kRows);
-  crystal.refuses("a length must be positive", "");
+  crystal.refuses({"length", "positive"}, "");
   crystal.write(changed(kDarkFit, "media.dark.absorption.length", "media.dark.absorption.lenght"), kRows);
   crystal.refuses("lenght", "length");
   crystal.write(kDarkFit, kRows);
   crystal.refuses("--events is given", "use --photons", {"--events", "10"});
   std::ofstream(crystal.folder / "scene_fit.h5") << "mine";
-  crystal.refuses("not a fit, so it is not written over", "another name");
+  crystal.refuses({"not a fit", "not written over"}, "another name");
 }
 
 TEST_CASE("A fit that is interrupted keeps the best so far and says that it is partial") {
@@ -168,7 +168,7 @@ TEST_CASE("A fit that is interrupted keeps the best so far and says that it is p
   const Ended ended = program.wait();
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kInterrupted);
-  CHECK(contains(ended.output, "stopped by the user: the best so far"));
+  check_contains(ended.output, {"stopped by the user", "best so far"});
   const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
   CHECK(file.root().integer_attribute("", "complete") == 0);
   CHECK(file.root().string_attribute("", "end") == "stopped");

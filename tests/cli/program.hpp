@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/shared.hpp"
+
 namespace scintray::test {
 
 struct Ended {
@@ -64,10 +66,11 @@ class Program {
       const rlimit limit{file_limit_bytes, file_limit_bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
     }
-    std::vector<char*> words{const_cast<char*>(SCINTRAY_PROGRAM)};
+    const std::string program = program_file().string();
+    std::vector<char*> words{const_cast<char*>(program.c_str())};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
-    execv(SCINTRAY_PROGRAM, words.data());
+    execv(program.c_str(), words.data());
     _exit(121);
   }
 

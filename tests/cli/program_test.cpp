@@ -7,8 +7,10 @@
 
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/version.hpp"
+#include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 namespace {
 
@@ -18,7 +20,7 @@ struct Answer {
 };
 
 Answer run_program(const std::string& arguments) {
-  const std::string command = std::string("'") + SCINTRAY_PROGRAM + "' " + arguments + " 2>&1";
+  const std::string command = "'" + test::program_file().string() + "' " + arguments + " 2>&1";
   Answer answer;
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);

@@ -1,11 +1,12 @@
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::results;
 using namespace scintray::test;
 
 TEST_CASE("A map is built, events are made from it, and its result is reported like any other") {
@@ -30,6 +31,5 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
   CHECK(contains(text, "<h2>Events"));
   CHECK_FALSE(contains(text, "Where every photon ended"));  // none was traced
   did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");
-  did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput,
-      "is not a response map");
+  did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput, "not a response map");
 }

@@ -1,16 +1,19 @@
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::results;
 using namespace scintray::test;
 
 namespace {
 
 /// A crystal on a sensor; all light is detected, so a list of photons has one row each.
-std::string scene(std::uint64_t photons, bool list) {
+std::string scene_text(std::uint64_t photons, bool list) {
   return R"(
 title = "A crystal on a sensor"
 ambient = "vacuum"
@@ -54,7 +57,7 @@ std::filesystem::path folder_with(const std::string& name, const std::string& te
 }  // namespace
 
 TEST_CASE("run writes results and a report, prints where they are, and is quiet about progress in a pipe") {
-  const auto folder = folder_with("whole", scene(20'000, true));
+  const auto folder = folder_with("whole", scene_text(20'000, true));
   const Ended ended = run_program({"run", "scene.toml"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSuccess);
@@ -71,7 +74,7 @@ TEST_CASE("run writes results and a report, prints where they are, and is quiet 
 }
 
 TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") {
-  const auto folder = folder_with("interrupted", scene(2'000'000'000, false));
+  const auto folder = folder_with("interrupted", scene_text(2'000'000'000, false));
   const Program program({"run", "scene.toml"}, folder);
   std::this_thread::sleep_for(std::chrono::seconds(3));
   program.signal(SIGINT);
@@ -87,7 +90,7 @@ TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") 
 }
 
 TEST_CASE("A full disk ends the run with a message and leaves no file that looks whole") {
-  const auto folder = folder_with("full", scene(400'000, true));
+  const auto folder = folder_with("full", scene_text(400'000, true));
   const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder, 2'000'000);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSystemFailure);
@@ -98,7 +101,7 @@ TEST_CASE("A full disk ends the run with a message and leaves no file that looks
 TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams to disk") {
   // A photon of the list takes 60 bytes and more in memory: three million would be 180 MB by themselves.
   for (const bool list : {false, true}) {
-    const auto folder = folder_with(list ? "memory_list" : "memory", scene(3'000'000, list));
+    const auto folder = folder_with(list ? "memory_list" : "memory", scene_text(3'000'000, list));
     const Ended ended = run_program({"run", "scene.toml", "--no-report"}, folder);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == cli::kSuccess);
@@ -108,14 +111,14 @@ TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams 
 }
 
 TEST_CASE("check says what a scene is, and lists every mistake with its place") {
-  const auto folder = folder_with("check", scene(1'000, false));
+  const auto folder = folder_with("check", scene_text(1'000, false));
   const Ended good = run_program({"check", "scene.toml"}, folder);
   CAPTURE(good.output);
   CHECK(good.exit_code == cli::kSuccess);
   for (const std::string part : {"crystal:exit", "volume", "interfaces", "accelerators", "no errors"})
     CHECK(contains(good.output, part));
 
-  std::string text = scene(1'000, false);
+  std::string text = scene_text(1'000, false);
   text.replace(text.find("medium = \"glass\""), 16, "medium = \"glas\" ");
   text.replace(text.find("\"420 nm\""), 8, "420     ");
   std::ofstream(folder / "scene.toml") << text;
@@ -126,7 +129,7 @@ TEST_CASE("check says what a scene is, and lists every mistake with its place") 
 }
 
 TEST_CASE("Parts that overlap are refused with both names") {
-  std::string text = scene(1'000, false);
+  std::string text = scene_text(1'000, false);
   text.insert(
       text.find("[source]"),
       "[[part]]\nname = \"intruder\"\nbox = [\"1 mm\", \"1 mm\", \"5 mm\"]\nmedium = \"glass\"\nsurface = "
@@ -140,21 +143,21 @@ TEST_CASE("Parts that overlap are refused with both names") {
 }
 
 TEST_CASE("replay follows a photon to its end") {
-  const auto folder = folder_with("replay", scene(1'000, false));
+  const auto folder = folder_with("replay", scene_text(1'000, false));
   const Ended ended = run_program({"replay", "scene.toml", "--event", "0", "--photon", "3"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSuccess);
   CHECK(contains(ended.output, "DETECTED"));
 }
 
-TEST_CASE("reweigh prints light under other optics and writes a table, and says what it cannot") {
-  std::string text = scene(5'000, false);
+TEST_CASE("reweight prints light under other optics and writes a table, and says what it cannot") {
+  std::string text = scene_text(5'000, false);
   text.replace(text.find("reflectance = 1.0"), 17, "reflectance = 0.9");
   text.replace(text.find("photon_list = false"), 19, "photon_history = true");
-  const auto folder = folder_with("reweigh", text);
+  const auto folder = folder_with("reweight", text);
   CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
   const auto did = [&](std::vector<std::string> arguments, int code, const std::string& words) {
-    arguments.insert(arguments.begin(), {"reweigh", "scene.h5"});
+    arguments.insert(arguments.begin(), {"reweight", "scene.h5"});
     const Ended ended = run_program(arguments, folder);
     CAPTURE(ended.output);
     CHECK(ended.exit_code == code);
@@ -175,7 +178,7 @@ TEST_CASE("reweigh prints light under other optics and writes a table, and says 
   for (; std::getline(table, line); ++lines)
     if (lines == 2) CHECK(line.starts_with("point,reflectance of white,traced_fraction"));
   CHECK(lines == 5);
-  std::ofstream(folder / "scene.toml") << scene(1'000, false);
+  std::ofstream(folder / "scene.toml") << scene_text(1'000, false);
   CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
   did({"--reflectance", "white=0.8"}, cli::kBadInput, "photon_history = true");
 }

@@ -12,6 +12,7 @@
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using doctest::Approx;
 
 TEST_CASE("A curve interpolates linearly and keeps its end values outside") {

@@ -5,6 +5,7 @@
 #include <string>
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("A place is written as far as it is known") {
   CHECK(FileLocation{"scene.toml", 3, 7}.text() == "scene.toml:3:7");

@@ -19,6 +19,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::test;
 
 // A disk that fills up, for the child processes of the test below: taking more disk space than

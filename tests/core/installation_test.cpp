@@ -10,6 +10,7 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("The version begins with the release") { CHECK(version().rfind(release(), 0) == 0); }
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("A star stands for any characters, everything else for itself") {
   CHECK(matches_pattern("block[*]", "block[0,11]"));

@@ -3,6 +3,7 @@
 #include "scintray/core/philox.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("Philox4x64-10 gives the published known answers") {
   // Random123 1.14, tests/kat_vectors, lines "philox4x64 10".

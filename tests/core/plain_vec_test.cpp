@@ -5,6 +5,7 @@
 #include "scintray/core/function_ref.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("Plain vectors calculate as Eigen's do") {
   const Vec3 a(0.1, -2.7, 3.3), b(1.9, 0.4, -0.6);

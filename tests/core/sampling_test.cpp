@@ -11,6 +11,7 @@
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 // Every statistical bound here is p > 6.3e-5: the false-alarm rate of 4 standard errors.
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 using namespace scintray;
+using namespace scintray::core;
 using doctest::Approx;
 
 TEST_CASE("The chi-square p-value agrees with its closed forms") {

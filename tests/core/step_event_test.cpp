@@ -8,6 +8,7 @@
 #include "scintray/core/error.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 
 TEST_CASE("The final step events are the fates, each with its name and its place") {
   std::set<std::string> names;

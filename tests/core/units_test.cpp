@@ -9,6 +9,7 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::test;
 using doctest::Approx;
 

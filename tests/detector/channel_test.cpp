@@ -6,6 +6,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::detector;
 using namespace scintray::test;
 
 namespace {
@@ -111,13 +113,13 @@ TEST_CASE("the mean charge is the light with its crosstalk, seen by the electron
 
 TEST_CASE("a channel without a pulse shape or without a face is refused") {
   ReadoutSpec readout = digitizer();
-  check_says(complaint_of([&] { Channel(Sensor{}, readout, kFace); }), "gives a pulse a duration");
+  check_contains(complaint_of([&] { Channel(Sensor{}, readout, kFace); }), "gives a pulse a duration");
   readout.shaping_ns = {4.0, 4.0};
   CHECK(complaint_of([&] { Channel(Sensor{}, readout, kFace); }).empty());
-  check_says(complaint_of([&] { Channel(quiet_sipm(10), readout, {0.0, 0.0}); }), "no area");
+  check_contains(complaint_of([&] { Channel(quiet_sipm(10), readout, {0.0, 0.0}); }), "no area");
   Sensor noisy = quiet_sipm(10);
   noisy.dark_counts.per_ns = 1.0;
   CHECK(complaint_of([&] { Channel(noisy, readout, kFace); }).empty());
   noisy.microcells->recovery_ns = 1e6;
-  check_says(complaint_of([&] { Channel(noisy, readout, kFace); }), "dark counts in every event");
+  check_contains(complaint_of([&] { Channel(noisy, readout, kFace); }), "dark counts in every event");
 }

@@ -7,6 +7,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::detector;
 using namespace scintray::test;
 
 namespace {
@@ -201,10 +203,10 @@ TEST_CASE("the neighbours of cells are mutual, and the eight around a cell") {
     CAPTURE(count);
     const MicrocellGrid grid(Microcells{0.0, count, 20.0, 0.0, 0.0, 0.0}, {4.0, 2.0});
     REQUIRE(grid.count() == count);
-    std::array<std::uint32_t, 8> room;
+    std::array<std::uint32_t, 8> buffer;
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
     for (std::uint32_t cell = 0; cell < count; ++cell)
-      for (const std::uint32_t other : grid.neighbours(cell, room)) {
+      for (const std::uint32_t other : grid.neighbours(cell, buffer)) {
         CHECK(other < count);
         CHECK(other != cell);
         CHECK(pairs.emplace(cell, other).second);
@@ -218,15 +220,15 @@ TEST_CASE("the neighbours of cells are mutual, and the eight around a cell") {
   CHECK(grid.at({0.0, 0.0, 0.0}, rng) == 7);
   CHECK(grid.at({0.0, -9.0, -9.0}, rng) == 0);
   CHECK(grid.at({0.0, 9.0, 9.0}, rng) == 14);
-  std::array<std::uint32_t, 8> room;
-  const auto around = grid.neighbours(7, room);
+  std::array<std::uint32_t, 8> buffer;
+  const auto around = grid.neighbours(7, buffer);
   CHECK(std::vector<std::uint32_t>(around.begin(), around.end()) ==
         std::vector<std::uint32_t>{1, 2, 3, 6, 8, 11, 12, 13});
 }
 
 TEST_CASE("a face without area and a pitch that is a mistake of unit are refused") {
-  check_says(complaint_of([] { SensorResponse(quiet_sipm(10), {0.0, 3.0}); }), "no area");
+  check_contains(complaint_of([] { SensorResponse(quiet_sipm(10), {0.0, 3.0}); }), "no area");
   Sensor sensor = quiet_sipm(0);
   sensor.microcells->pitch_mm = 1e-5;
-  check_says(complaint_of([&] { SensorResponse(sensor, kFace); }), "more than 10^8 cells");
+  check_contains(complaint_of([&] { SensorResponse(sensor, kFace); }), "more than 10^8 cells");
 }

@@ -2,6 +2,8 @@
 #include "detector/made_up.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::detector;
 using namespace scintray::test;
 
 TEST_CASE("a photomultiplier's charge is proportional to its light") {

@@ -5,6 +5,8 @@
 #include "detector/made_up.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::detector;
 using namespace scintray::test;
 
 namespace {

@@ -1,11 +1,13 @@
 // Digitised waveforms and what is measured on them.
-#include "scintray/detector/waveform.hpp"
+#include "scintray/detector/detail/waveform.hpp"
 
 #include <cmath>
 
 #include "detector/made_up.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::detector;
 using namespace scintray::test;
 
 namespace {

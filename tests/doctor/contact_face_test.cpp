@@ -1,6 +1,7 @@
 #include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // One pair of parts that meets at several faces, each in its own way.

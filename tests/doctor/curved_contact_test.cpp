@@ -1,10 +1,14 @@
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Two tessellations of one curved surface, made one within a tolerance.
@@ -166,12 +170,11 @@ TEST_CASE("Staggered contacts with other numbers of sides, in either order, and 
     const double share = c.half ? 0.5 : 1.0;
     CHECK(area_between(scene, "rod", "holder") ==
           doctest::Approx(5.0 * share * polygon_perimeter(sides)).epsilon(c.half ? 2e-3 : 1e-6));
-    check_flights(scene, scene_spec(text).source, 300);
+    check_propagation(scene, scene_spec(text).source, 300);
   }
 }
 
 TEST_CASE("What cannot be closed is said: tolerances too small, no faces") {
-  CHECK(contains(refusal(rod_in_bore(0.0, 10.0, "5 um")), "cannot be closed within 0.005 mm"));
-  CHECK(
-      contains(refusal(rod_in_bore(20.0, 10.0, "20 um")), "no faces of theirs face each other that closely"));
+  check_contains(refusal(rod_in_bore(0.0, 10.0, "5 um")), {"cannot be closed", "0.005 mm"});
+  check_contains(refusal(rod_in_bore(20.0, 10.0, "20 um")), {"no faces", "face each other"});
 }

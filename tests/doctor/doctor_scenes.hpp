@@ -2,7 +2,7 @@
 /// Scenes of the doctor's tests, and what is asked of them.
 
 #include "physics/traced.hpp"
-#include "scintray/source/photon_source.hpp"
+#include "scintray/source/detail/photon_source.hpp"
 #include "support/words.hpp"
 
 namespace scintray::test {
@@ -13,7 +13,7 @@ inline std::string part_text(const std::string& name, const std::string& keys, c
 }
 
 /// box = ... of two corners, mm.
-inline std::string corners(const Vec3& low, const Vec3& high) {
+inline std::string corners(const core::Vec3& low, const core::Vec3& high) {
   return fmt::format(
       "box = {{ low = [\"{:.6g} mm\", \"{:.6g} mm\", \"{:.6g} mm\"], high = [\"{:.6g} mm\", \"{:.6g} mm\", "
       "\"{:.6g} mm\"] }}\n",
@@ -33,11 +33,11 @@ inline std::string lit_scene(const std::string& parts, const std::string& start,
 
 /// What building the scene complains of; empty when it does not.
 inline std::string refusal(const std::string& text) {
-  return complaint_of([&] { SceneBuilder().build(scene_spec(text)); });
+  return complaint_of([&] { scene::SceneBuilder().build(scene_spec(text)); });
 }
 
 /// Area of all interfaces between two regions, mm2.
-inline double area_between(const Scene& scene, const std::string& a, const std::string& b) {
+inline double area_between(const scene::Scene& scene, const std::string& a, const std::string& b) {
   double area = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
     const std::string &back = scene.region_names[scene.interfaces[i].back],
@@ -47,22 +47,23 @@ inline double area_between(const Scene& scene, const std::string& a, const std::
   return area;
 }
 
-/// Follows the first photons one by one and checks that each flight lies in the region it is said to be in.
-inline void check_flights(const Scene& scene, const SourceSpec& spec, std::uint64_t photons) {
-  constexpr double kShort_mm = 0.01;  // shorter flights say nothing about sides
-  const PhotonSource source(spec, scene);
-  std::size_t flights = 0, astray = 0;
+/// Follows the first photons one by one and checks that each flight lies in the region it is stated to be in.
+inline void check_propagation(const scene::Scene& scene, const scene_file::SourceSpec& spec,
+                              std::uint64_t photons) {
+  constexpr double kShort_mm = 0.01;  // shorter flights hold nothing about sides
+  const source::PhotonSource source(spec, scene);
+  std::size_t propagations = 0, astray = 0;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {
-    std::optional<Photon> before;
-    replay(scene, source, {}, 0, photon, [&](const Photon& now, const Step&) {
+    std::optional<source::Photon> before;
+    simulation::replay(scene, source, {}, 0, photon, [&](const source::Photon& now, const transport::Step&) {
       if (before && (now.position - before->position).norm() > kShort_mm) {
-        ++flights;
+        ++propagations;
         astray += !scene.region_contains(before->region, 0.5 * (before->position + now.position));
       }
       before = now;
     });
   }
-  CHECK(flights > photons);
+  CHECK(propagations > photons);
   CHECK(astray == 0);
 }
 

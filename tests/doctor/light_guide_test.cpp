@@ -1,6 +1,8 @@
 #include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // A light guide over an 8 x 8 array.

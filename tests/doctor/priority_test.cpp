@@ -1,6 +1,9 @@
 #include "doctor/doctor_scenes.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Overlaps that are meant: the part with the higher priority keeps the space.
@@ -51,8 +54,8 @@ TEST_CASE("The other way round the plate cuts the rod in two") {
 TEST_CASE("Equal priorities stay an error that names both parts and the volume") {
   for (const char* priority : {"", "priority = 3\n"}) {
     const std::string text = refusal(plate_and_rod(priority, priority));
-    CHECK(contains(text, "parts 'plate' and 'rod' overlap by 16 mm3"));
-    CHECK(contains(text, "give the one that is to keep the space a higher priority"));
+    check_contains(text, {"'plate'", "'rod'", "overlap by 16 mm3"});
+    CHECK(contains(text, "higher priority"));
   }
 }
 
@@ -96,6 +99,6 @@ TEST_CASE("A cut that needs a surface, and one that grazes, are refused in words
       bare.find(surface), surface.size(),
       "medium = \"n15\"\n[[part.face]]\nname = \"all\"\nselect = { box = { low = [\"-9 mm\", \"-9 mm\", "
       "\"-9 mm\"], high = [\"9 mm\", \"9 mm\", \"9 mm\"] } }\nsurface = \"flat\"\n");
-  CHECK(contains(refusal(bare), "the faces born in the cut have no surface"));
+  check_contains(refusal(bare), {"faces", "cut", "no surface"});
   CHECK(contains(refusal(plate_and_rod("priority = 1001\n", "")), "a priority beyond 1000"));
 }

@@ -1,10 +1,12 @@
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 // Parts with cavities and notches, from mesh files, traced.
@@ -33,7 +35,7 @@ TEST_CASE("A crystal in the notch of a part that reaches round it touches it on 
       "crystal", 3000);
   const Traced traced = trace(text);
   CHECK(area_between(traced.built.scene, "u", "crystal") == doctest::Approx(2.0 * 16.0 + 8.0).epsilon(1e-6));
-  check_flights(traced.built.scene, scene_spec(text).source, 200);
+  check_propagation(traced.built.scene, scene_spec(text).source, 200);
 }
 
 TEST_CASE("A cavity in a mesh holds the ambient medium, or the part that is put there, flush or floating") {
@@ -46,19 +48,19 @@ TEST_CASE("A cavity in a mesh holds the ambient medium, or the part that is put 
   const std::string empty = lit_scene(shell, "shell", 3000);
   const Traced alone = trace(empty);
   CHECK(area_between(alone.built.scene, "shell", "ambient") == doctest::Approx(384.0 + 96.0).epsilon(1e-6));
-  check_flights(alone.built.scene, scene_spec(empty).source, 200);
+  check_propagation(alone.built.scene, scene_spec(empty).source, 200);
 
   const std::string full = lit_scene(shell + fills, "core", 3000);
   const Traced filled = trace(full);
   CHECK(area_between(filled.built.scene, "shell", "core") == doctest::Approx(96.0).epsilon(1e-6));
   CHECK(area_between(filled.built.scene, "core", "ambient") == 0.0);
-  check_flights(filled.built.scene, scene_spec(full).source, 200);
+  check_propagation(filled.built.scene, scene_spec(full).source, 200);
 
   const std::string loose = lit_scene(shell + floats, "core", 3000);
   const Traced floating = trace(loose);
   CHECK(area_between(floating.built.scene, "shell", "core") == 0.0);
   CHECK(area_between(floating.built.scene, "core", "ambient") == doctest::Approx(24.0).epsilon(1e-6));
-  check_flights(floating.built.scene, scene_spec(loose).source, 200);
+  check_propagation(floating.built.scene, scene_spec(loose).source, 200);
 }
 
 TEST_CASE("Crystals glued in rows: pads between neighbours, dry on one side, one frame around all") {
@@ -84,5 +86,5 @@ TEST_CASE("Crystals glued in rows: pads between neighbours, dry on one side, one
     CHECK((interface.gap_medium != kNone) == (back == "crystal0" && front == "frame"));
   }
   CHECK(area_between(built, "crystal1", "frame") == doctest::Approx(2.0 * 18.0 + 4.0));
-  check_flights(traced.built.scene, scene_spec(text).source, 200);
+  check_propagation(traced.built.scene, scene_spec(text).source, 200);
 }

@@ -1,8 +1,10 @@
-#include "scintray/scene/small_gaps.hpp"
+#include "scintray/contact/small_gaps.hpp"
 
 #include "doctor/doctor_scenes.hpp"
 
 using namespace scintray;
+using namespace scintray::contact;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

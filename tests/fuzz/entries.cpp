@@ -7,7 +7,7 @@
 #include "exchange_entries.hpp"
 #include "require.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/topography/readers/formats.hpp"
+#include "scintray/topography/detail/readers/formats.hpp"
 #include "topography/made_up_maps.hpp"
 
 namespace scintray::fuzz {
@@ -24,7 +24,7 @@ constexpr std::size_t kDeflate = 1032;
 template <class Read>
 bool expect_map_or_input_error(std::size_t most, Read read) {
   try {
-    const RawMap map = read();
+    const topography::RawMap map = read();
     require(map.columns >= 1 && map.rows >= 1, "a map without points");
     require(map.values.size() == std::size_t{map.columns} * map.rows, "heights that do not fill the map");
     require(map.values.size() <= most, "more points than the file can hold");
@@ -32,14 +32,15 @@ bool expect_map_or_input_error(std::size_t most, Read read) {
     require(!map.height_unit_um || *map.height_unit_um > 0.0, "a height unit that is not positive");
     require(map.pitch_ratio >= 0.0, "a ratio of pitches that is negative or no number");
     return true;
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     require_words(error);
     return false;
   }
 }
 
 /// One format; `bytes` a point at least, or a grid twice as large as its list.
-template <bool (*Recognises)(std::string_view), RawMap (*Parse)(std::string_view, const ReadRequest&)>
+template <bool (*Recognises)(std::string_view),
+          topography::RawMap (*Parse)(std::string_view, const topography::ReadRequest&)>
 bool run_format(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   if (!Recognises(content)) return false;
@@ -53,8 +54,8 @@ bool run_format(const std::uint8_t* data, std::size_t size) {
 /// Zip archives unpack, so their bound is that of deflate.
 bool run_x3p(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  return is_x3p(content) && expect_map_or_input_error(kDeflate * size + 1024, [&] {
-           return parse_x3p(content, {"fuzz", {}});
+  return topography::is_x3p(content) && expect_map_or_input_error(kDeflate * size + 1024, [&] {
+           return topography::parse_x3p(content, {"fuzz", {}});
          });
 }
 
@@ -64,24 +65,26 @@ bool run_x3p_xml(const std::uint8_t* data, std::size_t size) {
   made.xml = std::string(reinterpret_cast<const char*>(data), size);
   if (made.xml.empty()) return false;
   const std::string archive = x3p_file(made);
-  return expect_map_or_input_error(archive.size(), [&] { return parse_x3p(archive, {"fuzz", {}}); });
+  return expect_map_or_input_error(archive.size(), [&] {
+    return topography::parse_x3p(archive, {"fuzz", {}});
+  });
 }
 
 bool run_gzip(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   try {
-    require(gunzip(content, "fuzz", kMostUnpacked).size() <= kDeflate * size + 1024,
+    require(topography::gunzip(content, "fuzz", kMostUnpacked).size() <= kDeflate * size + 1024,
             "more than deflate packs");
     return true;
-  } catch (const InputError&) {
+  } catch (const core::InputError&) {
     return false;
   }
 }
 
-/// Whatever the content says that it is, as in read_height_map.
+/// Whatever the content states that it is, as in read_height_map.
 bool run_any(const std::uint8_t* data, std::size_t size) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
-  const Format* format = find_format(content);
+  const topography::Format* format = topography::find_format(content);
   return format && expect_map_or_input_error(kDeflate * size + 1024, [&] {
            return format->parse(content, {"fuzz", {}});
          });
@@ -181,16 +184,18 @@ std::vector<std::string> all_seeds() {
 constexpr std::size_t kPerByte = 32;
 
 constexpr std::array<Entry, 15> kEntries{
-    {{"gsf", run_format<is_gsf, parse_gsf>, gsf_seeds, kPerByte},
-     {"gwy", run_format<is_gwy, parse_gwy>, gwy_seeds, kPerByte},
-     {"ibw", run_format<is_ibw, parse_ibw>, ibw_seeds, kPerByte},
-     {"nanoscope", run_format<is_nanoscope, parse_nanoscope>, nanoscope_seeds, kPerByte},
-     {"picoview", run_format<is_picoview, parse_picoview>, picoview_seeds, kPerByte},
-     {"sdf", run_format<is_sdf, parse_sdf>, sdf_seeds, kPerByte},
+    {{"gsf", run_format<topography::is_gsf, topography::parse_gsf>, gsf_seeds, kPerByte},
+     {"gwy", run_format<topography::is_gwy, topography::parse_gwy>, gwy_seeds, kPerByte},
+     {"ibw", run_format<topography::is_ibw, topography::parse_ibw>, ibw_seeds, kPerByte},
+     {"nanoscope", run_format<topography::is_nanoscope, topography::parse_nanoscope>, nanoscope_seeds,
+      kPerByte},
+     {"picoview", run_format<topography::is_picoview, topography::parse_picoview>, picoview_seeds, kPerByte},
+     {"sdf", run_format<topography::is_sdf, topography::parse_sdf>, sdf_seeds, kPerByte},
      {"x3p", run_x3p, x3p_seeds, kDeflate* kPerByte},
      {"x3p_xml", run_x3p_xml, x3p_xml_seeds, kPerByte},
-     {"profiler", run_format<is_profiler_matrix, parse_profiler_matrix>, profiler_seeds, kPerByte},
-     {"text", run_format<is_number_text, parse_number_text>, text_seeds, kPerByte},
+     {"profiler", run_format<topography::is_profiler_matrix, topography::parse_profiler_matrix>,
+      profiler_seeds, kPerByte},
+     {"text", run_format<topography::is_number_text, topography::parse_number_text>, text_seeds, kPerByte},
      {"gzip", run_gzip, gzip_seeds, kDeflate * 2},
      {"davis", run_davis, davis_seeds, kPerByte},
      {"davis_reflectances", run_davis_reflectances, davis_reflectance_seeds, kPerByte},

@@ -1,6 +1,6 @@
 #pragma once
 /// What is thrown at each reader: bytes that may be a file of its format, or damaged, or made to
-/// harm. The same entries serve the test here and libFuzzer (docs/height_maps.md says how).
+/// harm. The same entries serve the test here and libFuzzer (docs/height_maps.md states how).
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Entry {
   /// read.
   bool (*run)(const std::uint8_t* data, std::size_t size);
   std::vector<std::string> (*seeds)();  ///< sound files to begin with
-  /// Most bytes that may be asked for at once, per byte of input.
+  /// Most bytes that may be requested at once, per byte of input.
   std::size_t bytes_per_byte;
   /// Room for what does not grow with the file: maps of units, a chunk of an unpacker.
   std::size_t always_allowed = std::size_t{1} << 20;

@@ -11,6 +11,7 @@
 #include "watched_run.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::fuzz;
 
 TEST_CASE("the seeds are sound: every one is read by its own format") {

@@ -7,8 +7,8 @@
 
 #include "io/gdml_texts.hpp"
 #include "require.hpp"
-#include "scintray/io/gdml/gdml_scene.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/zipped.hpp"
 #ifdef SCINTRAY_TESTS_STEP
 #include "support/step_shapes.hpp"
@@ -18,14 +18,14 @@ namespace scintray::fuzz {
 
 namespace {
 
-void require_whole(const TriMesh& mesh) {
+void require_whole(const mesh::TriMesh& mesh) {
   require(!mesh.triangles.empty(), "a mesh without triangles");
   require(mesh.group.size() == mesh.triangles.size(), "triangles without a group");
   for (const std::uint32_t group : mesh.group) require(group < mesh.groups.size(), "a group out of range");
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t vertex : triangle)
       require(vertex < mesh.vertices.size(), "a vertex out of range");
-  for (const Vec3& vertex : mesh.vertices) require(vertex.allFinite(), "a vertex that is not finite");
+  for (const core::Vec3& vertex : mesh.vertices) require(vertex.allFinite(), "a vertex that is not finite");
 }
 
 /// A file of the bytes, as long as it lives: assimp reads files.
@@ -52,15 +52,15 @@ class ScratchFile {
 bool run_mesh(const std::uint8_t* data, std::size_t size, const char* ending) {
   const ScratchFile file(data, size, ending);
   try {
-    ImportOptions options;
-    if (!states_its_unit(ending)) options.mm_per_unit = 1.0;
+    mesh::ImportOptions options;
+    if (!mesh::states_its_unit(ending)) options.mm_per_unit = 1.0;
     // A coarse one: what a curve is cut in does not depend on the bytes of the file.
     options.tessellation = {1e3, 0.5};
-    require_whole(import_mesh(file.path(), options).mesh);
+    require_whole(mesh::import_mesh(file.path(), options).mesh);
     return true;
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     require(!error.problems().empty(), "an error without problems");
-    for (const Problem& problem : error.problems())
+    for (const core::Problem& problem : error.problems())
       require(problem.where.file == file.path().string() && !problem.what.empty(),
               "an error without place or words");
     return false;
@@ -95,13 +95,13 @@ std::vector<std::string> step_seeds() {
 
 bool run_gdml(const std::uint8_t* data, std::size_t size) {
   try {
-    gdml::GdmlImport options;
+    exchange::gdml::GdmlImport options;
     options.tessellation = {1e3, 0.5};
-    const SceneDraft scene =
-        gdml::draft_of_gdml({reinterpret_cast<const char*>(data), size}, "fuzz", options);
+    const exchange::SceneDraft scene =
+        exchange::gdml::draft_of_gdml({reinterpret_cast<const char*>(data), size}, "fuzz", options);
     for (const auto& [path, mesh] : scene.meshes) require_whole(mesh);
     return true;
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     require_words(error);
     return false;
   }
@@ -215,7 +215,7 @@ std::vector<std::string> gdml_seeds() {
 
 /// A vertex of six bytes of text becomes three doubles in several copies, and its cell of the welding grid.
 constexpr std::size_t kPerMeshByte = 256;
-/// A few digits ask for a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
+/// A few digits request a wall of up to simple_solids' and solids' own limits, or for kMostPlaced volumes.
 constexpr std::size_t kPerGdmlByte = 200'000;
 
 #ifdef SCINTRAY_TESTS_STEP

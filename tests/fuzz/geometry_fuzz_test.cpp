@@ -10,6 +10,7 @@
 #include "watched_run.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
 using namespace scintray::fuzz;
 
 TEST_CASE("geometry: the seeds are sound") {

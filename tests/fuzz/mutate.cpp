@@ -8,12 +8,12 @@ namespace scintray::fuzz {
 
 namespace {
 
-std::size_t below(std::size_t n, Rng& rng) {
+std::size_t below(std::size_t n, core::Rng& rng) {
   return std::min(static_cast<std::size_t>(rng.uniform() * static_cast<double>(n)), n == 0 ? 0 : n - 1);
 }
 
 /// Replaces a run of digits by a hostile number.
-void replace_number(std::string& text, Rng& rng) {
+void replace_number(std::string& text, core::Rng& rng) {
   constexpr std::array<std::string_view, 14> kNumbers{
       "0",       "-1",  "1", "2147483647", "4294967296", "99999999999999999999", "nan", "inf", "1e308",
       "-1e-308", "1,5", "",  "x",          "0x7fffffff"};
@@ -25,7 +25,7 @@ void replace_number(std::string& text, Rng& rng) {
 }
 
 /// Overwrites one, two, four or eight bytes.
-void overwrite(std::string& text, Rng& rng) {
+void overwrite(std::string& text, core::Rng& rng) {
   constexpr std::array<std::uint64_t, 10> kWords{
       0, 1, 0x7F, 0xFF, 0x7FFF, 0xFFFFFFFF, 0x7FFFFFFF, 0x80000000, 0x7FF0000000000000, 0xFFFFFFFFFFFFFFFF};
   const std::uint64_t word = kWords[below(kWords.size(), rng)];
@@ -34,7 +34,7 @@ void overwrite(std::string& text, Rng& rng) {
     text[at + k] = static_cast<char>(word >> (8 * k) & 0xFF);
 }
 
-void change(std::string& text, const std::vector<std::string>& others, Rng& rng) {
+void change(std::string& text, const std::vector<std::string>& others, core::Rng& rng) {
   if (text.empty()) text = "0";
   const std::size_t at = below(text.size(), rng), length = 1 + below(16, rng);
   switch (below(9, rng)) {
@@ -71,7 +71,7 @@ void change(std::string& text, const std::vector<std::string>& others, Rng& rng)
 
 }  // namespace
 
-std::string mutated(const std::string& seed, const std::vector<std::string>& others, Rng& rng) {
+std::string mutated(const std::string& seed, const std::vector<std::string>& others, core::Rng& rng) {
   std::string result = seed;
   for (std::size_t changes = 1 + below(4, rng); changes > 0; --changes) change(result, others, rng);
   return result;

@@ -12,9 +12,9 @@ inline void require(bool good, const char* what) {
 }
 
 /// A complaint has problems, each with its place and words.
-inline void require_words(const InputError& error) {
+inline void require_words(const core::InputError& error) {
   require(!error.problems().empty(), "an error without problems");
-  for (const Problem& problem : error.problems())
+  for (const core::Problem& problem : error.problems())
     require(problem.where.file == "fuzz" && !problem.what.empty(), "an error without place or words");
 }
 

@@ -8,7 +8,7 @@
 namespace scintray::fuzz {
 
 /// True when all of the content was read. Fails the test when anything but an input error escapes, or when
-/// more memory is asked for at once than the entry allows for so much input.
+/// more memory is requested at once than the entry allows for so much input.
 bool watched_run(const Entry& entry, const std::string& content);
 
 }  // namespace scintray::fuzz

@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/bsdf_text.hpp"
+#include "scintray/exchange/bsdf_text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,13 @@
 
 #include "io/tabulated.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/io/exchange/table_csv.hpp"
+#include "scintray/exchange/table_csv.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {
@@ -105,8 +108,8 @@ TEST_CASE("a file's numbers add up to the reflectance, or the transmittance") {
         const double before = kLsoToAir.on(side), behind = kLsoToAir.on(other(side));
         for (std::size_t k = 0; k < file.incidence.size(); ++k) {
           const double sine = std::sin(file.incidence[k] * kDegree);
-          const double met = way == Leaving::reflected ? sine : sine * behind / before;
-          const double reflectance = table->reflectance(side, std::asin(met));
+          const double sine_incident = way == Leaving::reflected ? sine : sine * behind / before;
+          const double reflectance = table->reflectance(side, std::asin(sine_incident));
           const double light = way == Leaving::reflected ? reflectance : 1.0 - reflectance;
           CAPTURE(file.incidence[k]);
           CAPTURE(static_cast<int>(side));

@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
-#include "scintray/io/exchange/davis.hpp"
+#include "scintray/exchange/davis.hpp"
 #include "support/deflated.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::exchange;
+using test::check_contains;
 using test::deflated;
 
 namespace {
@@ -51,14 +55,6 @@ struct Small {
   std::string reflectances;
 };
 
-bool holds(const std::string& text, const std::string& part) {
-  CAPTURE(text);
-  CAPTURE(part);
-  const bool found = text.find(part) != std::string::npos;
-  CHECK(found);
-  return found;
-}
-
 }  // namespace
 
 TEST_CASE("damaged pairs are refused by messages that say where and what") {
@@ -68,17 +64,17 @@ TEST_CASE("damaged pairs are refused by messages that say where and what") {
     one_less.values.pop_back();
     CHECK(one_less.message().empty());
     one_less.values.pop_back();
-    holds(one_less.message(), fmt::format("{} numbers; expected", one_less.layout.numbers() - 2));
+    check_contains(one_less.message(), fmt::format("{} numbers; expected", one_less.layout.numbers() - 2));
   }
   {
     Small longer;
     longer.values.push_back("1");
-    holds(longer.message(), "more than 1093 numbers");
+    check_contains(longer.message(), "more than 1093 numbers");
   }
   for (const char* word : {"nan", "inf", "-inf", "1e99", "zero", "0x5", "1.2.3", "+-1", "\xFF"}) {
     Small odd;
     odd.values[6] = word;
-    holds(odd.message(), "as number 7");
+    check_contains(odd.message(), "as number 7");
   }
   {
     Small tiny;
@@ -88,33 +84,33 @@ TEST_CASE("damaged pairs are refused by messages that say where and what") {
   {
     Small loud;
     loud.reflectances.replace(0, 3, "1.5");
-    holds(loud.message(), "X_LUTR.z: reflectance 1.5");
+    check_contains(loud.message(), "X_LUTR.z: reflectance 1.5");
     loud.reflectances = loud.reflectances.substr(4);
-    holds(loud.message(), "X_LUTR.z: 89 numbers");
+    check_contains(loud.message(), "X_LUTR.z: 89 numbers");
   }
   {
     Small degrees;  // angles in degrees
     degrees.values[1] = "45";
-    holds(degrees.message(), "expected -2 pi to 2 pi and 0 to pi");
+    check_contains(degrees.message(), {"-2 pi to 2 pi", "0 to pi"});
   }
   {
     Small through;
     through.values[1] = "2.0";
-    holds(through.message(), "reflected direction 1 of 1 deg has elevation 114.59");
+    check_contains(through.message(), {"reflected direction 1 of 1 deg", "elevation 114.59"});
   }
   {
     Small back;
     back.values[back.layout.transmitted(7) + 3] = "0.9";
-    holds(back.message(), "transmitted direction 2 of 7 deg");
+    check_contains(back.message(), "transmitted direction 2 of 7 deg");
   }
   {
     Small empty;
     for (std::size_t k = 0; k < empty.layout.block(); ++k)
       empty.values[empty.layout.transmitted(7) + k] = "0";
-    holds(empty.message(), "no transmitted direction at 7 deg");
+    check_contains(empty.message(), {"no transmitted direction", "7 deg"});
     CHECK(empty.message(Unreflected::absorbed).empty());
     for (std::size_t k = 0; k < empty.layout.block(); ++k) empty.values[empty.layout.reflected(9) + k] = "0";
-    holds(empty.message(Unreflected::absorbed), "no reflected direction at 9 deg");
+    check_contains(empty.message(Unreflected::absorbed), {"no reflected direction", "9 deg"});
   }
 }
 
@@ -122,14 +118,14 @@ TEST_CASE("damaged zlib streams, other packings and files that unpack to too muc
   const Small small;
   const std::string packed = deflated(small.directions());
   CHECK(small.message_of(packed).empty());
-  holds(small.message_of(packed.substr(0, packed.size() / 2)), "damaged or truncated zlib stream");
-  holds(small.message_of(packed + "more"), "4 bytes after the end");
+  check_contains(small.message_of(packed.substr(0, packed.size() / 2)), {"damaged or truncated", "zlib"});
+  check_contains(small.message_of(packed + "more"), "4 bytes after");
   std::string flipped = packed;
   flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 0x55);
   CHECK(!small.message_of(flipped).empty());
-  holds(small.message_of("\x1f\x8b" + packed), "gzip data");
-  holds(small.message_of(deflated(std::string(10'000'000, ' '))), "unpacks to more than");
-  holds(small.message_of(std::string(10'000'000, ' ')), "bytes; expected at most");
-  holds(small.message_of(""), "0 numbers");
-  holds(small.message_of(std::string(5000, '1')), "as number 1");
+  check_contains(small.message_of("\x1f\x8b" + packed), "gzip data");
+  check_contains(small.message_of(deflated(std::string(10'000'000, ' '))), "unpacks to more than");
+  check_contains(small.message_of(std::string(10'000'000, ' ')), "bytes; expected at most");
+  check_contains(small.message_of(""), "0 numbers");
+  check_contains(small.message_of(std::string(5000, '1')), "as number 1");
 }

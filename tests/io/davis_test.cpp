@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/davis.hpp"
+#include "scintray/exchange/davis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +11,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {
@@ -249,7 +252,7 @@ TEST_CASE("what a table absorbs is named when a pair is written, and can be aske
         doctest::Approx(1.0 - read.nodes(Side::inside)[40].reflectance));
   Rng rng(55, StreamKind::other, 0);
   Ray ray{{0.6, 0.0, -0.8}, Vec3::Zero()};
-  CHECK(read.meet(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
+  CHECK(read.interact(ray, Side::outside, Vec3::UnitZ(), Vec3::Zero(), 0.0, rng) == SurfaceOutcome::absorbed);
 }
 
 TEST_CASE(

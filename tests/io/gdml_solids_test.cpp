@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "io/gdml_texts.hpp"
-#include "scintray/io/gdml/solids.hpp"
+#include "scintray/exchange/gdml/detail/solids.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

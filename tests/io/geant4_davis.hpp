@@ -58,12 +58,12 @@ class Geant4Davis {
   double reflectance(int degree) const { return reflectances_[static_cast<std::size_t>(degree)]; }
 
   /// `momentum` meets a surface whose normal `normal` points back to it, EFFICIENCY 0.
-  Vec3 sample(const Vec3& momentum, Vec3 normal, Rng& rng) const {
+  core::Vec3 sample(const core::Vec3& momentum, core::Vec3 normal, core::Rng& rng) const {
     const double drawn = rng.uniform();
     const double angle = std::acos(std::clamp(-momentum.dot(normal), -1.0, 1.0));
-    const int degree = std::min(static_cast<int>(std::floor(angle / kDegree)), 89);
+    const int degree = std::min(static_cast<int>(std::floor(angle / core::kDegree)), 89);
     const bool reflects = !(drawn > reflectances_[static_cast<std::size_t>(degree)]);
-    if (degree == 0) return reflects ? Vec3(-momentum) : momentum;
+    if (degree == 0) return reflects ? core::Vec3(-momentum) : momentum;
     const std::size_t half = 91 * 2 * static_cast<std::size_t>(samples_);
     const std::size_t block = reflects ? static_cast<std::size_t>((degree - 1) * samples_ * 2)
                                        : half + static_cast<std::size_t>(degree * samples_ * 2);
@@ -73,8 +73,8 @@ class Geant4Davis {
       azimuth = lut_[block + static_cast<std::size_t>(2 * (j - 1))];
       elevation = lut_[block + static_cast<std::size_t>(2 * (j - 1) + 1)];
     } while (azimuth == 0.0 && elevation == 0.0);
-    const Vec3 v = normal.cross(momentum).normalized();
-    const Vec3 u = v.cross(normal);
+    const core::Vec3 v = normal.cross(momentum).normalized();
+    const core::Vec3 u = v.cross(normal);
     normal *= std::cos(elevation);
     return u * (std::sin(elevation) * std::cos(azimuth)) + v * (std::sin(elevation) * std::sin(azimuth)) +
            normal;

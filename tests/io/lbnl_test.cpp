@@ -1,4 +1,4 @@
-#include "scintray/io/exchange/lbnl.hpp"
+#include "scintray/exchange/lbnl.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -13,6 +13,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {
@@ -214,7 +217,7 @@ TEST_CASE("a reflectance has to be given, and what it takes is absorbed") {
   for (std::uint64_t k = 0; k < kRays; ++k) {
     Rng rng(65, StreamKind::other, 0, k);
     Ray ray{{0.6, 0.0, 0.8}, Vec3::Zero()};
-    if (table.meet(ray, Side::inside, Vec3::UnitZ(), Vec3::Zero(), 440.0, rng) == SurfaceOutcome::inside)
+    if (table.interact(ray, Side::inside, Vec3::UnitZ(), Vec3::Zero(), 440.0, rng) == SurfaceOutcome::inside)
       ++ours;
     if (geant4_sample(thirds, std::asin(0.6), 0.9, rng)) ++theirs;
   }

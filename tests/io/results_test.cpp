@@ -1,4 +1,4 @@
-#include "scintray/io/results.hpp"
+#include "scintray/results/results.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -16,6 +16,11 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::results;
 using namespace scintray::test;
 
 namespace {
@@ -163,7 +168,7 @@ TEST_CASE("An interrupted run keeps what was computed and says why it is partial
   CHECK(read.partial_reason == "interrupted by Ctrl-C");
   CHECK(read.points.size() == 2);
   CHECK_FALSE(read_results_status(path).complete);
-  CHECK(contains(message_of([&] { read_photons(path, 0, 1); }), "no list of detected photons"));
+  check_contains(message_of([&] { read_photons(path, 0, 1); }), {"no list", "detected photons"});
 }
 
 TEST_CASE("A result that is not committed leaves nothing behind") {
@@ -231,14 +236,14 @@ TEST_CASE("A result whose parts contradict each other is refused") {
   RunResult run = test::made_up_run();
   run.points[0].absorbed_in_medium.pop_back();
   write(folder / "media.h5", run, {});
-  CHECK(contains(message_of([&] { read_results(folder / "media.h5"); }),
-                 "absorbed_in_medium does not match media"));
+  check_contains(message_of([&] { read_results(folder / "media.h5"); }),
+                 {"absorbed_in_medium", "not match", "media"});
   run = test::made_up_run();
   run.points[1].sensor_faces[0].face = 3;
   write(folder / "face.h5", run, {});
   const auto message = message_of([&] { read_results(folder / "face.h5"); });
   CHECK(contains(message, "in point 0001"));
-  CHECK(contains(message, "face that does not exist"));
+  check_contains(message, {"face", "not exist"});
 }
 
 TEST_CASE("A list of three million photons streams through bounded memory") {
@@ -344,18 +349,18 @@ TEST_CASE("The Python example of docs/results.md reads a result with h5py") {
 
 TEST_CASE("Surfaces read on the bench come back from the file") {
   const auto path = test::scratch_folder("results_benches") / "run.h5";
-  SurfaceStudy smooth = test::made_up_surface("unified", "grease");
+  SurfaceAnalysis smooth = test::made_up_surface("unified", "grease");
   smooth.slope_rad.clear();
-  const std::vector<SurfaceStudy> written{test::made_up_surface("ground", "air"), smooth};
+  const std::vector<SurfaceAnalysis> written{test::made_up_surface("ground", "air"), smooth};
   const RunResult run = test::made_up_run();
   ResultsWriter writer(path, run.header, false);
   writer.add_surfaces(written);
   for (const PointResult& point : run.points) writer.add_point(point);
   writer.commit(true);
-  const std::vector<SurfaceStudy> read = read_surfaces(path);
+  const std::vector<SurfaceAnalysis> read = read_surfaces(path);
   REQUIRE(read.size() == 2);
-  const SurfaceStudy &a = read[0], &b = written[0];
-  CHECK(a.bench == b.bench);
+  const SurfaceAnalysis &a = read[0], &b = written[0];
+  CHECK(a.goniometer == b.goniometer);
   CHECK(a.place.surface == "ground");
   CHECK(a.place.inside == "LSO");
   CHECK(a.place.outside == "air");

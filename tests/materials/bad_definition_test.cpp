@@ -1,12 +1,14 @@
-#include "library_helpers.hpp"
+#include "database_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::materials;
 
 namespace {
 
 std::vector<Problem> medium_problems(const std::string& text) {
-  const Library library = library_with(LibraryKind::medium, "mine", text);
-  return problems_of([&] { library.medium("mine"); });
+  const MaterialDatabase database = database_with(DefinitionKind::medium, "mine", text);
+  return problems_of([&] { database.medium("mine"); });
 }
 
 const std::string kPlain = R"([absorption]
@@ -27,7 +29,7 @@ spectrum = { wavelength = [400, 450], wavelength_unit = "nm", value = [1, 2] }
 
 TEST_CASE("an unknown name is reported where it was asked for, with the nearest and where was searched") {
   const auto problems = problems_of([] {
-    shipped_library().medium("LSO_roncali2103", {"scene.toml", 7, 3});
+    shipped_database().medium("LSO_roncali2103", {"scene.toml", 7, 3});
   });
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].where.line == 7);
@@ -35,35 +37,35 @@ TEST_CASE("an unknown name is reported where it was asked for, with the nearest 
   CHECK(problems[0].hint.find("BGO") != std::string::npos);
   CHECK(problems[0].hint.find("materials/media") != std::string::npos);
   CHECK(reports(problems_of([] {
-                  shipped_library().surface("polish", {"scene.toml", 1, 1});
+                  shipped_database().surface("polish", {"scene.toml", 1, 1});
                 }),
                 1, "polished"));
-  CHECK(reports(problems_of([] { shipped_library().sensor("R6232", {"s", 1, 1}); }), 1, "R6231"));
-  CHECK(reports(problems_of([] { shipped_library().reflector("PTFEE", {"s", 1, 1}); }), 1, "PTFE"));
+  CHECK(reports(problems_of([] { shipped_database().sensor("R6232", {"s", 1, 1}); }), 1, "R6231"));
+  CHECK(reports(problems_of([] { shipped_database().reflector("PTFEE", {"s", 1, 1}); }), 1, "PTFE"));
 }
 
 TEST_CASE("a name cannot leave the library's folders") {
-  CHECK(reports(problems_of([] { shipped_library().medium("../media/LSO"); }), 0, "there is no medium"));
+  CHECK(reports(problems_of([] { shipped_database().medium("../media/LSO"); }), 0, "there is no medium"));
 }
 
 TEST_CASE("a folder that does not exist is reported") {
-  CHECK(reports(problems_of([] { Library({"no/such/folder"}); }), 0, "no/such/folder"));
+  CHECK(reports(problems_of([] { MaterialDatabase({"no/such/folder"}); }), 0, "no/such/folder"));
 }
 
 TEST_CASE("a library file without a source is refused, block by block; a scene's own is not") {
   const std::string text = kPlain + "n = 1.5\n";
-  const TemporaryLibrary files("sources");
+  const TemporaryDatabase files("sources");
   files.write("media/mine.toml", text);
-  const Library library({files.folder()});
-  const auto problems = problems_of([&] { library.medium("mine"); });
+  const MaterialDatabase database({files.folder()});
+  const auto problems = problems_of([&] { database.medium("mine"); });
   CHECK(problems.size() == 3);
   CHECK(reports(problems, 1, "[absorption] does not say where its numbers were published"));
   CHECK(reports(problems, 3, "[scattering]"));
   CHECK(reports(problems, 5, "[index]"));
-  CHECK(library_with(LibraryKind::medium, "mine", text).medium("mine").index(420.0) == 1.5);
+  CHECK(database_with(DefinitionKind::medium, "mine", text).medium("mine").index(420.0) == 1.5);
 
   files.write("surfaces/mine.toml", "model = \"smooth\"\n");
-  CHECK(reports(problems_of([&] { Library({files.folder()}).surface("mine"); }), 0, "source"));
+  CHECK(reports(problems_of([&] { MaterialDatabase({files.folder()}).surface("mine"); }), 0, "source"));
 }
 
 TEST_CASE("a medium must say its index, its absorption and its scattering") {
@@ -134,7 +136,7 @@ TEST_CASE("wavelength shifting is complete, absorbs, and gives back no more than
       "emission = { spectrum = { wavelength = [480, 560], wavelength_unit = \"nm\", value = [1, 1] } }\n";
   const std::string decay = "decay = [{ time = \"8 ns\", rise = \"0 ns\", fraction = 1 }]\n";
   const std::string yield = "quantum_yield = { value = 0.9 }\n";
-  CHECK(library_with(LibraryKind::medium, "mine", start + absorption + yield + emission + decay)
+  CHECK(database_with(DefinitionKind::medium, "mine", start + absorption + yield + emission + decay)
             .medium("mine")
             .shifter->quantum_yield()(500.0) == 0.9);
   const auto missing = medium_problems(start);
@@ -160,8 +162,8 @@ TEST_CASE("wavelength shifting is complete, absorbs, and gives back no more than
 
 TEST_CASE("efficiencies and reflectances stay below one") {
   const auto sensor_problems = [](const std::string& text) {
-    const Library library = library_with(LibraryKind::sensor, "mine", text);
-    return problems_of([&] { library.sensor("mine"); });
+    const MaterialDatabase database = database_with(DefinitionKind::sensor, "mine", text);
+    return problems_of([&] { database.sensor("mine"); });
   };
   CHECK(reports(
       sensor_problems("[window]\nindex = 1.5\n[efficiency]\nvalue = 1.2\ndefinition = \"internal\"\n"), 4,
@@ -174,9 +176,10 @@ TEST_CASE("efficiencies and reflectances stay below one") {
       reports(sensor_problems("[window]\nindex = 3.0\n[efficiency]\nvalue = 0.8\ndefinition = \"external\"\n"
                               "reference_index = 1.0\n"),
               4, "above what the window lets in"));
-  const Library library = library_with(LibraryKind::reflector, "mine",
-                                       "[reflectance]\nvalue = \"110 %\"\n[direction]\nspecular_share = 2\n");
-  const auto problems = problems_of([&] { library.reflector("mine"); });
+  const MaterialDatabase database =
+      database_with(DefinitionKind::reflector, "mine",
+                    "[reflectance]\nvalue = \"110 %\"\n[direction]\nspecular_share = 2\n");
+  const auto problems = problems_of([&] { database.reflector("mine"); });
   CHECK(reports(problems, 2, "between 0 and 1"));
   CHECK(reports(problems, 4, "between 0 and 1"));
 }
@@ -184,11 +187,11 @@ TEST_CASE("efficiencies and reflectances stay below one") {
 TEST_CASE("a reflector gives back and lets through no more than it gets, and says where it was published") {
   const std::string text =
       "[reflectance]\nvalue = 0.95\n[transmittance]\nvalue = \"6 %\"\n[direction]\nspecular_share = 0\n";
-  const Library library = library_with(LibraryKind::reflector, "mine", text);
-  CHECK(reports(problems_of([&] { library.reflector("mine"); }), 4, "come to 1.01; together"));
+  const MaterialDatabase database = database_with(DefinitionKind::reflector, "mine", text);
+  CHECK(reports(problems_of([&] { database.reflector("mine"); }), 4, "come to 1.01; together"));
 
-  const TemporaryLibrary files("transmittance");
+  const TemporaryDatabase files("transmittance");
   files.write("reflectors/mine.toml", text);
-  CHECK(reports(problems_of([&] { Library({files.folder()}).reflector("mine"); }), 3,
+  CHECK(reports(problems_of([&] { MaterialDatabase({files.folder()}).reflector("mine"); }), 3,
                 "[transmittance] does not say where its numbers were published"));
 }

@@ -1,13 +1,16 @@
 #include <cmath>
 
-#include "library_helpers.hpp"
+#include "database_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
 
 namespace {
 
 SurfaceSpec with_base(const std::string& base, const std::string& rest) {
-  return library_with(LibraryKind::surface, "mine", "base = \"" + base + "\"\n" + rest).surface("mine");
+  return database_with(DefinitionKind::surface, "mine", "base = \"" + base + "\"\n" + rest).surface("mine");
 }
 
 const std::string kGround = "[unified]\nsigma_alpha = \"0.314 rad\"\nspike = 0\nlobe = 1\nbackscatter = 0\n";
@@ -15,12 +18,12 @@ const std::string kGround = "[unified]\nsigma_alpha = \"0.314 rad\"\nspike = 0\n
 }  // namespace
 
 TEST_CASE("every shipped surface loads, or says what it leaves to the user") {
-  const Library& library = shipped_library();
+  const MaterialDatabase& database = shipped_database();
   std::vector<std::string> incomplete;
-  for (const std::string& name : library.names(LibraryKind::surface)) {
+  for (const std::string& name : database.names(DefinitionKind::surface)) {
     CAPTURE(name);
     try {
-      const SurfaceSpec surface = library.surface(name, {"scene.toml", 3, 5});
+      const SurfaceSpec surface = database.surface(name, {"scene.toml", 3, 5});
       CHECK_FALSE(surface.sources.empty());
     } catch (const InputError& error) {
       REQUIRE(error.problems().size() == 1);
@@ -36,7 +39,7 @@ TEST_CASE("every shipped surface loads, or says what it leaves to the user") {
 }
 
 TEST_CASE("Geant4's six finishes mean what they mean there") {
-  CHECK(std::holds_alternative<SmoothSpec>(shipped_library().surface("geant4_polished").microsurface));
+  CHECK(std::holds_alternative<SmoothSpec>(shipped_database().surface("geant4_polished").microsurface));
 
   const auto ground = std::get<UnifiedSurface>(with_base("geant4_ground", kGround).microsurface);
   CHECK(ground.sigma_alpha_rad == doctest::Approx(0.314));
@@ -60,9 +63,9 @@ TEST_CASE("Geant4's six finishes mean what they mean there") {
 }
 
 TEST_CASE("a preset with a number still missing says which, at the definition that has to give it") {
-  const Library library = library_with(LibraryKind::surface, "mine",
-                                       "base = \"geant4_groundbackpainted\"\ngap = 1.0\n" + kGround);
-  const auto problems = problems_of([&] { library.surface("mine", {"scene.toml", 30, 1}); });
+  const MaterialDatabase database = database_with(
+      DefinitionKind::surface, "mine", "base = \"geant4_groundbackpainted\"\ngap = 1.0\n" + kGround);
+  const auto problems = problems_of([&] { database.surface("mine", {"scene.toml", 30, 1}); });
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].where.file == "scene.toml");
   CHECK(problems[0].where.line != 30);
@@ -71,23 +74,23 @@ TEST_CASE("a preset with a number still missing says which, at the definition th
 }
 
 TEST_CASE("DETECT's five finishes exist") {
-  const Library& library = shipped_library();
-  CHECK(std::holds_alternative<SmoothSpec>(library.surface("detect_polish").microsurface));
-  CHECK(std::holds_alternative<SmoothSpec>(library.surface("detect_detect").microsurface));
-  const auto ground = std::get<UnifiedSurface>(library.surface("detect_ground").microsurface);
+  const MaterialDatabase& database = shipped_database();
+  CHECK(std::holds_alternative<SmoothSpec>(database.surface("detect_polish").microsurface));
+  CHECK(std::holds_alternative<SmoothSpec>(database.surface("detect_detect").microsurface));
+  const auto ground = std::get<UnifiedSurface>(database.surface("detect_ground").microsurface);
   CHECK(ground.lobe + ground.spike + ground.backscatter == 0.0);  // Lambertian only
   CHECK(with_base("detect_paint", "reflectance = 0.98\n").reflector->specular_share == 0.0);
   CHECK(with_base("detect_metal", "reflector = \"PTFE\"\n").reflector->specular_share == 1.0);
-  CHECK(library.sensor("ideal").conversion_probability(420.0) == 1.0);
+  CHECK(database.sensor("ideal").conversion_probability(420.0) == 1.0);
 }
 
 TEST_CASE("the paper's surfaces are the paper's") {
-  const Library& library = shipped_library();
+  const MaterialDatabase& database = shipped_database();
   for (const auto& [name, degrees] :
        {std::pair{"roncali2013_unified_rough", 18.0}, std::pair{"roncali2013_unified_polished", 1.2}}) {
-    const auto by_solid_angle = std::get<UnifiedSurface>(library.surface(name).microsurface);
+    const auto by_solid_angle = std::get<UnifiedSurface>(database.surface(name).microsurface);
     const auto by_polar_angle =
-        std::get<UnifiedSurface>(library.surface(std::string(name) + "_polar").microsurface);
+        std::get<UnifiedSurface>(database.surface(std::string(name) + "_polar").microsurface);
     CHECK(by_solid_angle.sigma_alpha_rad == doctest::Approx(degrees * kDegree));
     CHECK(by_polar_angle.sigma_alpha_rad == by_solid_angle.sigma_alpha_rad);
     CHECK(by_solid_angle.lobe == 1.0);
@@ -95,7 +98,7 @@ TEST_CASE("the paper's surfaces are the paper's") {
     CHECK(by_polar_angle.definition == SigmaAlphaDefinition::polar_angle);
   }
   for (const char* name : {"lso_ground_30um_lambertian_097", "lso_polished_lambertian_097"}) {
-    const SurfaceSpec surface = library.surface(name);
+    const SurfaceSpec surface = database.surface(name);
     CHECK(std::holds_alternative<RecipeSpec>(surface.microsurface));
     CHECK(surface.gap == "air");
     CHECK(surface.reflector->name == "lambertian_097");

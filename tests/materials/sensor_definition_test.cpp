@@ -2,11 +2,15 @@
 #include <set>
 #include <sstream>
 
-#include "library_helpers.hpp"
-#include "scintray/scene/material_forms.hpp"
+#include "database_helpers.hpp"
+#include "scintray/materials/material_forms.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::detector;
+using namespace scintray::materials;
 
 namespace {
 
@@ -38,7 +42,7 @@ rate_per_mm2 = "50 kHz"
 )";
 
 Sensor sensor_of(const std::string& text) {
-  return library_with(LibraryKind::sensor, "mine", text).sensor("mine");
+  return database_with(DefinitionKind::sensor, "mine", text).sensor("mine");
 }
 
 std::vector<Problem> mistakes_of(const std::string& text) {
@@ -61,7 +65,7 @@ Edited with_table(const std::string& table, const std::string& body) {
   return {before + "[" + table + "]\n" + body + after, 1 + std::count(before.begin(), before.end(), '\n')};
 }
 
-/// Checks what is said of a table's body, on its n-th line from 1.
+/// Checks what is stated of a table's body, on its n-th line from 1.
 void check_refused(const std::string& table, const std::string& body, long line, const std::string& words) {
   const Edited edited = with_table(table, body);
   CAPTURE(edited.text);
@@ -161,26 +165,27 @@ reference_index = 1.0
 }
 
 TEST_CASE("an heir takes the tables it does not have from its base, and says its own sources") {
-  Library library = shipped_library();
-  library.add(LibraryKind::sensor,
-              {{"mine", parse_toml("base = \"S13360_6050VE\"\n[microcells]\ncount = 10\nrecovery = \"5 ns\"\n"
-                                   "[dark_counts]\nrate = \"3 MHz\"\n",
-                                   "scene.toml")},
-               {"circle", parse_toml("base = \"round\"\n", "scene.toml")},
-               {"round", parse_toml("base = \"circle\"\n", "scene.toml")},
-               {"lost", parse_toml("base = \"S13360\"\n", "scene.toml")},
-               {"wrong", parse_toml("base = 3\n", "scene.toml")}});
-  const Sensor base = library.sensor("S13360_6050VE"), heir = library.sensor("mine");
+  MaterialDatabase database = shipped_database();
+  database.add(
+      DefinitionKind::sensor,
+      {{"mine", parse_toml("base = \"S13360_6050VE\"\n[microcells]\ncount = 10\nrecovery = \"5 ns\"\n"
+                           "[dark_counts]\nrate = \"3 MHz\"\n",
+                           "scene.toml")},
+       {"circle", parse_toml("base = \"round\"\n", "scene.toml")},
+       {"round", parse_toml("base = \"circle\"\n", "scene.toml")},
+       {"lost", parse_toml("base = \"S13360\"\n", "scene.toml")},
+       {"wrong", parse_toml("base = 3\n", "scene.toml")}});
+  const Sensor base = database.sensor("S13360_6050VE"), heir = database.sensor("mine");
   CHECK(heir.efficiency.y() == base.efficiency.y());
   CHECK(heir.window_index == base.window_index);
   REQUIRE(heir.microcells.has_value());
   CHECK(heir.microcells->count == 10);
   CHECK(heir.dark_counts.per_ns == doctest::Approx(3e-3));
   CHECK(heir.dark_counts.per_ns_mm2 == 0.0);
-  CHECK(reports(problems_of([&] { library.sensor("circle"); }), 1,
+  CHECK(reports(problems_of([&] { database.sensor("circle"); }), 1,
                 "is based on itself (circle, round, circle)"));
-  CHECK(reports(problems_of([&] { library.sensor("lost"); }), 1, "there is no sensor \"S13360\""));
-  CHECK(reports(problems_of([&] { library.sensor("wrong"); }), 1, "\"base\""));
+  CHECK(reports(problems_of([&] { database.sensor("lost"); }), 1, "there is no sensor \"S13360\""));
+  CHECK(reports(problems_of([&] { database.sensor("wrong"); }), 1, "\"base\""));
 }
 
 TEST_CASE("docs/materials.md has every key of a sensor, and no other") {

@@ -1,18 +1,23 @@
 #include <cmath>
 #include <sstream>
 
-#include "library_helpers.hpp"
+#include "database_helpers.hpp"
 #include "scintray/core/curve.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::detector;
+using namespace scintray::materials;
 
 TEST_CASE("every shipped medium loads and is physical") {
-  const Library& library = shipped_library();
-  const std::vector<std::string> names = library.names(LibraryKind::medium);
+  const MaterialDatabase& database = shipped_database();
+  const std::vector<std::string> names = database.names(DefinitionKind::medium);
   CHECK(names.size() >= 8);
   for (const std::string& name : names) {
     CAPTURE(name);
-    const Medium medium = library.medium(name);
+    const Medium medium = database.medium(name);
     CHECK(medium.name == name);
     CHECK(medium.index.min_y() >= 1.0);
     CHECK(medium.index.max_y() < 3.0);
@@ -30,10 +35,10 @@ TEST_CASE("every shipped medium loads and is physical") {
 }
 
 TEST_CASE("every shipped scintillator has a spectrum, a decay and a yield") {
-  const Library& library = shipped_library();
+  const MaterialDatabase& database = shipped_database();
   for (const std::string name : {"LSO", "LYSO", "BGO", "LSO_roncali2013"}) {
     CAPTURE(name);
-    const Medium medium = library.medium(name);
+    const Medium medium = database.medium(name);
     CHECK(medium.yield_per_keV > 1.0);
     CHECK(medium.yield_per_keV < 100.0);
     const double mean_nm = CurveSampler(medium.emission).mean();
@@ -47,31 +52,31 @@ TEST_CASE("every shipped scintillator has a spectrum, a decay and a yield") {
     const double low = medium.emission.x().front(), high = medium.emission.x().back();
     CHECK(medium.index.covers(low, high));
     CHECK(medium.absorption_per_mm.covers(low, high));
-    for (const std::string& sensor : library.names(LibraryKind::sensor))
-      CHECK(library.sensor(sensor).efficiency.covers(low, high));
-    for (const std::string& reflector : library.names(LibraryKind::reflector))
-      CHECK(library.reflector(reflector).reflectance.covers(low, high));
+    for (const std::string& sensor : database.names(DefinitionKind::sensor))
+      CHECK(database.sensor(sensor).efficiency.covers(low, high));
+    for (const std::string& reflector : database.names(DefinitionKind::reflector))
+      CHECK(database.reflector(reflector).reflectance.covers(low, high));
   }
 }
 
 TEST_CASE("published numbers come out of the files") {
-  const Library& library = shipped_library();
+  const MaterialDatabase& database = shipped_database();
   // Williams et al. 1996 by hand: sqrt(1 + 3.1218393 / (1 - 0.1807^2 / 0.48^2)).
-  CHECK(library.medium("BGO").index(480.0) == doctest::Approx(2.1534447).epsilon(1e-6));
+  CHECK(database.medium("BGO").index(480.0) == doctest::Approx(2.1534447).epsilon(1e-6));
   // SCHOTT's n_d and n_F of N-BK7.
-  CHECK(library.medium("glass").index(587.5618) == doctest::Approx(1.51680).epsilon(1e-5));
-  CHECK(library.medium("glass").index(486.1327) == doctest::Approx(1.52238).epsilon(1e-5));
+  CHECK(database.medium("glass").index(587.5618) == doctest::Approx(1.51680).epsilon(1e-5));
+  CHECK(database.medium("glass").index(486.1327) == doctest::Approx(1.52238).epsilon(1e-5));
   // Ciddor 1996, eq. (1) by hand: (n - 1) 1e8 = 27714.7 at 589.3 nm; the table is linear over 20 nm.
-  CHECK(std::abs(library.medium("air").index(589.3) - 1.000277147) < 1e-8);
+  CHECK(std::abs(database.medium("air").index(589.3) - 1.000277147) < 1e-8);
   // Chen et al. 2007, the points that the Sellmeier curve is fitted to.
-  const Curve lso = library.medium("LSO").index;
+  const Curve lso = database.medium("LSO").index;
   const std::vector<std::pair<double, double>> chen{{405, 1.833}, {420, 1.827}, {436, 1.822}, {461, 1.818},
                                                     {486, 1.813}, {516, 1.810}, {546, 1.806}};
   for (const auto& [wavelength_nm, n] : chen) CHECK(std::abs(lso(wavelength_nm) - n) < 0.0016);
 }
 
 TEST_CASE("the paper's crystal is the paper's") {
-  const Medium lso = shipped_library().medium("LSO_roncali2013");
+  const Medium lso = shipped_database().medium("LSO_roncali2013");
   const MediumOptics optics = lso.at(420.0);
   CHECK(optics.index == 1.82);
   CHECK(optics.group_index == 1.82);
@@ -92,8 +97,8 @@ TEST_CASE("tabulated dispersion formulae stay within 1e-5 of the formula") {
   const auto sellmeier = [](double b, double c, double nm) {
     return std::sqrt(1.0 + b / (1.0 - c * 1e6 / (nm * nm)));
   };
-  const Curve bgo = shipped_library().medium("BGO").index;
-  const Curve lso = shipped_library().medium("LSO").index;
+  const Curve bgo = shipped_database().medium("BGO").index;
+  const Curve lso = shipped_database().medium("LSO").index;
   double worst = 0.0;
   for (double nm = 350.5; nm < 700.0; nm += 0.5) {
     worst = std::max(worst, std::abs(bgo(nm) - sellmeier(3.1218393, 0.1807 * 0.1807, nm)));
@@ -104,9 +109,9 @@ TEST_CASE("tabulated dispersion formulae stay within 1e-5 of the formula") {
 }
 
 TEST_CASE("every shipped sensor converts at most every photon") {
-  for (const std::string& name : shipped_library().names(LibraryKind::sensor)) {
+  for (const std::string& name : shipped_database().names(DefinitionKind::sensor)) {
     CAPTURE(name);
-    const Sensor sensor = shipped_library().sensor(name);
+    const Sensor sensor = shipped_database().sensor(name);
     CHECK(sensor.sources.size() >= 2);
     CHECK(sensor.efficiency.min_y() >= 0.0);
     CHECK(sensor.efficiency.max_y() > 0.1);
@@ -115,29 +120,29 @@ TEST_CASE("every shipped sensor converts at most every photon") {
       CHECK(sensor.conversion_probability(nm) >= sensor.efficiency(nm));
     }
   }
-  CHECK(shipped_library().sensor("R6231").efficiency(420.0) == doctest::Approx(0.27).epsilon(0.05));
-  CHECK(shipped_library().sensor("S13360_6050VE").efficiency(450.0) == doctest::Approx(0.40).epsilon(0.03));
+  CHECK(shipped_database().sensor("R6231").efficiency(420.0) == doctest::Approx(0.27).epsilon(0.05));
+  CHECK(shipped_database().sensor("S13360_6050VE").efficiency(450.0) == doctest::Approx(0.40).epsilon(0.03));
 }
 
 TEST_CASE("every shipped reflector reflects between nothing and everything") {
-  const Library& library = shipped_library();
-  for (const std::string& name : library.names(LibraryKind::reflector)) {
+  const MaterialDatabase& database = shipped_database();
+  for (const std::string& name : database.names(DefinitionKind::reflector)) {
     CAPTURE(name);
-    const Reflector reflector = library.reflector(name);
+    const Reflector reflector = database.reflector(name);
     CHECK(reflector.reflectance.min_y() >= 0.0);
     CHECK(reflector.reflectance.max_y() <= 1.0);
     CHECK(reflector.reflectance(440.0) > 0.9);
   }
-  CHECK(library.reflector("ESR").specular_share == 1.0);
-  CHECK(library.reflector("PTFE").specular_share == 0.0);
-  CHECK(library.reflector("lambertian_097").reflectance(420.0) == 0.97);
+  CHECK(database.reflector("ESR").specular_share == 1.0);
+  CHECK(database.reflector("PTFE").specular_share == 0.0);
+  CHECK(database.reflector("lambertian_097").reflectance(420.0) == 0.97);
 }
 
 TEST_CASE("the documentation names everything that is shipped") {
-  const std::string text = read_text_file(std::filesystem::path(SCINTRAY_SOURCE_DIR) / "docs/materials.md");
-  for (const LibraryKind kind :
-       {LibraryKind::medium, LibraryKind::surface, LibraryKind::sensor, LibraryKind::reflector})
-    for (const std::string& name : shipped_library().names(kind)) {
+  const std::string text = read_text_file(test::source_file("docs/materials.md"));
+  for (const DefinitionKind kind :
+       {DefinitionKind::medium, DefinitionKind::surface, DefinitionKind::sensor, DefinitionKind::reflector})
+    for (const std::string& name : shipped_database().names(kind)) {
       CAPTURE(name);
       CHECK(text.find("`" + name + "`") != std::string::npos);
     }

@@ -1,16 +1,21 @@
-#include "library_helpers.hpp"
+#include "database_helpers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::topography;
+using namespace scintray::materials;
 
 namespace {
 
 SurfaceSpec surface_of(const std::string& text) {
-  return library_with(LibraryKind::surface, "mine", text).surface("mine");
+  return database_with(DefinitionKind::surface, "mine", text).surface("mine");
 }
 
 std::vector<Problem> surface_problems(const std::string& text) {
-  const Library library = library_with(LibraryKind::surface, "mine", text);
-  return problems_of([&] { library.surface("mine"); });
+  const MaterialDatabase database = database_with(DefinitionKind::surface, "mine", text);
+  return problems_of([&] { database.surface("mine"); });
 }
 
 const std::string kUnified = R"(model = "unified"
@@ -120,18 +125,19 @@ TEST_CASE("a face of a sheet is painted, and has its share of the sheet") {
   CHECK(reports(
       surface_problems("model = \"smooth\"\ngap = \"air\"\nreflector = \"ESR\"\nface_of_sheet = true\n"), 4,
       "only a painted surface"));
-  Library library = library_with(LibraryKind::reflector, "volume",
-                                 "[reflectance]\nvalue = 0.9\n[transmittance]\nvalue = 0.05\n[direction]\n"
-                                 "specular_share = 0\n[volume]\nindex = 1.35\n");
-  library.add(LibraryKind::surface,
-              {{"mine", parse_toml("model = \"painted\"\nreflector = \"volume\"\nface_of_sheet = "
-                                   "true\n",
-                                   "scene.toml")}});
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "volume-like"));
+  MaterialDatabase database =
+      database_with(DefinitionKind::reflector, "volume",
+                    "[reflectance]\nvalue = 0.9\n[transmittance]\nvalue = 0.05\n[direction]\n"
+                    "specular_share = 0\n[volume]\nindex = 1.35\n");
+  database.add(DefinitionKind::surface,
+               {{"mine", parse_toml("model = \"painted\"\nreflector = \"volume\"\nface_of_sheet = "
+                                    "true\n",
+                                    "scene.toml")}});
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 3, "volume-like"));
 }
 
 TEST_CASE("a gap whose medium shifts wavelengths needs a thickness") {
-  Library library = library_with(LibraryKind::medium, "dye", R"(
+  MaterialDatabase database = database_with(DefinitionKind::medium, "dye", R"(
 index = { n = 1.5 }
 absorption = { length = "3 mm" }
 scattering = { none = true }
@@ -142,11 +148,11 @@ emission = { spectrum = { wavelength = [480, 560], wavelength_unit = "nm", value
 decay = [{ time = "8 ns", rise = "0 ns", fraction = 1 }]
 )");
   const std::string text = "model = \"smooth\"\ngap = \"dye\"\nreflector = \"ESR\"\n";
-  library.add(LibraryKind::surface,
-              {{"thin", parse_toml(text, "scene.toml")},
-               {"thick", parse_toml(text + "gap_thickness = \"5 um\"\n", "scene.toml")}});
-  CHECK(reports(problems_of([&] { library.surface("thin"); }), 2, "without a thickness absorbs nothing"));
-  const SurfaceSpec thick = library.surface("thick");
+  database.add(DefinitionKind::surface,
+               {{"thin", parse_toml(text, "scene.toml")},
+                {"thick", parse_toml(text + "gap_thickness = \"5 um\"\n", "scene.toml")}});
+  CHECK(reports(problems_of([&] { database.surface("thin"); }), 2, "without a thickness absorbs nothing"));
+  const SurfaceSpec thick = database.surface("thick");
   REQUIRE(thick.gap_shifter);
   CHECK(thick.gap_absorption_per_mm(500.0) == doctest::Approx(1.0 / 3.0));  // the shifter's is its own
   CHECK(thick.gap_shifter->absorption_per_mm()(500.0) == 1.0);
@@ -182,18 +188,19 @@ TEST_CASE("mistakes in a base and in its heir are told apart") {
 }
 
 TEST_CASE("height maps and recipes are traced as a table unless told otherwise") {
-  const TemporaryLibrary files("maps");
+  const TemporaryDatabase files("maps");
   files.write("map.txt", "0 1\n1 0\n");
-  Library library = shipped_library();
+  MaterialDatabase database = shipped_database();
   const auto add = [&](const std::string& text) {
-    library.add(LibraryKind::surface, {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
+    database.add(DefinitionKind::surface,
+                 {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
   };
   add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\nchannel = \"Height\"\npitch = \"0.175 "
       "um\"\nheight_unit = \"1 "
       "nm\"\n"
       "level = \"polynomial\"\ndegree = 2\ntiling = \"mirror\"\n[tracing]\nrays = 100\nincidence_step = \"5 "
       "deg\"\n");
-  const SurfaceSpec surface = library.surface("mine");
+  const SurfaceSpec surface = database.surface("mine");
   const auto& map = std::get<HeightMapSpec>(surface.microsurface);
   CHECK(map.path.filename() == "map.txt");
   CHECK(map.options.channel == "Height");
@@ -207,9 +214,9 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
   CHECK(map.table->settings.incidence_step_rad == doctest::Approx(5.0 * kDegree));
 
   add("model = \"height_map\"\n[height_map]\nfile = \"nothing.txt\"\nlevel = \"plane\"\n");
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 3, "does not exist"));
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 3, "does not exist"));
   add("model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\n");
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 0, "\"level\""));
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 0, "\"level\""));
 
   const SurfaceSpec made = surface_of(
       "model = \"recipe\"\n[recipe]\nkind = \"gaussian\"\nrms_height = \"0.9 um\"\ncorrelation_length = "
@@ -229,20 +236,21 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
 }
 
 TEST_CASE("a height map is cropped, mended and filtered as its definition says") {
-  const TemporaryLibrary files("preparation");
+  const TemporaryDatabase files("preparation");
   files.write("map.txt", "0 1\n1 0\n");
-  Library library = shipped_library();
+  MaterialDatabase database = shipped_database();
   const auto add = [&](const std::string& keys) {
     const std::string text =
         "model = \"height_map\"\n[height_map]\nfile = \"map.txt\"\npitch = \"1 um\"\nheight_unit = \"1 um\"\n"
         "level = \"mean\"\n" +
         keys;
-    library.add(LibraryKind::surface, {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
+    database.add(DefinitionKind::surface,
+                 {{"mine", parse_toml(text, (files.folder() / "scene.toml").string())}});
   };
   add("crop = [\"1 um\", \"0 um\", \"40 um\", \"30 um\"]\noutliers = 6\noutlier_radius = 3\nfill_missing = "
       "true\n"
       "median_radius = 2\nloess_width = \"2 um\"\ngaussian_width = \"0.3 um\"\n");
-  const auto made = std::get<HeightMapSpec>(library.surface("mine").microsurface);
+  const auto made = std::get<HeightMapSpec>(database.surface("mine").microsurface);
   const Preparation& p = made.preparation;
   const auto& crop = std::get<CropLengths>(p.crop);
   CHECK(crop.x_um == doctest::Approx(1.0));
@@ -255,11 +263,11 @@ TEST_CASE("a height map is cropped, mended and filtered as its definition says")
   CHECK(*p.gaussian_um == doctest::Approx(0.3));
   CHECK(p.leveling.kind == Leveling::Kind::mean);
   add("outliers = 0.5\n");
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 7, "at least 1"));
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 7, "at least 1"));
   add("outlier_radius = 3\n");
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 7, "no meaning"));
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 7, "no meaning"));
   add("crop = [\"1 um\", \"0 um\"]\n");
-  CHECK_FALSE(problems_of([&] { library.surface("mine"); }).empty());
+  CHECK_FALSE(problems_of([&] { database.surface("mine"); }).empty());
 }
 
 TEST_CASE("recipes of every kind are read, with what each needs and nothing that it would not obey") {
@@ -287,21 +295,21 @@ TEST_CASE("recipes of every kind are read, with what each needs and nothing that
   CHECK_FALSE(problems("kind = \"saw_cut\"\nrms_height = \"1 um\"\ncorrelation_length = \"2 um\"\n").empty());
   CHECK(reports(problems("kind = \"polished\"\nspacing = \"3 um\"\n"), 4, "no meaning"));
 
-  const TemporaryLibrary files("spectra");
+  const TemporaryDatabase files("spectra");
   files.write("psd.csv", "0.1,1e9\n1,1e7\n");
   files.write("wrong.csv", "0.1,1\n0.05,1\n");
-  Library library = shipped_library();
+  MaterialDatabase database = shipped_database();
   const auto add = [&](const std::string& file) {
-    library.add(LibraryKind::surface,
-                {{"mine", parse_toml("model = \"recipe\"\n[recipe]\nkind = \"spectrum\"\nspectrum = \"" +
-                                         file + "\"\nfrequency_unit = \"1/um\"\ndensity_unit = \"nm4\"\n",
-                                     (files.folder() / "scene.toml").string())}});
+    database.add(DefinitionKind::surface,
+                 {{"mine", parse_toml("model = \"recipe\"\n[recipe]\nkind = \"spectrum\"\nspectrum = \"" +
+                                          file + "\"\nfrequency_unit = \"1/um\"\ndensity_unit = \"nm4\"\n",
+                                      (files.folder() / "scene.toml").string())}});
   };
   add("psd.csv");
-  const auto made = std::get<RecipeSpec>(library.surface("mine").microsurface).recipe;
+  const auto made = std::get<RecipeSpec>(database.surface("mine").microsurface).recipe;
   REQUIRE(made.spectrum.density_um4.size() == 2);
   CHECK(made.spectrum.density_um4[0] == doctest::Approx(1e-3));
   CHECK(made.spectrum.frequency_per_um[1] == doctest::Approx(1.0));
   add("wrong.csv");
-  CHECK(reports(problems_of([&] { library.surface("mine"); }), 4, "wrong.csv:2"));
+  CHECK(reports(problems_of([&] { database.surface("mine"); }), 4, "wrong.csv:2"));
 }

@@ -6,10 +6,12 @@
 #include "import_message.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {
@@ -31,60 +33,62 @@ std::string in_mm(const std::filesystem::path& path, double mm_per_unit = 1.0) {
 }  // namespace
 
 TEST_CASE("Messages about mesh files name the file, the fault and the way out") {
-  check_says(in_mm("/nowhere/crystal.stl"), "mesh file not found");
-  check_says(in_mm("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
-  check_says(in_mm("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
-  check_says(in_mm(write("empty.obj", "")), "the mesh file is empty");
-  check_says(in_mm(write("none.stl", "solid a\nendsolid a\n")), "no triangles");
-  check_says(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 0.0), "unit = \"mm\"");
-  check_says(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), -1.0), "not a positive length");
-  check_says(in_mm(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 1 1 1\nf 1 3 4\nf 1 2 3\n")),
-             "vertex 2 of triangle 2 is at (nan, 0, 0)");
-  check_says(in_mm(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")),
-             "no triangle in the file has an area");
-  check_says(in_mm(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), "cannot read the mesh");
+  check_contains(in_mm("/nowhere/crystal.stl"), "mesh file not found");
+  check_contains(in_mm("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
+  check_contains(in_mm("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
+  check_contains(in_mm(write("empty.obj", "")), {"mesh file", "empty"});
+  check_contains(in_mm(write("none.stl", "solid a\nendsolid a\n")), "no triangles");
+  check_contains(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 0.0), "unit = \"mm\"");
+  check_contains(in_mm(write("unit.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), -1.0),
+                 "not a positive length");
+  check_contains(in_mm(write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 1 1 1\nf 1 3 4\nf 1 2 3\n")),
+                 {"vertex 2 of triangle 2", "(nan, 0, 0)"});
+  check_contains(in_mm(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")), {"no triangle", "area"});
+  check_contains(in_mm(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), "cannot read the mesh");
 }
 
 TEST_CASE("Counts that cannot be true are refused before anything is allocated") {
   std::string stl(84, '\0');
   stl[80] = stl[81] = stl[82] = stl[83] = '\xff';
-  check_says(in_mm(write("count.stl", stl)), "announces 4294967295 triangles");
-  check_says(in_mm(write("short.stl", std::string(40, '\x01'))), "header of 84 bytes");
-  check_says(in_mm(write("count.off", "OFF\n4000000000 1 0\n0 0 0\n")), "announces 4000000000 vertices");
-  check_says(in_mm(write("count.ply",
-                         "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
-                         "end_header\n")),
-             "announces 4000000000 elements \"vertex\"");
+  check_contains(in_mm(write("count.stl", stl)), "announces 4294967295 triangles");
+  check_contains(in_mm(write("short.stl", std::string(40, '\x01'))), "header of 84 bytes");
+  check_contains(in_mm(write("count.off", "OFF\n4000000000 1 0\n0 0 0\n")), "announces 4000000000 vertices");
+  check_contains(in_mm(write("count.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                             "end_header\n")),
+                 "announces 4000000000 elements \"vertex\"");
   const std::string list_header =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uint int vertex_indices\nend_header\n";
-  check_says(in_mm(write("list.ply", list_header + "4000000000 0 0 0\n")),
-             "element \"face\" number 1 of 1 is missing or not a number");
-  check_says(in_mm(write("corner.ply", list_header + "3 0 1 2\n")), "refers to a vertex that does not exist");
-  check_says(in_mm(write("order.ply", "ply\nproperty float x\nend_header\n")),
-             "order.ply:2: error: a property");
-  check_says(in_mm(write("count.dae", "<COLLADA><float_array count=\"4000000000\"/></COLLADA>")),
-             "no visual scene");
-  check_says(in_mm(write("junk.3mf", "PK but not a zip")), "damaged zip archive");
+  check_contains(in_mm(write("list.ply", list_header + "4000000000 0 0 0\n")),
+                 {"element \"face\" number 1 of 1", "missing", "not a number"});
+  check_contains(in_mm(write("corner.ply", list_header + "3 0 1 2\n")), {"vertex", "not exist"});
+  check_contains(in_mm(write("order.ply", "ply\nproperty float x\nend_header\n")),
+                 "order.ply:2: error: a property");
+  check_contains(in_mm(write("count.dae", "<COLLADA><float_array count=\"4000000000\"/></COLLADA>")),
+                 "no visual scene");
+  check_contains(in_mm(write("junk.3mf", "PK but not a zip")), "damaged zip archive");
 }
 
 TEST_CASE("Malformed glTF gives messages") {
   const std::string asset = R"({"asset":{"version":"2.0"})";
-  check_says(in_mm(write("not.gltf", "not json")), "cannot read the glTF file");
-  check_says(in_mm(write("deep.gltf", std::string(100000, '['))), "nested more than 500 deep");
-  check_says(in_mm(write("cut.glb", "glTF")), "cannot read the glTF file");
-  check_says(in_mm(write("none.gltf", asset + "}")), "no triangles");
-  check_says(in_mm(write("loop.gltf", asset + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})")),
-             "inside itself");
-  check_says(in_mm(write("draco.gltf", asset + R"(,"extensionsRequired":["KHR_draco_mesh_compression"]})")),
-             "KHR_draco_mesh_compression");
+  check_contains(in_mm(write("not.gltf", "not json")), {"cannot read", "glTF"});
+  check_contains(in_mm(write("deep.gltf", std::string(100000, '['))), {"nested", "500 deep"});
+  check_contains(in_mm(write("cut.glb", "glTF")), {"cannot read", "glTF"});
+  check_contains(in_mm(write("none.gltf", asset + "}")), "no triangles");
+  check_contains(
+      in_mm(write("loop.gltf", asset + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"children":[0]}]})")),
+      "inside itself");
+  check_contains(
+      in_mm(write("draco.gltf", asset + R"(,"extensionsRequired":["KHR_draco_mesh_compression"]})")),
+      "KHR_draco_mesh_compression");
   const std::string head =
       asset + R"(,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":)";
-  check_says(in_mm(write("accessor.gltf", head + R"([{"attributes":{"POSITION":7}}]}]})")),
-             "accessor 7 does not exist");
+  check_contains(in_mm(write("accessor.gltf", head + R"([{"attributes":{"POSITION":7}}]}]})")),
+                 {"accessor 7", "not exist"});
   const std::string buffer = R"("bufferViews":[{"buffer":0,"byteLength":3}],"buffers":[{"byteLength":3,)"
                              R"("uri":"data:application/octet-stream;base64,AAAA"}]})";
-  check_says(
+  check_contains(
       in_mm(write("beyond.gltf", head +
                                      R"([{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
                                      R"("componentType":5126,"count":1000000000,"type":"VEC3"}],)" +
@@ -125,8 +129,10 @@ TEST_CASE("A file cut anywhere, or with a byte changed, is read or refused") {
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1/1 2/2 4/4\nf 2//2 3//3 4//4\nf 3 1 -1\n";
   const std::string off = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n4 0 1 2 3\n";
   std::size_t tried = 0;
-  for (const auto& [name, text] :
+  for (const auto& sound :
        {std::pair{"cut.stl", whole}, {"cut.ply", ply}, {"cut.obj", obj}, {"cut.off", off}}) {
+    const auto& name = sound.first;
+    const auto& text = sound.second;
     for (std::size_t at = 0; at < text.size(); at += text.size() / 60 + 1) {
       std::string changed = text;
       changed[at] = static_cast<char>(changed[at] ^ 0x15);

@@ -5,9 +5,11 @@
 #include <set>
 
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 TEST_CASE("A difference has its exact volume, and every triangle says what it is a piece of") {
   const TriMesh block = make_box({0, 0, 0}, {4, 4, 4}), rod = make_box({1, 1, -1}, {2, 3, 5});

@@ -9,8 +9,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 namespace scintray::test {
 
@@ -45,16 +46,16 @@ inline std::string quad_lines(const std::string& before, int first_index) {
   return text;
 }
 
-inline void check_box(const MeshImport& read, double mm_per_unit) {
+inline void check_box(const mesh::MeshImport& read, double mm_per_unit) {
   CHECK(read.mesh.vertices.size() == 8);
   CHECK(read.mesh.triangles.size() == 12);
   CHECK(read.mesh.volume() == doctest::Approx(6.0 * std::pow(mm_per_unit, 3)).epsilon(1e-6));
   CHECK(read.mesh.group.size() == 12);
-  CHECK(diagnose(read.mesh).sound());
+  CHECK(mesh::diagnose(read.mesh).sound());
 }
 
-inline void check_refused(const std::filesystem::path& path, double mm_per_unit, const std::string& words) {
-  CHECK_THROWS_WITH_AS(import_mesh(path, mm_per_unit), doctest::Contains(words.c_str()), InputError);
+inline void check_refused(const std::filesystem::path& path, double mm_per_unit, const Fragments& fragments) {
+  check_contains(complaint_of([&] { mesh::import_mesh(path, mm_per_unit); }), fragments);
 }
 
 }  // namespace scintray::test

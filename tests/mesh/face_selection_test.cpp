@@ -6,9 +6,11 @@
 #include <set>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 
@@ -101,15 +103,4 @@ TEST_CASE("Conditions combine, and nearest is one triangle") {
   nearest.nearest = Vec3(0.9, 1.9, -4.0);
   CHECK(count(kBox, nearest) == 1);
   CHECK(groups_where(kBox, nearest) == std::set<std::string>{"-z"});
-}
-
-TEST_CASE("Distance to a triangle in each of its Voronoi regions") {
-  TriMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  const std::pair<Vec3, double> cases[] = {{{1, 1, 2}, 2.0},  {{-3, -4, 0}, 5.0}, {{7, -4, 0}, 5.0},
-                                           {{-4, 7, 0}, 5.0}, {{2, -1, 0}, 1.0},  {{4, 4, 0}, std::sqrt(8.0)},
-                                           {{-2, 1, 0}, 2.0}};
-  for (const auto& [point, distance] : cases)
-    CHECK(distance_to_triangle(mesh, 0, point) == doctest::Approx(distance));
 }

@@ -3,6 +3,8 @@
 #include "scintray/mesh/face_selection.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {

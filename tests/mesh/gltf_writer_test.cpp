@@ -1,13 +1,15 @@
-#include "scintray/mesh/gltf_writer.hpp"
+#include "scintray/mesh/export/gltf_writer.hpp"
 
 #include <doctest/doctest.h>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 TEST_CASE("A mesh comes back from glTF with its groups, in millimetres") {
   const auto path = test::scratch_folder("gltf_writer") / "box.glb";

@@ -6,10 +6,12 @@
 
 #include "mesh/box_files.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/polygon.hpp"
+#include "scintray/mesh/shapes/polygon.hpp"
 #include "scintray/mesh/weld.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {

@@ -1,4 +1,4 @@
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,13 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/stl_writer.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 

@@ -2,12 +2,14 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 
 // Meshes of public collections and what their own projects say is wrong with them.
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 
@@ -73,7 +75,9 @@ TEST_CASE("Sound meshes of the collections are found sound, with their volumes")
                                                   {"trimesh/nancolor.obj", 1.0},
                                                   {"trimesh/two_objects_mixed_case_names.stl", 2.0},
                                                   {"assimp/box_mat_with_spaces.obj", 1.0}};
-  for (const auto& [name, volume] : cases) {
+  for (const auto& row : cases) {
+    const auto& name = row.first;
+    const auto& volume = row.second;
     CAPTURE(name);
     const auto mesh = read(name);
     if (!mesh) return;

@@ -1,13 +1,14 @@
 #include <doctest/doctest.h>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/repair.hpp"
+#include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 #include "support/shared.hpp"
 
 // What is wrong with meshes of public collections, and what repair makes of each.
 
 using namespace scintray;
+using namespace scintray::mesh;
 
 namespace {
 
@@ -94,7 +95,7 @@ TEST_CASE("Meshes of public collections: what each is diagnosed as, and what rep
     CHECK(repaired.after.bodies == expected.bodies);
     if (expected.mended)
       CHECK(repaired.after.volume_mm3 == doctest::Approx(expected.volume_mm3).epsilon(1e-4));
-    // Nothing is said to be mended that is not, and nothing changes that was sound.
+    // Nothing is stated to be mended that is not, and nothing changes that was sound.
     CHECK(repaired.after.sound() == mesh_problems(repaired.after, "x").empty());
   }
 }

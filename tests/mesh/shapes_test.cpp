@@ -1,4 +1,4 @@
-#include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,8 @@
 #include "scintray/mesh/diagnosis.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "scintray/mesh/solids.hpp"
+#include "scintray/mesh/shapes/solids.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,13 +7,15 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/combine.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/export/ply_writer.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/import.hpp"
-#include "scintray/mesh/ply_writer.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 
 namespace {
 

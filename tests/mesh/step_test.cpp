@@ -8,7 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/import.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 #include "support/step_shapes.hpp"
 
@@ -16,6 +16,8 @@
 // tested is what becomes of them in ScintRay.
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
 using namespace scintray::test;
 
 namespace {
@@ -122,8 +124,8 @@ TEST_CASE("STEP: curved faces keep the tolerance that is asked for, and the note
     CHECK(reached > 0.0);
     CHECK(reached < deviation);
     REQUIRE(read.notes.size() == 1);
-    check_says(read.notes[0], "curved CAD faces cut in triangles within");
-    check_says(read.notes[0], "20 deg");
+    check_contains(read.notes[0], {"curved CAD faces", "triangles within"});
+    check_contains(read.notes[0], "20 deg");
     double noted = 0.0;
     std::istringstream(read.notes[0].substr(read.notes[0].find("within ") + 7)) >> noted;
     CHECK(noted == doctest::Approx(reached).epsilon(0.01));
@@ -163,7 +165,7 @@ TEST_CASE("STEP: the unit is the file's, inches too, and another one is refused"
   CHECK(import_mesh(scratch("shape.step"), same).mesh.volume() == doctest::Approx(read.mesh.volume()));
   CHECK(import_mesh(scratch("shape.step"), scaled).mesh.volume() ==
         doctest::Approx(read.mesh.volume() / 8.0));
-  check_says(message(scratch("shape.step"), other), "the file says that it is in INCH (25.4 mm)");
+  check_contains(message(scratch("shape.step"), other), "in INCH (25.4 mm)");
   write_step(scratch("metres.step"), {body}, "M");
   CHECK(import_mesh(scratch("metres.step"), 1000.0).mesh.volume() == doctest::Approx(6e9).epsilon(1e-9));
 }
@@ -177,7 +179,7 @@ TEST_CASE("STEP: one solid of several is chosen by name or number, and no choice
   CHECK(all.bodies == std::vector<std::string>{"crystal", "crystal 2", "light guide"});
   CHECK(all.mesh.volume() == doctest::Approx(360.0));
   REQUIRE(all.notes.size() == 1);
-  check_says(all.notes[0], "3 bodies, all taken together as one part: \"crystal\", \"crystal 2\"");
+  check_contains(all.notes[0], {"3 bodies", "one part", "\"crystal\", \"crystal 2\""});
   ImportOptions options;
   for (const char* chosen : {"crystal 2", "2"}) {
     options.body = chosen;
@@ -188,9 +190,9 @@ TEST_CASE("STEP: one solid of several is chosen by name or number, and no choice
     CHECK(one.notes.empty());
   }
   options.body = "cristal";
-  check_says(message(scratch("shape.step"), options), "did you mean \"crystal\"?");
+  check_contains(message(scratch("shape.step"), options), "did you mean \"crystal\"?");
   options.body = "4";
-  check_says(message(scratch("shape.step"), options), "the file has no body \"4\"");
+  check_contains(message(scratch("shape.step"), options), {"no body", "\"4\""});
 }
 
 TEST_CASE("STEP: what is no shape is refused with the file's name and a way out") {
@@ -198,17 +200,18 @@ TEST_CASE("STEP: what is no shape is refused with the file's name and a way out"
     std::ofstream(scratch(name), std::ios::binary) << text;
     return scratch(name);
   };
-  check_says(message(write("empty.step", "")), "the mesh file is empty");
-  check_says(message(write("text.stp", "hello")), "cannot read the STEP file");
-  check_says(message(write("none.step",
-                           "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),"
-                           "'','','');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\nENDSEC;\n"
-                           "END-ISO-10303-21;\n")),
-             "none.step");
+  check_contains(message(write("empty.step", "")), {"mesh file", "empty"});
+  check_contains(message(write("text.stp", "hello")), {"cannot read", "STEP"});
+  check_contains(
+      message(write("none.step",
+                    "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),"
+                    "'','','');\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\nENDSEC;\n"
+                    "END-ISO-10303-21;\n")),
+      "none.step");
   ImportOptions options;
   options.tessellation.deviation_mm = 1e-9;
   write_step(scratch("fine.step"), {crystal()});
-  check_says(message(scratch("fine.step"), options), "finer than a millionth");
+  check_contains(message(scratch("fine.step"), options), "finer than a millionth");
 }
 
 TEST_CASE("STEP: references that form a loop or lead nowhere are refused before anything follows them") {
@@ -229,10 +232,9 @@ TEST_CASE("STEP: references that form a loop or lead nowhere are refused before 
       sound.substr(reference, sound.find_first_not_of("0123456789", reference + 1) - reference);
   const std::size_t line = sound.rfind('\n', face) + 1;
   const std::string own = sound.substr(line, sound.find(' ', line) - line);
-  check_says(message(changed("ADVANCED_FACE", target, own)),
-             own + " refers to " + own + ", which is made of it");
-  check_says(message(changed("ADVANCED_FACE", target, "#999999")),
-             "refers to #999999, which is not in the file");
+  check_contains(message(changed("ADVANCED_FACE", target, own)),
+                 own + " refers to " + own + ", which is made of it");
+  check_contains(message(changed("ADVANCED_FACE", target, "#999999")), {"#999999", "not in the file"});
 }
 
 TEST_CASE("STEP: what makes Open CASCADE crash is an error of the file") {
@@ -245,7 +247,7 @@ TEST_CASE("STEP: what makes Open CASCADE crash is an error of the file") {
   const std::size_t edge = text.find("EDGE_CURVE"), vertex = text.find('#', edge);
   text.replace(vertex, text.find(',', vertex) - vertex, number);
   std::ofstream(scratch("crash.step"), std::ios::binary) << text;
-  check_says(message(scratch("crash.step")), "crash.step");
+  check_contains(message(scratch("crash.step")), "crash.step");
   // And this program goes on.
   CHECK(import_mesh(scratch("sound.step"), 0.0).mesh.triangles.size() == 12);
 }

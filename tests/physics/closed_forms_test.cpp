@@ -1,16 +1,25 @@
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <regex>
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/primitives.hpp"
-#include "scintray/mesh/stl_writer.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/surface/fresnel.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/optics/fresnel.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {
@@ -100,12 +109,45 @@ TEST_CASE("Law: diffuse reflectance of a smooth interface, both ways, and its n 
       Ray ray;
       ray.direction = sample_lambertian(-Vec3::UnitZ(), rng);
       ray.polarisation = sample_polarisation(ray.direction, rng);
-      reflected += !meet_facet(ray, Vec3::UnitZ(), n1, n2, rng);
+      reflected += !interact_at_facet(ray, Vec3::UnitZ(), n1, n2, rng);
       REQUIRE(std::abs(ray.direction.norm() - 1.0) < 1e-12);
       REQUIRE(std::abs(ray.polarisation.dot(ray.direction)) < 1e-9);
     }
     check_law("reflected", binomial_estimate(reflected, kRays), {expected, 1e-6});
   }
+}
+
+TEST_CASE("Law: critical and Brewster angles, reflectances and escape cones for pairs of indices") {
+  // Independent numbers, rounded to 1e-6, or 1e-4 deg; Simpson's rule is good to 3e-6 where the reflectance
+  // rises steeply below the critical angle.
+  constexpr double kRounding = 5.1e-7, kIntegral = 4e-6, kAngle = 5.1e-5;
+  std::ifstream stream(source_file("tests/reference/analytic_checks.txt"));
+  const std::regex decimal(R"(-?\d+\.\d+)");
+  std::size_t pairs = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.rfind("n1=", 0) != 0) continue;
+    CAPTURE(line);
+    std::vector<double> number;
+    for (std::sregex_iterator found(line.begin(), line.end(), decimal), end; found != end; ++found)
+      number.push_back(std::stod(found->str()));
+    REQUIRE(number.size() == 12);
+    const double n1 = number[0], n2 = number[1], critical = critical_angle(n1, n2);
+    const auto transmitted = [&](double t) { return 0.5 * (1.0 - unpolarised(t, n1, n2)) * std::sin(t); };
+    const double cone = 0.5 * (1.0 - std::cos(critical)), internal = diffuse_reflectance(n1, n2);
+    CHECK(std::abs(critical / kDegree - number[2]) < kAngle);
+    CHECK(std::abs(unpolarised(0.0, n1, n2) - number[3]) < kRounding);
+    CHECK(std::abs(cone - number[4]) < kRounding);
+    CHECK(std::abs(6.0 * cone - number[5]) < kRounding);
+    CHECK(std::abs(1.0 - 6.0 * cone - number[6]) < kRounding);
+    CHECK(std::abs(integrate(transmitted, 0.0, critical) - number[7]) < kIntegral);
+    CHECK(std::abs(internal - number[8]) < kIntegral);
+    const double external = diffuse_reflectance(n2, n1);
+    CHECK(std::abs(external - number[9]) < kIntegral);
+    CHECK(std::abs(1.0 - (1.0 - external) * n2 * n2 / (n1 * n1) - number[10]) < kIntegral);
+    CHECK(std::abs(std::atan(n2 / n1) / kDegree - number[11]) < kAngle);
+    ++pairs;
+  }
+  CHECK(pairs == 10);
 }
 
 TEST_CASE("Law: light trapped for ever in a lossless polished box, 3 cos(tc) - 2") {
@@ -234,7 +276,9 @@ TEST_CASE("Law: mean chord 4V/S in isotropic light, unchanged by scattering") {
   // Isotropic uniform light enters through every wall alike, as Lambert's law. (Photons started in the
   // volume would find long chords more often than short ones.)
   for (const std::string medium : {"vacuum_n1", "cloudy_n1"}) {
-    for (const auto& [size, expected] : {std::pair{"2", 1.905}, std::pair{"5", 4.444}}) {
+    for (const auto& row : {std::pair{"2", 1.905}, std::pair{"5", 4.444}}) {
+      const auto& size = row.first;
+      const auto& expected = row.second;
       const SceneSpec spec = scene_spec(std::string(R"(
 ambient = "vacuum_n1"
 [[part]]

@@ -2,9 +2,12 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
-#include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {
@@ -61,8 +64,10 @@ TEST_CASE("Law: a Winston trough takes in all light up to its acceptance angle, 
   const double length = winston_length(2.0, 30.0 * kDegree);
   const std::string shape =
       R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", trough = "5 mm", rings = 400 })";
-  for (const auto& [angle, expected] : {std::pair{0.0, 1.0}, std::pair{15.0, 1.0}, std::pair{29.5, 1.0},
-                                        std::pair{30.5, 0.0}, std::pair{45.0, 0.0}}) {
+  for (const auto& row : {std::pair{0.0, 1.0}, std::pair{15.0, 1.0}, std::pair{29.5, 1.0},
+                          std::pair{30.5, 0.0}, std::pair{45.0, 0.0}}) {
+    const auto& angle = row.first;
+    const auto& expected = row.second;
     CAPTURE(angle);
     const Traced traced = trace(hollow_taper(shape, length, beam(angle), 20'000));
     CHECK(traced.result.count(expected > 0.0 ? Fate::escaped : Fate::detected) == 0);
@@ -83,7 +88,7 @@ TEST_CASE("Law: etendue: of Lambert's light into a taper the share of the areas 
   // by reversal what gets through has the etendue of the narrow end, pi A_out (Liouville's theorem).
   const double length = winston_length(2.0, 30.0 * kDegree);
   for (
-      const auto& [shape, height] :
+      const auto& row :
       {std::pair<std::string, double>{
            R"(tapered = { bottom = ["2 mm", "3 mm"], top = ["6 mm", "4 mm"], height = "9 mm" })", 9.0},
        std::pair<std::string, double>{
@@ -91,6 +96,8 @@ TEST_CASE("Law: etendue: of Lambert's light into a taper the share of the areas 
        std::pair<std::string, double>{
            R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", length = "6 mm", segments = 24, rings = 16 })",
            6.0}}) {
+    const auto& shape = row.first;
+    const auto& height = row.second;
     CAPTURE(shape);
     const Traced traced = trace(hollow_taper(shape, height, "{ lambertian = [0, 0, -1] }", 100'000));
     const Scene& scene = traced.built.scene;

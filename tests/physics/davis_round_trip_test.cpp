@@ -5,13 +5,17 @@
 
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
-#include "scintray/io/exchange/davis.hpp"
+#include "scintray/exchange/davis.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
+using namespace scintray::exchange;
 using namespace scintray::test;
 
 namespace {

@@ -2,16 +2,18 @@
 #include <doctest/doctest.h>
 
 #include "physics/traced.hpp"
-#include "scintray/analysis/event_study.hpp"
+#include "scintray/analysis/event_analysis.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {
 
 /// A bare crystal 2 x 2 x 20 mm3 with a sensor at both ends; its sides have this surface.
-EventStudy dual_ended(const std::string& sides) {
+EventAnalysis dual_ended(const std::string& sides) {
   const Traced traced = trace(fmt::format(R"(
 ambient = "air"
 [[part]]
@@ -44,17 +46,17 @@ region = {{ part = "crystal" }}
 energy = "60 keV"
 )",
                                           sides));
-  StudySetup setup;
+  AnalysisSetup setup;
   setup.channels_mm = {Vec3(0.0, 0.0, -0.5), Vec3(0.0, 0.0, 20.5)};
   setup.depth = DepthAxis{};
   setup.ratio = EndRatio::logarithm;
-  return study_events(traced.events, setup);
+  return analyze_events(traced.events, setup);
 }
 
 }  // namespace
 
 TEST_CASE("Ground sides resolve depth of interaction, polished ones do not") {
-  const EventStudy ground = dual_ended("lso_ground_30um");
+  const EventAnalysis ground = dual_ended("lso_ground_30um");
   REQUIRE(ground.doi);
   CHECK(ground.pulses == 600);
   const double middle = ground.doi->calibration.depth(0.0);
@@ -66,7 +68,7 @@ TEST_CASE("Ground sides resolve depth of interaction, polished ones do not") {
 
   // Light in a polished crystal goes to the ends in equal shares but for absorption: there is no answer, or
   // one that is several times worse.
-  const EventStudy polished = dual_ended("flat");
+  const EventAnalysis polished = dual_ended("flat");
   CHECK((!polished.doi ||
          polished.doi->residual.quantile_fwhm.value > 3.0 * ground.doi->residual.quantile_fwhm.value));
   // What the ground sides scatter out of the crystal is the price.

@@ -8,10 +8,17 @@
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/io/fit_scene.hpp"
+#include "scintray/simulation/fit_scene.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
@@ -34,7 +41,8 @@ struct FitCase {
 };
 
 std::string fit_scene_text(const FitCase& c, const std::filesystem::path& csv) {
-  std::string text = c.scene + kLibrary + fmt::format("[fit]\nmeasurement = \"{}\"\n{}", csv.string(), c.fit);
+  std::string text =
+      c.scene + kDatabase + fmt::format("[fit]\nmeasurement = \"{}\"\n{}", csv.string(), c.fit);
   for (const FittedKey& key : c.keys)
     text += fmt::format("[[fit.parameter]]\nkey = \"{}\"\nstart = {}\nlow = {}\nhigh = {}\n", key.key,
                         key.start, key.low, key.high);
@@ -262,9 +270,8 @@ TEST_CASE("Common random numbers lessen the noise of differences of curves") {
 TEST_CASE("The made-up measurement that is shipped is what its scene gives with the seed it names") {
   const SceneFile file = SceneFile::load(source_file("scenes/fit_depth_curve.toml"));
   SimulationOptions options;
-  options.output = scratch_folder("fit_shipped") / "run.h5";
   options.seed = 7;
-  const RunResult run = simulate(file, options);
+  const RunResult run = Simulation(file, options).run_all();
   const MeasuredCurve measured = read_measured_curve(source_file("scenes/fit_depth_curve.csv"));
   REQUIRE(run.points.size() == measured.points.size());
   for (std::size_t i = 0; i < run.points.size(); ++i) {

@@ -9,12 +9,19 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
 using namespace scintray::test;
 using nlohmann::json;
 
 namespace {
 
-/// Crystal, grease, detector and source of a reference run; the README beside the runs describes them.
+json reference_run(const std::string& name) {
+  std::ifstream stream(source_file("tests/reference/geant4/" + name + ".json"));
+  return json::parse(stream);
+}
+
+/// Crystal, grease, detector and source of a reference run; tests/reference/README.md describes them.
 std::string reference_scene(const json& config, const std::string& surface, std::uint64_t seed) {
   const bool volume = config["source"] == "volume" || config["z0_mm"].is_null();
   CrystalScene scene{"lso", surface, "", 200'000, R"(, gap = "0.1 mm", fill = "n15")"};
@@ -167,10 +174,7 @@ void compare_run(const json& run, const std::string& name, const std::string& sc
 
 void compare_finish(const std::string& prefix) {
   for (const std::string place : {"vol", "z02", "z06", "z10", "z14", "z18"}) {
-    const auto file = shared_file("reference/geant4/phys_" + prefix + "_w2_" + place + ".json");
-    if (!file) return;
-    std::ifstream stream(*file);
-    const json run = json::parse(stream);
+    const json run = reference_run("phys_" + prefix + "_w2_" + place);
     json config = run["config"];
     if (place == "vol") config["source"] = "volume";
     compare_run(run, prefix + ", " + place, scene_for(config, seed_of(prefix + place)));
@@ -187,10 +191,7 @@ TEST_CASE("Geant4: polished crystal in a box of Lambertian tape") { compare_fini
 TEST_CASE("Geant4: arrays of polished crystals with air gaps share light alike") {
   for (const std::string name :
        {"array3x3_polished_w2_z02", "array3x3_polished_w2_z10", "array5x5_polished_w2_z10"}) {
-    const auto file = shared_file("reference/geant4/" + name + ".json");
-    if (!file) return;
-    std::ifstream stream(*file);
-    const json run = json::parse(stream);
+    const json run = reference_run(name);
     const int n = run["config"]["array"];
     const double pitch = run["config"]["width_mm"].get<double>() + run["config"]["air_gap_mm"].get<double>();
     // The crystal of the source, at the centre, then its neighbours, each with its grease and detector.

@@ -5,13 +5,20 @@
 #include "physics/traced.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/shapes.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "scintray/scene/place_parts.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/surface/fresnel.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {
@@ -49,7 +56,9 @@ class BoundaryPoints {
 }  // namespace
 
 TEST_CASE("Law: integrating sphere f / (1 - rho (1 - f)), f by the area of the tessellation") {
-  for (const auto& [subdivisions, reflectance] : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
+  for (const auto& row : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
+    const auto& subdivisions = row.first;
+    const auto& reflectance = row.second;
     const Traced traced = trace(fmt::format(R"(
 ambient = "vacuum_n1"
 [[part]]

@@ -2,6 +2,8 @@
 #include "physics/traced.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {
@@ -138,15 +140,15 @@ specular_share = 0.0
   const double port = face_area(scene, "sphere:port");
   const double f = port / (port + face_area(scene, "sphere:other"));
   CHECK(f > 0.05);
-  const double meetings = 1.0 / (1.0 - kReflectance * (1.0 - f));
+  const double interactions = 1.0 / (1.0 - kReflectance * (1.0 - f));
   check_fraction(traced.result, Fate::absorbed_at_surface,
-                 (1.0 - f) * (1.0 - kReflectance - kTransmittance) * meetings);
-  check_fraction(traced.result, Fate::escaped, (f + (1.0 - f) * kTransmittance) * meetings);
+                 (1.0 - f) * (1.0 - kReflectance - kTransmittance) * interactions);
+  check_fraction(traced.result, Fate::escaped, (f + (1.0 - f) * kTransmittance) * interactions);
   REQUIRE(traced.result.tallies.size() == 2);
   check_law("through the wall", traced.result.tallies[0].per_photon(0, traced.result.photons),
-            {(1.0 - f) * kTransmittance * meetings, 0.0});
+            {(1.0 - f) * kTransmittance * interactions, 0.0});
   check_law("through the port", traced.result.tallies[1].per_photon(0, traced.result.photons),
-            {f * meetings, 0.0});
+            {f * interactions, 0.0});
 }
 
 TEST_CASE("A photon that passes a sheet into an opaque part ends in it") {

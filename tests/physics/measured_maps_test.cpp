@@ -3,6 +3,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
 using namespace scintray::test;
 
 namespace {

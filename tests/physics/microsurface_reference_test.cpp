@@ -8,30 +8,33 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
 using namespace scintray::test;
 
 namespace {
 
 /// An independent program's numbers: 2 x 2 x 20 mm3, rough Gaussian map on five faces, 100,000 photons a
-/// depth; the README beside the maps describes the geometry.
+/// depth; tests/reference/README.md describes the geometry.
 struct Depth {
   double z_mm, detected, interactions;
 };
 constexpr std::array<Depth, 5> kRough{
     {{2, 0.2117, 3.55}, {6, 0.1237, 3.90}, {10, 0.0764, 4.09}, {14, 0.0496, 4.11}, {18, 0.0363, 4.12}}};
 constexpr double kReferencePhotons = 100'000;
-/// Share of photons that the reference program says it may have misclassified.
+/// Share of photons that the reference program states it may have misclassified.
 constexpr double kReferenceSystematic = 0.003;
 
-std::string scene(double z_mm, const std::string& map, const std::string& mode, std::uint64_t photons) {
+std::string rough_map() { return source_file("tests/reference/microsurface/gaussian_rough.gsf").string(); }
+
+std::string scene_text(double z_mm, const std::string& map, const std::string& mode, std::uint64_t photons) {
   return rough_crystal(z_mm, {map, "none", true, mode}, photons);
 }
 
 void compare_with_reference(const std::string& mode) {
-  const auto map = shared_file("reference/microsurface/gaussian_rough.gsf");
-  if (!map) return;
+  const std::string map = rough_map();
   for (const Depth& depth : kRough) {
-    const PointResult result = trace(scene(depth.z_mm, map->string(), mode, 200'000)).result;
+    const PointResult result = trace(scene_text(depth.z_mm, map, mode, 200'000)).result;
     const Estimate detected = result.fraction(Fate::detected);
     const Estimate reference = binomial_estimate(
         static_cast<std::uint64_t>(depth.detected * kReferencePhotons + 0.5), kReferencePhotons);
@@ -63,11 +66,10 @@ TEST_CASE("Microsurface: crystal with the table of the map agrees with an indepe
 }
 
 TEST_CASE("Microsurface: light output with the table equals that with the map traced on the spot") {
-  const auto map = shared_file("reference/microsurface/gaussian_rough.gsf");
-  if (!map) return;
+  const std::string map = rough_map();
   for (const double z : {2.0, 18.0}) {
-    const PointResult spot = trace(scene(z, map->string(), "on_the_spot", 400'000)).result;
-    const PointResult table = trace(scene(z, map->string(), "table", 400'000)).result;
+    const PointResult spot = trace(scene_text(z, map, "on_the_spot", 400'000)).result;
+    const PointResult table = trace(scene_text(z, map, "table", 400'000)).result;
     for (const Fate fate : {Fate::detected, Fate::escaped, Fate::absorbed_in_medium}) {
       CAPTURE(z);
       CAPTURE(fate_name(fate));

@@ -4,13 +4,17 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "scintray/analysis/bench_surface.hpp"
-#include "scintray/analysis/goniometer.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/analysis/goniometer/goniometer.hpp"
+#include "scintray/analysis/goniometer/sample_surface.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {
@@ -20,20 +24,20 @@ constexpr double kStep_deg = 2.5;
 /// are not compared with Fresnel.
 constexpr double kBlur_deg = 5.0;
 
-const BenchSurface& bench(const std::string& surface, const std::string& outside) {
-  static SurfaceMaker maker;
-  static std::map<std::string, BenchSurface> made;
+const SampleSurface& sample(const std::string& surface, const std::string& outside) {
+  static SurfaceFactory factory;
+  static std::map<std::string, SampleSurface> made;
   const std::string key = surface + "|" + outside;
   if (const auto found = made.find(key); found != made.end()) return found->second;
   return made
-      .emplace(key, make_bench_surface(Library::shipped(), maker,
-                                       {surface, "LSO_roncali2013", outside, 420.0}, true))
+      .emplace(key, make_sample_surface(MaterialDatabase::shipped(), factory,
+                                        {surface, "LSO_roncali2013", outside, 420.0}, true))
       .first->second;
 }
 
 Estimate slope_deg(const std::string& surface, double incidence_deg) {
   const Estimate slope =
-      mean_slope_met(bench(surface, "vacuum").surface, Side::inside, incidence_deg * kDegree);
+      mean_visible_slope(sample(surface, "vacuum").surface, Side::inside, incidence_deg * kDegree);
   return {slope.value / kDegree, slope.error / kDegree};
 }
 
@@ -54,7 +58,7 @@ struct Point {
 
 /// Reflectance from inside at steps of 2.5 deg up to 85 deg.
 std::vector<Point> reflectances(const std::string& surface, const std::string& outside) {
-  const BenchSurface& on_bench = bench(surface, outside);
+  const SampleSurface& sample_there = sample(surface, outside);
   GoniometerSettings settings;
   settings.wavelength_nm = 420.0;
   settings.rays = 100'000;
@@ -62,16 +66,16 @@ std::vector<Point> reflectances(const std::string& surface, const std::string& o
   for (double angle = 0.0; angle < 86.0; angle += kStep_deg) angles.push_back(angle * kDegree);
   std::vector<Point> points;
   for (const GoniometerReading& reading :
-       sweep_incidence(on_bench.surface, on_bench.index, settings, angles)) {
+       sweep_incidence(sample_there.surface, sample_there.index, settings, angles)) {
     const double cosine = std::cos(reading.settings.incidence_rad);
     points.push_back({reading.settings.incidence_rad / kDegree, reading.reflectance(),
-                      fresnel(cosine, on_bench.index.inside, on_bench.index.outside).unpolarised()});
+                      fresnel(cosine, sample_there.index.inside, sample_there.index.outside).unpolarised()});
   }
   return points;
 }
 
 double critical_deg(const std::string& outside) {
-  const IndexPair& index = bench("polished", outside).index;
+  const IndexPair& index = sample("polished", outside).index;
   return std::asin(index.outside / index.inside) / kDegree;
 }
 
@@ -164,8 +168,8 @@ TEST_CASE(
   settings.incidence_rad = 45.0 * kDegree;
   settings.rays = 200'000;
   const auto read = [&](const std::string& surface) {
-    const BenchSurface& on_bench = bench(surface, kAir);
-    return read_goniometer(on_bench.surface, on_bench.index, settings);
+    const SampleSurface& sample_there = sample(surface, kAir);
+    return read_goniometer(sample_there.surface, sample_there.index, settings);
   };
   const GoniometerReading polished = read("lso_polished"), rough = read("lso_ground_30um");
   for (const auto& [name, reading] : {std::pair("polished", &polished), std::pair("ground", &rough)})

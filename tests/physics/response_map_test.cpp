@@ -4,6 +4,12 @@
 #include "trace/mapped.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
@@ -121,15 +127,15 @@ photons = 100_000
 [run]
 photon_list = true
 )"));
-  const auto light = make_light_source(photons, scene.built.scene);
-  const TallyPlan plan(scene.built.scene, photons);
+  const SimulationPoint light(photons, scene.point->built());
+  const TallyPlan& plan = light.plan();
   std::vector<std::vector<double>> traced(2), mapped(2);
   RunHooks hooks;
   hooks.detected = [&](const std::vector<DetectedPhoton>& list) {
     for (const DetectedPhoton& photon : list)
       traced[plan.channels.list[0].part == photon.part ? 0 : 1].push_back(photon.time_ns);
   };
-  run_point(scene.built.scene, *light, plan, {}, hooks);
+  light.trace(hooks);
 
   Rng rng(1, StreamKind::other, 0);
   const PartInfo& crystal = scene.built.scene.parts.at(0);

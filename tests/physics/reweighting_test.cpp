@@ -1,13 +1,20 @@
 // Results reweighted from their photon histories against runs retraced with the wanted optics.
-#include "scintray/io/reweigh.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/reweight.hpp"
+#include "scintray/simulation/simulation.hpp"
 
 #include "physics/traced.hpp"
-#include "scintray/io/results.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::results;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
@@ -21,7 +28,7 @@ struct Optics {
 };
 
 /// A crystal whose free faces have the surface "side", with photons or events, on a detector.
-struct Bench {
+struct Setup {
   std::string side;  ///< definitions; {0} is the reflectance
   std::string source;
   std::string medium = "absorption = {{ length = \"{0} mm\" }}";
@@ -56,18 +63,18 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
 )" + fmt::format(fmt::runtime(medium), optics.length_mm) +
            "\n[source]\nregion = { part = \"crystal\" }\n" + source +
            fmt::format("\n[run]\nphoton_history = true\nseed = {}\n", seed) +
-           fmt::format(fmt::runtime(side), optics.reflectance) + kLibrary;
+           fmt::format(fmt::runtime(side), optics.reflectance) + kDatabase;
   }
 
   /// Runs into a file of its own.
   std::filesystem::path run(const Optics& optics, std::uint64_t seed) const {
+    const auto output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
     SimulationOptions options;
-    options.output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
     options.surface_hooks.cache.clear();
-    simulate(SceneFile::from_text(text(optics, seed),
-                                  (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string()),
-             options);
-    return options.output;
+    ResultsFile results(output);
+    Simulation(SceneFile::from_text(text(optics, seed), source_file("test.toml").string()), options)
+        .run_all(results);
+    return output;
   }
 };
 
@@ -102,9 +109,9 @@ reflectance = {{ value = {0} }}
 direction = {{ specular_share = 0.0 }}
 )";
 
-std::vector<ReweighedPoint> reweigh(const std::filesystem::path& path,
-                                    const std::vector<PropertyScan>& scans) {
-  return reweigh_results(path, read_results(path), scans);
+std::vector<ReweightedPoint> reweight(const std::filesystem::path& path,
+                                      const std::vector<PropertyScan>& scans) {
+  return reweight_results(path, read_results(path), scans);
 }
 
 PropertyScan length_of_crystal(double length_mm) {
@@ -112,9 +119,9 @@ PropertyScan length_of_crystal(double length_mm) {
 }
 
 /// Reweights one run to others, which are retraced; all must be valid and agree.
-void check_retraced(const Bench& bench, const Optics& traced, const std::vector<Optics>& wanted,
+void check_retraced(const Setup& setup, const Optics& traced, const std::vector<Optics>& wanted,
                     const std::string& reflector, std::uint64_t seed) {
-  const auto path = bench.run(traced, seed);
+  const auto path = setup.run(traced, seed);
   for (const Optics& other : wanted) {
     CAPTURE(other.length_mm);
     CAPTURE(other.reflectance);
@@ -122,8 +129,8 @@ void check_retraced(const Bench& bench, const Optics& traced, const std::vector<
     if (other.length_mm != traced.length_mm) scans.push_back(length_of_crystal(other.length_mm));
     if (other.reflectance != traced.reflectance)
       scans.push_back({reflectance, reflector, false, {other.reflectance}});
-    const ReweighedPoint point = reweigh(path, scans).at(0);
-    const RunResult retraced = read_results(bench.run(other, ++seed));
+    const ReweightedPoint point = reweight(path, scans).at(0);
+    const RunResult retraced = read_results(setup.run(other, ++seed));
     CAPTURE(point.light.reason);
     CHECK(point.light.valid);
     check_law("detected", point.light.detected_fraction, retraced.points[0].fraction(Fate::detected));
@@ -151,53 +158,53 @@ TEST_CASE("Law: a mixture whose parts share a reflector, reweighted, is the one 
 }
 
 TEST_CASE("Law: an absorption against wavelength, times two, is the one retraced") {
-  Bench bench{
+  Setup setup{
       kBare, "type = \"photons\"\nwavelength = \"emission\"\nphotons = 60_000",
       R"(absorption = {{ length = {{ wavelength = [300, 400, 450, 700], wavelength_unit = "nm", value = [{0}, {0}, 200, 400], value_unit = "mm" }} }})"};
-  const auto path = bench.run({30.0, 0.0}, 9500);
-  Bench longer = bench;
+  const auto path = setup.run({30.0, 0.0}, 9500);
+  Setup longer = setup;
   longer.medium =
       R"(absorption = {{ coefficient = {{ wavelength = [300, 400, 450, 700], wavelength_unit = "nm", value = [{0}, {0}, 0.0025, 0.00125], value_unit = "1/mm" }} }})";
   const RunResult retraced = read_results(longer.run({0.5 / 30.0, 0.0}, 9501));
-  Bench even{kBare, bench.source};
+  Setup even{kBare, setup.source};
   const RunResult constant = read_results(even.run({80.0, 0.0}, 9502));
-  const auto points = reweigh(path, {{absorption_length, "crystal_lso", true, {2.0}}});
+  const auto points = reweight(path, {{absorption_length, "crystal_lso", true, {2.0}}});
   CHECK(points.at(0).light.valid);
   // Lengths are tabulated as coefficients, linear between wavelengths.
   check_law("twice", points[0].light.detected_fraction, retraced.points[0].fraction(Fate::detected));
-  check_law("constant", reweigh(path, {length_of_crystal(80.0)}).at(0).light.detected_fraction,
+  check_law("constant", reweight(path, {length_of_crystal(80.0)}).at(0).light.detected_fraction,
             constant.points[0].fraction(Fate::detected));
 }
 
 TEST_CASE("Law: light per event, reweighted, is that of events retraced") {
-  Bench bench{kRoughWrapped, "type = \"gamma_events\"\nenergy = \"20 keV\"\nevents = 150"};
-  const auto path = bench.run({100.0, 0.9}, 9600);
-  const auto point = reweigh(path, {length_of_crystal(200.0), {reflectance, "side", false, {0.95}}}).at(0);
-  const RunResult retraced = read_results(bench.run({200.0, 0.95}, 9601));
+  Setup setup{kRoughWrapped, "type = \"gamma_events\"\nenergy = \"20 keV\"\nevents = 150"};
+  const auto path = setup.run({100.0, 0.9}, 9600);
+  const auto point = reweight(path, {length_of_crystal(200.0), {reflectance, "side", false, {0.95}}}).at(0);
+  const RunResult retraced = read_results(setup.run({200.0, 0.95}, 9601));
   CHECK(point.light.valid);
   REQUIRE(point.per_event);
   check_law("per event", *point.per_event, retraced.points[0].energy.detected.mean());
   check_law("fraction", point.light.detected_fraction, retraced.points[0].fraction(Fate::detected));
   CHECK(sigmas(*point.per_event, *point.traced_per_event) > kSigmas);
   // As traced, the weights are one: both means are the same number.
-  const auto same = reweigh(path, {{absorption_length, "crystal_lso", true, {1.0}}}).at(0);
+  const auto same = reweight(path, {{absorption_length, "crystal_lso", true, {1.0}}}).at(0);
   CHECK(same.per_event->value == doctest::Approx(same.traced_per_event->value));
   CHECK(same.per_event->error == doctest::Approx(same.traced_per_event->error).epsilon(1e-5));
 }
 
 TEST_CASE("Where reweighting would be wrong it says so") {
   // Traced with an absorption length below the crystal's: the long ways of a clear one are missing.
-  const Bench bench{kRoughWrapped, kPhotons};
-  const auto dark = bench.run({3.0, 0.9}, 9700);
-  const auto clear = reweigh(dark, {length_of_crystal(1000.0)}).at(0);
+  const Setup setup{kRoughWrapped, kPhotons};
+  const auto dark = setup.run({3.0, 0.9}, 9700);
+  const auto clear = reweight(dark, {length_of_crystal(1000.0)}).at(0);
   CHECK_FALSE(clear.light.valid);
-  const Estimate truth = read_results(bench.run({1000.0, 0.9}, 9701)).points[0].fraction(Fate::detected);
+  const Estimate truth = read_results(setup.run({1000.0, 0.9}, 9701)).points[0].fraction(Fate::detected);
   CHECK(sigmas(clear.light.detected_fraction, truth) > kSigmas);  // it would have been wrong
-  const auto black = bench.run({100.0, 0.02}, 9702);
-  const auto white = reweigh(black, {{reflectance, "side", false, {0.98}}}).at(0);
+  const auto black = setup.run({100.0, 0.02}, 9702);
+  const auto white = reweight(black, {{reflectance, "side", false, {0.98}}}).at(0);
   CHECK_FALSE(white.light.valid);
-  const auto none = bench.run({100.0, 0.0}, 9703);
-  const auto some = reweigh(none, {{reflectance, "side", false, {0.5}}}).at(0);
+  const auto none = setup.run({100.0, 0.0}, 9703);
+  const auto some = reweight(none, {{reflectance, "side", false, {0.5}}}).at(0);
   CHECK_FALSE(some.light.valid);
-  check_says(some.light.reason, "reflected nothing when traced");
+  check_contains(some.light.reason, "reflected nothing when traced");
 }

@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/optics/fresnel.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {

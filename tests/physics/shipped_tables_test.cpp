@@ -8,6 +8,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {
@@ -53,7 +55,8 @@ Counts illuminate(const Shipped& shipped, Side side, std::uint64_t rays, std::ui
     Ray ray{sample_lambertian(side == Side::inside ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitZ()), rng),
             Vec3::Zero()};
     const double from = 1.0 - std::pow(ray.direction.z(), 2);
-    const SurfaceOutcome outcome = shipped.surface.meet(ray, side, Vec3::UnitZ(), shipped.index, 420.0, rng);
+    const SurfaceOutcome outcome =
+        shipped.surface.interact(ray, side, Vec3::UnitZ(), shipped.index, 420.0, rng);
     if (outcome == SurfaceOutcome::absorbed) ++counts.absorbed;
     if (outcome == SurfaceOutcome::outside) ++counts.outside;
     if (outcome != SurfaceOutcome::inside) continue;

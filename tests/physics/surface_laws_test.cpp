@@ -4,12 +4,15 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/surface/surface.hpp"
+#include "scintray/optics/surface.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {
@@ -69,7 +72,7 @@ BothWays illuminate(const Surface& surface, Side side, std::uint64_t rays, std::
     Ray ray;
     ray.direction = sample_lambertian(into, rng);
     ray.polarisation = Vec3::Zero();
-    const SurfaceOutcome outcome = surface.meet(ray, side, kNormal, kIndex, 420.0, rng);
+    const SurfaceOutcome outcome = surface.interact(ray, side, kNormal, kIndex, 420.0, rng);
     if (outcome == SurfaceOutcome::absorbed) {
       ++counts.absorbed;
       continue;
@@ -105,10 +108,11 @@ Reflector leaking(double reflectance, double specular_share, double volume_index
 /// Every kind of stack with a sheet that lets through what it does not reflect.
 std::vector<Named> leaking_stacks() {
   std::vector<Named> stacks;
-  for (const auto& [name, sheet] :
-       {std::pair{"film", leaking(0.7, 1.0)}, std::pair{"diffuser", leaking(0.7, 0.0)},
-        std::pair{"half a film, half a diffuser", leaking(0.4, 0.5)},
-        std::pair{"volume-like sheet", leaking(0.8, 0.0, 1.35)}}) {
+  for (const auto& stack : {std::pair{"film", leaking(0.7, 1.0)}, std::pair{"diffuser", leaking(0.7, 0.0)},
+                            std::pair{"half a film, half a diffuser", leaking(0.4, 0.5)},
+                            std::pair{"volume-like sheet", leaking(0.8, 0.0, 1.35)}}) {
+    const auto& name = stack.first;
+    const auto& sheet = stack.second;
     const auto over = [&](const std::string& name_of_face, Surface surface, double gap_index) {
       surface.reflector = sheet;
       surface.gap_index = Curve::constant(gap_index);

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/coincidence_timing.hpp"
-#include "scintray/analysis/photon_time.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/detail/photon_time.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::analysis;
 using namespace scintray::test;
 
 namespace {

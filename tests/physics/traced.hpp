@@ -4,21 +4,22 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
-#include "scintray/source/light_source.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+#include "scintray/simulation/simulation_point.hpp"
 #include "support/agreement.hpp"
 #include "support/evidence.hpp"
 #include "support/laws.hpp"
+#include "support/shared.hpp"
 
 namespace scintray::test {
 
 /// Media, surfaces and sensors that the scenes of the tests share: indices without dispersion.
-inline const std::string kLibrary = R"(
+inline const std::string kDatabase = R"(
 [media.vacuum_n1]
 index = { n = 1.0 }
 absorption = { none = true }
@@ -62,51 +63,50 @@ specular_share = 0.0
 )";
 
 struct Traced {
-  BuiltScene built;
-  PointResult result;
-  std::vector<EventRecord> events;  ///< of a source of energy
+  std::shared_ptr<const simulation::SimulationPoint> point;
+  const scene::BuiltScene& built = *point->built();
+  tally::PointResult result;
+  std::vector<tally::EventRecord> events;  ///< of a source of energy
 };
 
 /// Scene text plus the library above, with `photons` from `[source]`.
-inline SceneSpec scene_spec(const std::string& text) {
-  return SceneFile::from_text(text + kLibrary,
-                              (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string())
-      .spec(0);
+inline scene_file::SceneSpec scene_spec(const std::string& text) {
+  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string()).spec(0);
+}
+
+/// A scene ready to be traced, with surface tables of its own.
+inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::SceneSpec spec) {
+  materials::SurfaceFactory::Hooks hooks;
+  hooks.cache.clear();
+  scene::SceneBuilder builder(hooks);
+  return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 
 inline Traced trace(const std::string& text, int threads = 0) {
-  const SceneSpec spec = scene_spec(text);
-  SurfaceMaker::Hooks hooks;
-  hooks.cache.clear();
-  SceneBuilder builder(hooks);
-  Traced traced{builder.build(spec), {}, {}};
-  const auto source = make_light_source(spec, traced.built.scene);
-  const TallyPlan plan(traced.built.scene, spec);
-  RunSettings settings;
-  settings.seed = spec.run.seed;
-  settings.max_interactions = spec.run.max_interactions;
-  settings.threads = threads;
-  RunHooks hooks_of_run;
-  hooks_of_run.events = [&](const std::vector<EventRecord>& events) {
+  scene_file::SceneSpec spec = scene_spec(text);
+  if (threads > 0) spec.run.threads = threads;
+  Traced traced{.point = ready(std::move(spec)), .result = {}, .events = {}};
+  simulation::RunHooks hooks;
+  hooks.events = [&](const std::vector<tally::EventRecord>& events) {
     traced.events.insert(traced.events.end(), events.begin(), events.end());
   };
-  traced.result = run_point(traced.built.scene, *source, plan, settings, hooks_of_run);
+  traced.result = traced.point->trace(hooks);
   CHECK(traced.result.lost == 0);
   CHECK(traced.result.complete);
   return traced;
 }
 
 /// Area of the triangles of a face ("part:face"), mm2.
-inline double face_area(const Scene& scene, const std::string& name) {
+inline double face_area(const scene::Scene& scene, const std::string& name) {
   double area = 0.0;
-  for (const FaceInfo& face : scene.faces)
+  for (const scene::FaceInfo& face : scene.faces)
     if (face.name == name) area += face.area_mm2;
   return area;
 }
 
 /// Checks a fraction against an exact value.
-inline void check_fraction(const PointResult& result, Fate fate, double expected) {
-  check_law(std::string(fate_name(fate)), result.fraction(fate), {expected, 0.0});
+inline void check_fraction(const tally::PointResult& result, core::Fate fate, double expected) {
+  check_law(std::string(core::fate_name(fate)), result.fraction(fate), {expected, 0.0});
 }
 
 }  // namespace scintray::test

@@ -1,10 +1,17 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::tally;
 using namespace scintray::test;
 
 namespace {
@@ -12,7 +19,7 @@ namespace {
 constexpr double kLength_mm = 2.0;  ///< of absorption by the shifter
 constexpr double kYield = 0.8;
 
-/// A dye that absorbs at 400 nm only and gives back 480 to 560 nm, which the medium absorbs with
+/// A dye that absorbs at 400 nm only and re-emits 480 to 560 nm, which the medium absorbs with
 /// `clear_per_mm`, in a medium without surfaces to vacuum.
 std::string dye(double clear_per_mm, double yield = kYield) {
   return fmt::format(R"(
@@ -81,7 +88,7 @@ double e2(double x) {
   return sum / kSteps;
 }
 
-/// Share of the light of exp(-z / length) that is given back and leaves through a face at depth `face`.
+/// Share of the light of exp(-z / length) that is re-emitted and leaves through a face at depth `face`.
 double leaves_through(double face_mm, double thickness_mm, double clear_per_mm) {
   constexpr int kSteps = 400;
   double sum = 0.0;
@@ -258,7 +265,7 @@ max_interactions = 1000
   CHECK(phosphor.absorbed - phosphor.emitted <= result.count(Fate::absorbed_at_surface));
   CHECK(phosphor.before_eV ==
         doctest::Approx(photon_energy_eV(400.0) * static_cast<double>(phosphor.emitted)));
-  // Detected at 480 nm and more: some, and no more than were given back.
+  // Detected at 480 nm and more: some, and no more than were re-emitted.
   REQUIRE(result.tallies.size() == 1);
   CHECK(result.tallies[0].sum[0] > 0.0);
   CHECK(result.tallies[0].sum[1] > 1'000.0);

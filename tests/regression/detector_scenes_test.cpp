@@ -9,11 +9,17 @@
 #include <sstream>
 
 #include "bad_input/marked_text.hpp"
-#include "scintray/io/simulate.hpp"
-#include "scintray/scene/build_scene.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using test::replaced;
 
 namespace {
@@ -41,11 +47,11 @@ struct Detector {
 Detector run(const std::string& name, const std::string& text, std::uint64_t photons, std::uint64_t seed) {
   const SceneFile file = SceneFile::from_text(text, test::source_file("scenes/" + name).string());
   SimulationOptions options;
-  options.output = test::scratch_folder("detector_scenes") / (name + ".h5");
   options.photons = photons;
   options.seed = seed;
-  SceneBuilder builder;
-  return {simulate(file, options), builder.build(file.spec(0)).scene};
+  Simulation simulation(file, options);
+  const auto first = simulation.point(0);
+  return {simulation.run_all(), first->scene()};
 }
 
 std::string scene_text(const std::string& name) {
@@ -77,10 +83,12 @@ Light light_on_sensors(const Detector& detector, std::size_t point, int axis) {
 
 /// Seeds differ, so both are independent; a true answer fails once in 15,800 comparisons.
 void check_answers(const Answers& measured, const Answers& stated) {
-  for (const auto& [name, value] : measured)
-    MESSAGE(fmt::format("#   {} = {:.4g} ± {:.2g}", name, value.value, value.error));
+  for (const auto& answer : measured)
+    MESSAGE(fmt::format("#   {} = {:.4g} ± {:.2g}", answer.first, answer.second.value, answer.second.error));
   CHECK(measured.size() == stated.size());
-  for (const auto& [name, value] : measured) {
+  for (const auto& answer : measured) {
+    const auto& name = answer.first;
+    const auto& value = answer.second;
     CAPTURE(name);
     REQUIRE(stated.count(name) == 1);
     CAPTURE(value.value);

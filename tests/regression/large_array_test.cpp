@@ -3,9 +3,11 @@
 #include <doctest/doctest.h>
 
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 using namespace scintray;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 
 TEST_CASE("40 x 40 crystals on 40 x 40 sensors share one accelerator per surroundings") {
   const SceneFile file = SceneFile::from_text(R"(

@@ -1,4 +1,4 @@
-/// The quickstart scene against what README says it prints, with another seed.
+/// The quickstart scene against what README states it prints, with another seed.
 
 #include <doctest/doctest.h>
 
@@ -6,10 +6,14 @@
 #include <regex>
 
 #include "scintray/core/statistics.hpp"
-#include "scintray/io/simulate.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 
 namespace {
 
@@ -39,10 +43,9 @@ TEST_CASE("The quickstart gives what README prints, and the rough crystal's ligh
 
   const SceneFile file = SceneFile::load(test::source_file("scenes/quickstart.toml"));
   SimulationOptions options;
-  options.output = test::scratch_folder("quickstart") / "quickstart.h5";
   options.photons = 100'000;
   options.seed = 20;
-  const RunResult result = simulate(file, options);
+  const RunResult result = Simulation(file, options).run_all();
   REQUIRE(result.points.size() == kSurfaces * kDepths);
 
   const auto detected = [&](std::size_t surface, std::size_t depth) {

@@ -5,15 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "scintray/io/simulate.hpp"
-#include "scintray/report/claims.hpp"
-#include "scintray/report/light_curves.hpp"
-#include "scintray/report/surface_claims.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/report/acceptance.hpp"
+#include "scintray/report/plots/detail/light_curves.hpp"
+#include "scintray/report/surface_acceptance.hpp"
+#include "scintray/simulation/simulation.hpp"
 #include "support/agreement.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::analysis;
+using namespace scintray::simulation;
+using namespace scintray::report;
 
 namespace {
 
@@ -35,32 +40,24 @@ const std::vector<Known> kKnown{
     {{"5 mm", "rough_reflector_table", "2 mm"}, {1.5160, 0.0058}},
 };
 
-std::size_t point_of(const SceneFile& file, const std::vector<std::string>& parameters) {
-  for (std::size_t point = 0; point < file.points(); ++point)
-    if (file.parameters(point) == parameters) return point;
+std::size_t point_of(const Simulation& simulation, const std::vector<std::string>& parameters) {
+  for (std::size_t point = 0; point < simulation.points(); ++point)
+    if (simulation.parameters(point) == parameters) return point;
   FAIL("the scene has no such point");
   return 0;
 }
 
 /// Photoelectrons at 511 keV of a point.
-Estimate light_at(const SceneFile& file, std::size_t point, SceneBuilder& builder) {
-  SimulationOptions options;
-  options.quick = true;
-  const SceneSpec spec = with_options(file.spec(point), options);
-  const BuiltScene built = builder.build(spec);
-  const auto source = make_light_source(spec, built.scene);
-  const TallyPlan plan(built.scene, spec);
-  StudySetup setup;
-  for (const ReadoutChannel& channel : plan.channels.list) setup.channels_mm.push_back(channel.position);
+Estimate light_at(const SimulationPoint& point) {
+  AnalysisSetup setup;
+  for (const ReadoutChannel& channel : point.plan().channels.list)
+    setup.channels_mm.push_back(channel.position);
   EventCollector collector(setup);
   RunHooks hooks;
   hooks.events = [&](const std::vector<EventRecord>& events) {
     for (const EventRecord& event : events) collector.add(event);
   };
-  RunSettings settings;
-  settings.seed = 2;
-  settings.point = static_cast<std::uint32_t>(point);
-  const PointResult result = run_point(built.scene, *source, plan, settings, hooks);
+  const PointResult result = point.trace(hooks);
   CHECK(result.lost == 0);
   return report::light_of(collector.finish());
 }
@@ -68,13 +65,15 @@ Estimate light_at(const SceneFile& file, std::size_t point, SceneBuilder& builde
 }  // namespace
 
 TEST_CASE("The paper's crystals give the light that a quick run printed, with another seed") {
-  const SceneFile file = SceneFile::load(test::source_file("scenes/roncali2013/light_output.toml"));
-  CHECK(file.points() == 80);
-  SceneBuilder builder;
+  SimulationOptions options;
+  options.quick = true;
+  options.seed = 2;
+  Simulation simulation(SceneFile::load(test::source_file("scenes/roncali2013/light_output.toml")), options);
+  CHECK(simulation.points() == 80);
   for (const Known& known : kKnown) {
     CAPTURE(known.point[1]);
     CAPTURE(known.point[2]);
-    const Estimate light = light_at(file, point_of(file, known.point), builder);
+    const Estimate light = light_at(*simulation.point(point_of(simulation, known.point)));
     const double expected = kReference.value * known.relative.value;
     const double error =
         std::hypot(kReference.value * known.relative.error, kReference.error * known.relative.value);
@@ -89,7 +88,7 @@ TEST_CASE("The curves and surfaces that the paper's claims name exist") {
   points.points.resize(file.points());
   for (std::size_t i = 0; i < file.points(); ++i) points.points[i].parameters = file.parameters(i);
   const SceneSpec spec = file.spec(0);
-  CHECK(spec.claims.size() == 25);
-  CHECK_NOTHROW(report::check_curves(points, spec.analysis.reference, spec.claims));
-  CHECK_NOTHROW(report::check_surface_claims(spec.benches, spec.claims));
+  CHECK(spec.criteria.size() == 25);
+  CHECK_NOTHROW(report::check_curves(points, spec.analysis.reference, spec.criteria));
+  CHECK_NOTHROW(report::check_surface_criteria(spec.goniometers, spec.criteria));
 }

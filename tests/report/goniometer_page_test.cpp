@@ -1,23 +1,27 @@
-#include "scintray/report/goniometer_page.hpp"
+#include "scintray/report/pages/goniometer_page.hpp"
 
 #include <doctest/doctest.h>
 
-#include "scintray/report/goniometer_plots.hpp"
-#include "scintray/report/hemisphere_map.hpp"
-#include "scintray/report/png_image.hpp"
-#include "scintray/report/surface_page.hpp"
+#include "scintray/report/pages/surface_page.hpp"
+#include "scintray/report/plots/detail/hemisphere_map.hpp"
+#include "scintray/report/plots/goniometer_plots.hpp"
+#include "scintray/report/plots/png_image.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::analysis;
+using namespace scintray::report;
 using namespace scintray::report;
 
 namespace {
 
-BenchSurface flat_bench() {
-  BenchSurface bench;
-  bench.place = {"flat <& \"clean\"", "LSO", "air", 420.0};
-  bench.index = {1.82, 1.0};
-  bench.sources = {"M. Born & E. Wolf"};
-  return bench;
+SampleSurface flat_sample() {
+  SampleSurface sample;
+  sample.place = {"flat <& \"clean\"", "LSO", "air", 420.0};
+  sample.index = {1.82, 1.0};
+  sample.sources = {"M. Born & E. Wolf"};
+  return sample;
 }
 
 GoniometerReading reading(double degrees) {
@@ -37,7 +41,7 @@ std::size_t times(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("the goniometer's page shows a map for each side that light leaves on, and escapes its text") {
-  const std::string page = goniometer_page(flat_bench(), {reading(20.0), reading(45.0)}, std::nullopt);
+  const std::string page = goniometer_page(flat_sample(), {reading(20.0), reading(45.0)}, std::nullopt);
   CHECK(times(page, "data:image/png;base64,") == 3);  // total reflection at 45 deg
   CHECK(times(page, "class=\"cross\"") == 3);
   CHECK(page.find("flat <&") == std::string::npos);
@@ -55,7 +59,7 @@ TEST_CASE("a measurement on the page says how it was normalised") {
   const Overlay overlay{scale_to(measured, at_20.reflected_directions, at_20.settings.rays,
                                  at_20.settings.profile_half_width_rad),
                         "bench <1>.csv"};
-  const std::string page = goniometer_page(flat_bench(), {at_20}, overlay);
+  const std::string page = goniometer_page(flat_sample(), {at_20}, overlay);
   CHECK(page.find("measured: bench &lt;1&gt;.csv") != std::string::npos);
   CHECK(page.find("between 10 and 30 deg (trapezoids over the measured angles)") != std::string::npos);
   CHECK(overlay_text(overlay).find("was multiplied by") == 16);
@@ -107,7 +111,8 @@ TEST_CASE("the page of surfaces says of each what it is, what it needs, or why i
   SurfaceEntry shown, preset, failed;
   shown.name = "flat";
   shown.outline = {"smooth", {}, {}, {"Born & Wolf"}};
-  shown.readings = SurfaceReadings{flat_bench(), {reading(0.0), reading(45.0), reading(80.0)}, reading(45.0)};
+  shown.readings =
+      SurfaceReadings{flat_sample(), {reading(0.0), reading(45.0), reading(80.0)}, reading(45.0)};
   preset.name = "preset";
   preset.outline = {"unified", {"other"}, {"unified.sigma_alpha", "gap"}, {}};
   failed.name = "failed";

@@ -1,4 +1,4 @@
-#include "scintray/report/map_page.hpp"
+#include "scintray/report/pages/map_page.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,10 +6,13 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/report/height_image.hpp"
-#include "scintray/report/map_numbers.hpp"
+#include "scintray/report/plots/detail/height_image.hpp"
+#include "scintray/report/text/map_numbers.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::topography;
+using namespace scintray::report;
 using namespace scintray::report;
 
 namespace {

@@ -7,16 +7,19 @@
 #include <sstream>
 
 #include "scintray/core/error.hpp"
-#include "scintray/report/format.hpp"
-#include "scintray/report/html_report.hpp"
-#include "scintray/report/svg_plot.hpp"
-#include "scintray/report/sweep_view.hpp"
-#include "scintray/report/text_summary.hpp"
+#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/plots/svg_plot.hpp"
+#include "scintray/report/text/format.hpp"
+#include "scintray/report/text/sweep_view.hpp"
+#include "scintray/report/text/text_summary.hpp"
 #include "support/made_up_result.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::report;
 using namespace scintray::test;
 
 namespace {

@@ -5,6 +5,9 @@
 #include "scene/builder_scenes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 namespace scintray::test {
 
@@ -42,29 +42,29 @@ direction = { specular_share = 0.0 }
 )";
 }
 
-inline BuiltScene built(const std::string& text) {
-  SceneBuilder builder;
-  return builder.build(SceneFile::from_text(text, "scene.toml").spec(0));
+inline scene::BuiltScene built(const std::string& text) {
+  scene::SceneBuilder builder;
+  return builder.build(scene_file::SceneFile::from_text(text, "scene.toml").spec(0));
 }
 
-inline std::map<std::string, PartInfo> parts_by_name(const Scene& scene) {
-  std::map<std::string, PartInfo> parts;
-  for (const PartInfo& part : scene.parts) parts[part.name] = part;
+inline std::map<std::string, scene::PartInfo> parts_by_name(const scene::Scene& scene) {
+  std::map<std::string, scene::PartInfo> parts;
+  for (const scene::PartInfo& part : scene.parts) parts[part.name] = part;
   return parts;
 }
 
-inline std::map<std::string, FaceInfo> faces_by_name(const Scene& scene) {
-  std::map<std::string, FaceInfo> faces;
-  for (const FaceInfo& face : scene.faces) faces[face.name] = face;
+inline std::map<std::string, scene::FaceInfo> faces_by_name(const scene::Scene& scene) {
+  std::map<std::string, scene::FaceInfo> faces;
+  for (const scene::FaceInfo& face : scene.faces) faces[face.name] = face;
   return faces;
 }
 
 /// Area between two regions, and the interface there with the largest one.
 struct Between {
   double area_mm2 = 0.0;
-  Interface interface;
+  scene::Interface interface;
 };
-inline Between between(const Scene& scene, const std::string& a, const std::string& b) {
+inline Between between(const scene::Scene& scene, const std::string& a, const std::string& b) {
   Between found;
   double largest = 0.0;
   for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {

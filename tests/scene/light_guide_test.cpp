@@ -5,6 +5,8 @@
 #include "scene/builder_scenes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {

@@ -1,17 +1,23 @@
-// [readout]: what is read, and what is said of mistakes.
-#include "scintray/scene/read_readout.hpp"
+// [readout]: what is read, and what is stated of mistakes.
+#include "scintray/scene_file/readout.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+#include "scintray/materials/database.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/library.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::detector;
+using namespace scintray::materials;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 using namespace scintray::test;
 
 namespace {
@@ -32,7 +38,7 @@ ReadoutSpec readout_of(const std::string& body) {
   return *readout;
 }
 
-/// Everything that is said of the plain readout with further lines.
+/// Everything that is stated of the plain readout with further lines.
 std::string said_of(const std::string& more) {
   return complaint_of([&] { readout_of(kPlainReadout + more); });
 }
@@ -85,41 +91,42 @@ TEST_CASE("the documented readout and its sensor are read") {
   CHECK(readout->shaping_ns.size() == 3);
   CHECK(readout->photon_order == std::vector<std::uint64_t>{1, 5, 20});
   REQUIRE(sensors != nullptr);
-  Library library({source_file("materials")});
-  library.add(LibraryKind::sensor,
-              {{"my_sipm", std::make_shared<const TomlNode>(*sensors->find("my_sipm"))}});
-  CHECK(library.sensor("my_sipm").microcells.has_value());
+  MaterialDatabase database({source_file("materials")});
+  database.add(DefinitionKind::sensor,
+               {{"my_sipm", std::make_shared<const TomlNode>(*sensors->find("my_sipm"))}});
+  CHECK(database.sensor("my_sipm").microcells.has_value());
 }
 
 TEST_CASE("mistakes in a readout say what was found and what is expected") {
-  check_says(said_of("sampling = \"2 GHz\"", "sampling = \"2 ns\""), "\"ns\" is not a unit of frequency");
-  check_says(said_of("sampling = \"2 GHz\"", "sampling = \"0 GHz\""), "must be above 0");
-  check_says(said_of("sampling = \"2 GHz\"\n", ""), "sampling");
-  check_says(said_of("period = \"1 ns\"\n"), "period");
-  check_says(said_of("before = \"20 ns\"", "before = \"-20 ns\""), "cannot be negative");
-  check_says(said_of("window = \"300 ns\"", "window = \"300 s\""), "has 2 to 1000000 samples");
-  check_says(said_of("threshold = 2.5", "threshold = 0"), "a threshold must be above 0");
-  check_says(said_of("gate = [\"10 ns\", \"5 ns\"]\n"), "must open before it closes");
-  check_says(said_of("gate = [\"-30 ns\", \"5 ns\"]\n"), "not inside the waveform, which runs from -20");
-  check_says(said_of("gate = [\"0 ns\", \"290 ns\"]\n"), "not inside the waveform");
-  check_says(said_of("shaping = { order = 11, time_constant = \"5 ns\" }\n"), "1 to 10 integrators");
-  check_says(said_of("shaping = { order = 1 }\n"), "time_constant");
-  check_says(said_of("shaping = { order = 1, time_constant = \"5 ns\", rise = \"1 ns\" }\n"), "no rise");
-  check_says(said_of("shaping = { rise = \"1 ns\" }\n"), "decay");
-  check_says(said_of("shaping = { decay = \"1 ns\", order = 1 }\n"), "order");
-  check_says(said_of("noise = -1\n"), "cannot be negative");
-  check_says(said_of("adc_bits = 12\n"), "adc_range");
-  check_says(said_of("adc_range = [0, 5]\n"), "adc_bits");
-  check_says(said_of("adc_bits = 12\nadc_range = [5, 0]\n"), "must rise");
-  check_says(said_of("adc_bits = 30\nadc_range = [0, 5]\n"), "1 to 24 bits");
-  check_says(said_of("fraction = 0.2\n"), "a leading edge has no fraction");
-  check_says(said_of("delay = \"2 ns\"\n"), "only a CFD has a delay");
-  check_says(said_of("time_pickoff = \"cfd\"\nfraction = 2.0\ndelay = \"2 ns\"\n"), "between 0 and 1");
-  check_says(said_of("time_pickoff = \"cfd\"\nfraction = 0.2\n"), "delay");
-  check_says(said_of("time_pickoff = \"cdf\"\n"), "cfd");
-  check_says(said_of("photon_order = [0]\n"), "whole numbers from 1");
-  check_says(said_of("photon_order = [1.5]\n"), "whole numbers from 1");
-  check_says(said_of("photn_order = [1]\n"), "photon_order");
+  check_contains(said_of("sampling = \"2 GHz\"", "sampling = \"2 ns\""),
+                 {"\"ns\"", "not a unit", "frequency"});
+  check_contains(said_of("sampling = \"2 GHz\"", "sampling = \"0 GHz\""), "must be above 0");
+  check_contains(said_of("sampling = \"2 GHz\"\n", ""), "sampling");
+  check_contains(said_of("period = \"1 ns\"\n"), "period");
+  check_contains(said_of("before = \"20 ns\"", "before = \"-20 ns\""), "cannot be negative");
+  check_contains(said_of("window = \"300 ns\"", "window = \"300 s\""), "2 to 1000000 samples");
+  check_contains(said_of("threshold = 2.5", "threshold = 0"), {"threshold", "above 0"});
+  check_contains(said_of("gate = [\"10 ns\", \"5 ns\"]\n"), {"open", "closes"});
+  check_contains(said_of("gate = [\"-30 ns\", \"5 ns\"]\n"), {"not inside", "waveform", "-20"});
+  check_contains(said_of("gate = [\"0 ns\", \"290 ns\"]\n"), "not inside the waveform");
+  check_contains(said_of("shaping = { order = 11, time_constant = \"5 ns\" }\n"), "1 to 10 integrators");
+  check_contains(said_of("shaping = { order = 1 }\n"), "time_constant");
+  check_contains(said_of("shaping = { order = 1, time_constant = \"5 ns\", rise = \"1 ns\" }\n"), "no rise");
+  check_contains(said_of("shaping = { rise = \"1 ns\" }\n"), "decay");
+  check_contains(said_of("shaping = { decay = \"1 ns\", order = 1 }\n"), "order");
+  check_contains(said_of("noise = -1\n"), "cannot be negative");
+  check_contains(said_of("adc_bits = 12\n"), "adc_range");
+  check_contains(said_of("adc_range = [0, 5]\n"), "adc_bits");
+  check_contains(said_of("adc_bits = 12\nadc_range = [5, 0]\n"), "must rise");
+  check_contains(said_of("adc_bits = 30\nadc_range = [0, 5]\n"), "1 to 24 bits");
+  check_contains(said_of("fraction = 0.2\n"), {"leading edge", "no fraction"});
+  check_contains(said_of("delay = \"2 ns\"\n"), {"CFD", "delay"});
+  check_contains(said_of("time_pickoff = \"cfd\"\nfraction = 2.0\ndelay = \"2 ns\"\n"), "between 0 and 1");
+  check_contains(said_of("time_pickoff = \"cfd\"\nfraction = 0.2\n"), "delay");
+  check_contains(said_of("time_pickoff = \"cdf\"\n"), "cfd");
+  check_contains(said_of("photon_order = [0]\n"), "whole numbers from 1");
+  check_contains(said_of("photon_order = [1.5]\n"), "whole numbers from 1");
+  check_contains(said_of("photn_order = [1]\n"), "photon_order");
 }
 
 TEST_CASE("all mistakes of a readout come out at once, each at its place") {
@@ -153,7 +160,7 @@ threshold = 2.5
   const auto problems = problems_of([&] { build(scene); });
   REQUIRE(problems.size() == 1);
   CHECK(problems[0].where.line == 11);
-  check_says(problems[0].what, "sensor \"ideal\": neither the sensor nor the electronics");
-  check_says(problems[0].hint, "[readout] shaping");
+  check_contains(problems[0].what, {"sensor \"ideal\"", "neither", "electronics"});
+  check_contains(problems[0].hint, "[readout] shaping");
   CHECK(complaint_of([&] { build(scene + "shaping = { order = 1, time_constant = \"5 ns\" }\n"); }).empty());
 }

@@ -8,10 +8,14 @@
 
 #include "bad_input/good_scene.hpp"
 #include "bad_input/marked_text.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::mesh;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/scene/toml_reader.hpp"
+#include "scintray/config/toml_reader.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
 using namespace scintray::test;
 
 namespace {
@@ -22,7 +24,7 @@ struct Reading {
 
 /// Expects one problem, at the mark, in what `read` does with the marked text.
 template <typename Read>
-void check_reading(const std::string& marked, Read read, const std::string& what, const std::string& hint) {
+void check_reading(const std::string& marked, Read read, const Fragments& what, const Fragments& hint) {
   const MarkedText input(marked);
   Reading reading(input.text);
   read(reading.table);
@@ -87,7 +89,7 @@ TEST_CASE("a wrong value is not also reported as out of range") {
         const double x = table.quantity("x", Dimension::length);
         table.expect("x", x > 0.0, "not positive");
       },
-      "not a unit of length", "mm");
+      {"not a unit", "length"}, "mm");
 }
 
 TEST_CASE("curves in each form are the same") {
@@ -124,16 +126,16 @@ TEST_CASE("photon energies, which rise while wavelengths fall, make a curve") {
 TEST_CASE("wrong curves") {
   const auto read = [](const TomlTable& table) { table.curve("a", Dimension::dimensionless); };
   check_reading("a = @@{ wavelength = [\"400 nm\", \"500 nm\"], value = [1.8] }", read,
-                "2 values of wavelength, but 1", "one value for every");
+                {"2 values", "wavelength", "1"}, "one value for every");
   check_reading("a = { wavelength = [\"400 nm\", \"500 nm\", @@\"450 nm\"], value = [1, 2, 3] }", read,
                 "not in order", "sort");
   check_reading("a = { wavelength = [\"400 nm\", @@\"400 nm\"], value = [1, 2] }", read, "not in order",
                 "each once");
   check_reading("a = { wavelength = [\"400 nm\", @@\"5 ns\"], value = [1, 2] }", read,
-                "not a unit of wavelength", "nm");
+                {"not a unit", "wavelength"}, "nm");
   check_reading("a = { wavelength = [400], wavelength_unit = @@\"mm\", value = [1] }", read, "not a unit",
                 "nm");
-  check_reading("a = @@[1, 2]", read, "an array, but one value or a table", "value = [...]");
+  check_reading("a = @@[1, 2]", read, {"an array", "one value", "table"}, "value = [...]");
   check_reading("a = @@{ value = [1, 2] }\n", read, "none of \"wavelength\", \"file\"", "add one");
   check_reading("a = { file = @@\"no.csv\", wavelength_unit = \"nm\" }", read, "\"no.csv\" does not exist",
                 "relative");
@@ -147,9 +149,9 @@ TEST_CASE("every bad row of a CSV table is reported at its line and column") {
   const std::vector<Problem>& found = reading.problems.list();
   REQUIRE(found.size() == 2);
   CHECK(found[0].where.text() == (folder / "n.csv").string() + ":3:6");
-  CHECK(contains(found[0].what, "\"x\" is not a finite number"));
+  check_contains(found[0].what, {"\"x\"", "not a finite number"});
   CHECK(found[1].where.text() == (folder / "n.csv").string() + ":4:1");
-  CHECK(contains(found[1].what, "has 1 values, but 2 are expected"));
+  check_contains(found[1].what, {"1 values", "2"});
 }
 
 TEST_CASE("places of keys and values, however they are written") {
@@ -165,4 +167,59 @@ TEST_CASE("places of keys and values, however they are written") {
   const TomlNode& g = root->find("g")->items[0];
   CHECK(g.where.text() == "f:5:1");
   CHECK(g.find("h")->find("i")->key_where.text() == "f:6:6");
+}
+
+namespace {
+
+enum class Shade { dark, light };
+constexpr Word<Shade> kShades[] = {{"dark", Shade::dark}, {"light", Shade::light}, {"pale", Shade::light}};
+
+}  // namespace
+
+TEST_CASE("words and the values that they stand for") {
+  CHECK(find_word(kShades, "light") == Shade::light);
+  CHECK(find_word(kShades, "pale") == Shade::light);
+  CHECK_FALSE(find_word(kShades, "Light").has_value());
+  CHECK_FALSE(find_word(kShades, "").has_value());
+  CHECK(word_of(kShades, Shade::light) == std::string("light"));
+  CHECK_THROWS_AS(word_of(kShades, static_cast<Shade>(7)), InternalError);
+  CHECK(word_list(kShades) == std::vector<std::string>{"dark", "light", "pale"});
+}
+
+TEST_CASE("a choice of words gives the value of the word") {
+  Reading reading("a = 'pale'");
+  CHECK(reading.table.choice("a", kShades) == Shade::light);
+  CHECK(reading.table.choice("a", kShades, Shade::dark) == Shade::light);
+  CHECK(reading.table.choice("b", kShades, Shade::light) == Shade::light);
+  CHECK(reading.problems.empty());
+  CHECK(reading.table.choice("b", kShades) == Shade::dark);
+  CHECK(reading.problems.list().size() == 1);
+
+  // The same messages as for words alone.
+  check_reading(
+      "a = @@'lihgt'", [](const TomlTable& table) { table.choice("a", kShades); },
+      {"\"dark\", \"light\", \"pale\"", "is expected"}, "did you mean \"light\"?");
+  check_reading(
+      "a = @@2", [](const TomlTable& table) { table.choice("a", kShades, Shade::light); },
+      {"the integer 2", "\"dark\""}, "in quotes");
+}
+
+TEST_CASE("one of several keys stands for a value") {
+  Reading reading("pale = 1");
+  const Word<Shade>* one = reading.table.one_of(kShades, true);
+  REQUIRE(one != nullptr);
+  CHECK(one->word == std::string("pale"));
+  CHECK(one->value == Shade::light);
+  Reading none("");
+  CHECK(none.table.one_of(kShades, false) == nullptr);
+  CHECK(none.problems.empty());
+  CHECK(none.table.one_of(kShades, true) == nullptr);
+  CHECK(none.problems.list().size() == 1);
+}
+
+TEST_CASE("whether a value is an array") {
+  const Reading reading("a = [1, 2]\nb = 1");
+  CHECK(reading.table.is_array("a"));
+  CHECK_FALSE(reading.table.is_array("b"));
+  CHECK_FALSE(reading.table.is_array("c"));
 }

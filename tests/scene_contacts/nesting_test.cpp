@@ -5,6 +5,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::contact;
 using namespace scintray::test;
 
 namespace {
@@ -79,9 +81,9 @@ TEST_CASE("An overlap names both parts, the exact volume and a point inside") {
   const auto list =
       complaints({box("crystal", {0, 0, 0}, {2, 2, 2}), box("guide", {1, 1, 1.5}, {4, 4, 4}, 6)});
   REQUIRE(list.size() == 1);
-  CHECK(contains(list[0], "parts 'crystal' and 'guide' overlap by 0.5 mm3"));
+  check_contains(list[0], {"'crystal'", "'guide'", "overlap by 0.5 mm3"});
   CHECK(contains(list[0], "for example at (1."));
-  CHECK(contains(list[0], "hint: move one of them"));
+  CHECK(contains(list[0], "hint: move"));
 }
 
 TEST_CASE("A cavity in a part belongs to what fills it, else to the ambient medium") {
@@ -105,7 +107,7 @@ TEST_CASE("A cavity in a part belongs to what fills it, else to the ambient medi
   // What reaches through the wall overlaps with the wall alone.
   const auto list = complaints({hollow, box("rod", {1.5, 1.5, 2.5}, {2.5, 2.5, 9}, 12)});
   REQUIRE(list.size() == 1);
-  CHECK(contains(list[0], "parts 'hollow' and 'rod' overlap by 1 mm3,"));
+  check_contains(list[0], {"'hollow'", "'rod'", "overlap by 1 mm3"});
 }
 
 TEST_CASE("The overlap of a turned pair is exact, that of fine meshes is counted and says so") {
@@ -117,7 +119,7 @@ TEST_CASE("The overlap of a turned pair is exact, that of fine meshes is counted
   const auto counted =
       complaints({box("a", {0, 0, 0}, {2, 2, 2}, 0, 7), box("b", {1, 1, 1.5}, {4, 4, 4}, 6, 7)});
   REQUIRE(counted.size() == 1);
-  CHECK(contains(counted[0], "overlap by about 0.5 mm3 (counted on a grid of 32768 points)"));
+  check_contains(counted[0], {"overlap by about 0.5 mm3", "32768 points"});
 }
 
 TEST_CASE("All overlapping pairs of three parts are listed") {
@@ -125,9 +127,9 @@ TEST_CASE("All overlapping pairs of three parts are listed") {
       complaints({box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1}, {3, 3, 3}, 6),
                   box("c", {1.5, 0.5, 1.5}, {4, 4, 4}, 12), box("apart", {9, 9, 9}, {10, 10, 10}, 18)});
   REQUIRE(list.size() == 3);
-  CHECK(contains(list[0], "'a' and 'b' overlap by 1 mm3"));
-  CHECK(contains(list[1], "'a' and 'c' overlap by 0.375 mm3"));
-  CHECK(contains(list[2], "'b' and 'c' overlap by 4.5 mm3"));
+  check_contains(list[0], {"'a'", "'b'", "overlap by 1 mm3"});
+  check_contains(list[1], {"'a'", "'c'", "overlap by 0.375 mm3"});
+  check_contains(list[2], {"'b'", "'c'", "overlap by 4.5 mm3"});
 }
 
 TEST_CASE("Overlaps without any transversal crossing of surfaces are found") {
@@ -190,10 +192,10 @@ TEST_CASE("A part inside out, a part thinner than the tolerance, and a bad toler
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
   const auto list = complaints({inside_out, box("film", {3, 0, 0}, {4, 1, 1e-4}, 6)});
   REQUIRE(list.size() == 2);
-  CHECK(contains(list[0], "part 'sleeve' has a volume of -1 mm3"));
-  CHECK(contains(list[1], "part 'film' is about 0.0001 mm thick"));
+  check_contains(list[0], {"'sleeve'", "volume of -1 mm3"});
+  check_contains(list[1], {"'film'", "0.0001 mm thick"});
   const std::vector<PlacedPart> fine{box("a", {0, 0, 0}, {1, 1, 1})};
   CHECK(complaints(fine, 0.0).size() == 1);
   CHECK(complaints(fine, std::nan("")).size() == 1);
-  CHECK(contains(complaints(fine, 1e-15).at(0), "below the precision of the coordinates"));
+  check_contains(complaints(fine, 1e-15).at(0), {"below the precision", "coordinates"});
 }

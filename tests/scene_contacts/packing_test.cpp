@@ -4,6 +4,8 @@
 #include "shapes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::contact;
 using namespace scintray::test;
 
 namespace {
@@ -30,7 +32,7 @@ std::vector<Cuboid> cut(const Cuboid& whole, int count, Rng& rng) {
 }
 
 /// Area of contact of two cuboids.
-double contact(const Cuboid& a, const Cuboid& b) {
+double area_of_contact(const Cuboid& a, const Cuboid& b) {
   const Vec3 common = a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low);
   for (int axis = 0; axis < 3; ++axis)
     if (a.high[axis] == b.low[axis] || b.high[axis] == a.low[axis]) {
@@ -71,7 +73,7 @@ TEST_CASE("In random packings of a cube every contact has its exact area") {
     double worst = 0.0, total = 0.0, expected_total = 0.0;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
-        const double expected = contact(pieces[i], pieces[j]);
+        const double expected = area_of_contact(pieces[i], pieces[j]);
         const double found =
             area_between(interfaces, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
         worst = std::max(worst, std::abs(found - expected));

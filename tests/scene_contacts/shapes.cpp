@@ -7,9 +7,9 @@
 
 namespace scintray::test {
 
-PlacedPart box(const std::string& name, const Vec3& low, const Vec3& high, std::uint32_t first_face, int cuts,
-               bool other_diagonal) {
-  PlacedPart part;
+contact::PlacedPart box(const std::string& name, const core::Vec3& low, const core::Vec3& high,
+                        std::uint32_t first_face, int cuts, bool other_diagonal) {
+  contact::PlacedPart part;
   part.name = name;
   const auto at = [&](int axis, int i) {
     if (i == 0) return low[axis];
@@ -21,7 +21,7 @@ PlacedPart box(const std::string& name, const Vec3& low, const Vec3& high, std::
       const auto first = static_cast<std::uint32_t>(part.vertices.size());
       for (int i = 0; i <= cuts; ++i)
         for (int j = 0; j <= cuts; ++j) {
-          Vec3 p;
+          core::Vec3 p;
           p[axis] = end == 0 ? low[axis] : high[axis];
           p[u] = at(u, i);
           p[v] = at(v, j);
@@ -41,9 +41,9 @@ PlacedPart box(const std::string& name, const Vec3& low, const Vec3& high, std::
   return part;
 }
 
-PlacedPart prism(const std::string& name, const std::vector<Eigen::Vector2d>& outline, double z_low,
-                 double z_high, std::uint32_t first_face) {
-  PlacedPart part;
+contact::PlacedPart prism(const std::string& name, const std::vector<Eigen::Vector2d>& outline, double z_low,
+                          double z_high, std::uint32_t first_face) {
+  contact::PlacedPart part;
   part.name = name;
   const auto n = static_cast<std::uint32_t>(outline.size());
   for (const double z : {z_low, z_high})
@@ -63,43 +63,44 @@ PlacedPart prism(const std::string& name, const std::vector<Eigen::Vector2d>& ou
   return part;
 }
 
-void move(std::vector<PlacedPart>& parts, const Eigen::Matrix3d& rotation, const Vec3& shift) {
-  for (PlacedPart& part : parts)
-    for (Vec3& v : part.vertices) v = rotation * v + shift;
+void move(std::vector<contact::PlacedPart>& parts, const Eigen::Matrix3d& rotation, const core::Vec3& shift) {
+  for (contact::PlacedPart& part : parts)
+    for (core::Vec3& v : part.vertices) v = rotation * v + shift;
 }
 
 Eigen::Matrix3d skew_rotation() {
-  return Eigen::AngleAxisd(0.8137, Vec3(0.3, -0.5, 0.7).normalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(0.8137, core::Vec3(0.3, -0.5, 0.7).normalized()).toRotationMatrix();
 }
 
-void round_to_float(std::vector<PlacedPart>& parts) {
-  for (PlacedPart& part : parts)
-    for (Vec3& v : part.vertices) v = v.cast<float>().cast<double>();
+void round_to_float(std::vector<contact::PlacedPart>& parts) {
+  for (contact::PlacedPart& part : parts)
+    for (core::Vec3& v : part.vertices) v = v.cast<float>().cast<double>();
 }
 
 namespace {
-Vec3 area_vector(const InterfaceTriangle& t) {
+core::Vec3 area_vector(const contact::InterfaceTriangle& t) {
   return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]);
 }
 }  // namespace
 
-double area(const InterfaceTriangle& triangle) { return area_vector(triangle).norm(); }
+double area(const contact::InterfaceTriangle& triangle) { return area_vector(triangle).norm(); }
 
-double area_between(const std::vector<InterfaceTriangle>& interfaces, std::int32_t a, std::int32_t b) {
+double area_between(const std::vector<contact::InterfaceTriangle>& interfaces, std::int32_t a,
+                    std::int32_t b) {
   double sum = 0.0;
-  for (const InterfaceTriangle& t : interfaces)
+  for (const contact::InterfaceTriangle& t : interfaces)
     if ((t.back == a && t.front == b) || (t.back == b && t.front == a)) sum += area(t);
   return sum;
 }
 
-std::map<std::int32_t, Boundary> boundaries(const std::vector<InterfaceTriangle>& interfaces) {
+std::map<std::int32_t, Boundary> boundaries(const std::vector<contact::InterfaceTriangle>& interfaces) {
   std::map<std::int32_t, Boundary> result;
   if (interfaces.empty()) return result;
-  const Vec3 origin = interfaces.front().vertex[0];
-  for (const InterfaceTriangle& t : interfaces)
+  const core::Vec3 origin = interfaces.front().vertex[0];
+  for (const contact::InterfaceTriangle& t : interfaces)
     for (const auto& [region, sign] : {std::pair(t.back, 1.0), std::pair(t.front, -1.0)}) {
       Boundary& boundary = result[region];
-      const Vec3 v = sign * area_vector(t);
+      const core::Vec3 v = sign * area_vector(t);
       boundary.area_vector += v;
       boundary.area += v.norm();
       boundary.volume += v.dot((t.vertex[0] + t.vertex[1] + t.vertex[2]) / 3.0 - origin) / 3.0;
@@ -107,27 +108,28 @@ std::map<std::int32_t, Boundary> boundaries(const std::vector<InterfaceTriangle>
   return result;
 }
 
-void check_laws(const std::vector<PlacedPart>& parts, const std::vector<InterfaceTriangle>& interfaces,
-                const std::vector<double>& volumes, double slack_mm) {
+void check_laws(const std::vector<contact::PlacedPart>& parts,
+                const std::vector<contact::InterfaceTriangle>& interfaces, const std::vector<double>& volumes,
+                double slack_mm) {
   double largest = 0.0;
-  for (const PlacedPart& part : parts)
-    for (const Vec3& v : part.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  for (const contact::PlacedPart& part : parts)
+    for (const core::Vec3& v : part.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   double extent = 0.0;
-  for (const PlacedPart& part : parts)
-    for (const Vec3& v : part.vertices) extent = std::max(extent, (v - parts[0].vertices[0]).norm());
+  for (const contact::PlacedPart& part : parts)
+    for (const core::Vec3& v : part.vertices) extent = std::max(extent, (v - parts[0].vertices[0]).norm());
   // A face is known to some roundings of the largest coordinate.
   const double rounding = 256.0 * std::numeric_limits<double>::epsilon() * largest;
 
   std::vector<std::set<std::int32_t>> faces;
-  for (const PlacedPart& part : parts) faces.emplace_back(part.face.begin(), part.face.end());
+  for (const contact::PlacedPart& part : parts) faces.emplace_back(part.face.begin(), part.face.end());
   bool sides_differ = true, has_face = true, faces_belong = true;
-  for (const InterfaceTriangle& t : interfaces) {
+  for (const contact::InterfaceTriangle& t : interfaces) {
     sides_differ = sides_differ && t.back != t.front;
-    has_face = has_face && t.back_face != kNoFace;
+    has_face = has_face && t.back_face != contact::kNoFace;
     for (const auto& [region, face] : {std::pair(t.back, t.back_face), std::pair(t.front, t.front_face)})
-      if (face != kNoFace)
-        faces_belong =
-            faces_belong && region != kAmbient && faces[static_cast<std::size_t>(region)].contains(face);
+      if (face != contact::kNoFace)
+        faces_belong = faces_belong && region != contact::kAmbient &&
+                       faces[static_cast<std::size_t>(region)].contains(face);
   }
   CHECK(sides_differ);
   CHECK(has_face);
@@ -135,10 +137,12 @@ void check_laws(const std::vector<PlacedPart>& parts, const std::vector<Interfac
 
   const auto all = boundaries(interfaces);
   REQUIRE(volumes.size() == parts.size());
-  for (const auto& [region, boundary] : all) {
+  for (const auto& row : all) {
+    const auto& region = row.first;
+    const auto& boundary = row.second;
     CAPTURE(region);
     CHECK(boundary.area_vector.norm() <= rounding * std::sqrt(boundary.area * interfaces.size()));
-    if (region == kAmbient) continue;
+    if (region == contact::kAmbient) continue;
     CHECK(std::abs(boundary.volume - volumes[static_cast<std::size_t>(region)]) <=
           boundary.area * (slack_mm + rounding) + rounding * extent * std::sqrt(boundary.area));
   }

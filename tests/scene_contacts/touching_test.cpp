@@ -3,6 +3,8 @@
 #include "shapes.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::contact;
 using namespace scintray::test;
 
 namespace {

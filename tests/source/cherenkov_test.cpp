@@ -1,4 +1,4 @@
-#include "scintray/source/cherenkov.hpp"
+#include "scintray/source/detail/cherenkov.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,15 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/scene/library.hpp"
-#include "scintray/source/electron_stopping.hpp"
-#include "scintray/source/gamma/element_data.hpp"
+#include "scintray/materials/database.hpp"
+#include "scintray/source/detail/electron_stopping.hpp"
+#include "scintray/source/detail/gamma/element_data.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::source;
 
 namespace {
 
@@ -45,12 +49,14 @@ std::string message_of(const Medium& medium, double low_nm, double high_nm) {
 TEST_CASE("Mean excitation energies of compounds are those of NIST's ESTAR") {
   // ESTAR's list of materials (physics.nist.gov/PhysRefData/Star): liquids and solids to which it assigns
   // its values by additivity.
-  for (const auto& [formula, expected] : {std::pair{"Bi4Ge3O12", 534.1},
-                                          {"NaI", 452.0},
-                                          {"CsI", 553.1},
-                                          {"CdWO4", 468.3},
-                                          {"BaF2", 375.9},
-                                          {"CaWO4", 395.0}}) {
+  for (const auto& row : {std::pair{"Bi4Ge3O12", 534.1},
+                          {"NaI", 452.0},
+                          {"CsI", 553.1},
+                          {"CdWO4", 468.3},
+                          {"BaF2", 375.9},
+                          {"CaWO4", 395.0}}) {
+    const auto& formula = row.first;
+    const auto& expected = row.second;
     CAPTURE(formula);
     const ElectronStopping stopping(composition_of_formula(formula), 5.0);
     CHECK(stopping.mean_excitation_eV() == doctest::Approx(expected).epsilon(5e-4));
@@ -62,12 +68,14 @@ TEST_CASE("Mean excitation energies of compounds are those of NIST's ESTAR") {
 TEST_CASE("Collision stopping power of water is that of NIST's ESTAR, and so is the range") {
   // ESTAR, liquid water: MeV cm2/g; it takes 75.0 eV, where additivity gives 75.3 eV.
   const ElectronStopping water(composition_of_formula("H2O"), 1.0);
-  for (const auto& [energy_keV, expected] : {std::pair{10.0, 22.56},
-                                             {60.0, 5.797},
-                                             {100.0, 4.115},
-                                             {200.0, 2.793},
-                                             {500.0, 2.034},
-                                             {1000.0, 1.849}}) {
+  for (const auto& row : {std::pair{10.0, 22.56},
+                          {60.0, 5.797},
+                          {100.0, 4.115},
+                          {200.0, 2.793},
+                          {500.0, 2.034},
+                          {1000.0, 1.849}}) {
+    const auto& energy_keV = row.first;
+    const auto& expected = row.second;
     CAPTURE(energy_keV);
     CHECK(water.MeV_cm2_per_g(energy_keV) == doctest::Approx(expected).epsilon(2e-3));
     CHECK(water.keV_per_mm(energy_keV) == doctest::Approx(100.0 * water.MeV_cm2_per_g(energy_keV)));
@@ -142,13 +150,13 @@ TEST_CASE(
 }
 
 TEST_CASE("BGO makes more Cherenkov light of 511 keV than LSO; the numbers are printed") {
-  const Library library = Library::shipped();
-  const CherenkovEmitter in_bgo(library.medium("BGO"), 360.0, 690.0),
-      in_lso(library.medium("LSO"), 360.0, 690.0);
-  for (const auto& [name, emitter] : {std::pair{"BGO", &in_bgo}, {"LSO", &in_lso}})
-    MESSAGE(std::string(name) << ", 360 to 690 nm: threshold " << emitter->threshold_keV()
-                              << " keV, photons of 511 keV " << emitter->mean_photons(511.0)
-                              << ", of 420 keV " << emitter->mean_photons(420.0));
+  const MaterialDatabase database = MaterialDatabase::shipped();
+  const CherenkovEmitter in_bgo(database.medium("BGO"), 360.0, 690.0),
+      in_lso(database.medium("LSO"), 360.0, 690.0);
+  for (const auto& row : {std::pair{"BGO", &in_bgo}, {"LSO", &in_lso}})
+    MESSAGE(std::string(row.first) << ", 360 to 690 nm: threshold " << row.second->threshold_keV()
+                                   << " keV, photons of 511 keV " << row.second->mean_photons(511.0)
+                                   << ", of 420 keV " << row.second->mean_photons(420.0));
   CHECK(in_bgo.threshold_keV() < in_lso.threshold_keV());
   CHECK(in_bgo.mean_photons(511.0) > in_lso.mean_photons(511.0));
 }

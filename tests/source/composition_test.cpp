@@ -1,9 +1,12 @@
-#include "scintray/medium/composition.hpp"
+#include "scintray/optics/composition.hpp"
 
 #include "event_scene.hpp"
-#include "scintray/scene/library.hpp"
+#include "scintray/materials/database.hpp"
 
 using namespace scintray;
+using namespace scintray::config;
+using namespace scintray::optics;
+using namespace scintray::materials;
 using namespace scintray::test;
 
 namespace {
@@ -16,14 +19,14 @@ double share_of(const Composition& composition, int atomic_number) {
 
 std::string medium_complaint(const std::string& composition) {
   return complaint([&] {
-    Library library = Library::shipped();
-    library.add(LibraryKind::medium, {{"thing", parse_toml(R"(
+    MaterialDatabase database = MaterialDatabase::shipped();
+    database.add(DefinitionKind::medium, {{"thing", parse_toml(R"(
 index = { n = 1.5 }
 absorption = { none = true }
 scattering = { none = true }
 )" + composition,
-                                                           "scene.toml")}});
-    library.medium("thing");
+                                                               "scene.toml")}});
+    database.medium("thing");
   });
 }
 
@@ -58,10 +61,10 @@ TEST_CASE("a medium's composition is read, and faults have their place") {
 }
 
 TEST_CASE("every shipped medium says what it is made of") {
-  const Library library = Library::shipped();
-  for (const std::string& name : library.names(LibraryKind::medium)) {
+  const MaterialDatabase database = MaterialDatabase::shipped();
+  for (const std::string& name : database.names(DefinitionKind::medium)) {
     CAPTURE(name);
-    const Medium medium = library.medium(name);
+    const Medium medium = database.medium(name);
     CHECK(medium.empty_space == (name == "vacuum"));
     if (medium.empty_space) continue;
     REQUIRE(!medium.composition.empty());

@@ -1,11 +1,15 @@
-#include "scintray/source/gamma/cross_sections.hpp"
+#include "scintray/source/detail/gamma/cross_sections.hpp"
 
 #include <xraylib/xraylib.h>
 
 #include "event_scene.hpp"
-#include "scintray/scene/library.hpp"
+#include "scintray/materials/database.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {
@@ -62,7 +66,7 @@ TEST_CASE("total attenuation agrees with NIST's tables") {
 TEST_CASE("LSO attenuates 511 keV by 0.87 /cm") {
   // C. L. Melcher and J. S. Schweitzer 1992, IEEE Trans. Nucl. Sci. 39 502: attenuation length 1.14 cm to
   // 1.15 cm, 0.87 /cm.
-  const Medium lso = Library::shipped().medium("LSO");
+  const Medium lso = MaterialDatabase::shipped().medium("LSO");
   const GammaMatter matter(lso.composition, lso.density_g_per_cm3);
   CHECK(10.0 * matter.total_per_mm(511.0) == doctest::Approx(0.87).epsilon(0.03));
 }

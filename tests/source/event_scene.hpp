@@ -4,24 +4,22 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_gamma_source.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/make_event_source.hpp"
+#include "support/shared.hpp"
 
 namespace scintray::test {
 
 /// A file beside which relative paths count.
-inline std::string scene_path() {
-  return (std::filesystem::path(SCINTRAY_SOURCE_DIR) / "test.toml").string();
-}
+inline std::string scene_path() { return source_file("test.toml").string(); }
 
 /// Parts in the given ambient; every face smooth.
-inline Scene scene_of(const std::string& parts, const std::string& ambient = "vacuum") {
+inline scene::Scene scene_of(const std::string& parts, const std::string& ambient = "vacuum") {
   const std::string text = "ambient = \"" + ambient + "\"\n" + parts + R"(
 [source]
 type = "photons"
@@ -32,13 +30,13 @@ photons = 1
 [surfaces.flat]
 model = "smooth"
 )";
-  SurfaceMaker::Hooks hooks;
+  materials::SurfaceFactory::Hooks hooks;
   hooks.cache.clear();
-  return SceneBuilder(hooks).build(SceneFile::from_text(text, scene_path()).spec(0)).scene;
+  return scene::SceneBuilder(hooks).build(scene_file::SceneFile::from_text(text, scene_path()).spec(0)).scene;
 }
 
 /// A box about the origin.
-inline std::string box_part(const std::string& name, const std::string& medium, const Vec3& size_mm,
+inline std::string box_part(const std::string& name, const std::string& medium, const core::Vec3& size_mm,
                             const std::string& more = "") {
   return fmt::format(
       R"(
@@ -55,46 +53,48 @@ surface = "flat"
 }
 
 /// A cube of LSO about the origin in empty space.
-inline Scene lso_cube(double edge_mm) {
-  return scene_of(box_part("crystal", "LSO", Vec3::Constant(edge_mm)));
+inline scene::Scene lso_cube(double edge_mm) {
+  return scene_of(box_part("crystal", "LSO", core::Vec3::Constant(edge_mm)));
 }
 
 /// Reads the keys of [source]; throws InputError with all that is wrong.
-inline GammaSpec gamma_spec(const std::string& source, const std::vector<std::string>& parts = {"crystal"}) {
-  Problems problems;
-  const TomlTable table(parse_toml(source, scene_path()), problems);
-  const GammaSpec spec = read_gamma_source(table, parts);
+inline scene_file::GammaSpec gamma_spec(const std::string& source,
+                                        const std::vector<std::string>& parts = {"crystal"}) {
+  core::Problems problems;
+  const config::TomlTable table(config::parse_toml(source, scene_path()), problems);
+  const scene_file::GammaSpec spec = scene_file::read_gamma_source(table, parts);
   table.finish();
   problems.throw_if_any();
   return spec;
 }
 
-inline std::unique_ptr<EventSource> event_source(const std::string& source, const Scene& scene,
-                                                 std::vector<std::string>* notes = nullptr) {
+inline std::unique_ptr<source::EventSource> event_source(const std::string& source, const scene::Scene& scene,
+                                                         std::vector<std::string>* notes = nullptr) {
   std::vector<std::string> parts;
-  for (const PartInfo& part : scene.parts) parts.push_back(part.name);
-  return make_event_source(gamma_spec(source, parts), scene, notes);
+  for (const scene::PartInfo& part : scene.parts) parts.push_back(part.name);
+  return source::make_event_source(gamma_spec(source, parts), scene, notes);
 }
 
-inline Event make_event(const EventSource& source, const Scene& scene, std::uint64_t number) {
-  Rng rng(1, StreamKind::event, number);
+inline source::Event make_event(const source::EventSource& source, const scene::Scene& scene,
+                                std::uint64_t number) {
+  core::Rng rng(1, core::StreamKind::event, number);
   return source.make(scene, number, rng);
 }
 
-inline double deposited_keV(const Event& event) {
+inline double deposited_keV(const source::Event& event) {
   double sum = 0.0;
-  for (const Deposit& deposit : event.deposits) sum += deposit.energy_keV;
+  for (const source::Deposit& deposit : event.deposits) sum += deposit.energy_keV;
   return sum;
 }
 
-/// What an InputError says in full.
+/// What an InputError states in full.
 template <class Action>
 std::string complaint(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     std::string text;
-    for (const Problem& problem : error.problems()) text += problem.text() + "\n";
+    for (const core::Problem& problem : error.problems()) text += problem.text() + "\n";
     return text;
   }
   FAIL("no InputError was thrown");

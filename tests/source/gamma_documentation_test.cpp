@@ -6,6 +6,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::scene_file;
 using namespace scintray::test;
 
 namespace {
@@ -30,7 +33,7 @@ std::set<std::string> documented_keys() {
   return keys;
 }
 
-/// Keys that the reader asks for, whatever is in the file.
+/// Keys that the reader requests, whatever is in the file.
 std::set<std::string> read_keys() {
   std::set<std::string> keys;
   for (const std::string text :

@@ -1,9 +1,13 @@
-#include "scintray/source/gamma/gamma_source.hpp"
+#include "scintray/source/detail/gamma/gamma_source.hpp"
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

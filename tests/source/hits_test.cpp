@@ -2,10 +2,13 @@
 
 #include "event_scene.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/source/hits_source.hpp"
+#include "scintray/source/detail/hits_source.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {
@@ -57,7 +60,7 @@ TEST_CASE("hits out of order and outside are counted and the first named") {
   CHECK(deposited_keV(make_event(*source, scene, 0)) == doctest::Approx(400.0));
   const Event second = make_event(*source, scene, 1);
   CHECK(deposited_keV(second) == doctest::Approx(200.0));
-  CHECK(second.unseen_keV == doctest::Approx(400.0));
+  CHECK(second.non_scintillating_keV == doctest::Approx(400.0));
   REQUIRE(notes.size() == 2);
   CHECK(says(notes[0], "1 of 4 hits lie outside every part"));
   CHECK(says(notes[0], "row 5 (event 2, at 50, 0, 0 mm)"));

@@ -1,4 +1,4 @@
-#include "scintray/source/gamma/scattering.hpp"
+#include "scintray/source/detail/gamma/scattering.hpp"
 
 #include <xraylib/xraylib.h>
 
@@ -6,6 +6,9 @@
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::source;
 
 namespace {
 

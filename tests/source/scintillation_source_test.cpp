@@ -4,9 +4,14 @@
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/source/scintillation_source.hpp"
+#include "scintray/source/detail/scintillation_source.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {
@@ -72,8 +77,10 @@ TEST_CASE("The intrinsic resolution holds at its energy and falls with the squar
 TEST_CASE("A deposit gives the light of its own energy where the response is not proportional") {
   Medium medium = scintillator(25.0);
   medium.relative_yield = Curve({10.0, 100.0, 662.0}, {0.6, 0.9, 1.0});
-  for (const auto& [energy, relative] :
+  for (const auto& row :
        {std::pair{10.0, 0.6}, {55.0, 0.75}, {100.0, 0.9}, {662.0, 1.0}, {5.0, 0.6}, {1000.0, 1.0}}) {
+    const auto& energy = row.first;
+    const auto& relative = row.second;
     CAPTURE(energy);
     const Spread spread = photon_numbers(medium, energy, 4'000);
     CHECK(std::abs(spread.mean - 25.0 * energy * relative) < kSigmas * spread.mean_error);

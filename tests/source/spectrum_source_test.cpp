@@ -1,4 +1,4 @@
-#include "scintray/source/spectrum_source.hpp"
+#include "scintray/source/detail/spectrum_source.hpp"
 
 #include <fstream>
 
@@ -7,6 +7,10 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {

@@ -1,9 +1,13 @@
-#include "scintray/source/gamma/transport.hpp"
+#include "scintray/source/detail/gamma/transport.hpp"
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene;
+using namespace scintray::source;
 using namespace scintray::test;
 
 namespace {
@@ -103,17 +107,17 @@ TEST_CASE("energy is conserved in every event") {
           "[[part]]\nname = \"shield\"\nbox = [\"4 mm\", \"4 mm\", \"2 mm\"]\nmedium = \"opaque\"\nsurface = "
           "\"flat\"\nplace = { touch = \"window\", side = \"-z\" }\n",
       "air");
-  std::uint64_t seen = 0, unseen = 0, escaped = 0;
+  std::uint64_t seen = 0, non_scintillating = 0, escaped = 0;
   for (const char* energy : {"30 keV", "88 keV", "511 keV", "1274.5 keV", "2.9 MeV"}) {
     const auto source = event_source(
         beam(energy, 2000, "[[matter]]\npart = \"shield\"\nformula = \"Pb\"\ndensity = \"11.35 g/cm3\""),
         scene);
     for (std::uint64_t i = 0; i < source->events(); ++i) {
       const Event event = make_event(*source, scene, i);
-      CHECK(deposited_keV(event) + event.escaped_keV + event.unseen_keV ==
+      CHECK(deposited_keV(event) + event.escaped_keV + event.non_scintillating_keV ==
             doctest::Approx(event.energy_keV).epsilon(1e-12));
       seen += event.deposits.empty() ? 0 : 1;
-      unseen += event.unseen_keV > 0.0 ? 1 : 0;
+      non_scintillating += event.non_scintillating_keV > 0.0 ? 1 : 0;
       escaped += event.escaped_keV > 0.0 ? 1 : 0;
       for (const Deposit& deposit : event.deposits) {
         CHECK(scene.region_names[deposit.region] == "crystal");
@@ -124,7 +128,7 @@ TEST_CASE("energy is conserved in every event") {
     }
   }
   CHECK(seen > 500);
-  CHECK(unseen > 500);
+  CHECK(non_scintillating > 500);
   CHECK(escaped > 500);
 }
 

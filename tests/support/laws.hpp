@@ -13,8 +13,8 @@
 namespace scintray::test {
 
 /// Checks a measured number against the law in the test's name.
-inline void check_law(const std::string& what, const Estimate& measured, const Estimate& law) {
-  const double distance = sigmas(measured, law);
+inline void check_law(const std::string& what, const core::Estimate& measured, const core::Estimate& law) {
+  const double distance = core::sigmas(measured, law);
   evidence("laws", {doctest::getContextOptions()->currentTest->m_name, what,
                     fmt::format("{:.6g} ± {:.2g}", measured.value, measured.error),
                     fmt::format("{:.6g}", law.value), fmt::format("{:.2f}", distance)});

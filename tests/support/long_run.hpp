@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <string>
 
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/run.hpp"
+#include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::test {
 
@@ -19,17 +19,15 @@ inline double wanted_steps(double usual) {
 }
 
 /// Traces a scene with one seed after the other until it has made so many steps; no photon may be lost.
-inline void lose_no_photon(const std::string& name, const SceneSpec& spec, const Scene& scene, double steps) {
-  const PhotonSource source(spec.source, scene);
-  const TallyPlan plan(scene, spec);
-  RunSettings settings;
-  settings.max_interactions = spec.run.max_interactions;
+inline void lose_no_photon(const std::string& name, scene_file::SceneSpec spec, double steps) {
+  const auto built = std::make_shared<const scene::BuiltScene>(scene::SceneBuilder().build(spec));
   double made = 0.0;
   std::uint64_t photons = 0, resolved = 0;
-  for (settings.seed = 1; made < steps; ++settings.seed) {
-    const PointResult result = run_point(scene, source, plan, settings);
+  for (spec.run.seed = 1; made < steps; ++spec.run.seed) {
+    const simulation::SimulationPoint point(spec, built);
+    const tally::PointResult result = point.trace();
     REQUIRE(result.lost == 0);
-    REQUIRE(result.photons == source.photons());
+    REQUIRE(result.photons == point.work());
     made += static_cast<double>(result.segments);
     photons += result.photons;
     resolved += result.resolved_misses;

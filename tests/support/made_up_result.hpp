@@ -9,8 +9,9 @@
 namespace scintray::test {
 
 /// One point whose detected fraction is near `light`; every count is consistent with the others.
-inline PointResult made_up_point(std::vector<std::string> parameters, double light, std::uint64_t photons) {
-  PointResult point;
+inline tally::PointResult made_up_point(std::vector<std::string> parameters, double light,
+                                        std::uint64_t photons) {
+  tally::PointResult point;
   point.parameters = std::move(parameters);
   point.photons_requested = point.photons = photons;
   point.complete = true;
@@ -21,17 +22,17 @@ inline PointResult made_up_point(std::vector<std::string> parameters, double lig
   point.fates = {detected, share(0.21 * light), share(0.07), 0, share(0.04), share(0.0004), share(0.0001)};
   std::uint64_t sum = 0;
   for (const std::uint64_t count : point.fates) sum += count;
-  point.fates[fate_index(Fate::absorbed_at_surface)] = photons - sum;
+  point.fates[core::fate_index(core::Fate::absorbed_at_surface)] = photons - sum;
   point.absorbed_in_medium = {share(0.066), share(0.07) - share(0.066), 0};
-  const std::uint64_t absorbed = point.count(Fate::absorbed_at_surface);
+  const std::uint64_t absorbed = point.count(core::Fate::absorbed_at_surface);
   point.absorbed_at_surface = {absorbed - absorbed / 9, absorbed / 9};
   const auto energy = static_cast<double>(share(0.02));
   point.shifted_in_medium = {{}, {share(0.03), share(0.02), 3.1 * energy, 2.4 * energy, 31.0}, {}};
   point.shifted_at_surface = {{}, {share(0.01), share(0.004), 0.5 * energy, 0.4 * energy, 1.5}};
-  point.sensor_faces = {{1, 2, detected - detected / 40, point.count(Fate::not_detected)},
+  point.sensor_faces = {{1, 2, detected - detected / 40, point.count(core::Fate::not_detected)},
                         {1, 1, detected / 40, 0}};
   for (const bool detected_only : {false, true}) {
-    ExitAngleTally tally;
+    tally::ExitAngleTally tally;
     tally.name = detected_only ? "exit face, detected" : "exit face, all";
     tally.face = 0;
     tally.detected_only = detected_only;
@@ -63,9 +64,9 @@ inline PointResult made_up_point(std::vector<std::string> parameters, double lig
 }
 
 /// Light output against depth for three surface models.
-inline RunResult made_up_run() {
-  RunResult run;
-  RunHeader& header = run.header;
+inline tally::RunResult made_up_run() {
+  tally::RunResult run;
+  tally::RunHeader& header = run.header;
   header.title = "Light output against depth, LSO 2 x 2 x 20 mm in air";
   header.version = "0.1.0";
   header.scene_file = "scenes/depth.toml";

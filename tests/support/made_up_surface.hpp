@@ -1,23 +1,25 @@
 #pragma once
 /// A surface read on a bench, with numbers that no two fields share.
 
-#include "scintray/analysis/surface_study.hpp"
+#include "scintray/analysis/goniometer/surface_analysis.hpp"
 
 namespace scintray::test {
 
-inline SurfaceStudy made_up_surface(const std::string& surface, const std::string& outside) {
-  SurfaceStudy study;
-  study.bench = "Faces";
-  study.place = {surface, "LSO", outside, 420.0};
-  study.index = {1.82, 1.0};
-  study.rays = 1000;
-  study.incidence_rad = {0.0, 20.0 * kDegree, 45.0 * kDegree};
-  study.reflectance = {{0.15, 0.011}, {0.33, 0.015}, {0.8, 0.013}};
-  study.slope_rad = {{18.0 * kDegree, 0.1 * kDegree}, {19.0 * kDegree, 0.2 * kDegree}, {21.0 * kDegree, 0.0}};
-  GoniometerReading& reading = study.directions;
-  reading.settings.incidence_rad = 45.0 * kDegree;
+inline analysis::SurfaceAnalysis made_up_surface(const std::string& surface, const std::string& outside) {
+  analysis::SurfaceAnalysis analysis;
+  analysis.goniometer = "Faces";
+  analysis.place = {surface, "LSO", outside, 420.0};
+  analysis.index = {1.82, 1.0};
+  analysis.rays = 1000;
+  analysis.incidence_rad = {0.0, 20.0 * core::kDegree, 45.0 * core::kDegree};
+  analysis.reflectance = {{0.15, 0.011}, {0.33, 0.015}, {0.8, 0.013}};
+  analysis.slope_rad = {{18.0 * core::kDegree, 0.1 * core::kDegree},
+                        {19.0 * core::kDegree, 0.2 * core::kDegree},
+                        {21.0 * core::kDegree, 0.0}};
+  analysis::GoniometerReading& reading = analysis.directions;
+  reading.settings.incidence_rad = 45.0 * core::kDegree;
   reading.settings.wavelength_nm = 420.0;
-  reading.settings.rays = study.rays;
+  reading.settings.rays = analysis.rays;
   reading.reflected = 800;
   reading.transmitted = 190;
   reading.absorbed = 10;
@@ -28,7 +30,7 @@ inline SurfaceStudy made_up_surface(const std::string& surface, const std::strin
   reading.transmitted_directions.profile[90] = 17;
   reading.reflected_lobe.rays = reading.reflected;
   reading.reflected_lobe.width_in_plane = 0.5;  // sine of 30 deg
-  return study;
+  return analysis;
 }
 
 }  // namespace scintray::test

@@ -4,6 +4,8 @@
 
 #include <iostream>
 
+#include "support/folders.hpp"
+
 namespace scintray::test {
 
 namespace {
@@ -26,22 +28,21 @@ class ScratchFolders {
 
  private:
   pid_t owner_ = getpid();
-  std::filesystem::path root_ =
-      std::filesystem::path(SCINTRAY_BINARY_DIR) / "test-scratch" / std::to_string(owner_);
+  std::filesystem::path root_ = build_folder() / "test-scratch" / std::to_string(owner_);
 };
 
 }  // namespace
 
 std::optional<std::filesystem::path> shared_file(const std::string& relative) {
-  const auto path = std::filesystem::path(SCINTRAY_SOURCE_DIR).parent_path() / "shared" / relative;
+  const auto path = source_folder().parent_path() / "shared" / relative;
   if (std::filesystem::exists(path)) return path;
   std::cout << "[skipped] reference data not on this machine: shared/" << relative << "\n";
   return std::nullopt;
 }
 
-std::filesystem::path source_file(const std::string& relative) {
-  return std::filesystem::path(SCINTRAY_SOURCE_DIR) / relative;
-}
+std::filesystem::path source_file(const std::string& relative) { return source_folder() / relative; }
+
+std::filesystem::path program_file() { return build_folder() / "bin" / "scintray"; }
 
 std::filesystem::path scratch_folder(const std::string& name) {
   static const ScratchFolders folders;

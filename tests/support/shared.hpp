@@ -1,5 +1,5 @@
 #pragma once
-/// Reference data that lies beside the checkout on some machines only.
+/// Files that tests read and write: of this repository, of this build, and beside the checkout.
 
 #include <filesystem>
 #include <optional>
@@ -13,6 +13,9 @@ std::optional<std::filesystem::path> shared_file(const std::string& relative);
 
 /// A file of this repository.
 std::filesystem::path source_file(const std::string& relative);
+
+/// The program of this build, once its target is built.
+std::filesystem::path program_file();
 
 /// An empty folder for one test's files, below the build folder; gone when the test program ends.
 std::filesystem::path scratch_folder(const std::string& name);

@@ -1,10 +1,14 @@
 #pragma once
-/// What the tests ask of texts and of errors.
+/// What the tests check of texts and of errors.
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
+#include <initializer_list>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scintray/core/error.hpp"
@@ -15,17 +19,44 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Checks for these words, and shows the text where they are missing.
-inline void check_says(const std::string& text, const std::string& words) {
+/// What one line of a message must hold, in any order: the names, numbers and keys that its reader acts on,
+/// and the words that name the kind of problem. The wording between them is free.
+class Fragments {
+ public:
+  Fragments(const char* only) : parts_{only} {}
+  Fragments(std::string only) : parts_{std::move(only)} {}
+  Fragments(std::initializer_list<std::string> parts) : parts_(parts) {}
+
+  bool all_in_one_line(const std::string& text) const {
+    if (parts_.size() == 1) return contains(text, parts_.front());
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (std::all_of(parts_.begin(), parts_.end(), [&](const auto& part) { return contains(line, part); }))
+        return true;
+    return false;
+  }
+  std::string text() const {
+    std::string all;
+    for (const std::string& part : parts_) all += (all.empty() ? "" : " ... ") + part;
+    return all;
+  }
+
+ private:
+  std::vector<std::string> parts_;
+};
+
+/// Checks for these fragments in one line, and shows the text where they are missing.
+inline void check_contains(const std::string& text, const Fragments& fragments) {
   CAPTURE(text);
-  CHECK(contains(text, words));
+  CAPTURE(fragments.text());
+  CHECK(fragments.all_in_one_line(text));
 }
 
 /// Everything an action finds wrong; nothing when it succeeds. Other exceptions pass through.
-inline std::vector<Problem> problems_of(const std::function<void()>& action) {
+inline std::vector<core::Problem> problems_of(const std::function<void()>& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const core::InputError& error) {
     return error.problems();
   }
   return {};
@@ -34,7 +65,7 @@ inline std::vector<Problem> problems_of(const std::function<void()>& action) {
 /// The same as text, a problem a line; empty when the action succeeds.
 inline std::string complaint_of(const std::function<void()>& action) {
   std::string all;
-  for (const Problem& problem : problems_of(action)) all += problem.text() + "\n";
+  for (const core::Problem& problem : problems_of(action)) all += problem.text() + "\n";
   return all;
 }
 

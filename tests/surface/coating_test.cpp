@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/surface.hpp"
+#include "scintray/optics/surface.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {
@@ -28,39 +30,39 @@ Surface coated(Curve gap_index, double yield = 1.0) {
   return surface;
 }
 
-struct Met {
-  std::uint64_t inside = 0, outside = 0, absorbed = 0;  ///< of light given back, and lost
+struct Outcomes {
+  std::uint64_t inside = 0, outside = 0, absorbed = 0;  ///< of light re-emitted, and lost
   std::uint64_t passed = 0, returned = 0;               ///< of light that kept its wavelength
-  std::uint64_t wrong = 0;  ///< other wavelengths without being given back, directions away from their side
+  std::uint64_t wrong = 0;  ///< other wavelengths without being re-emitted, directions away from their side
   ShiftCount count;
   Moments delay_ns;
 };
 
 /// Light of 400 nm from inside at an incidence.
-Met shine(const Surface& surface, double incidence, const std::function<IndexPair(double)>& index) {
-  Met met;
+Outcomes shine(const Surface& surface, double incidence, const std::function<IndexPair(double)>& index) {
+  Outcomes outcomes;
   for (std::uint64_t i = 0; i < kShots; ++i) {
     Rng rng(23, StreamKind::other, i);
     Ray ray{Vec3(std::sin(incidence), 0.0, std::cos(incidence)), Vec3::Zero()};
     ShiftingLight light;
     light.wavelength_nm = 400.0;
     light.index = index;
-    const SurfaceOutcome outcome = surface.meet(ray, Side::inside, Vec3::UnitZ(), light, rng);
-    met.count += light.count;
+    const SurfaceOutcome outcome = surface.interact(ray, Side::inside, Vec3::UnitZ(), light, rng);
+    outcomes.count += light.count;
     const bool shifted = light.count.emitted > 0;
-    met.wrong += shifted != (light.wavelength_nm >= 480.0);
-    if (shifted) met.delay_ns.add(light.delay_ns);
+    outcomes.wrong += shifted != (light.wavelength_nm >= 480.0);
+    if (shifted) outcomes.delay_ns.add(light.delay_ns);
     if (outcome == SurfaceOutcome::absorbed)
-      ++met.absorbed;
+      ++outcomes.absorbed;
     else if (outcome == SurfaceOutcome::inside)
-      ++(shifted ? met.inside : met.returned);
+      ++(shifted ? outcomes.inside : outcomes.returned);
     else
-      ++(shifted ? met.outside : met.passed);
-    met.wrong += outcome != SurfaceOutcome::absorbed &&
-                 (ray.direction.z() < 0.0) != (outcome == SurfaceOutcome::inside);
+      ++(shifted ? outcomes.outside : outcomes.passed);
+    outcomes.wrong += outcome != SurfaceOutcome::absorbed &&
+                      (ray.direction.z() < 0.0) != (outcome == SurfaceOutcome::inside);
   }
-  CHECK(met.wrong == 0);
-  return met;
+  CHECK(outcomes.wrong == 0);
+  return outcomes;
 }
 
 double distance(std::uint64_t count, std::uint64_t of, double law) {
@@ -79,33 +81,37 @@ double isotropic_transmittance(double n1, double n2) {
 
 TEST_CASE("A coating of the indices around it: exp(-tau / cos) passes, and halves go each way") {
   for (const double incidence : {0.0, 1.0}) {
-    const Met met = shine(coated(Curve::constant(1.5)), incidence, [](double) {
+    const Outcomes outcomes = shine(coated(Curve::constant(1.5)), incidence, [](double) {
       return IndexPair{1.5, 1.5};
     });
-    CHECK(met.returned == 0);
-    CHECK(met.absorbed == 0);
-    CHECK(met.count.absorbed == kShots - met.passed);
-    CHECK(met.count.emitted == met.count.absorbed);
-    CHECK(distance(met.passed, kShots, std::exp(-kDepth / std::cos(incidence))) < kSigmas);
-    CHECK(distance(met.inside, met.inside + met.outside, 0.5) < kSigmas);
-    CHECK(sigmas(met.delay_ns.mean(), {50.0, 0.0}) < kSigmas);
+    CHECK(outcomes.returned == 0);
+    CHECK(outcomes.absorbed == 0);
+    CHECK(outcomes.count.absorbed == kShots - outcomes.passed);
+    CHECK(outcomes.count.emitted == outcomes.count.absorbed);
+    CHECK(distance(outcomes.passed, kShots, std::exp(-kDepth / std::cos(incidence))) < kSigmas);
+    CHECK(distance(outcomes.inside, outcomes.inside + outcomes.outside, 0.5) < kSigmas);
+    CHECK(sigmas(outcomes.delay_ns.mean(), {50.0, 0.0}) < kSigmas);
   }
 }
 
 TEST_CASE("The quantum yield of a coating: what is not given back is absorbed") {
-  const Met met = shine(coated(Curve::constant(1.5), 0.6), 0.0, [](double) { return IndexPair{1.5, 1.5}; });
-  CHECK(met.absorbed == met.count.absorbed - met.count.emitted);
-  CHECK(distance(met.count.emitted, met.count.absorbed, 0.6) < kSigmas);
+  const Outcomes outcomes = shine(coated(Curve::constant(1.5), 0.6), 0.0, [](double) {
+    return IndexPair{1.5, 1.5};
+  });
+  CHECK(outcomes.absorbed == outcomes.count.absorbed - outcomes.count.emitted);
+  CHECK(distance(outcomes.count.emitted, outcomes.count.absorbed, 0.6) < kSigmas);
 }
 
 TEST_CASE("Light given back meets the faces of the coating with the indices of its own wavelength") {
   // At 400 nm the coating is matched to the crystal, at 480 nm and beyond to the vacuum outside: half of
-  // what is given back heads for the crystal, and goes in by Fresnel or turns and leaves.
+  // what is re-emitted heads for the crystal, and goes in by Fresnel or turns and leaves.
   const Curve index({400.0, 450.0, 600.0}, {1.5, 1.0, 1.0});
-  const Met met = shine(coated(index), 0.0, [](double nm) { return IndexPair{1.5, nm < 450.0 ? 1.5 : 1.0}; });
-  const std::uint64_t back = met.inside + met.outside;
-  CHECK(met.absorbed == 0);
-  CHECK(distance(met.inside, back, 0.5 * isotropic_transmittance(1.0, 1.5)) < kSigmas);
+  const Outcomes outcomes = shine(coated(index), 0.0, [](double nm) {
+    return IndexPair{1.5, nm < 450.0 ? 1.5 : 1.0};
+  });
+  const std::uint64_t back = outcomes.inside + outcomes.outside;
+  CHECK(outcomes.absorbed == 0);
+  CHECK(distance(outcomes.inside, back, 0.5 * isotropic_transmittance(1.0, 1.5)) < kSigmas);
 }
 
 TEST_CASE("Without knowing of other wavelengths a coating only absorbs") {
@@ -114,8 +120,8 @@ TEST_CASE("Without knowing of other wavelengths a coating only absorbs") {
   for (std::uint64_t i = 0; i < kShots; ++i) {
     Rng rng(29, StreamKind::other, i);
     Ray ray{Vec3::UnitZ(), Vec3::Zero()};
-    absorbed +=
-        surface.meet(ray, Side::inside, Vec3::UnitZ(), {1.5, 1.5}, 400.0, rng) == SurfaceOutcome::absorbed;
+    absorbed += surface.interact(ray, Side::inside, Vec3::UnitZ(), {1.5, 1.5}, 400.0, rng) ==
+                SurfaceOutcome::absorbed;
   }
   CHECK(distance(absorbed, kShots, 1.0 - std::exp(-kDepth)) < kSigmas);
 }
@@ -126,6 +132,6 @@ TEST_CASE("A mixture shifts when one of its shares does") {
                    {0.5, std::make_shared<const Surface>(coated(Curve::constant(1.5)))}};
   CHECK(mixed.shifts());
   CHECK_FALSE(Surface().shifts());
-  const Met met = shine(mixed, 0.0, [](double) { return IndexPair{1.5, 1.5}; });
-  CHECK(distance(met.count.absorbed, kShots, 0.5 * (1.0 - std::exp(-kDepth))) < kSigmas);
+  const Outcomes outcomes = shine(mixed, 0.0, [](double) { return IndexPair{1.5, 1.5}; });
+  CHECK(distance(outcomes.count.absorbed, kShots, 0.5 * (1.0 - std::exp(-kDepth))) < kSigmas);
 }

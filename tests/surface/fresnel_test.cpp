@@ -2,10 +2,12 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/fresnel.hpp"
+#include "scintray/optics/fresnel.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {
@@ -33,7 +35,7 @@ TEST_CASE("Snell's law and the plane of incidence, both ways through a skew face
         Rng rng(1, StreamKind::other, i);
         Ray ray = incident(degrees * kDegree, 0.3);
         const Vec3 before = ray.direction;
-        transmitted = meet_facet(ray, kNormal, n1, n2, rng);
+        transmitted = interact_at_facet(ray, kNormal, n1, n2, rng);
         if (!transmitted) continue;
         const double sine = ray.direction.cross(kNormal).norm();
         CHECK(n2 * sine == doctest::Approx(n1 * std::sin(degrees * kDegree)).epsilon(1e-12));
@@ -61,7 +63,7 @@ TEST_CASE("Reflectance of s, p, mixed and unpolarised light is Fresnel's") {
         Rng rng(2, StreamKind::other, i);
         Ray ray = incident(degrees * kDegree, polarisation);
         if (polarisation < 0.0) ray.polarisation = Vec3::Zero();
-        reflected += !meet_facet(ray, kNormal, 1.82, 1.0, rng);
+        reflected += !interact_at_facet(ray, kNormal, 1.82, 1.0, rng);
       }
       CAPTURE(degrees);
       CAPTURE(polarisation);
@@ -76,7 +78,7 @@ TEST_CASE("Beyond the critical angle everything is reflected as by a mirror") {
     Rng rng(3, StreamKind::other, 0);
     Ray ray = incident(degrees * kDegree, 0.9);
     const Vec3 expected = mirror(ray.direction, kNormal);
-    CHECK_FALSE(meet_facet(ray, kNormal, 1.82, 1.0, rng));
+    CHECK_FALSE(interact_at_facet(ray, kNormal, 1.82, 1.0, rng));
     CHECK((ray.direction - expected).norm() < 1e-14);
     CHECK(std::abs(ray.polarisation.dot(ray.direction)) < 1e-12);
   }

@@ -5,10 +5,12 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/surface.hpp"
+#include "scintray/optics/surface.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {
@@ -47,7 +49,7 @@ Shares shares_of(const Surface& surface, Side side, double angle, const IndexPai
   for (std::uint64_t i = 0; i < kSheetRays; ++i) {
     Rng rng(4, StreamKind::other, i);
     Ray ray = arriving(side, angle, rng);
-    const SurfaceOutcome outcome = surface.meet(ray, side, kSheetNormal, index, 420.0, rng);
+    const SurfaceOutcome outcome = surface.interact(ray, side, kSheetNormal, index, 420.0, rng);
     ++(outcome == SurfaceOutcome::absorbed ? shares.absorbed
        : outcome == outcome_on(side)       ? shares.back
                                            : shares.through);
@@ -77,11 +79,13 @@ TEST_CASE("What passes a film goes straight on with its polarisation; between tw
     Rng rng(5, StreamKind::other, i);
     const Ray before = arriving(Side::inside, 0.5, rng);
     Ray ray = before;
-    REQUIRE(film.meet(ray, Side::inside, kSheetNormal, {1.3, 1.3}, 420.0, rng) == SurfaceOutcome::outside);
+    REQUIRE(film.interact(ray, Side::inside, kSheetNormal, {1.3, 1.3}, 420.0, rng) ==
+            SurfaceOutcome::outside);
     CHECK(ray.direction == before.direction);
     CHECK(ray.polarisation == before.polarisation);
 
-    REQUIRE(film.meet(ray, Side::inside, kSheetNormal, {1.3, 1.7}, 420.0, rng) == SurfaceOutcome::outside);
+    REQUIRE(film.interact(ray, Side::inside, kSheetNormal, {1.3, 1.7}, 420.0, rng) ==
+            SurfaceOutcome::outside);
     const Vec3 across = ray.direction - ray.direction.dot(kSheetNormal) * kSheetNormal;
     const Vec3 across_before = before.direction - before.direction.dot(kSheetNormal) * kSheetNormal;
     CHECK((1.7 * across - 1.3 * across_before).norm() < 1e-12);
@@ -111,7 +115,7 @@ TEST_CASE("What passes a diffuser leaves by Lambert's law; from the denser side 
   for (std::uint64_t i = 0; i < kSheetRays; ++i) {
     Rng rng(6, StreamKind::other, i);
     Ray ray = arriving(Side::inside, 1.0, rng);
-    if (diffuser.meet(ray, Side::inside, kSheetNormal, {1.0, 1.0}, 420.0, rng) != SurfaceOutcome::outside)
+    if (diffuser.interact(ray, Side::inside, kSheetNormal, {1.0, 1.0}, 420.0, rng) != SurfaceOutcome::outside)
       continue;
     const double cosine = ray.direction.dot(kSheetNormal);
     REQUIRE(cosine > 0.0);
@@ -136,7 +140,7 @@ TEST_CASE("A leaking mirror behind a gap: the geometric series of passes through
     Rng rng(7, StreamKind::other, i);
     Ray ray = arriving(Side::inside, angle, rng);
     ray.polarisation = Vec3::Zero();
-    const SurfaceOutcome outcome = stack.meet(ray, Side::inside, kSheetNormal, {1.82, 1.0}, 420.0, rng);
+    const SurfaceOutcome outcome = stack.interact(ray, Side::inside, kSheetNormal, {1.82, 1.0}, 420.0, rng);
     through += outcome == SurfaceOutcome::outside;
     absorbed += outcome == SurfaceOutcome::absorbed;
   }

@@ -3,10 +3,12 @@
 #include <functional>
 
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/surface.hpp"
+#include "scintray/optics/surface.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {
@@ -19,7 +21,8 @@ Estimate absorbed_share(const Surface& surface, double angle, Side side) {
   for (std::uint64_t i = 0; i < kRays; ++i) {
     Rng rng(1, StreamKind::other, i);
     Ray ray{Vec3(std::sin(angle), 0.0, z), Vec3::Zero()};
-    absorbed += surface.meet(ray, side, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
+    absorbed +=
+        surface.interact(ray, side, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
   }
   return binomial_estimate(absorbed, kRays);
 }
@@ -59,8 +62,10 @@ TEST_CASE("Reflectance follows the wavelength") {
   painted.reflector = Reflector{"dye", Curve({400.0, 500.0}, {0.0, 1.0}), 1.0};
   Rng rng(5, StreamKind::other, 0);
   Ray ray{Vec3::UnitZ(), Vec3::Zero()};
-  CHECK(painted.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 400.0, rng) == SurfaceOutcome::absorbed);
-  CHECK(painted.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 500.0, rng) == SurfaceOutcome::inside);
+  CHECK(painted.interact(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 400.0, rng) ==
+        SurfaceOutcome::absorbed);
+  CHECK(painted.interact(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 500.0, rng) ==
+        SurfaceOutcome::inside);
 }
 
 TEST_CASE("An absorbing layer of stated thickness under a mirror: Beer and Lambert, there and back") {
@@ -91,7 +96,7 @@ TEST_CASE("A layer without a reflector ends at the next medium: a lossless plate
     for (std::uint64_t i = 0; i < kRays; ++i) {
       Rng rng(2, StreamKind::other, i);
       Ray ray{side == Side::inside ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitZ()), Vec3::Zero()};
-      through += layer.meet(ray, side, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng) == beyond;
+      through += layer.interact(ray, side, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng) == beyond;
     }
     CHECK(sigmas(binomial_estimate(through, kRays), {law, 0.0}) < kSigmas);
   }
@@ -130,7 +135,7 @@ TEST_CASE("A volume-like reflector: light refracted in, scattered, and refracted
     Rng rng(3, StreamKind::other, i);
     Ray ray{Vec3(std::sin(0.6), 0.0, std::cos(0.6)), Vec3::Zero()};
     absorbed +=
-        volume.meet(ray, Side::inside, Vec3::UnitZ(), {1.0, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
+        volume.interact(ray, Side::inside, Vec3::UnitZ(), {1.0, 1.0}, 420.0, rng) == SurfaceOutcome::absorbed;
   }
   CHECK(sigmas(binomial_estimate(absorbed, kRays), {1.0 - law, 0.0}) < kSigmas);
 }
@@ -158,8 +163,8 @@ TEST_CASE("Law: weighted by their logged reflections, survivors of one reflectan
       Rng rng(4, StreamKind::other, i);
       Ray ray{Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()};
       ReflectionLog log;
-      const bool absorbed = surface.meet(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng, &log) ==
-                            SurfaceOutcome::absorbed;
+      const bool absorbed = surface.interact(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng,
+                                             &log) == SurfaceOutcome::absorbed;
       double weight = absorbed ? 0.0 : 1.0;
       for (const ReflectionLog::Entry& entry : log.entries()) {
         CHECK(entry.depth == doctest::Approx(entry.count * -std::log(traced)));

@@ -5,10 +5,12 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/surface/unified.hpp"
+#include "scintray/optics/unified.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 using namespace scintray::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/surface/height_field.hpp"
+#include "scintray/optics/height_field.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,8 @@
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 
 // Statistical bounds are 4 standard errors: one false alarm in 16,000 checks; the seeds are fixed.
 
@@ -52,7 +54,7 @@ TEST_CASE("a flat height field reflects by Fresnel and keeps directions exact") 
         Ray ray = arriving(side, incidence, azimuth);
         const double x = 2.1 * rng.uniform(), y = rng.uniform();
         const HeightFieldExit exit = field.follow(ray, side, x, y, kCrystalInAir, rng);
-        once = once && exit.facets_met == 1 && exit.first_slope_rad == 0.0 && !exit.cut;
+        once = once && exit.facet_interactions == 1 && exit.first_slope_rad == 0.0 && !exit.cut;
         const double sine = exit.side == side ? std::sin(incidence) : std::sin(incidence) * n1 / n2;
         const Vec3 expected(sine * std::cos(azimuth), sine * std::sin(azimuth),
                             (exit.side == Side::outside ? 1.0 : -1.0) * std::sqrt(1.0 - sine * sine));
@@ -95,20 +97,20 @@ TEST_CASE("roofs of one slope: projected-area weights, and one Fresnel reflectio
     // Bent by a slightly denser medium: by (n2/n1 - 1) tan(angle to the facet's normal), which is
     // 40 deg on one slope and 60 deg on the other.
     const IndexPair nearly{1.0, 1.001};
-    std::uint64_t facing = 0, met = 0;
+    std::uint64_t facing = 0, hit = 0;
     for (std::uint64_t k = 0; k < kRays; ++k) {
       Rng rng(13, StreamKind::other, 0, k);
       Ray ray = arriving(Side::inside, incidence);
       const Vec3 before = ray.direction;
       const double x = 32 * rng.uniform(), y = 4 * rng.uniform();
-      if (field.follow(ray, Side::inside, x, y, nearly, rng).facets_met != 1) continue;
-      ++met;
+      if (field.follow(ray, Side::inside, x, y, nearly, rng).facet_interactions != 1) continue;
+      ++hit;
       facing += (ray.direction - before).norm() < 0.001 * std::tan(incidence) ? 1 : 0;
     }
     // Areas seen: (1 +- tan(tilt) tan(incidence)) / 2; the facets whose normal leans along the ray
     // are the larger ones.
     const double p = 0.5 * (1.0 + std::tan(tilt) * std::tan(incidence));
-    CHECK(met == kRays);
+    CHECK(hit == kRays);
     CHECK(std::abs(static_cast<double>(facing) / kRays - p) <= 4.0 * std::sqrt(p * (1.0 - p) / kRays));
   }
 }
@@ -119,7 +121,7 @@ TEST_CASE("whatever the relief, a ray's side and its direction agree, on both si
   for (int k = 0; k < 37 * 23; ++k)
     spikes.push_back(static_cast<float>(4.0 * std::pow(heights.uniform(), 4)));
   const HeightField field(spikes, 37, 23, 1.0, 0.7);  // slopes to 75 deg and more
-  std::uint64_t disagree = 0, cut = 0, unmet = 0;
+  std::uint64_t disagree = 0, cut = 0, without_facet = 0;
   for (const Side side : {Side::inside, Side::outside})
     for (const double degrees : {0.0, 45.0, 80.0, 89.0, 89.9}) {
       for (std::uint64_t k = 0; k < 4000; ++k) {
@@ -129,12 +131,12 @@ TEST_CASE("whatever the relief, a ray's side and its direction agree, on both si
         const HeightFieldExit exit = field.follow(ray, side, x, y, kCrystalInAir, rng);
         disagree += (ray.direction.z() > 0.0) != (exit.side == Side::outside) ? 1 : 0;
         cut += exit.cut ? 1 : 0;
-        unmet += exit.facets_met < 1 ? 1 : 0;
+        without_facet += exit.facet_interactions < 1 ? 1 : 0;
       }
     }
   CHECK(disagree == 0);
   CHECK(cut == 0);
-  CHECK(unmet == 0);
+  CHECK(without_facet == 0);
 }
 
 TEST_CASE("a vertical ray along pixel edges and a ray in the mean plane are followed too") {
@@ -142,7 +144,7 @@ TEST_CASE("a vertical ray along pixel edges and a ray in the mean plane are foll
   for (const Side side : {Side::inside, Side::outside}) {
     Rng rng(15, StreamKind::other, 0);
     Ray vertical = arriving(side, 0.0);
-    CHECK(field.follow(vertical, side, 3.0, 2.0, kCrystalInAir, rng).facets_met >= 1);
+    CHECK(field.follow(vertical, side, 3.0, 2.0, kCrystalInAir, rng).facet_interactions >= 1);
     Ray level{{1.0, 0.0, 0.0}, Vec3::Zero()};
     const HeightFieldExit exit = field.follow(level, side, 3.0, 2.0, kCrystalInAir, rng);
     CHECK((level.direction.z() > 0.0) == (exit.side == Side::outside));

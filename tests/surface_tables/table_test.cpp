@@ -1,4 +1,4 @@
-#include "scintray/surface/table.hpp"
+#include "scintray/optics/table.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +12,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
 
 namespace {
 

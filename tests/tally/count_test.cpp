@@ -7,6 +7,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
 using namespace scintray::test;
 
 namespace {

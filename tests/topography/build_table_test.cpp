@@ -12,6 +12,9 @@
 #include "scintray/topography/synthesis.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 
@@ -82,6 +85,18 @@ TEST_CASE(
       CHECK(node.reflectance == static_cast<double>(node.reflected.rays) / static_cast<double>(node.rays));
     }
   CHECK(table.nodes(Side::inside).back().traced_incidence_rad == doctest::Approx(89.9 * kDegree));
+}
+
+TEST_CASE("a ray that leaves away from its medium, or nowhere, has none") {
+  const Vec3 up = Vec3(1.0, 2.0, 0.5).normalized(), down = -up;
+  CHECK(leaves_into_medium(SurfaceOutcome::outside, up));
+  CHECK(leaves_into_medium(SurfaceOutcome::inside, down));
+  CHECK_FALSE(leaves_into_medium(SurfaceOutcome::inside, up));
+  CHECK_FALSE(leaves_into_medium(SurfaceOutcome::outside, down));
+  const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  CHECK_FALSE(leaves_into_medium(SurfaceOutcome::inside, nowhere));
+  CHECK_FALSE(leaves_into_medium(SurfaceOutcome::outside, nowhere));
+  CHECK(leaves_into_medium(SurfaceOutcome::absorbed, up));
 }
 
 TEST_CASE("a table is the same to the last bit for any number of threads") {

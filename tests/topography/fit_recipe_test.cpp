@@ -9,11 +9,14 @@
 #include "scintray/topography/map_statistics.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 
-double met(const SynthesisRecipe& recipe, double incidence_rad) {
-  return mean_slope_met(make_height_field(synthesize(recipe)), Side::inside, incidence_rad, 40000).value /
+double visible_slope_deg(const SynthesisRecipe& recipe, double incidence_rad) {
+  return mean_visible_slope(make_height_field(synthesize(recipe)), Side::inside, incidence_rad, 40000).value /
          kDegree;
 }
 
@@ -30,7 +33,7 @@ TEST_CASE("a fit finds the rms height for a slope, from far away too") {
   for (const double start : {1.0, 8.0}) {
     SynthesisRecipe recipe = small(polished_recipe());
     recipe.gaussian.rms_height_um *= start;
-    CHECK(met(fit_recipe(recipe, {3.0 * kDegree}), 0.0) == doctest::Approx(3.0).epsilon(0.02));
+    CHECK(visible_slope_deg(fit_recipe(recipe, {3.0 * kDegree}), 0.0) == doctest::Approx(3.0).epsilon(0.02));
   }
 }
 
@@ -44,8 +47,8 @@ TEST_CASE("a fit finds rise, exponent and relief for two slopes and a height, fo
     const SlopeTarget target{18.0 * kDegree, 33.0 * kDegree, 0.35, 1};
     const SynthesisRecipe fitted = fit_recipe(recipe, target);
     CAPTURE(seed);
-    CHECK(met(fitted, 0.0) == doctest::Approx(18.0).epsilon(0.02));
-    CHECK(met(fitted, kGrazingStated_rad) == doctest::Approx(33.0).epsilon(0.02));
+    CHECK(visible_slope_deg(fitted, 0.0) == doctest::Approx(18.0).epsilon(0.02));
+    CHECK(visible_slope_deg(fitted, kGrazingStated_rad) == doctest::Approx(33.0).epsilon(0.02));
     CHECK(map_statistics(synthesize(fitted)).sq_um == doctest::Approx(0.35).epsilon(0.02));
   }
 }
@@ -53,7 +56,8 @@ TEST_CASE("a fit finds rise, exponent and relief for two slopes and a height, fo
 TEST_CASE("a fit to the mean of several seeds shows the target on their mean") {
   const SynthesisRecipe fitted = fit_recipe(small(polished_recipe()), {2.0 * kDegree, 0.0, 0.0, 3});
   double sum = 0.0;
-  for (SynthesisRecipe one = fitted; one.seed < fitted.seed + 3; ++one.seed) sum += met(one, 0.0);
+  for (SynthesisRecipe one = fitted; one.seed < fitted.seed + 3; ++one.seed)
+    sum += visible_slope_deg(one, 0.0);
   CHECK(sum / 3 == doctest::Approx(2.0).epsilon(0.02));
 }
 

@@ -1,4 +1,4 @@
-#include "scintray/topography/fourier.hpp"
+#include "scintray/topography/detail/fourier.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,9 +9,14 @@
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 TEST_CASE("a transform and its inverse give the map back, at even, odd and prime sizes; Parseval holds") {
-  for (const auto& [columns, rows] : {std::pair{8u, 6u}, {7u, 5u}, {6u, 13u}, {1u, 4u}, {13u, 1u}}) {
+  for (const auto& size : {std::pair{8u, 6u}, {7u, 5u}, {6u, 13u}, {1u, 4u}, {13u, 1u}}) {
+    const auto& columns = size.first;
+    const auto& rows = size.second;
     Rng rng(3, StreamKind::other, columns, rows);
     std::vector<double> heights(columns * rows);
     for (double& height : heights) height = rng.uniform();

@@ -11,11 +11,12 @@
 
 #include "map_files.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/topography/detail/readers/formats.hpp"
 #include "scintray/topography/height_map.hpp"
-#include "scintray/topography/readers/gwyddion_program.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {
@@ -74,7 +75,7 @@ TEST_CASE("a program that does not come to an end is ended") {
   const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "";
   setenv("PATH", (folder.string() + ":" + path).c_str(), 1);
   const GwyddionResult result =
-      ask_gwyddion(written("map3.bcr", bcrstm_file()), {"map3.bcr", {}}, std::chrono::milliseconds(50));
+      query_gwyddion(written("map3.bcr", bcrstm_file()), {"map3.bcr", {}}, std::chrono::milliseconds(50));
   setenv("PATH", path.c_str(), 1);
   CHECK(result.answer == GwyddionAnswer::timed_out);
 }
@@ -86,9 +87,9 @@ TEST_CASE("Gwyddion's own readers find the same heights, pitches and rows in pub
     const auto path = test::shared_file(std::string("data/topography/") + name);
     if (!path) return;
     const HeightMap ours = read_height_map(*path);
-    const GwyddionResult asked = ask_gwyddion(*path, {name, {}});
-    REQUIRE(asked.map);
-    const RawMap& theirs = *asked.map;
+    const GwyddionResult theirs_read = query_gwyddion(*path, {name, {}});
+    REQUIRE(theirs_read.map);
+    const RawMap& theirs = *theirs_read.map;
     REQUIRE(theirs.columns == ours.columns);
     REQUIRE(theirs.rows == ours.rows);
     CHECK(ours.pitch_x_um == doctest::Approx(*theirs.pitch_x_um).epsilon(1e-6));

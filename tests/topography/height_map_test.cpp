@@ -15,6 +15,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

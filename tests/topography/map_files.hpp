@@ -20,13 +20,13 @@ inline std::filesystem::path written(const std::string& name, const std::string&
   return folder / name;
 }
 
-inline long missing_points(const HeightMap& map) {
+inline long missing_points(const topography::HeightMap& map) {
   return std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); });
 }
 
 /// All that is wrong with a file, in one text; empty when it is read.
-inline std::string complaint(const std::filesystem::path& path, const ReadOptions& options = {}) {
-  return complaint_of([&] { read_height_map(path, options); });
+inline std::string complaint(const std::filesystem::path& path, const topography::ReadOptions& options = {}) {
+  return complaint_of([&] { topography::read_height_map(path, options); });
 }
 
 }  // namespace scintray::test

@@ -8,10 +8,13 @@
 #include <numeric>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/relief.hpp"
+#include "scintray/topography/detail/relief.hpp"
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 TEST_CASE("a sinusoid has its closed forms: Sq, Sa, Ssk, Sku, Sdr, slopes") {
   // 8 periods of 80 points: neighbours see the slope to (pi / 80)^2 / 6 = 2.6e-4 of itself.

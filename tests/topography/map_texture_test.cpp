@@ -6,10 +6,13 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/relief.hpp"
+#include "scintray/topography/detail/relief.hpp"
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 
@@ -38,7 +41,9 @@ double turned(double a, double b) { return std::abs(std::remainder(a - b, kPi));
 }  // namespace
 
 TEST_CASE("a sinusoid: Sal is acos(0.2) / 2 pi of its wavelength, Std lies along its crests") {
-  for (const auto& [m, n] : {std::pair{5, 0}, {0, 5}, {3, 4}, {4, -3}}) {
+  for (const auto& row : {std::pair{5, 0}, {0, 5}, {3, 4}, {4, -3}}) {
+    const auto& m = row.first;
+    const auto& n = row.second;
     const HeightMap map = test::sinusoid(300, 0.1, 0.7, m, n);
     const MapTexture texture = map_texture(map);
     const double wavelength = 30.0 / std::hypot(m, n);

@@ -8,13 +8,16 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
+#include "scintray/topography/detail/missing_points.hpp"
 #include "scintray/topography/map_statistics.hpp"
-#include "scintray/topography/missing_points.hpp"
 #include "scintray/topography/preparation.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "topography/made_maps.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {
@@ -228,7 +231,7 @@ TEST_CASE("a map without any height cannot be filled, and one with gaps is no su
   CHECK(contains(complaint_of([&] { make_height_field(holed); }), "fill"));
   const std::size_t steps = holed.steps.size();
   fill_missing(holed);
-  fill_missing(holed);  // nothing is left to do, and nothing is said
+  fill_missing(holed);  // nothing is left to do, and nothing is stated
   CHECK(holed.steps.size() == steps + 1);
 }
 

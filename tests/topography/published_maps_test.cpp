@@ -1,4 +1,4 @@
-/// Published height maps load with their known figures, or ask for what they lack. The figures are
+/// Published height maps load with their known figures, or request what they lack. The figures are
 /// those of an independent reading of the same files, after subtracting the least-squares plane.
 
 #include <doctest/doctest.h>
@@ -14,6 +14,8 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {

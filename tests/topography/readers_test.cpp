@@ -14,6 +14,8 @@
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {
@@ -28,7 +30,7 @@ std::filesystem::path written(const std::string& name, const std::string& conten
 ReadOptions channel(const std::optional<std::string>& name = {}) {
   ReadOptions options;
   options.channel = name;
-  options.ask_gwyddion = false;
+  options.query_gwyddion = false;
   return options;
 }
 

@@ -9,15 +9,18 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/statistics.hpp"
+#include "scintray/topography/detail/missing_points.hpp"
 #include "scintray/topography/height_map.hpp"
 #include "scintray/topography/map_statistics.hpp"
-#include "scintray/topography/missing_points.hpp"
 #include "scintray/topography/prepare.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
 
@@ -37,7 +40,7 @@ Estimate reflectance(const HeightField& field, Side side, double incidence, std:
 struct Reference {
   const char* file;
   std::array<double, 11> reflectance;
-  std::vector<std::pair<double, double>> slopes;  // incidence, mean slope met, deg
+  std::vector<std::pair<double, double>> slopes;  // incidence, mean visible slope, deg
 };
 
 }  // namespace
@@ -45,19 +48,17 @@ struct Reference {
 TEST_CASE("reflectance and slopes met agree with an independent tracing of two Gaussian maps") {
   constexpr std::array<double, 11> kIncidence{0, 10, 20, 30, 34.5, 39, 45.75, 50.25, 57, 61.5, 70.5};
   const std::array<Reference, 2> references{
-      {{"reference/microsurface/gaussian_rough.gsf",
+      {{"tests/reference/microsurface/gaussian_rough.gsf",
         {0.149, 0.192, 0.327, 0.519, 0.608, 0.698, 0.828, 0.898, 0.970, 0.991, 0.999},
         {{0, 18.2}, {57, 18.2}, {75, 19.3}, {81.75, 20.8}, {88.5, 22.2}}},
-       {"reference/microsurface/gaussian_polished.gsf",
+       {"tests/reference/microsurface/gaussian_polished.gsf",
         {0.082, 0.086, 0.090, 0.185, 0.928, 1, 1, 1, 1, 1, 1},
         {{0, 1.34}, {57, 1.34}}}}};
   constexpr std::uint64_t kRays = 40000, kReferenceRays = 60000;
   for (const Reference& reference : references) {
-    const auto path = test::shared_file(reference.file);
-    if (!path) return;
     ReadOptions options;
     options.periodic = true;
-    const HeightField field = make_height_field(read_height_map(*path, options));
+    const HeightField field = make_height_field(read_height_map(test::source_file(reference.file), options));
     for (std::size_t k = 0; k < kIncidence.size(); ++k) {
       const Estimate ours = reflectance(field, Side::inside, kIncidence[k] * kDegree, kRays);
       const double theirs = reference.reflectance[k];
@@ -71,8 +72,10 @@ TEST_CASE("reflectance and slopes met agree with an independent tracing of two G
       // Four combined standard errors, and 0.3 % for the rays that the other program misclassified.
       CHECK(std::abs(ours.value - theirs) <= 4.0 * error + 0.003);
     }
-    for (const auto& [incidence, slope] : reference.slopes) {
-      const Estimate ours = mean_slope_met(field, Side::inside, incidence * kDegree, kRays);
+    for (const auto& row : reference.slopes) {
+      const auto& incidence = row.first;
+      const auto& slope = row.second;
+      const Estimate ours = mean_visible_slope(field, Side::inside, incidence * kDegree, kRays);
       test::evidence("microsurface_slope",
                      {std::filesystem::path(reference.file).stem().string(), fmt::format("{:g}", incidence),
                       fmt::format("{:.3f} ± {:.3f}", ours.value / kDegree, ours.error / kDegree),
@@ -101,7 +104,9 @@ TEST_CASE("the Gaussian surface made here reflects as an independent program's, 
     recipe.seed = seed;
     fields.push_back(make_height_field(synthesize(recipe)));
   }
-  for (const auto& [incidence, expected] : reference) {
+  for (const auto& row : reference) {
+    const auto& incidence = row.first;
+    const auto& expected = row.second;
     double mean = 0.0;
     for (const HeightField& field : fields)
       mean += reflectance(field, Side::inside, incidence * kDegree, 20000).value / 4.0;
@@ -149,12 +154,12 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
                                        {"xyz-1.txt", without_units(4.0)},
                                        {"gwyfile-test.gwy", without_units(128.0)},
                                        {"10x10-one_channel_without_name.ibw", without_units(10.0)}};
-  for (const auto& [file, options, fill, rays] : maps) {
-    const auto path = test::shared_file(std::string("data/topography/") + file);
+  for (const PublishedMap& published : maps) {
+    const auto path = test::shared_file(std::string("data/topography/") + published.file);
     if (!path) return;
-    HeightMap map = read_height_map(*path, options);
-    CAPTURE(file);
-    if (fill) {
+    HeightMap map = read_height_map(*path, published.options);
+    CAPTURE(published.file);
+    if (published.fill) {
       CHECK(count_missing(map) > 0);
       CHECK_THROWS_AS(make_height_field(map), InputError);
       fill_missing(map);
@@ -164,7 +169,7 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
     std::uint64_t disagree = 0, cut = 0, facets = 0;
     for (const Side side : {Side::inside, Side::outside})
       for (const double degrees : {0.0, 30.0, 60.0, 80.0, 87.0, 89.9})
-        for (std::uint64_t k = 0; k < rays; ++k) {
+        for (std::uint64_t k = 0; k < published.rays; ++k) {
           Rng rng(32, StreamKind::other, static_cast<std::uint64_t>(degrees * 10), k);
           const double up = side == Side::inside ? 1.0 : -1.0;
           const double azimuth = kTwoPi * rng.uniform();
@@ -175,10 +180,10 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
           const HeightFieldExit exit = field.follow(ray, side, x, y, kCrystalInAir, rng);
           disagree += (ray.direction.z() > 0.0) != (exit.side == Side::outside) ? 1 : 0;
           cut += exit.cut ? 1 : 0;
-          facets += exit.facets_met > 0 ? 1 : 0;
+          facets += exit.facet_interactions > 0 ? 1 : 0;
         }
     CHECK(disagree == 0);
-    if (rays != kFewRays) CHECK(cut == 0);
-    CHECK(facets == 2 * 6 * rays);
+    if (published.rays != kFewRays) CHECK(cut == 0);
+    CHECK(facets == 2 * 6 * published.rays);
   }
 }

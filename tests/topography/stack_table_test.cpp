@@ -12,6 +12,9 @@
 #include "support/shared.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 using namespace scintray::test;
 
 namespace {
@@ -56,7 +59,8 @@ Seen shine(const Surface& surface, double incidence, double azimuth, double wave
     Ray ray{Vec3(std::sin(incidence) * std::cos(azimuth), std::sin(incidence) * std::sin(azimuth),
                  std::cos(incidence)),
             Vec3::Zero()};
-    const SurfaceOutcome outcome = surface.meet(ray, Side::inside, Vec3::UnitZ(), kIndex, wavelength_nm, rng);
+    const SurfaceOutcome outcome =
+        surface.interact(ray, Side::inside, Vec3::UnitZ(), kIndex, wavelength_nm, rng);
     ++seen.outcomes[static_cast<std::size_t>(outcome)];
     if (outcome != SurfaceOutcome::inside) continue;
     const double turn = std::atan2(ray.direction.y(), ray.direction.x()) / kTwoPi + 0.5;
@@ -119,9 +123,10 @@ TEST_CASE("Between two wavelengths a table is their mean, beyond them the neares
   const double at_400 = table.reflectance(Side::inside, angle, 0),
                at_500 = table.reflectance(Side::inside, angle, 1);
   CHECK(at_400 - at_500 > 0.1);
-  for (const auto& [nm, expected] :
-       {std::pair{400.0, at_400}, std::pair{425.0, 0.75 * at_400 + 0.25 * at_500}, std::pair{500.0, at_500},
-        std::pair{350.0, at_400}, std::pair{600.0, at_500}}) {
+  for (const auto& row : {std::pair{400.0, at_400}, std::pair{425.0, 0.75 * at_400 + 0.25 * at_500},
+                          std::pair{500.0, at_500}, std::pair{350.0, at_400}, std::pair{600.0, at_500}}) {
+    const auto& nm = row.first;
+    const auto& expected = row.second;
     CAPTURE(nm);
     const Estimate seen = binomial_estimate(shine(surface, angle, 0.0, nm, 3).outcomes[0], kRays);
     CHECK(sigmas(seen, {expected, 0.0}) < kSigmas);
@@ -174,7 +179,7 @@ TEST_CASE("Directions of a directional table are signed: light is thrown to the 
     for (std::uint64_t i = 0; i < kRays; ++i) {
       Rng rng(seed, StreamKind::other, i);
       Ray ray{Vec3(0.0, std::sin(60.0 * kDegree), std::cos(60.0 * kDegree)), Vec3::Zero()};
-      if (surface.meet(ray, Side::inside, Vec3::UnitZ(), kIndex, 420.0, rng) == SurfaceOutcome::inside)
+      if (surface.interact(ray, Side::inside, Vec3::UnitZ(), kIndex, 420.0, rng) == SurfaceOutcome::inside)
         mean.add(ray.direction.x());
     }
     return mean.mean();
@@ -198,7 +203,7 @@ TEST_CASE("Rays are added until the stated error is reached, or the table says h
     (node.rays > 4000 ? some_added : some_not) = true;
   }
   CHECK(some_added);
-  CHECK(some_not);  // at grazing incidence all light is reflected, and the first batch says so
+  CHECK(some_not);  // at grazing incidence all light is reflected, and the first batch states so
   settings.most_rays = 1;
   CHECK(build_table(*rough_map(), kIndex, settings).provenance().unconverged > 0);
   settings.target_error = -1.0;
@@ -239,7 +244,7 @@ TEST_CASE("A table made reciprocal is so exactly, keeps equilibrium, and says ho
         build_table(*rough_map(), kIndex, quick()).reflectance(Side::inside, degrees * kDegree);
     CHECK(std::abs(kernel.reflectance(Side::inside, low) - traced) < 0.03);
   }
-  // And light leaves as the kernel says.
+  // And light leaves as the kernel states.
   const Surface surface = of_table(table);
   const double angle = 40.0 * kDegree;
   const Estimate seen = binomial_estimate(shine(surface, angle, 0.0, 420.0, 10).outcomes[0], kRays);

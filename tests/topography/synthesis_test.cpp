@@ -5,16 +5,19 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/topography/fourier.hpp"
+#include "scintray/topography/detail/fourier.hpp"
+#include "scintray/topography/detail/relief.hpp"
 #include "scintray/topography/map_statistics.hpp"
 #include "scintray/topography/map_texture.hpp"
-#include "scintray/topography/relief.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::topography;
 
 namespace {
-double met(const HeightField& field, Side side, double degrees) {
-  return mean_slope_met(field, side, degrees * kDegree).value / kDegree;
+double visible_slope_deg(const HeightField& field, Side side, double degrees) {
+  return mean_visible_slope(field, side, degrees * kDegree).value / kDegree;
 }
 }  // namespace
 
@@ -32,8 +35,8 @@ TEST_CASE(
     CHECK(s.sq_um == doctest::Approx(0.45).epsilon(0.03));
     const HeightField field = make_height_field(map);
     for (const Side side : {Side::inside, Side::outside}) {
-      CHECK(std::abs(met(field, side, 0.0) - 18.0) < 1.0);
-      CHECK(std::abs(met(field, side, kGrazingStated_rad / kDegree) - 35.0) < 3.0);
+      CHECK(std::abs(visible_slope_deg(field, side, 0.0) - 18.0) < 1.0);
+      CHECK(std::abs(visible_slope_deg(field, side, kGrazingStated_rad / kDegree) - 35.0) < 3.0);
     }
     CHECK(map_warnings(map, s, map_texture(map)).empty());
   }
@@ -46,7 +49,7 @@ TEST_CASE("the polished recipe meets 1.25 deg at any incidence within +-0.05 um"
   CHECK(s.lowest_um > -0.056);
   const HeightField field = make_height_field(map);
   for (const double degrees : {0.0, 45.0, 80.0, 85.0})
-    CHECK(std::abs(met(field, Side::inside, degrees) - 1.25) < 0.05);
+    CHECK(std::abs(visible_slope_deg(field, Side::inside, degrees) - 1.25) < 0.05);
 }
 
 TEST_CASE("a Gaussian relief has its rms height and the slope of its correlation length") {
@@ -198,7 +201,9 @@ TEST_CASE("a tabulated spectrum comes out as it went in, band by band") {
   const HeightMap map = synthesize(recipe);
   const HalfSpectrum terms = fourier_transform(map.heights_um, 512, 512);
   const double width = 102.4, n = 512.0 * 512.0;
-  for (const auto& [low, high] : {std::pair{0.1, 0.2}, {0.2, 0.5}, {0.5, 1.0}, {1.0, 1.9}, {0.01, 0.045}}) {
+  for (const auto& band : {std::pair{0.1, 0.2}, {0.2, 0.5}, {0.5, 1.0}, {1.0, 1.9}, {0.01, 0.045}}) {
+    const auto& low = band.first;
+    const auto& high = band.second;
     double found = 0.0, expected = 0.0, count = 0.0;
     for (std::uint32_t l = 0; l < 512; ++l)
       for (std::uint32_t k = 0; k < terms.kept(); ++k) {

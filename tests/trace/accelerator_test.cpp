@@ -4,10 +4,14 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/scene/accelerator.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::mesh;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
 
 namespace {
 

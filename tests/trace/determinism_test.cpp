@@ -1,9 +1,14 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/source/photon_source.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
@@ -68,22 +73,18 @@ TEST_CASE("Results are the same to the last bit for 1, 2 and 7 threads") {
 TEST_CASE("A photon from the list can be followed again to the same end") {
   SceneSpec spec = scene_spec(kScene);
   spec.run.photon_list = true;
-  SceneBuilder builder;
-  const BuiltScene built = builder.build(spec);
-  const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, spec);
-  RunSettings settings;
+  const auto point = ready(std::move(spec));
   std::vector<DetectedPhoton> list;
   RunHooks hooks;
   hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
     list.insert(list.end(), photons.begin(), photons.end());
   };
-  const PointResult result = run_point(built.scene, source, plan, settings, hooks);
+  const PointResult result = point->trace(hooks);
   REQUIRE(list.size() == result.count(Fate::detected));
   for (std::size_t i = 0; i < list.size(); i += 97) {
     Step last;
-    const Photon end = replay(built.scene, source, settings, list[i].event, list[i].photon,
-                              [&](const Photon&, const Step& step) { last = step; });
+    const Photon end =
+        point->replay(list[i].event, list[i].photon, [&](const Photon&, const Step& step) { last = step; });
     CHECK(last.event == StepEvent::detected);
     CHECK(static_cast<float>(end.path_mm) == list[i].path_mm);
     CHECK(static_cast<float>(end.position.x()) == list[i].position_mm[0]);
@@ -92,18 +93,13 @@ TEST_CASE("A photon from the list can be followed again to the same end") {
 }
 
 TEST_CASE("A stopped run keeps whole blocks and says that it is partial") {
-  const SceneSpec spec = scene_spec(kScene);
-  SceneBuilder builder;
-  const BuiltScene built = builder.build(spec);
-  const PhotonSource source(spec.source, built.scene);
-  const TallyPlan plan(built.scene, spec);
+  SceneSpec spec = scene_spec(kScene);
+  spec.run.threads = 1;
   std::atomic<bool> stop{false};
   RunHooks hooks;
   hooks.stop = &stop;
   hooks.progress = [&](std::uint64_t done) { stop = done >= 8'000; };
-  RunSettings settings;
-  settings.threads = 1;
-  const PointResult result = run_point(built.scene, source, plan, settings, hooks);
+  const PointResult result = ready(std::move(spec))->trace(hooks);
   CHECK_FALSE(result.complete);
   CHECK(result.photons >= 8'000);
   CHECK(result.photons < 50'001);

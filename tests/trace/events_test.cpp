@@ -3,10 +3,14 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/trace/light_timing.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::tally;
 using namespace scintray::test;
 
 namespace {
@@ -79,11 +83,13 @@ TEST_CASE("Every event's energy is in its record, and its photons in the fates")
   CHECK(energy.events_requested == 60);
   CHECK(energy.events == 60);
   CHECK(energy.started == doctest::Approx(60 * 300.0));
-  CHECK(energy.deposited + energy.escaped + energy.unseen == doctest::Approx(energy.started).epsilon(1e-9));
+  CHECK(energy.deposited + energy.escaped + energy.non_scintillating ==
+        doctest::Approx(energy.started).epsilon(1e-9));
   CHECK(energy.silent > 0);
   CHECK(energy.silent < 60);
   for (const EventRecord& event : traced.events) {
-    CHECK(event.energy_keV + event.escaped_keV + event.unseen_keV == doctest::Approx(300.0).epsilon(1e-5));
+    CHECK(event.energy_keV + event.escaped_keV + event.non_scintillating_keV ==
+          doctest::Approx(300.0).epsilon(1e-5));
     CHECK((event.energy_keV > 0.0f) == (event.emitted > 0));
     REQUIRE(event.channels.size() == 1);
     CHECK(event.channels[0].detected == event.detected);
@@ -155,13 +161,7 @@ surface = "flat"
 
 TEST_CASE(
     "The time of one photon is known where all light has one emission and all sensors one time spread") {
-  const auto timing = [](const std::string& text) {
-    const SceneSpec spec = scene_spec(text);
-    SceneBuilder builder;
-    const BuiltScene built = builder.build(spec);
-    return light_timing(built.scene, spec, *make_light_source(spec, built.scene),
-                        TallyPlan(built.scene, spec));
-  };
+  const auto timing = [](const std::string& text) { return ready(scene_spec(text))->timing(); };
   const std::string readout =
       "[readout]\nperiod = \"1 ns\"\nbefore = \"5 ns\"\nwindow = \"100 ns\"\n"
       "shaping = { order = 1, time_constant = \"4 ns\" }\nthreshold = 1\n";

@@ -2,10 +2,16 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/transport/step.hpp"
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
 using namespace scintray::test;
 
 namespace {
@@ -116,7 +122,7 @@ TEST_CASE("A scene and a photon that were copied as bytes go on to the same bits
     const BuiltScene built = SceneBuilder().build(spec);
     const Scene copy = through_bytes(built.scene);
     const PhotonSource source(spec.source, built.scene);
-    FlightLimits limits;
+    PropagationLimits limits;
     limits.interactions = 500;
     std::uint64_t steps = 0, detected = 0;
     for (std::uint64_t i = 0; i < spec.source.photons; ++i) {
@@ -145,7 +151,7 @@ TEST_CASE("A photon reaches its limits once, by count or by time") {
   Photon photon;
   photon.interactions = 7;
   photon.time_ns = 2.0;
-  FlightLimits limits;
+  PropagationLimits limits;
   limits.interactions = 8;
   CHECK_FALSE(limits.reached(photon));
   limits.time_ns = 2.0;

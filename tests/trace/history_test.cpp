@@ -3,6 +3,9 @@
 #include "scintray/tally/photon_history.hpp"
 
 using namespace scintray;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
@@ -18,12 +21,9 @@ Followed follow(const std::string& text, bool histories) {
   SceneSpec spec = scene_spec(text);
   spec.run.photon_list = true;
   spec.run.photon_history = histories;
-  SceneBuilder builder;
-  const BuiltScene built = builder.build(spec);
-  const auto source = make_light_source(spec, built.scene);
-  const TallyPlan plan(built.scene, spec);
+  const auto point = ready(std::move(spec));
   Followed followed;
-  if (plan.history) followed.subjects = plan.history->subjects();
+  if (point->plan().history) followed.subjects = point->plan().history->subjects();
   RunHooks hooks;
   hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
     followed.photons.insert(followed.photons.end(), photons.begin(), photons.end());
@@ -37,7 +37,7 @@ Followed follow(const std::string& text, bool histories) {
     append(followed.histories.reflections, block.reflections);
     append(followed.histories.reflection_depth, block.reflection_depth);
   };
-  followed.result = run_point(built.scene, *source, plan, RunSettings{}, hooks);
+  followed.result = point->trace(hooks);
   return followed;
 }
 

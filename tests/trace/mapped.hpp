@@ -6,55 +6,44 @@
 #include <vector>
 
 #include "physics/traced.hpp"
-#include "scintray/trace/run_mapped.hpp"
+#include "scintray/simulation/response_map.hpp"
 
 namespace scintray::test {
 
-/// A scene with what its [source] and sensors are bound to.
+/// A scene whose events are traced, or made from a map.
 struct MappedScene {
-  explicit MappedScene(const std::string& text) : spec(scene_spec(text)) {
-    SurfaceMaker::Hooks hooks;
-    hooks.cache.clear();
-    built = SceneBuilder(hooks).build(spec);
-    source = make_light_source(spec, built.scene);
-    settings.seed = spec.run.seed;
+  explicit MappedScene(const std::string& text) : point(ready(scene_spec(text))) {}
+
+  simulation::ResponseMap map(const simulation::ResponseSettings& fineness, int threads = 0) const {
+    simulation::RunSettings run = point->settings();
+    run.threads = threads;
+    run.seed += 20'000;  // light of its own, not that of the events
+    return simulation::build_response_map(built.scene, point->source().regions(),
+                                          point->spec().energy_source->unpolarised, fineness, run);
+  }
+  std::vector<tally::EventRecord> traced() const {
+    return gathered([&](const simulation::RunHooks& hooks) { point->trace(hooks); });
+  }
+  std::vector<tally::EventRecord> mapped(const simulation::ResponseMap& map, int threads = 0) const {
+    scene_file::SceneSpec spec = point->spec();
+    if (threads > 0) spec.run.threads = threads;
+    const simulation::SimulationPoint with_threads(std::move(spec), point->built());
+    const simulation::MappedResponse response(map);
+    return gathered([&](const simulation::RunHooks& hooks) { with_threads.trace(response, hooks); });
   }
 
-  ResponseMap map(const ResponseSettings& fineness, int threads = 0) const {
-    RunSettings run = settings;
-    run.threads = threads;
-    run.seed = 20'000 + settings.seed;  // light of its own, not that of the events
-    return build_response_map(built.scene, source->regions(), spec.energy_source->unpolarised, fineness, run);
-  }
-  std::vector<EventRecord> traced() const {
-    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
-      run_point(built.scene, *source, plan, settings, hooks);
-    });
-  }
-  std::vector<EventRecord> mapped(const ResponseMap& map, int threads = 0) const {
-    RunSettings run = settings;
-    run.threads = threads;
-    const MappedResponse response(map);
-    return gathered([&](const TallyPlan& plan, const RunHooks& hooks) {
-      run_mapped(built.scene, *source, plan, response, run, hooks);
-    });
-  }
-
-  SceneSpec spec;
-  BuiltScene built;
-  std::unique_ptr<LightSource> source;
-  RunSettings settings;
+  std::shared_ptr<const simulation::SimulationPoint> point;
+  const scene::BuiltScene& built = *point->built();
 
  private:
   template <typename Run>
-  std::vector<EventRecord> gathered(const Run& run) const {
-    std::vector<EventRecord> all;
-    RunHooks hooks;
-    hooks.events = [&](const std::vector<EventRecord>& events) {
+  std::vector<tally::EventRecord> gathered(const Run& run) const {
+    std::vector<tally::EventRecord> all;
+    simulation::RunHooks hooks;
+    hooks.events = [&](const std::vector<tally::EventRecord>& events) {
       all.insert(all.end(), events.begin(), events.end());
     };
-    const TallyPlan plan(built.scene, spec);
-    run(plan, hooks);
+    run(hooks);
     return all;
   }
 };
@@ -107,14 +96,14 @@ energy = "100 keV"
 }
 
 /// Photons of events that a channel detected, and those emitted.
-inline std::uint64_t detected_in(const std::vector<EventRecord>& events, std::size_t channel) {
+inline std::uint64_t detected_in(const std::vector<tally::EventRecord>& events, std::size_t channel) {
   std::uint64_t sum = 0;
-  for (const EventRecord& event : events) sum += event.channels.at(channel).detected;
+  for (const tally::EventRecord& event : events) sum += event.channels.at(channel).detected;
   return sum;
 }
-inline std::uint64_t emitted_in(const std::vector<EventRecord>& events) {
+inline std::uint64_t emitted_in(const std::vector<tally::EventRecord>& events) {
   std::uint64_t sum = 0;
-  for (const EventRecord& event : events) sum += event.emitted;
+  for (const tally::EventRecord& event : events) sum += event.emitted;
   return sum;
 }
 

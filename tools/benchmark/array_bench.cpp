@@ -12,7 +12,7 @@
 
 #include "bench.hpp"
 #include "prepared.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::bench {
 
@@ -103,7 +103,7 @@ struct Built {
   double seconds = 0.0, megabytes = 0.0;
 };
 
-Built build(const std::string& text, SceneBuilder& builder) {
+Built build(const std::string& text, scene::SceneBuilder& builder) {
   Built result;
   const double before = resident_MB();
   const auto start = std::chrono::steady_clock::now();
@@ -116,17 +116,18 @@ Built build(const std::string& text, SceneBuilder& builder) {
 }  // namespace
 
 void bench_arrays() {
-  SceneBuilder builder;
+  scene::SceneBuilder builder;
   struct Case {
     std::string name, text;
     const char* part;
-    std::vector<BoundaryTriangle> triangles;
+    std::vector<scene::BoundaryTriangle> triangles;
     Built built;
     std::vector<Speed> speed;
     std::vector<double> raw;
   };
   std::vector<Case> cases;
-  const std::vector<BoundaryTriangle> crystal = triangles_of(make_box({-1, -1, -10}, {1, 1, 10}));
+  const std::vector<scene::BoundaryTriangle> crystal =
+      triangles_of(mesh::make_box({-1, -1, -10}, {1, 1, 10}));
   for (const char* surface : {"polished", "polished_lambertian_097"})
     for (const int n : {1, 10, 40})
       for (const char* accelerator : {"auto", "embree"})
@@ -140,7 +141,7 @@ void bench_arrays() {
   cases.push_back({"ball of a million triangles",
                    ball_scene(),
                    "ball",
-                   triangles_of(make_sphere(10.0, 224)),
+                   triangles_of(mesh::make_sphere(10.0, 224)),
                    {},
                    {},
                    {}});
@@ -174,7 +175,7 @@ void bench_arrays() {
       to_one.push_back(c.speed[r].segments / cases[i - i % 6 + i % 2].speed[r].segments);
     }
     std::cout << fmt::format("{:<38} {:>8} {:>10.2f} {:>9.0f} {:>12.2f} {:>12.3f} {:>12.2f} {:>14}\n", c.name,
-                             c.built.prepared.built.scene.regions.size(), c.built.seconds, c.built.megabytes,
+                             c.built.prepared->scene().regions.size(), c.built.seconds, c.built.megabytes,
                              median(segments), median(photons), median(per_raw),
                              i + 1 < cases.size() ? fmt::format("{:.2f}", median(to_one)) : "-");
   }

@@ -10,11 +10,14 @@
 
 #include "bench.hpp"
 #include "prepared.hpp"
-#include "scintray/mesh/primitives.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 namespace {
 
 using namespace scintray;
+using namespace scintray::mesh;
+using namespace scintray::topography;
+using namespace scintray::scene;
 
 constexpr int kRounds = 7;
 constexpr std::size_t kRawRays = 1'000'000;

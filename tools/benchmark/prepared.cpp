@@ -1,51 +1,47 @@
 #include "prepared.hpp"
 
-#include "scintray/source/photon_source.hpp"
-#include "scintray/trace/run.hpp"
-#include "scintray/trace/step.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::bench {
 
-Prepared prepare(const std::string& scene_text, SceneBuilder& builder) {
-  Prepared p;
-  p.spec = SceneFile::from_text(scene_text, "bench.toml").spec(0);
-  p.built = builder.build(p.spec);
-  return p;
+Prepared prepare(const std::string& scene_text, scene::SceneBuilder& builder) {
+  return std::make_shared<const simulation::SimulationPoint>(
+      scene_file::SceneFile::from_text(scene_text, "bench.toml").spec(0), builder);
 }
 
-Speed measure(const Prepared& p, int threads) {
-  const PhotonSource source(p.spec.source, p.built.scene);
-  const TallyPlan plan(p.built.scene, p.spec);
-  RunSettings settings;
-  settings.threads = threads;
-  settings.max_interactions = p.spec.run.max_interactions;
-  const PointResult r = run_point(p.built.scene, source, plan, settings);
+Speed measure(const Prepared& prepared, int threads) {
+  scene_file::SceneSpec spec = prepared->spec();
+  spec.run.threads = threads;
+  const tally::PointResult r = simulation::SimulationPoint(std::move(spec), prepared->built()).trace();
   return {static_cast<double>(r.segments) / r.wall_seconds, static_cast<double>(r.photons) / r.wall_seconds};
 }
 
-std::vector<RawRay> record_rays(const Prepared& p, std::size_t count) {
-  const PhotonSource source(p.spec.source, p.built.scene);
+std::vector<RawRay> record_rays(const Prepared& prepared, std::size_t count) {
+  const scene::Scene& scene = prepared->scene();
+  const source::LightSource& source = prepared->source();
   std::vector<RawRay> rays;
   const std::uint32_t crystal = source.regions().front();
-  const Region& region = p.built.scene.regions[crystal];
+  const scene::Region& region = scene.regions[crystal];
   for (std::uint64_t i = 0; rays.size() < count; ++i) {
-    Rng rng(9, StreamKind::photon, i);
-    Photon photon = source.emit(p.built.scene, rng);
-    for (Step taken{StepEvent::reflected}; !is_final(taken.event) && rays.size() < count;) {
+    core::Rng rng(9, core::StreamKind::photon, i);
+    source::Photon photon = source.emit(scene, {}, i, rng);
+    for (transport::Step taken{core::StepEvent::reflected};
+         !core::is_final(taken.event) && rays.size() < count;) {
       if (photon.region == crystal) {
-        const Vec3 o = region.point_to_local(photon.position), d = photon.ray.direction;
+        const core::Vec3 o = region.point_to_local(photon.position), d = photon.ray.direction;
         rays.push_back({{static_cast<float>(o.x()), static_cast<float>(o.y()), static_cast<float>(o.z())},
                         {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())}});
       }
-      taken = step(p.built.scene, photon, rng);
+      taken = transport::step(scene, photon, rng);
       if (photon.interactions > 1000) break;
     }
   }
   return rays;
 }
 
-std::vector<BoundaryTriangle> triangles_of(const TriMesh& mesh) {
-  std::vector<BoundaryTriangle> triangles;
+std::vector<scene::BoundaryTriangle> triangles_of(const mesh::TriMesh& mesh) {
+  std::vector<scene::BoundaryTriangle> triangles;
   for (const auto& [a, b, c] : mesh.triangles)
     triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   return triangles;

@@ -16,7 +16,7 @@ struct RawEmbree::State {
   RTCScene scene;
 };
 
-RawEmbree::RawEmbree(const std::vector<BoundaryTriangle>& triangles) : state_(new State) {
+RawEmbree::RawEmbree(const std::vector<scene::BoundaryTriangle>& triangles) : state_(new State) {
   state_->device = rtcNewDevice(nullptr);
   state_->scene = rtcNewScene(state_->device);
   rtcSetSceneBuildQuality(state_->scene, RTC_BUILD_QUALITY_HIGH);
@@ -26,8 +26,8 @@ RawEmbree::RawEmbree(const std::vector<BoundaryTriangle>& triangles) : state_(ne
   auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
   unsigned next = 0;
-  for (const BoundaryTriangle& triangle : triangles)
-    for (const Vec3& vertex : triangle) {
+  for (const scene::BoundaryTriangle& triangle : triangles)
+    for (const core::Vec3& vertex : triangle) {
       for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
       *indices++ = next++;
     }

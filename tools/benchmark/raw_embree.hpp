@@ -15,7 +15,7 @@ struct RawRay {
 /// filling the ray, the query, and adding up the hits.
 class RawEmbree {
  public:
-  explicit RawEmbree(const std::vector<BoundaryTriangle>& triangles);
+  explicit RawEmbree(const std::vector<scene::BoundaryTriangle>& triangles);
   ~RawEmbree();
   RawEmbree(const RawEmbree&) = delete;
   RawEmbree& operator=(const RawEmbree&) = delete;

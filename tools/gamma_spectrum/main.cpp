@@ -9,13 +9,18 @@
 
 #include "scintray/core/statistics.hpp"
 #include "scintray/scene/build_scene.hpp"
-#include "scintray/scene/read_gamma_source.hpp"
-#include "scintray/scene/read_scene.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/make_event_source.hpp"
 
 namespace {
 
 using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::config;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
 
 constexpr double kResolution = 0.22;  // full width at half maximum over 511 keV
 constexpr double kPeak_keV = 511.0;

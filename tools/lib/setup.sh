@@ -60,17 +60,67 @@ jobs() {
   [ "$cores" -le "$by_memory" ] && echo "$cores" || echo "$by_memory"
 }
 
+# A second build is quick, and so is the first one of another clone: what ccache keeps must not hold the place of
+# the repository. The user's own settings, of the environment or of ccache's file, are left alone.
+share_compiler_cache() {
+  command -v ccache >/dev/null || return 0
+  [ -n "$(ccache --get-config base_dir 2>/dev/null)" ] || export CCACHE_BASEDIR=$repository
+  [ -n "${CCACHE_HASHDIR+set}${CCACHE_NOHASHDIR+set}" ] || export CCACHE_NOHASHDIR=1
+}
+
+# Shows how far ninja is whose output is read: one line rewritten on a terminal, else a line every 20 s.
+show_progress() {
+  local line step='' started=$SECONDS shown=$SECONDS terminal=no
+  [ -t 1 ] && terminal=yes
+  while true; do
+    if IFS= read -r -t 5 line; then
+      [[ $line =~ ^\[([0-9]+/[0-9]+)\] ]] && step=${BASH_REMATCH[1]}
+    elif [ $? -le 128 ]; then
+      break
+    fi
+    if [ $terminal = yes ] && [ "$SECONDS" -gt "$shown" ]; then
+      shown=$SECONDS
+      printf '\r   [%s] %d s ' "${step:-configuring}" $((SECONDS - started))
+    elif [ $((SECONDS - shown)) -ge 20 ]; then
+      shown=$SECONDS
+      printf '   [%s] %d s\n' "${step:-configuring}" $((SECONDS - started))
+    fi
+  done
+  [ $terminal = no ] || printf '\r%40s\r' ''
+}
+
+configure_and_build() {
+  local preset=$1
+  shift
+  cd "$repository"
+  cmake --preset "$preset" && cmake --build --preset "$preset" -j "$(jobs)" ${@:+--target "$@"}
+}
+
 # build PRESET [TARGET...]: configures and builds, into build/PRESET. Shows the log when it fails.
 build() {
   local preset=$1 log=$repository/build/$1.log
-  shift
   mkdir -p "$repository/build"
+  share_compiler_cache
   say "building build/$preset with $(jobs) jobs (log: build/$preset.log)"
   local started=$SECONDS
-  if ! (cd "$repository" && cmake --preset "$preset" && cmake --build --preset "$preset" -j "$(jobs)" \
-        ${@:+--target "$@"}) >"$log" 2>&1; then
+  if ! configure_and_build "$@" 2>&1 | tee "$log" | show_progress; then
     tail -n 60 "$log" >&2
     fail "the build of build/$preset failed; the end of build/$preset.log is above"
   fi
   say "built in $((SECONDS - started)) s"
+}
+
+# timed NAME COMMAND...: runs the command, and adds what it cost to the table of show_costs.
+costs=()
+timed() {
+  local name=$1 started=$SECONDS
+  shift
+  "$@"
+  costs+=("$(printf '%-26s %5d s' "$name" $((SECONDS - started)))")
+}
+
+# Prints what each part run by timed cost, on the wall.
+show_costs() {
+  say "what each part cost on $(nproc) cores"
+  printf '   %s\n' "${costs[@]}"
 }

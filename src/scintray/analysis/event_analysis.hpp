@@ -1,0 +1,117 @@
+#pragma once
+/// All analyses that the events of one point allow.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scintray/analysis/position/anger.hpp"
+#include "scintray/analysis/position/channel_layout.hpp"
+#include "scintray/analysis/position/confusion.hpp"
+#include "scintray/analysis/position/depth_curve.hpp"
+#include "scintray/analysis/position/depth_of_interaction.hpp"
+#include "scintray/analysis/position/flood_map.hpp"
+#include "scintray/analysis/ratio.hpp"
+#include "scintray/analysis/spectrum/histogram.hpp"
+#include "scintray/analysis/spectrum/photopeak.hpp"
+#include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/analysis/timing/event_orders.hpp"
+#include "scintray/tally/event_record.hpp"
+
+namespace scintray::analysis {
+
+/// What the events do not state themselves, and how to look at them.
+struct AnalysisSetup {
+  std::vector<core::Vec3> channels_mm;                 ///< position of each readout channel, in order
+  std::optional<DepthAxis> depth;                      ///< without: no depth, no depth of interaction
+  std::map<std::uint32_t, std::size_t> layer_of_part;  ///< for parts in layers: 0, 1, ...; else empty
+  PhotopeakOptions photopeak;
+  AngerOptions anger;
+  FloodOptions flood;  ///< without `expected`: as many as parts were hit
+  EndRatio ratio = EndRatio::share;
+  DoiCalibrationKind calibration = DoiCalibrationKind::monotone;
+  std::size_t slices = 10;                         ///< of depth
+  std::vector<std::uint64_t> photon_order;         ///< n of the n-th photon times of the events; empty: none
+  std::optional<tally::LightTiming> light_timing;  ///< with it, bounds on timing
+  bool photopeak_only =
+      true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
+};
+
+struct EventAnalysis {
+  std::uint64_t events = 0;    ///< of the point
+  std::uint64_t pulses = 0;    ///< events with light in a channel
+  std::uint64_t selected = 0;  ///< pulses that flood map, depth of interaction and timing saw
+  bool has_readout = false;    ///< light is charge in photoelectrons and times are picked off; else photons
+  std::string selection;       ///< which pulses those are, in words
+
+  std::optional<Histogram> spectrum;  ///< of the light of all channels together
+  Photopeak peak;
+  core::Estimate mean_light;     ///< of pulses
+  core::Estimate light_per_keV;  ///< light of the events over the energy that they left in scintillators
+  std::optional<core::Estimate> mean_depth_mm;
+  std::optional<DepthCurve> light_against_depth;  ///< the reference is the middle of the depths
+  std::optional<DoiAnalysis> doi;
+  std::optional<LayerAnalysis> layers_by_ratio;
+  std::optional<Confusion> layers_by_flood;
+  std::optional<FloodMap> flood;
+  std::optional<Spread> pair_difference_ns;  ///< CTR: two such detectors, pick-off (first photon without)
+  std::optional<Spread> first_photon_difference_ns;  ///< the same by the first photon
+  std::optional<Spread> end_difference_ns;           ///< near end minus far end of one event
+  std::optional<TimingDepth> timing_against_depth;
+  std::optional<OrderAnalysis> orders;  ///< CTR by the n-th photon, behind a readout that keeps their times
+  std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
+  std::vector<OrderSlice> orders_against_depth;
+  std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
+  std::vector<std::string> left_out;                     ///< "flood map: why not"
+};
+
+/// Takes events one after the other and keeps 64 bytes of each, and 8 for each n-th photon.
+class EventCollector {
+ public:
+  /// @throws std::invalid_argument when a direction has no unit length
+  explicit EventCollector(AnalysisSetup setup);
+  /// @throws InputError when the event has another number of channels than the setup
+  void add(const tally::EventRecord& event);
+  EventAnalysis finish() const;
+
+ private:
+  struct Row {
+    double light = 0.0, time_ns = 0.0, first_ns = 0.0, end_difference_ns = 0.0;
+    float depth_mm = 0.0F, near_light = 0.0F, far_light = 0.0F;
+    std::array<float, 2> across_mm{};
+    std::uint32_t part = 0, detected = 0;
+  };
+  void add_light(const tally::EventRecord& event, Row& row) const;
+  void add_times(const tally::EventRecord& event, Row& row) const;
+  void analyze_light(EventAnalysis& analysis) const;
+  void analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,
+                     EventAnalysis& analysis) const;
+  std::vector<const Row*> select(EventAnalysis& analysis) const;
+  void analyze_flood(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_ends(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_timing(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+  void analyze_photon_orders(const std::vector<const Row*>& rows, EventAnalysis& analysis) const;
+
+  AnalysisSetup setup_;
+  std::optional<ChannelLayout> layout_;
+  std::vector<std::array<double, 2>> plane_mm_;  ///< across positions of the channels that make the flood map
+  std::vector<std::size_t> plane_channels_;
+  std::vector<Row> rows_;
+  OrderCollector orders_;  ///< of the same events as `rows_`
+  RatioOfSums light_of_energy_;
+  std::uint64_t events_ = 0;
+  bool has_readout_ = false;
+};
+
+/// The same for events at hand.
+EventAnalysis analyze_events(std::span<const tally::EventRecord> events, const AnalysisSetup& setup);
+
+/// The point of a sweep in a depth curve: mean depth, and the photopeak where a fit locates it, else the
+/// mean light. Nothing without a depth or without light.
+std::optional<DepthPoint> depth_point(const EventAnalysis& analysis);
+
+}  // namespace scintray::analysis

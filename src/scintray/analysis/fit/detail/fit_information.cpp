@@ -1,0 +1,118 @@
+#include "scintray/analysis/fit/detail/fit_information.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace scintray::analysis {
+
+namespace {
+
+using Eigen::Index;
+
+/// What the fit of a scale leaves of a fluctuation of each point: 1 - u_i^2, u the unit vector of the curve.
+Eigen::VectorXd left_by_scale(const WeightedResiduals& residuals, const ModelCurve& centre) {
+  Eigen::VectorXd left = Eigen::VectorXd::Ones(static_cast<Index>(centre.size()));
+  if (!residuals.free_scale()) return left;
+  Eigen::VectorXd u(left.size());
+  for (Index i = 0; i < u.size(); ++i)
+    u[i] = centre[static_cast<std::size_t>(i)].value.value * residuals.inverse_sigma()[i];
+  const double square = u.squaredNorm();
+  if (square > 0.0) left -= u.array().square().matrix() / square;
+  return left;
+}
+
+/// Covariance of the slopes of one point from its parts, before weights.
+Eigen::MatrixXd parts_covariance(const std::vector<DifferencePair>& pairs, std::size_t point) {
+  const std::size_t parts = pairs.front().low[point].parts.size();
+  Eigen::MatrixXd differences(static_cast<Index>(parts), static_cast<Index>(pairs.size()));
+  for (std::size_t j = 0; j < pairs.size(); ++j)
+    for (std::size_t part = 0; part < parts; ++part)
+      differences(static_cast<Index>(part), static_cast<Index>(j)) =
+          (pairs[j].high[point].parts[part] - pairs[j].low[point].parts[part]) / pairs[j].span;
+  const Eigen::MatrixXd centred = differences.rowwise() - differences.colwise().mean();
+  const auto n = static_cast<double>(parts);
+  return centred.transpose() * centred / (n * (n - 1.0));
+}
+
+bool has_parts(const std::vector<DifferencePair>& pairs, std::size_t point) {
+  const std::size_t parts = pairs.front().low[point].parts.size();
+  for (const DifferencePair& pair : pairs)
+    if (pair.low[point].parts.size() != parts || pair.high[point].parts.size() != parts) return false;
+  return parts >= 2;
+}
+
+}  // namespace
+
+Eigen::MatrixXd FitSlopes::summed_noise() const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(slope.cols(), slope.cols());
+  for (const Eigen::MatrixXd& point : noise) sum += point;
+  return sum;
+}
+
+FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre,
+                    const std::vector<DifferencePair>& pairs) {
+  const auto points = static_cast<Index>(centre.size());
+  const auto parameters = static_cast<Index>(pairs.size());
+  FitSlopes slopes;
+  slopes.slope.resize(points, parameters);
+  for (Index j = 0; j < parameters; ++j) {
+    const DifferencePair& pair = pairs[static_cast<std::size_t>(j)];
+    slopes.slope.col(j) = (residuals.of(pair.high) - residuals.of(pair.low)) / pair.span;
+  }
+  const double scale = residuals.scale(centre);
+  const Eigen::VectorXd left = left_by_scale(residuals, centre);
+  for (Index i = 0; i < points; ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    const double weight = std::pow(scale * residuals.inverse_sigma()[i], 2) * left[i];
+    Eigen::VectorXd independent(parameters), span_squared(parameters);
+    for (Index j = 0; j < parameters; ++j) {
+      const DifferencePair& pair = pairs[static_cast<std::size_t>(j)];
+      span_squared[j] = pair.span * pair.span;
+      independent[j] =
+          (std::pow(pair.low[point].value.error, 2) + std::pow(pair.high[point].value.error, 2)) /
+          span_squared[j];
+    }
+    Eigen::MatrixXd noise = independent.asDiagonal();
+    if (has_parts(pairs, point)) noise = parts_covariance(pairs, point);
+    slopes.noise.push_back(weight * noise);
+    slopes.common_variance += weight * noise.diagonal().cwiseProduct(span_squared).sum();
+    slopes.independent_variance += weight * independent.cwiseProduct(span_squared).sum();
+  }
+  return slopes;
+}
+
+Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
+  // Three times a squared range's inverse is the information of an error of twice what knowing nothing has.
+  const Eigen::VectorXd least = 3.0 * range.array().square().inverse().matrix();
+  const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope;
+  const Eigen::MatrixXd noise = slopes.summed_noise();
+  const Eigen::VectorXd unit = raw.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * raw * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  Eigen::VectorXd values = eigen.eigenvalues();
+  for (Index k = 0; k < values.size(); ++k) {
+    const Eigen::VectorXd direction = unit.cwiseProduct(eigen.eigenvectors().col(k));
+    values[k] -= direction.dot(noise * direction);
+    values[k] = std::max(values[k], direction.dot(least.cwiseProduct(direction)));
+  }
+  const Eigen::MatrixXd mended =
+      eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+  return unit.cwiseInverse().asDiagonal() * mended * unit.cwiseInverse().asDiagonal();
+}
+
+FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,
+                            const Eigen::VectorXd& residuals, const Eigen::VectorXd& monte_carlo_share) {
+  const Eigen::MatrixXd inverse = information.inverse();
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
+  for (Index i = 0; i < residuals.size(); ++i)
+    moved += residuals[i] * residuals[i] * slopes.noise[static_cast<std::size_t>(i)];
+  const Eigen::MatrixXd wandering = inverse * moved * inverse;
+  const Eigen::MatrixXd curve =
+      inverse * (slopes.slope.transpose() * monte_carlo_share.asDiagonal() * slopes.slope) * inverse;
+  FitCovariance covariance;
+  covariance.total = inverse + wandering;
+  covariance.monte_carlo = (curve + wandering).diagonal().cwiseMin(covariance.total.diagonal());
+  return covariance;
+}
+
+}  // namespace scintray::analysis

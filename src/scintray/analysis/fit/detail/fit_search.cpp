@@ -1,0 +1,335 @@
+#include "scintray/analysis/fit/detail/fit_search.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "scintray/analysis/fit/detail/gsl_errors.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::analysis {
+
+namespace {
+
+using Eigen::Index;
+
+/// Expected fall of chi-square at which the search rests: parameters are then within a third of their error.
+constexpr double kRest = 0.1;
+/// The same for the estimate, within which the curve is taken to be straight, and at most.
+constexpr double kStraight = 1.0, kMostStraight = 9.0;
+/// Difference spans, as shares of the range of a parameter.
+constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
+/// Noise of a difference that is wanted, over the difference, and how much wider it may get for that.
+constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
+constexpr int kMostEstimates = 4, kMostRounds = 4;
+/// Shorter and shorter steps that GSL may try before one that goes down is given up on.
+constexpr int kMostTrials = 6;
+/// Values that a parameter can have: so many between its bounds, that going inside and out again does not
+/// make another curve by rounding.
+constexpr double kGrid = 0x1.0p40;
+/// Errors that change less than this need no new search.
+constexpr double kSameErrors = 0.05;
+/// First guess of a common error, over the root mean square of the values.
+constexpr double kFirstCommonError = 0.05;
+
+struct FreeWorkspace {
+  void operator()(gsl_multifit_nlinear_workspace* w) const { gsl_multifit_nlinear_free(w); }
+};
+
+double root_mean_square(const MeasuredCurve& measured) {
+  double sum = 0.0;
+  for (const MeasuredCurve::Point& point : measured.points) sum += point.y.value * point.y.value;
+  return std::sqrt(sum / static_cast<double>(measured.points.size()));
+}
+
+}  // namespace
+
+/// GSL's view of the search.
+struct GslFunctions {
+  static int residuals(const gsl_vector* x, void* data, gsl_vector* out) {
+    FitSearch& search = *static_cast<FitSearch*>(data);
+    if (++search.trials_ > kMostTrials) return GSL_EFAILED;
+    const auto curve = search.evaluate(search.outer(x->data));
+    if (!curve) return GSL_EFAILED;
+    const Eigen::VectorXd values = search.residuals_.of(*curve);
+    for (Index i = 0; i < values.size(); ++i) gsl_vector_set(out, static_cast<std::size_t>(i), values[i]);
+    return GSL_SUCCESS;
+  }
+
+  static int slopes(const gsl_vector* x, void* data, gsl_matrix* out) {
+    FitSearch& search = *static_cast<FitSearch*>(data);
+    const std::vector<double> at = search.outer(x->data);
+    if (!search.find_slopes(at)) return GSL_EFAILED;
+    for (std::size_t j = 0; j < at.size(); ++j)
+      for (std::size_t i = 0; i < out->size1; ++i)
+        gsl_matrix_set(out, i, j,
+                       search.slopes_->slope(static_cast<Index>(i), static_cast<Index>(j)) *
+                           search.inner_slope(j, at[j]));
+    return GSL_SUCCESS;
+  }
+};
+
+FitSearch::FitSearch(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
+                     const CurveModel& model, const CurveFitOptions& options)
+    : parameters_(parameters),
+      model_(model),
+      options_(options),
+      residuals_(measured, options.free_scale),
+      wider_(parameters.size(), 1.0) {
+  for (const FitParameter& parameter : parameters) {
+    best_.push_back(snapped(best_.size(), parameter.start));
+    span_.push_back(kFirstSpan * (parameter.high - parameter.low));
+  }
+  if (options.errors_from_scatter) {
+    common_error_ = kFirstCommonError * root_mean_square(measured);
+    residuals_.set_common_error(*common_error_);
+  }
+}
+
+Eigen::VectorXd FitSearch::range() const {
+  Eigen::VectorXd range(static_cast<Index>(parameters_.size()));
+  for (std::size_t j = 0; j < parameters_.size(); ++j)
+    range[static_cast<Index>(j)] = parameters_[j].high - parameters_[j].low;
+  return range;
+}
+
+double FitSearch::degrees() const {
+  return static_cast<double>(residuals_.size()) - static_cast<double>(parameters_.size()) -
+         (options_.free_scale ? 1.0 : 0.0);
+}
+
+double FitSearch::inner(std::size_t parameter, double value) const {
+  const FitParameter& p = parameters_[parameter];
+  return std::asin(std::clamp(2.0 * (value - p.low) / (p.high - p.low) - 1.0, -1.0, 1.0));
+}
+
+double FitSearch::inner_slope(std::size_t parameter, double value) const {
+  const FitParameter& p = parameters_[parameter];
+  return 0.5 * (p.high - p.low) * std::cos(inner(parameter, value));
+}
+
+double FitSearch::snapped(std::size_t parameter, double value) const {
+  const FitParameter& p = parameters_[parameter];
+  const double share = std::clamp((value - p.low) / (p.high - p.low), 0.0, 1.0);
+  return p.low + (p.high - p.low) * (std::round(share * kGrid) / kGrid);
+}
+
+std::vector<double> FitSearch::outer(const double* inner) const {
+  std::vector<double> values;
+  for (std::size_t j = 0; j < parameters_.size(); ++j) {
+    const FitParameter& p = parameters_[j];
+    values.push_back(snapped(j, p.low + 0.5 * (p.high - p.low) * (1.0 + std::sin(inner[j]))));
+  }
+  return values;
+}
+
+std::optional<ModelCurve> FitSearch::evaluate(const std::vector<double>& at) {
+  if (const auto found = known_.find(at); found != known_.end()) return found->second;
+  if (stopped_) return std::nullopt;
+  std::optional<ModelCurve> curve = model_(at, draw_);
+  if (!curve) {
+    stopped_ = true;
+    return std::nullopt;
+  }
+  if (curve->size() != residuals_.size())
+    throw std::invalid_argument("the model gives another number of points than were measured");
+  ++evaluations_;
+  known_.emplace(at, *curve);
+  return curve;
+}
+
+bool FitSearch::find_slopes(const std::vector<double>& at) {
+  if (at != slopes_at_ && slopes_) choose_spans();
+  const std::optional<ModelCurve> centre = evaluate(at);
+  std::vector<DifferencePair> pairs;
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    std::vector<double> low = at, high = at;
+    low[j] = snapped(j, at[j] - span_[j]);
+    high[j] = snapped(j, at[j] + span_[j]);
+    const auto below = evaluate(low), above = evaluate(high);
+    if (!centre || !below || !above) return false;
+    pairs.push_back({*below, *above, high[j] - low[j]});
+  }
+  slopes_ = slopes_of(residuals_, *centre, pairs);
+  slopes_at_ = at;
+  pairs_ = pairs;
+  scale_slopes_.resize(static_cast<Index>(pairs.size()));
+  for (std::size_t j = 0; j < pairs.size(); ++j)
+    scale_slopes_[static_cast<Index>(j)] =
+        (residuals_.scale(pairs[j].high) - residuals_.scale(pairs[j].low)) / pairs[j].span;
+  return true;
+}
+
+/// Differences over one standard error (of each parameter alone) to each side change chi-square by one: far
+/// above what rounding or a lost photon do, and near enough for a straight line. Where photons go other ways
+/// from one side to the other, their noise grows with the root of the distance and the difference with the
+/// distance, so wider differences are surer.
+void FitSearch::choose_spans() {
+  const Eigen::MatrixXd noise = slopes_->summed_noise();
+  const Eigen::MatrixXd information = information_of(*slopes_, range());
+  for (std::size_t j = 0; j < span_.size(); ++j) {
+    const auto k = static_cast<Index>(j);
+    const double whole = parameters_[j].high - parameters_[j].low;
+    const double relative = noise(k, k) / information(k, k) / (kWantedNoise * kWantedNoise);
+    wider_[j] = std::clamp(wider_[j] * std::clamp(relative, 0.5, 4.0), 1.0, kMostWider);
+    span_[j] = std::clamp(wider_[j] / std::sqrt(information(k, k)), kLeastSpan * whole, kMostSpan * whole);
+  }
+}
+
+FitSearch::Outlook FitSearch::outlook() const {
+  const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
+  // The noise of the slopes, which information_of takes away, stays in: it shortens steps where they are
+  // unsure. To know as little of a parameter as its range is no knowledge, but keeps steps finite.
+  Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
+  information.diagonal() += range().array().square().inverse().matrix();
+  // A parameter at a bound that would go beyond it stays.
+  std::vector<Index> free;
+  for (std::size_t j = 0; j < best_.size(); ++j) {
+    const FitParameter& p = parameters_[j];
+    const double margin = kAtBound * (p.high - p.low);
+    const auto k = static_cast<Index>(j);
+    if ((best_[j] <= p.low + margin && down[k] < 0.0) || (best_[j] >= p.high - margin && down[k] > 0.0))
+      continue;
+    free.push_back(k);
+  }
+  Outlook outlook;
+  outlook.step = Eigen::VectorXd::Zero(down.size());
+  if (free.empty()) return outlook;
+  const Eigen::VectorXd part = down(free);
+  const Eigen::MatrixXd of_free = information(free, free);
+  const Eigen::VectorXd step = of_free.ldlt().solve(part);
+  outlook.step(free) = step;
+  outlook.fall = part.dot(step);
+  return outlook;
+}
+
+void FitSearch::report_step() {
+  CurveFitStep step;
+  step.number = steps_.size();
+  step.evaluations = evaluations_;
+  step.parameters = best_;
+  step.scale = residuals_.scale(*curve_);
+  step.chi2 = residuals_.chi2(*curve_);
+  step.estimate = draw_ > 0;
+  steps_.push_back(step);
+  if (options_.progress) options_.progress(steps_.back());
+}
+
+void FitSearch::accept(const std::vector<double>& at) {
+  best_ = at;
+  curve_ = evaluate(at);
+  report_step();
+}
+
+/// Down by GSL's trust region, from the best so far.
+void FitSearch::descend() {
+  const std::size_t count = parameters_.size();
+  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+  settings.scale = gsl_multifit_nlinear_scale_levenberg;
+  const std::unique_ptr<gsl_multifit_nlinear_workspace, FreeWorkspace> work(
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, residuals_.size(), count));
+  if (!work) throw core::InternalError("GSL has no room for a fit");
+  gsl_multifit_nlinear_fdf functions{};
+  functions.f = GslFunctions::residuals;
+  functions.df = GslFunctions::slopes;
+  functions.n = residuals_.size();
+  functions.p = count;
+  functions.params = this;
+  std::vector<double> inside;
+  for (std::size_t j = 0; j < count; ++j) inside.push_back(inner(j, best_[j]));
+  const gsl_vector_view x = gsl_vector_view_array(inside.data(), count);
+  trials_ = 0;
+  if (gsl_multifit_nlinear_init(&x.vector, &functions, work.get()) != GSL_SUCCESS) return;
+  while (steps_.size() <= options_.most_steps && outlook().fall > kRest) {
+    // No progress is an answer too: what is left is smaller than the noise of the curve.
+    trials_ = 0;
+    if (gsl_multifit_nlinear_iterate(work.get()) != GSL_SUCCESS) return;
+    accept(outer(gsl_multifit_nlinear_position(work.get())->data));
+  }
+}
+
+void FitSearch::update_weights() {
+  if (options_.errors_from_scatter && degrees() > 0.0 && steps_.size() > 1)
+    common_error_ = residuals_.match_common_error(*curve_, degrees());
+  else
+    residuals_.reweight(*curve_);
+}
+
+/// After a stop in the middle of a step: the best of all curves that were traced.
+void FitSearch::accept_best_known() {
+  const auto chi2_of = [&](const auto& entry) { return residuals_.chi2(entry.second); };
+  const auto least = std::min_element(known_.begin(), known_.end(),
+                                      [&](const auto& a, const auto& b) { return chi2_of(a) < chi2_of(b); });
+  if (least != known_.end() && chi2_of(*least) < residuals_.chi2(*curve_)) accept(least->first);
+}
+
+/// The curve beside the one at the best, by its slopes.
+ModelCurve FitSearch::carried_on(const std::vector<double>& to) const {
+  ModelCurve curve = *curve_;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    for (std::size_t j = 0; j < to.size(); ++j)
+      curve[i].value.value += (pairs_[j].high[i].value.value - pairs_[j].low[i].value.value) /
+                              pairs_[j].span * (to[j] - best_[j]);
+  return curve;
+}
+
+/// Search goes where noise happens to agree with the measurement, so that the curve found is too good. New
+/// random numbers around the place know nothing of that: Newton's step by them is the estimate, and the
+/// residuals left by it are those of a fit.
+bool FitSearch::estimate() {
+  draw_ = 1;
+  known_.clear();
+  for (int i = 0; i < kMostEstimates; ++i) {
+    const std::optional<ModelCurve> fresh = evaluate(best_);
+    if (!fresh) return false;
+    curve_ = fresh;
+    if (!options_.errors_from_scatter) residuals_.reweight(*curve_);
+    if (!find_slopes(best_)) return false;
+    const Outlook next = outlook();
+    std::vector<double> at = best_;
+    for (std::size_t j = 0; j < at.size(); ++j) at[j] = snapped(j, at[j] + next.step[static_cast<Index>(j)]);
+    const bool last = next.fall < kStraight || i + 1 == kMostEstimates;
+    curve_ = carried_on(at);
+    best_ = at;
+    if (last) update_weights();
+    report_step();
+    if (last) {
+      converged_ = next.fall < kMostStraight;
+      slopes_at_ = best_;
+      return true;
+    }
+  }
+  return true;
+}
+
+FitEnd FitSearch::run() {
+  silence_gsl();
+  curve_ = evaluate(best_);
+  if (!curve_) return FitEnd::stopped;
+  start_curve_ = *curve_;
+  if (std::none_of(curve_->begin(), curve_->end(), [](const ModelPoint& p) { return p.value.value > 0.0; }))
+    throw core::InputError({{},
+                            "at the start no light arrives at any of the measured points",
+                            "start nearer to what is measured, or trace more photons"});
+  update_weights();
+  report_step();
+  for (int round = 0; round < kMostRounds && !stopped_; ++round) {
+    descend();
+    const Eigen::VectorXd before = residuals_.inverse_sigma();
+    update_weights();
+    const Eigen::ArrayXd change = residuals_.inverse_sigma().array() / before.array() - 1.0;
+    if (change.abs().maxCoeff() < kSameErrors) break;
+  }
+  if (stopped_) accept_best_known();
+  if (!stopped_ && estimate()) return converged_ ? FitEnd::converged : FitEnd::not_converged;
+  slopes_.reset();
+  return FitEnd::stopped;
+}
+
+}  // namespace scintray::analysis

@@ -1,0 +1,84 @@
+#pragma once
+/// The search for the least squares of a noisy curve (curve_fit.hpp states how it goes).
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "scintray/analysis/fit/curve_fit.hpp"
+#include "scintray/analysis/fit/detail/fit_information.hpp"
+
+namespace scintray::analysis {
+
+/// A parameter this near to a bound, as a share of its range, is at it.
+inline constexpr double kAtBound = 1e-3;
+
+class FitSearch {
+ public:
+  FitSearch(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
+            const CurveModel& model, const CurveFitOptions& options);
+
+  FitEnd run();
+
+  const std::vector<double>& best() const { return best_; }
+  /// At the best: traced, or carried on by slopes from next to it. Nothing when the first one was stopped.
+  const std::optional<ModelCurve>& curve() const { return curve_; }
+  const ModelCurve& start_curve() const { return start_curve_; }
+  /// Where the estimate was made; nothing when stopped before they were known.
+  const std::optional<FitSlopes>& slopes() const { return slopes_; }
+  /// Derivatives of the scale by the parameters there.
+  const Eigen::VectorXd& scale_slopes() const { return scale_slopes_; }
+  const WeightedResiduals& residuals() const { return residuals_; }
+  const std::optional<double>& common_error() const { return common_error_; }
+  const std::vector<CurveFitStep>& steps() const { return steps_; }
+  Eigen::VectorXd range() const;
+  /// Points less what is fitted.
+  double degrees() const;
+
+ private:
+  friend struct GslFunctions;
+  /// Newton's step by the slopes of the moment.
+  struct Outlook {
+    Eigen::VectorXd step;
+    double fall = 0.0;  ///< by which chi-square is expected to go down
+  };
+
+  std::optional<ModelCurve> evaluate(const std::vector<double>& at);
+  bool find_slopes(const std::vector<double>& at);
+  void choose_spans();
+  Outlook outlook() const;
+  void update_weights();
+  void descend();
+  bool estimate();
+  void accept_best_known();
+  ModelCurve carried_on(const std::vector<double>& to) const;
+  void accept(const std::vector<double>& at);
+  void report_step();
+  std::vector<double> outer(const double* inner) const;
+  double snapped(std::size_t parameter, double value) const;
+  double inner(std::size_t parameter, double value) const;
+  double inner_slope(std::size_t parameter, double value) const;
+
+  std::vector<FitParameter> parameters_;
+  const CurveModel& model_;
+  const CurveFitOptions& options_;
+  WeightedResiduals residuals_;
+  std::map<std::vector<double>, ModelCurve> known_;
+  std::vector<double> best_, slopes_at_;
+  std::optional<ModelCurve> curve_;
+  ModelCurve start_curve_;
+  std::vector<double> span_;           ///< to each side, of each parameter's differences
+  std::vector<double> wider_;          ///< factor on one standard error, for the noise
+  std::vector<DifferencePair> pairs_;  ///< that the slopes are of
+  std::optional<FitSlopes> slopes_;
+  Eigen::VectorXd scale_slopes_;
+  std::optional<double> common_error_;
+  std::vector<CurveFitStep> steps_;
+  std::size_t evaluations_ = 0;
+  int trials_ = 0;
+  std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate
+  bool converged_ = false;
+  bool stopped_ = false;
+};
+
+}  // namespace scintray::analysis

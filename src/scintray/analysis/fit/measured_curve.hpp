@@ -1,0 +1,28 @@
+#pragma once
+/// A measured curve that a simulation is compared with.
+
+#include <filesystem>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/statistics.hpp"
+
+namespace scintray::analysis {
+
+/// Values against a position (a depth, an angle), in the units of its file.
+struct MeasuredCurve {
+  struct Point {
+    double x = 0.0;
+    core::Estimate y;  ///< the error is 0 when the file has none
+    core::FileLocation where;
+  };
+  std::vector<Point> points;  ///< x increasing
+  bool has_errors = false;
+};
+
+/// Reads rows of position, value and perhaps error (one sigma) from a CSV file, with or without a heading.
+/// InputError with every row that is wrong: not two or three columns, positions that do not increase, values
+/// below 0, errors that are not above 0; or nothing above 0 at all.
+MeasuredCurve read_measured_curve(const std::filesystem::path& path);
+
+}  // namespace scintray::analysis

@@ -1,0 +1,39 @@
+#pragma once
+/// How readout channels lie: in one plane, or at the two ends of something.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scintray/core/vec.hpp"
+
+namespace scintray::analysis {
+
+/// Where depths are measured from and along; `direction` has unit length.
+struct DepthAxis {
+  core::Vec3 origin_mm = core::Vec3::Zero();
+  core::Vec3 direction = core::Vec3::UnitZ();
+
+  double depth_mm(const core::Vec3& position_mm) const { return (position_mm - origin_mm).dot(direction); }
+};
+
+struct ChannelLayout {
+  std::vector<std::size_t> near;  ///< channels of the end at the smaller depth, or of the only plane
+  std::vector<std::size_t> far;   ///< of the other end; empty when there is one plane
+  /// Directions across the depth: the two other axes of the world, in their order, when depth runs along one.
+  core::Vec3 across_x = core::Vec3::UnitX(), across_y = core::Vec3::UnitY();
+
+  std::array<double, 2> across(const core::Vec3& position_mm) const {
+    return {position_mm.dot(across_x), position_mm.dot(across_y)};
+  }
+};
+
+/// Channels sorted by their depth: all within 0.1 mm are one plane; two groups, each no deeper than a tenth
+/// of the distance over which they are spread, are two ends. Nothing when they lie otherwise. Without an axis
+/// depth is along the axis of the world in which the channels' positions differ least.
+std::optional<ChannelLayout> layout_of(std::span<const core::Vec3> channels_mm,
+                                       const std::optional<DepthAxis>& axis);
+
+}  // namespace scintray::analysis

@@ -1,0 +1,215 @@
+#include "scintray/analysis/spectrum/peak_fit.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "scintray/analysis/fit/detail/gsl_errors.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::analysis {
+
+namespace {
+
+constexpr std::size_t kMostParameters = 5;
+constexpr std::size_t kMostSteps = 200;
+/// Below this an expectation counts as this much, so that a logarithm of it exists.
+constexpr double kLeastExpected = 1e-30;
+
+double normal_density(double u) { return std::exp(-0.5 * u * u) / std::sqrt(core::kTwoPi); }
+double upper_tail(double u) { return 0.5 * std::erfc(u / std::sqrt(2.0)); }
+
+std::size_t parameters_of(PeakBackground background) {
+  return background == PeakBackground::none ? 3 : background == PeakBackground::shoulder ? 4 : 5;
+}
+
+/// Expected counts of a bin and their derivatives by position and the logarithms of sigma, events, shoulder,
+/// constant.
+struct BinExpectation {
+  double value = 0.0;
+  std::array<double, kMostParameters> slope{};
+};
+
+BinExpectation expectation(const PeakModel& model, double low, double high) {
+  const double a = (low - model.position) / model.sigma, b = (high - model.position) / model.sigma;
+  const double density_a = normal_density(a), density_b = normal_density(b);
+  const double tail_a = upper_tail(a), tail_b = upper_tail(b);
+  // The difference of the nearer tails keeps its digits on either side of the peak.
+  const double share = a > 0.0 ? tail_a - tail_b : upper_tail(-b) - upper_tail(-a);
+  const double step = model.sigma * ((b * tail_b - density_b) - (a * tail_a - density_a));
+  BinExpectation bin;
+  bin.value = model.events * share + model.shoulder * step + model.constant * (high - low);
+  bin.slope[0] = model.events * (density_a - density_b) / model.sigma + model.shoulder * (tail_a - tail_b);
+  bin.slope[1] =
+      model.events * (a * density_a - b * density_b) + model.shoulder * model.sigma * (density_a - density_b);
+  bin.slope[2] = model.events * share;
+  bin.slope[3] = model.shoulder * step;
+  bin.slope[4] = model.constant * (high - low);
+  return bin;
+}
+
+/// Positions are searched for in units of the first sigma from the first position, so that the units of the
+/// spectrum do not matter.
+struct Task {
+  const Histogram& histogram;
+  PeakBackground background;
+  PeakModel start;
+
+  PeakModel model(const gsl_vector* x) const {
+    PeakModel model;
+    model.position = start.position + start.sigma * gsl_vector_get(x, 0);
+    model.sigma = start.sigma * std::exp(gsl_vector_get(x, 1));
+    model.events = std::exp(gsl_vector_get(x, 2));
+    if (background != PeakBackground::none) model.shoulder = std::exp(gsl_vector_get(x, 3));
+    if (background == PeakBackground::shoulder_and_constant) model.constant = std::exp(gsl_vector_get(x, 4));
+    return model;
+  }
+};
+
+/// Signed root of what a bin adds to the deviance.
+double residual(double count, double expected) {
+  const double term = expected - count + (count > 0.0 ? count * std::log(count / expected) : 0.0);
+  return std::copysign(std::sqrt(2.0 * std::max(0.0, term)), count - expected);
+}
+
+/// Derivative of the residual by the expectation.
+double residual_slope(double count, double expected) {
+  const double r = residual(count, expected);
+  if (std::abs(r) < 1e-5) return -1.0 / std::sqrt(expected);
+  return (1.0 - count / expected) / r;
+}
+
+bool usable(const PeakModel& model) {
+  return std::isfinite(model.position) && std::isfinite(model.sigma) && std::isfinite(model.events) &&
+         std::isfinite(model.shoulder) && std::isfinite(model.constant) && model.sigma > 0.0;
+}
+
+int residuals(const gsl_vector* x, void* data, gsl_vector* out) {
+  const Task& task = *static_cast<const Task*>(data);
+  const PeakModel model = task.model(x);
+  if (!usable(model)) return GSL_EDOM;
+  for (std::size_t i = 0; i < task.histogram.counts.size(); ++i) {
+    const double expected = std::max(
+        kLeastExpected, expectation(model, task.histogram.edge(i), task.histogram.edge(i + 1)).value);
+    gsl_vector_set(out, i, residual(task.histogram.counts[i], expected));
+  }
+  return GSL_SUCCESS;
+}
+
+int jacobian(const gsl_vector* x, void* data, gsl_matrix* out) {
+  const Task& task = *static_cast<const Task*>(data);
+  const PeakModel model = task.model(x);
+  if (!usable(model)) return GSL_EDOM;
+  for (std::size_t i = 0; i < task.histogram.counts.size(); ++i) {
+    const BinExpectation bin = expectation(model, task.histogram.edge(i), task.histogram.edge(i + 1));
+    const double slope = residual_slope(task.histogram.counts[i], std::max(kLeastExpected, bin.value));
+    for (std::size_t k = 0; k < out->size2; ++k)
+      gsl_matrix_set(out, i, k, slope * bin.slope[k] * (k == 0 ? task.start.sigma : 1.0));
+  }
+  return GSL_SUCCESS;
+}
+
+struct Free {
+  void operator()(gsl_multifit_nlinear_workspace* w) const { gsl_multifit_nlinear_free(w); }
+};
+
+/// Searches from `start`; true when the search came to rest.
+bool search(Task& task, PeakModel& found) {
+  const PeakModel& start = task.start;
+  const std::size_t parameters = parameters_of(task.background);
+  gsl_multifit_nlinear_parameters options = gsl_multifit_nlinear_default_parameters();
+  options.scale = gsl_multifit_nlinear_scale_levenberg;
+  const std::unique_ptr<gsl_multifit_nlinear_workspace, Free> work(gsl_multifit_nlinear_alloc(
+      gsl_multifit_nlinear_trust, &options, task.histogram.counts.size(), parameters));
+  if (!work) return false;
+  gsl_multifit_nlinear_fdf functions{};
+  functions.f = residuals;
+  functions.df = jacobian;
+  functions.n = task.histogram.counts.size();
+  functions.p = parameters;
+  functions.params = &task;
+  std::array<double, kMostParameters> values{
+      0.0, 0.0, std::log(start.events), std::log(std::max(start.shoulder, 1e-6 * start.events / start.sigma)),
+      std::log(std::max(start.constant, 1e-6 * start.events / start.sigma))};
+  const gsl_vector_view x = gsl_vector_view_array(values.data(), parameters);
+  if (gsl_multifit_nlinear_init(&x.vector, &functions, work.get()) != GSL_SUCCESS) return false;
+  int why = 0;
+  const int status =
+      gsl_multifit_nlinear_driver(kMostSteps, 1e-9, 1e-9, 0.0, nullptr, nullptr, &why, work.get());
+  found = task.model(gsl_multifit_nlinear_position(work.get()));
+  // At the bottom rounding may leave no step that goes further down: that is rest as well.
+  return usable(found) && (status == GSL_SUCCESS || status == GSL_ENOPROG);
+}
+
+void set_errors(const Histogram& histogram, PeakFit& fit) {
+  const auto parameters = static_cast<Eigen::Index>(parameters_of(fit.background));
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters, parameters);
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    const BinExpectation bin = expectation(fit.model, histogram.edge(i), histogram.edge(i + 1));
+    const Eigen::Map<const Eigen::VectorXd> slope(bin.slope.data(), parameters);
+    information += slope * slope.transpose() / std::max(kLeastExpected, bin.value);
+  }
+  // A background that is not there has no information: its row would spoil the others.
+  for (Eigen::Index k = 0; k < parameters; ++k)
+    if (information(k, k) < 1e-9) information(k, k) = 1e-9;
+  const Eigen::MatrixXd covariance =
+      information.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));
+  const auto error = [&](Eigen::Index k) { return std::sqrt(std::max(0.0, covariance(k, k))); };
+  const PeakModel& model = fit.model;
+  fit.position = {model.position, error(0)};
+  fit.sigma = {model.sigma, model.sigma * error(1)};
+  fit.events = {model.events, model.events * error(2)};
+  const double relative = core::kFwhmPerSigma * model.sigma / model.position;
+  const double variance = covariance(1, 1) + covariance(0, 0) / (model.position * model.position) -
+                          2.0 * covariance(0, 1) / model.position;
+  fit.relative_fwhm = {relative, std::abs(relative) * std::sqrt(std::max(0.0, variance))};
+}
+
+void set_goodness(const Histogram& histogram, PeakFit& fit) {
+  std::vector<std::uint64_t> observed;
+  std::vector<double> expected;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    observed.push_back(static_cast<std::uint64_t>(histogram.counts[i]));
+    expected.push_back(
+        std::max(kLeastExpected, fit.model.expected(histogram.edge(i), histogram.edge(i + 1))));
+    const double r = residual(histogram.counts[i], expected.back());
+    fit.deviance += r * r;
+  }
+  fit.goodness = core::chi_square_test(observed, expected);
+  // That test takes one degree for a fixed total; here the total is fitted with the rest.
+  fit.goodness.degrees += 1.0 - static_cast<double>(parameters_of(fit.background));
+  fit.goodness.p_value = core::chi_square_p_value(fit.goodness.chi2, fit.goodness.degrees);
+}
+
+}  // namespace
+
+double PeakModel::density(double x) const {
+  const double u = (x - position) / sigma;
+  return events * normal_density(u) / sigma + shoulder * upper_tail(u) + constant;
+}
+
+double PeakModel::expected(double low, double high) const { return expectation(*this, low, high).value; }
+
+PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackground background) {
+  silence_gsl();
+  PeakFit fit;
+  fit.background = background;
+  fit.model = start;
+  const auto filled = static_cast<std::size_t>(
+      std::count_if(histogram.counts.begin(), histogram.counts.end(), [](double n) { return n > 0.0; }));
+  if (filled < parameters_of(background) || !(start.sigma > 0.0) || !(start.events > 0.0)) return fit;
+  Task task{histogram, background, start};
+  fit.converged = search(task, fit.model);
+  if (!fit.converged) return fit;
+  set_errors(histogram, fit);
+  set_goodness(histogram, fit);
+  return fit;
+}
+
+}  // namespace scintray::analysis

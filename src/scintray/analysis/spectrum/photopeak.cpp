@@ -1,0 +1,278 @@
+#include "scintray/analysis/spectrum/photopeak.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scintray/analysis/spectrum/detail/smoothing.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::analysis {
+
+namespace {
+
+constexpr double kLeastInPeak = 100.0;
+constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5;
+constexpr double kPeakBinsPerSigma = 4.0;
+constexpr double kWorthATerm = 9.0;
+constexpr double kPoor = 1e-4;
+constexpr double kSmallMisfit = 0.01;
+constexpr int kMostPeakRounds = 8;
+
+/// Where the photopeak of a spectrum is, roughly: what a fit starts from.
+struct PeakPlace {
+  double position = 0.0;
+  double sigma = 0.0;        ///< from the half width at half maximum above the peak
+  double sigma_below = 0.0;  ///< from that below it: a shoulder makes it larger
+  double height = 0.0;       ///< density of values at the peak, smoothed
+  double valley = 0.0;       ///< lowest point between the peak and what lies below it
+};
+
+constexpr std::size_t kBins = 512;
+/// Half width at half maximum of a Gaussian over its standard deviation.
+constexpr double kHalfWidth = 1.1774100225154747;
+constexpr double kPeakSignificance = 4.0;
+constexpr double kLeastHeight = 0.1;
+
+/// Standard error of a height after smoothing: the integral of the squared kernel is 1 / (2 sqrt(pi) width).
+double height_error(double height, double width) {
+  return std::sqrt(std::max(height, 0.0) / (2.0 * std::sqrt(core::kPi) * width));
+}
+
+struct Maximum {
+  std::size_t at = 0, valley = 0;
+  double height = 0.0;
+};
+
+/// Maxima that stand out on both sides, in rising order: a walk that turns only when what it lost or won
+/// since the last turn is significant.
+std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
+  std::vector<Maximum> found;
+  std::size_t top = 0, valley = 0;
+  bool climbing = true;
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    if (climbing && density[i] > density[top]) top = i;
+    if (!climbing && density[i] < density[valley]) valley = i;
+    const double here = density[climbing ? top : i];
+    const double limit = kPeakSignificance * height_error(here, width);
+    if (climbing && density[top] - density[i] > limit) {
+      if (density[top] - density[valley] > limit) found.push_back({top, valley, density[top]});
+      climbing = false;
+      valley = i;
+    } else if (!climbing && density[i] - density[valley] > limit) {
+      climbing = true;
+      top = i;
+    }
+  }
+  // A spectrum cut off above its peak never comes down again.
+  if (climbing && density[top] - density[valley] > kPeakSignificance * height_error(density[top], width))
+    found.push_back({top, valley, density[top]});
+  return found;
+}
+
+/// Standard deviation from so many bins of half width, less what smoothing added.
+double sigma_from(std::size_t bins, double width) {
+  const double half = static_cast<double>(bins) / kHalfWidth;
+  return std::max(0.5, std::sqrt(std::max(half * half - width * width, 0.1 * half * half)));
+}
+
+PeakPlace place_of(const Maximum& peak, const std::vector<double>& density, const Histogram& grid,
+                   double width) {
+  std::size_t right = peak.at, left = peak.at;
+  while (right + 1 < density.size() && density[right] > 0.5 * peak.height) ++right;
+  while (left > 0 && density[left] > 0.5 * peak.height) --left;
+  return {grid.centre(peak.at), sigma_from(right - peak.at, width) * grid.width,
+          sigma_from(peak.at - left, width) * grid.width, peak.height / grid.width, grid.centre(peak.valley)};
+}
+
+/// The highest in x of the maxima that stand out and have a tenth of the height of the highest; see
+/// fit_photopeak. @param sorted  rising, finite
+std::optional<PeakPlace> find_photopeak(std::span<const double> sorted) {
+  if (sorted.size() < 2) return std::nullopt;
+  const double low = sorted_quantile(sorted, 0.0005), high = sorted_quantile(sorted, 0.9995);
+  if (!(high > low)) return std::nullopt;
+  const double margin = 0.1 * (high - low);
+  const Histogram grid = make_histogram(sorted, low - margin, high + margin, kBins);
+  std::optional<PeakPlace> best;
+  for (const double width : std::array{24.0, 12.0, 6.0, 3.0, 1.5}) {
+    const std::vector<double> density = convolved(grid.counts, gaussian_kernel(width), {1, kBins});
+    const std::vector<Maximum> found = maxima(density, width);
+    double highest = 0.0;
+    for (const Maximum& peak : found) highest = std::max(highest, peak.height);
+    const auto last = std::find_if(found.rbegin(), found.rend(), [&](const Maximum& peak) {
+      return peak.height >= kLeastHeight * highest;
+    });
+    if (last == found.rend()) continue;
+    best = place_of(*last, density, grid, width);
+    if (width * grid.width <= 0.5 * best->sigma) break;
+  }
+  return best;
+}
+
+PeakFit fit_with_background(const Histogram& histogram, PeakModel start, const PhotopeakOptions& options) {
+  if (options.background) return fit_peak(histogram, start, *options.background);
+  PeakFit best = fit_peak(histogram, start, PeakBackground::none);
+  for (const PeakBackground more : {PeakBackground::shoulder, PeakBackground::shoulder_and_constant}) {
+    const PeakFit richer = fit_peak(histogram, start, more);
+    if (richer.converged && (!best.converged || best.deviance - richer.deviance > kWorthATerm)) best = richer;
+  }
+  return best;
+}
+
+/// First guess of the heights, from the counts of the outermost bins.
+PeakModel start_model(const Histogram& histogram, double position, double sigma) {
+  PeakModel start;
+  start.position = position;
+  start.sigma = sigma;
+  const double first = histogram.counts.front() / histogram.width,
+               last = histogram.counts.back() / histogram.width;
+  const double total = histogram.total();
+  start.constant = 0.5 * last;
+  start.shoulder = 0.5 * std::max(0.0, first - last);
+  start.events = std::max(0.2 * total, total - start.shoulder * (position - histogram.low) -
+                                           start.constant * (histogram.high() - histogram.low));
+  return start;
+}
+
+struct Span {
+  double low = 0.0, high = 0.0;
+};
+
+Span span_of(double position, double sigma, double valley, const PhotopeakOptions& options) {
+  Span span{std::max(position - kBelow * sigma, std::min(valley, position - kLeastBelow * sigma)),
+            position + kAbove * sigma};
+  if (options.window) {
+    span.low = std::max(span.low, options.window->front());
+    span.high = std::min(span.high, options.window->back());
+  }
+  return span;
+}
+
+Photopeak with_status(Photopeak peak, PeakStatus found, std::string reason) {
+  peak.status = found;
+  peak.reason = std::move(reason);
+  return peak;
+}
+
+/// Values within 0.1 sigma of an end of the data, where these end on the slope of the peak: as many as a
+/// quarter of its height makes are no tail.
+bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above) {
+  const double sigma = above ? place.sigma_below : place.sigma;
+  const double margin = above ? sorted.back() - place.position : place.position - sorted.front();
+  if (margin > kLeastBelow * sigma) return false;
+  const double reach = 0.1 * sigma;
+  const auto near_end =
+      above ? sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), sorted.back() - reach)
+            : std::upper_bound(sorted.begin(), sorted.end(), sorted.front() + reach) - sorted.begin();
+  return static_cast<double>(near_end) > 0.25 * place.height * reach;
+}
+
+/// Repeats the fit until the bins it used are those that its result requests.
+void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, const PhotopeakOptions& options,
+                      Photopeak& peak) {
+  double position = place.position, sigma = place.sigma;
+  for (int round = 0; round < kMostPeakRounds; ++round) {
+    const Span span = span_of(position, sigma, place.valley, options);
+    if (!(span.high > span.low)) return;
+    peak.fitted = make_histogram_of_width(sorted, span.low, span.high, sigma / kPeakBinsPerSigma);
+    if (peak.fitted.total() < kLeastInPeak) return;
+    const PeakFit fit = fit_with_background(peak.fitted, start_model(peak.fitted, position, sigma), options);
+    if (!fit.converged) return;
+    const bool stable = std::abs(fit.model.position - position) < 0.05 * sigma &&
+                        std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
+    peak.fit = fit;
+    if (stable) return;
+    position = fit.model.position;
+    sigma = std::clamp(fit.model.sigma, 0.5 * sigma, 2.0 * sigma);
+  }
+}
+
+}  // namespace
+
+const char* status_name(PeakStatus status) {
+  switch (status) {
+    case PeakStatus::trusted:
+      return "trusted";
+    case PeakStatus::too_few:
+      return "too few events";
+    case PeakStatus::no_peak:
+      return "no peak";
+    case PeakStatus::edge_of_range:
+      return "peak at the edge";
+    case PeakStatus::not_converged:
+      return "the fit did not converge";
+    case PeakStatus::poor_fit:
+      return "poor fit";
+  }
+  return "";
+}
+
+double Photopeak::misfit() const {
+  const double pulses = fitted.total();
+  if (!fit.converged || pulses <= 0.0) return 0.0;
+  return std::max(0.0, fit.goodness.chi2 - fit.goodness.degrees) / pulses;
+}
+
+bool Photopeak::locates_peak() const {
+  return status == PeakStatus::trusted || (status == PeakStatus::poor_fit && misfit() < kSmallMisfit);
+}
+
+Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {
+  Photopeak peak;
+  std::vector<double> sorted = sorted_finite(values);
+  if (options.window) {
+    const auto inside = std::partition_point(sorted.begin(), sorted.end(),
+                                             [&](double x) { return x <= options.window->back(); });
+    sorted.erase(inside, sorted.end());
+    sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
+  }
+  if (static_cast<double>(sorted.size()) < kLeastInPeak)
+    return with_status(peak, PeakStatus::too_few,
+                       fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastInPeak));
+  const std::optional<PeakPlace> place = find_photopeak(sorted);
+  if (!place)
+    return with_status(peak, PeakStatus::no_peak,
+                       sorted.front() == sorted.back()
+                           ? "all pulses are equal"
+                           : "no maximum stands 4 standard errors above its sides");
+  for (const bool above : {true, false})
+    if (cut_off(sorted, *place, above))
+      return with_status(peak, PeakStatus::edge_of_range,
+                         fmt::format("the data end at {:.4g}, on the slope of the peak at {:.4g}",
+                                     above ? sorted.back() : sorted.front(), place->position));
+  fit_until_stable(sorted, *place, options, peak);
+  if (!peak.has_numbers()) {
+    if (peak.fitted.total() < kLeastInPeak)
+      return with_status(peak, PeakStatus::too_few,
+                         fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit needs {:.0f}",
+                                     peak.fitted.total(), place->position, kLeastInPeak));
+    return with_status(peak, PeakStatus::not_converged,
+                       fmt::format("the fit of the peak near {:.4g} did not come to rest", place->position));
+  }
+  const PeakModel& model = peak.fit.model;
+  const double margin_above = (sorted.back() - model.position) / model.sigma;
+  const double margin_below = (model.position - sorted.front()) / model.sigma;
+  if (margin_above < kLeastBelow || margin_below < kLeastBelow)
+    return with_status(
+        peak, PeakStatus::edge_of_range,
+        fmt::format("the peak at {:.4g} has {:.1f} sigma of data below it and {:.1f} above; {} are needed",
+                    model.position, margin_below, margin_above, kLeastBelow));
+  if (model.events < kLeastInPeak)
+    return with_status(
+        peak, PeakStatus::too_few,
+        fmt::format("{:.0f} pulses in the peak; {:.0f} are needed", model.events, kLeastInPeak));
+  if (peak.fit.goodness.degrees > 0.0 && peak.fit.goodness.p_value < kPoor)
+    return with_status(
+        peak, PeakStatus::poor_fit,
+        fmt::format("chi-square {:.1f} for {:.0f} degrees of freedom (p {:.1g}): the peak is no Gaussian on "
+                    "a shoulder",
+                    peak.fit.goodness.chi2, peak.fit.goodness.degrees, peak.fit.goodness.p_value));
+  return with_status(peak, PeakStatus::trusted, "");
+}
+
+}  // namespace scintray::analysis

@@ -1,0 +1,70 @@
+#include "scintray/analysis/spectrum/spread.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace scintray::analysis {
+
+namespace {
+
+/// Share of a Gaussian below its lower half maximum: Phi(-sqrt(2 ln 2)).
+constexpr double kLowerShare = 0.11951572;
+constexpr double kReach = 2.5;
+constexpr double kCoreBinsPerSigma = 4.0;
+constexpr double kLeastInCore = 50.0;
+constexpr int kMostCoreRounds = 8;
+
+core::Estimate quantile_fwhm(std::span<const double> sorted) {
+  const auto n = static_cast<double>(sorted.size());
+  const double share = kLowerShare;
+  const double step = std::sqrt(share * (1.0 - share) / n);
+  const auto error = [&](double q) {
+    return 0.5 * (sorted_quantile(sorted, q + step) - sorted_quantile(sorted, q - step));
+  };
+  const double low = error(share), high = error(1.0 - share);
+  // Both shares lie equally far from the ends, so the correlation is q / (1 - q).
+  const double covariance = low * high * share / (1.0 - share);
+  return {sorted_quantile(sorted, 1.0 - share) - sorted_quantile(sorted, share),
+          std::sqrt(std::max(0.0, low * low + high * high - 2.0 * covariance))};
+}
+
+void fit_core(std::span<const double> sorted, Spread& spread) {
+  double centre = sorted_quantile(sorted, 0.5), sigma = spread.quantile_fwhm.value / core::kFwhmPerSigma;
+  for (int round = 0; round < kMostCoreRounds; ++round) {
+    spread.fitted = make_histogram_of_width(sorted, centre - kReach * sigma, centre + kReach * sigma,
+                                            sigma / kCoreBinsPerSigma);
+    const PeakFit fit =
+        fit_peak(spread.fitted, {centre, sigma, std::max(1.0, spread.fitted.total())}, PeakBackground::none);
+    if (!fit.converged) return;
+    spread.fit = fit;
+    const bool stable = std::abs(fit.model.position - centre) < 0.05 * sigma &&
+                        std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
+    if (stable) break;
+    centre = fit.model.position;
+    sigma = std::clamp(fit.model.sigma, 0.5 * sigma, 2.0 * sigma);
+  }
+  spread.gaussian_fwhm = {core::kFwhmPerSigma * spread.fit.sigma.value,
+                          core::kFwhmPerSigma * spread.fit.sigma.error};
+}
+
+}  // namespace
+
+Spread spread_of(std::span<const double> values) {
+  const std::vector<double> sorted = sorted_finite(values);
+  Spread spread;
+  spread.count = sorted.size();
+  core::Moments moments;
+  // About a value within, so that a small width far from zero keeps its digits.
+  const double origin = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
+  for (const double value : sorted) moments.add(value - origin);
+  spread.mean = moments.mean();
+  spread.mean.value += origin;
+  if (sorted.size() < 2 || sorted.front() == sorted.back()) return spread;
+  spread.quantile_fwhm = quantile_fwhm(sorted);
+  if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
+    fit_core(sorted, spread);
+  return spread;
+}
+
+}  // namespace scintray::analysis

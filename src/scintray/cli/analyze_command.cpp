@@ -1,0 +1,81 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/report/pages/event_section.hpp"
+#include "scintray/report/text/sweep_view.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/scene_file/analysis.hpp"
+#include "scintray/scene_file/readout.hpp"
+#include "scintray/simulation/analyze_results.hpp"
+#include "scintray/simulation/rerun_readout.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct AnalyzeOptions {
+  std::filesystem::path results, settings, page, readout, output;
+};
+
+/// Reruns the electronics where that is wanted; the result to analyze.
+std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
+  if (options.readout.empty() != options.output.empty())
+    throw CLI::ValidationError("--readout",
+                               "other electronics make another result: give --readout FILE and "
+                               "--output RESULT together");
+  if (options.readout.empty()) return options.results;
+  const detector::ReadoutSpec readout =
+      scene_file::readout_of_text(config::read_text_file(options.readout), options.readout.string());
+  simulation::rerun_readout(options.results, results::read_results(options.results), readout, options.output);
+  return options.output;
+}
+
+void analyze(const AnalyzeOptions& options) {
+  const std::filesystem::path results = result_to_analyze(options);
+  const tally::RunResult run = results::read_results(results);
+  const scene_file::AnalysisSpec settings =
+      options.settings.empty()
+          ? scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file)
+          : scene_file::analysis_of_text(config::read_text_file(options.settings), options.settings.string());
+  const std::vector<analysis::EventAnalysis> analyses = simulation::analyze_results(results, run, settings);
+  if (analyses.empty())
+    throw core::InputError(
+        core::Problem{{results.string()},
+                      "this result has no events to analyse",
+                      "run a scene whose [source] is one of energy (docs/gamma_sources.md)"});
+  std::vector<report::PointAnalysis> points;
+  for (std::size_t i = 0; i < analyses.size(); ++i) {
+    points.push_back({report::point_label(run.points[i]), analyses[i]});
+    if (analyses.size() > 1) std::cout << points.back().label << "\n";
+    std::cout << report::event_lines(analyses[i]);
+  }
+  if (!options.output.empty()) std::cout << "results  " << options.output.string() << "\n";
+  if (options.page.empty()) return;
+  core::write_whole_file(options.page, report::event_page(run.header.title, results.string(), points),
+                         "the page");
+  std::cout << "page     " << options.page.string() << "\n";
+}
+
+}  // namespace
+
+void add_analyze_command(CLI::App& app) {
+  auto options = std::make_shared<AnalyzeOptions>();
+  CLI::App* command = app.add_subcommand(
+      "analyze", "Analyze the events of a result: spectra, light against depth, flood maps, timing");
+  command->add_option("RESULT", options->results, "results file (HDF5) of `scintray run`")->required();
+  command->add_option("--settings", options->settings,
+                      "a file with [analysis] (default: that of the scene in the result)");
+  command->add_option("--readout", options->readout,
+                      "a file with [readout]: make these electronics of the listed photons (photon_list), "
+                      "without tracing");
+  command->add_option("-o,--output", options->output, "the result with these electronics (HDF5)");
+  command->add_option("--page", options->page, "write an HTML page with the plots");
+  command->callback([options] { analyze(*options); });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/check_picture.hpp"
+#include "scintray/cli/check_report.hpp"
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
+#include "scintray/contact/small_gaps.hpp"
+#include "scintray/simulation/simulation.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct CheckOptions {
+  std::filesystem::path scene, picture;
+  bool every_point = false;
+  bool all = false;
+};
+
+/// What a person should look at although the scene can run.
+std::vector<core::Problem> gap_warnings(const std::vector<contact::PlacedMesh>& parts, double tolerance_mm) {
+  std::vector<core::Problem> warnings;
+  for (const contact::SmallGap& gap : contact::find_small_gaps(parts, tolerance_mm))
+    warnings.push_back({{},
+                        fmt::format("parts \"{}\" and \"{}\" are {:.3g} mm apart at ({:.5g}, {:.5g}, {:.5g}) "
+                                    "mm: more than the contact tolerance of {:.3g} mm, less than 1/{:.0f} of "
+                                    "the smaller one's diagonal",
+                                    gap.a, gap.b, gap.gap_mm, gap.place.x(), gap.place.y(), gap.place.z(),
+                                    tolerance_mm, 1.0 / contact::kSmallGapShare),
+                        "if they are meant to touch, move one of them or raise run.contact_tolerance",
+                        {{gap.place.x(), gap.place.y(), gap.place.z()}}});
+  return warnings;
+}
+
+void print_source(const source::LightSource& source, const scene::Scene& scene) {
+  const std::vector<std::uint32_t> origins = source.regions();
+  std::cout << "\nsource: "
+            << (source.has_energy() ? fmt::format("{} events, light", source.events())
+                                    : fmt::format("{} photons", source.photons()))
+            << " from \"" << scene.region_names[origins.front()] << "\"";
+  if (origins.size() > 1)
+    std::cout << " and " << origins.size() - 1 << " more part" << (origins.size() > 2 ? "s" : "");
+  std::cout << "\n";
+}
+
+void check_scene(const CheckOptions& options) {
+  const std::filesystem::path& path = options.scene;
+  if (!options.picture.empty()) expect_picture_name(options.picture);
+  const scene_file::SceneFile file = scene_file::SceneFile::load(path);
+  ProgressLine line(true);
+  simulation::SimulationOptions run;
+  run.surface_hooks = watched_surfaces(line);
+  simulation::Simulation simulation(file, run);
+  for (std::size_t point = 0; point < simulation.points(); ++point) {
+    const bool shown = point == 0 || options.every_point;
+    std::shared_ptr<const simulation::SimulationPoint> ready;
+    try {
+      ready = simulation.point(point);
+    } catch (const core::InputError& error) {
+      line.clear();
+      if (!options.picture.empty())
+        draw_scene(options.picture, placed_for_picture(file.spec(point)), error.problems());
+      throw;
+    }
+    simulation.release(point);
+    line.clear();
+    if (!shown) continue;
+    const scene_file::SceneSpec& spec = ready->spec();
+    const scene::BuiltScene& built = *ready->built();
+    const std::vector<core::Problem> gaps = gap_warnings(built.placed, spec.run.contact_tolerance_mm);
+    if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
+    if (file.points() > 1) {
+      std::cout << (point > 0 ? "\n" : "") << "point " << point + 1 << " of " << file.points() << ":";
+      for (std::size_t k = 0; k < file.sweep_keys().size(); ++k)
+        std::cout << "  " << file.sweep_keys()[k] << " = " << file.parameters(point)[k];
+      std::cout << "\n";
+    }
+    std::cout << fmt::format(
+        "wavelengths in use: {:g} to {:g} nm; ambient medium: {}; contacts are {} by default{}\n",
+        built.scene.low_nm, built.scene.high_nm, spec.ambient.name,
+        spec.contacts_default == scene_file::ContactKind::bonded ? "bonded" : "dry",
+        spec.contacts_default_given ? "" : " (not stated in the scene)");
+    print_scene(built, options.all);
+    print_source(ready->source(), built.scene);
+    for (const std::string& note : ready->source_notes()) std::cout << "note: " << note << "\n";
+    for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
+    print_warnings(gaps, options.all);
+  }
+  std::cout << "\n"
+            << path.string() << ": no errors in " << file.points() << " point"
+            << (file.points() == 1 ? "" : "s") << "\n";
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "Describe a scene, or list everything that is wrong with it");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_flag("--every-point", options->every_point,
+                    "print every point of a sweep, not only the first");
+  command->add_flag("--all", options->all,
+                    "print every part and interface, alike or not, on a line of its own");
+  command->add_option("--picture", options->picture,
+                      "draw the parts and mark the places of problems: .glb, or .svg with three views");
+  command->callback([options] {
+    const InterruptGuard guard;
+    check_scene(*options);
+  });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,208 @@
+#include "scintray/cli/check_report.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "scintray/cli/alike.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+std::string yes_no(bool value) { return value ? "yes" : "NO"; }
+
+/// Prints one scene; alike things on one line, or every one on its own.
+class Printer {
+ public:
+  Printer(const scene::BuiltScene& built, bool every_one)
+      : built_(built), scene_(built.scene), every_one_(every_one) {}
+
+  void print() const {
+    print_parts();
+    print_faces();
+    print_regions();
+    print_interfaces();
+    print_contacts();
+  }
+
+ private:
+  /// Text before the name's column, the name, and text after it.
+  struct Row {
+    std::string name, rest;
+  };
+
+  std::string shown(const std::string& name) const { return every_one_ ? name : pattern_of(name); }
+
+  static std::string with_count(const std::string& name, const std::string& pattern, std::size_t count) {
+    return count == 1 ? name : fmt::format("{} x {}", pattern, count);
+  }
+
+  void print_rows(const Alike<Row>& rows, int width) const {
+    for (const auto& line : rows.lines())
+      std::cout << fmt::format("  {:<{}} {}\n",
+                               with_count(line.first.name, shown(line.first.name), line.count), width,
+                               line.first.rest);
+  }
+  void add(Alike<Row>& rows, const std::string& name, const std::string& rest) const {
+    rows.add(shown(name) + '\n' + rest + (every_one_ ? name : ""), {name, rest});
+  }
+
+  void print_parts() const {
+    std::cout << fmt::format("\nparts ({})\n", built_.parts.size());
+    std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}\n", "name", "medium",
+                             "volume mm3", "area mm2", "triangles", "closed", "outwards", "degenerate");
+    Alike<Row> rows;
+    for (std::size_t i = 0; i < built_.parts.size(); ++i) {
+      const mesh::MeshDiagnosis& d = built_.parts[i].diagnosis;
+      const scene::Region& region = scene_.regions[scene_.parts[i].region];
+      std::string rest =
+          fmt::format("{:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}",
+                      scene_.media[region.medium].medium().name, d.volume_mm3, d.area_mm2, d.triangles,
+                      yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count);
+      for (const std::string& note : built_.parts[i].notes) rest += "\n    note: " + note;
+      add(rows, built_.parts[i].name, rest);
+    }
+    print_rows(rows, 20);
+  }
+
+  void print_faces() const {
+    std::cout << "\nfaces\n";
+    std::cout << fmt::format("  {:<28} {:<28} {:>11} {:>14} {:>9}\n", "part:face", "surface", "area mm2",
+                             "in contact mm2", "triangles");
+    Alike<Row> rows;
+    for (const scene::FaceInfo& face : scene_.faces)
+      add(rows, face.name,
+          fmt::format("{:<28} {:>11.6g} {:>14.6g} {:>9}", face.surface, face.area_mm2, face.contact_area_mm2,
+                      face.triangles));
+    print_rows(rows, 28);
+  }
+
+  void print_regions() const {
+    std::cout << fmt::format("\nregions ({}, sharing {} accelerators)\n", scene_.regions.size(),
+                             scene_.accelerators.size());
+    std::cout << fmt::format("  {:<20} {:<22} {:>9} {:>10} {}\n", "name", "medium", "triangles", "index",
+                             "ray queries by");
+    Alike<Row> rows;
+    const double middle_nm = 0.5 * (scene_.low_nm + scene_.high_nm);
+    for (std::size_t i = 0; i < scene_.regions.size(); ++i) {
+      const scene::Region& region = scene_.regions[i];
+      const scene::SceneMedium& medium = scene_.media[region.medium];
+      const scene::Accelerator& accelerator = scene_.accelerator(region);
+      const std::string index =
+          medium.is_opaque() ? "-" : fmt::format("{:.4f}", scene_.optics.index(region.medium, middle_nm));
+      const std::string how = accelerator.uses_planes() ? fmt::format("{} planes", accelerator.plane_count())
+                              : accelerator.size() == 0 ? "no boundary"
+                                                        : "Embree";
+      add(rows, scene_.region_names[i],
+          fmt::format("{:<22} {:>9} {:>10} {}", medium.medium().name, accelerator.size(), index, how));
+    }
+    print_rows(rows, 20);
+  }
+
+  std::string optics_of(const scene::Interface& interface) const {
+    const auto name = [&](std::int32_t id) { return scene_.surfaces[static_cast<std::size_t>(id)].name; };
+    std::string text;
+    if (interface.back_surface != scene::kNone) text = name(interface.back_surface);
+    if (interface.gap_medium != scene::kNone)
+      text += " | dry gap of " + scene_.media[static_cast<std::size_t>(interface.gap_medium)].medium().name +
+              " | ";
+    if (interface.front_surface != scene::kNone) text += name(interface.front_surface);
+    const auto sensor = [&](std::int32_t id) {
+      if (id != scene::kNone) text += ", detected by " + scene_.sensors[static_cast<std::size_t>(id)].name;
+    };
+    sensor(interface.front_sensor);
+    sensor(interface.back_sensor);
+    return text;
+  }
+
+  struct Between {
+    std::string back, front, optics;
+    double area = 0.0;
+  };
+
+  void print_interfaces() const {
+    std::cout << fmt::format("\ninterfaces ({})\n", scene_.interfaces.size());
+    Alike<Between> lines;
+    for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
+      const scene::Interface& interface = scene_.interfaces[i];
+      const Between one{scene_.region_names[interface.back], scene_.region_names[interface.front],
+                        optics_of(interface), 0.0};
+      const std::string key =
+          every_one_ ? std::to_string(i) : shown(one.back) + '\n' + shown(one.front) + '\n' + one.optics;
+      lines.add(key, one).first.area += scene_.interface_area_mm2[i];
+    }
+    for (const auto& line : lines.lines()) {
+      const bool one = line.count == 1;
+      std::cout << fmt::format("  {:<20} | {:<20} {:>11.6g} mm2  {}{}\n",
+                               one ? line.first.back : shown(line.first.back),
+                               one ? line.first.front : shown(line.first.front), line.first.area,
+                               one ? "" : fmt::format("{} x ", line.count), line.first.optics);
+    }
+  }
+
+  struct Pair {
+    std::string a, b;
+    std::size_t bonded = 0, dry = 0;
+    double area = 0.0;
+  };
+
+  /// Which parts touch, nested ones included, whatever their faces.
+  void print_contacts() const {
+    Alike<Pair> pairs;
+    for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
+      const scene::Interface& interface = scene_.interfaces[i];
+      if (interface.back == scene::kAmbientRegion || interface.front == scene::kAmbientRegion) continue;
+      Pair one{scene_.region_names[interface.back], scene_.region_names[interface.front], 0, 0, 0.0};
+      if (shown(one.b) < shown(one.a)) std::swap(one.a, one.b);
+      Pair& pair = pairs.add(shown(one.a) + '\n' + shown(one.b), one).first;
+      ++(interface.gap_medium == scene::kNone ? pair.bonded : pair.dry);
+      pair.area += scene_.interface_area_mm2[i];
+    }
+    std::cout << "\ncontacts between parts" << (pairs.lines().empty() ? ": none\n" : "\n");
+    for (const auto& line : pairs.lines()) {
+      const Pair& pair = line.first;
+      const bool one = line.count == 1;
+      std::string kinds;
+      if (pair.bonded > 0) kinds += fmt::format("{} bonded", pair.bonded);
+      if (pair.dry > 0) kinds += fmt::format("{}{} dry", kinds.empty() ? "" : ", ", pair.dry);
+      std::cout << fmt::format("  {} | {}: {} interface{} ({}), {:.6g} mm2\n", one ? pair.a : shown(pair.a),
+                               one ? pair.b : shown(pair.b), line.count, one ? "" : "s", kinds, pair.area);
+    }
+  }
+
+  const scene::BuiltScene& built_;
+  const scene::Scene& scene_;
+  bool every_one_;
+};
+
+/// The text with every number made a star, and quoted names made patterns.
+std::string without_numbers(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const bool digit = std::string("0123456789.-+e").find(c) != std::string::npos;
+    if (!digit) {
+      result += c;
+    } else if (result.empty() || result.back() != '*') {
+      result += '*';
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void print_scene(const scene::BuiltScene& built, bool every_one) { Printer(built, every_one).print(); }
+
+void print_warnings(const std::vector<core::Problem>& warnings, bool every_one) {
+  Alike<core::Problem> lines;
+  for (const core::Problem& warning : warnings)
+    lines.add(every_one ? warning.what : without_numbers(warning.what), warning);
+  for (const auto& line : lines.lines()) {
+    std::cout << "warning: " << line.first.what;
+    if (line.count > 1) std::cout << " (and " << line.count - 1 << " more like this; --all prints them)";
+    std::cout << "\n  hint: " << line.first.hint << "\n";
+  }
+}
+
+}  // namespace scintray::cli

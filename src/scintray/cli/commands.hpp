@@ -1,0 +1,27 @@
+#pragma once
+/// The subcommands of the program: a file NAME_command.cpp each, and a line in a list of commands.cpp.
+
+#include <CLI/App.hpp>
+#include <iosfwd>
+#include <span>
+
+namespace scintray::cli {
+
+/// Adds one subcommand, with its options and its callback, to the program or to the command that groups it.
+using AddCommand = void (*)(CLI::App& parent);
+
+/// Subcommands of the program, in the order of its help.
+std::span<const AddCommand> commands();
+/// Subcommands of `scintray map`.
+std::span<const AddCommand> map_commands();
+/// Subcommands of `scintray table`.
+std::span<const AddCommand> table_commands();
+
+/// Exit code (exit_codes.hpp) of a command line of `scintray`, whose first word is the program's name.
+///
+/// @param available  the subcommands: commands(), or those and others
+/// @param out, err   of help, and of everything that explains a failure
+int run_program(std::span<const AddCommand> available, int argc, const char* const* argv, std::ostream& out,
+                std::ostream& err);
+
+}  // namespace scintray::cli

@@ -1,0 +1,44 @@
+#include "scintray/cli/goniometer_options.hpp"
+
+#include <fmt/format.h>
+
+#include "scintray/cli/watched_surfaces.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+
+namespace scintray::cli {
+
+void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t rays) {
+  options.rays = rays;
+  app.add_option("--inside", options.inside, "Medium of the part whose face it is")->capture_default_str();
+  app.add_option("--wavelength", options.wavelength, "Wavelength of the light")->capture_default_str();
+  app.add_option("--scene", options.scene, "Scene file whose own surfaces and media are known as well");
+  app.add_option("--rays", options.rays, "Rays at each angle")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
+}
+
+materials::MaterialDatabase database_of(const SampleOptions& options) {
+  return options.scene.empty() ? materials::MaterialDatabase::shipped()
+                               : scene::database_for(scene_file::SceneFile::load(options.scene).spec(0));
+}
+
+analysis::SamplePlace place_of(const SampleOptions& options, const std::string& surface,
+                               const std::string& outside) {
+  return {surface, options.inside, outside,
+          core::parse_quantity(options.wavelength, core::Dimension::wavelength)};
+}
+
+double angle_rad(const std::string& text) { return core::parse_quantity(text, core::Dimension::angle); }
+
+materials::SurfaceFactory watched_factory(ProgressLine& line) {
+  return materials::SurfaceFactory(watched_surfaces(line));
+}
+
+std::string share_text(const core::Estimate& share) {
+  return fmt::format("{:.5f} +- {:.5f}", share.value, share.error);
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,109 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/mesh/import/file_checks.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct SceneImportArguments {
+  std::filesystem::path file, output;
+  std::string unit, deviation, angle;
+  std::vector<std::string> media, surfaces;
+  bool skip_unsupported = false;
+};
+
+/// "A=B" pairs of an option.
+std::map<std::string, std::string> pairs(const std::string& option, const std::vector<std::string>& given) {
+  std::map<std::string, std::string> result;
+  for (const std::string& pair : given) {
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == pair.size())
+      throw core::InputError(core::Problem{
+          {}, option + " \"" + pair + "\" is not of the form NAME=NAME", "as " + option + " Water=water"});
+    result[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  return result;
+}
+
+mesh::Tessellation tessellation_of(const SceneImportArguments& arguments) {
+  mesh::Tessellation tessellation;
+  if (!arguments.deviation.empty())
+    tessellation.deviation_mm = core::parse_quantity(arguments.deviation, core::Dimension::length);
+  if (!arguments.angle.empty())
+    tessellation.angle_rad = core::parse_quantity(arguments.angle, core::Dimension::angle);
+  if (!(tessellation.deviation_mm > 0.0) || tessellation.angle_rad < 0.1 * core::kDegree * (1.0 - 1e-9) ||
+      tessellation.angle_rad > 90.0 * core::kDegree)
+    throw core::InputError(
+        core::Problem{{},
+                      "--deviation is not above 0, or --angle is not between 0.1 and 90 deg",
+                      "the defaults are \"0.01 mm\" and \"5 deg\""});
+  return tessellation;
+}
+
+exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::filesystem::path& scene) {
+  const mesh::Tessellation tessellation = tessellation_of(arguments);
+  if (mesh::lower_extension(arguments.file) == ".gdml") {
+    if (!arguments.unit.empty())
+      throw core::InputError(
+          core::Problem{{}, "--unit with a GDML file", "remove it: its solids state their units"});
+    const exchange::gdml::GdmlImport options{tessellation, pairs("--medium", arguments.media),
+                                             pairs("--surface", arguments.surfaces),
+                                             arguments.skip_unsupported, scene.stem().string() + "_meshes"};
+    return exchange::gdml::draft_of_gdml(mesh::read_mesh_file(arguments.file), arguments.file.string(),
+                                         options);
+  }
+  if (!arguments.media.empty() || !arguments.surfaces.empty() || arguments.skip_unsupported)
+    throw core::InputError(core::Problem{{},
+                                         "--medium, --surface and --skip-unsupported are for GDML files",
+                                         "fill in the media and surfaces in the scene that is written"});
+  const auto folder = std::filesystem::absolute(scene).parent_path();
+  return exchange::draft_of_model(
+      arguments.file,
+      {arguments.unit, tessellation, std::filesystem::absolute(arguments.file).lexically_relative(folder)});
+}
+
+void import_scene(const SceneImportArguments& arguments) {
+  const std::filesystem::path scene = exchange::scene_file_of(arguments.output);
+  const exchange::SceneDraft draft = draft_of(arguments, scene);
+  exchange::write_scene_draft(draft, scene);
+  for (const std::string& note : draft.notes) std::cout << "not carried over: " << note << "\n";
+  std::cout << "wrote " << scene.string();
+  if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
+  std::cout << "\n";
+  for (const std::string& missing : draft.missing) std::cout << "to be filled in: " << missing << "\n";
+  if (draft.missing.empty()) std::cout << "look at it with: scintray check " << scene.string() << "\n";
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app) {
+  auto arguments = std::make_shared<SceneImportArguments>();
+  CLI::App* command =
+      app.add_subcommand("import", "Make a scene of a GDML file, or of the bodies of a CAD or mesh file");
+  command->add_option("FILE", arguments->file, "GDML, STEP, glTF, 3MF, COLLADA, OBJ, STL, PLY or OFF file")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Scene file to write (.toml), or a folder for scene.toml")
+      ->required();
+  command->add_option("--unit", arguments->unit, "Unit of a mesh file that does not state it, as mm or inch");
+  command->add_option("--deviation", arguments->deviation,
+                      "Largest distance of triangles from curved faces (default: \"0.01 mm\")");
+  command->add_option("--angle", arguments->angle,
+                      "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
+  command->add_option("--medium", arguments->media,
+                      "GDML: take this medium of the database for a material, as Air=air; may be repeated");
+  command->add_option("--surface", arguments->surfaces,
+                      "GDML: take this surface of the database for an optical surface; may be repeated");
+  command->add_flag("--skip-unsupported", arguments->skip_unsupported,
+                    "GDML: leave out volumes whose solid cannot be made, instead of stopping");
+  command->callback([arguments] { import_scene(*arguments); });
+}
+
+}  // namespace scintray::cli

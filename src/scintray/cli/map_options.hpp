@@ -1,0 +1,35 @@
+#pragma once
+/// Options of every command that reads a height map.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "scintray/topography/height_map.hpp"
+#include "scintray/topography/preparation.hpp"
+
+namespace scintray::cli {
+
+/// A length as "0.175 um", in um. InputError when it is none.
+double length_um(const std::string& text);
+
+/// What the reader is given beyond what the file states.
+struct MapOptions {
+  std::string map, channel, pitch, width, unit;
+  bool periodic = false;
+};
+void add_map_options(CLI::App& app, MapOptions& options);
+topography::HeightMap read_map(const MapOptions& options);
+
+/// How the map is prepared.
+struct PreparationOptions {
+  std::string level = "plane", crop, loess, gaussian;
+  double outliers = 0.0;  ///< 0: none are looked for
+  int outlier_radius = 2;
+  int median = 0;  ///< 0: no median filter
+  bool fill = false;
+};
+void add_preparation_options(CLI::App& app, PreparationOptions& options);
+/// InputError on words that are no preparation.
+topography::Preparation preparation_of(const PreparationOptions& options);
+
+}  // namespace scintray::cli

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/map_options.hpp"
+#include "scintray/cli/map_text.hpp"
+#include "scintray/report/pages/map_page.hpp"
+#include "scintray/report/text/map_numbers.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct PrepareArguments {
+  MapOptions map;
+  PreparationOptions preparation;
+  std::string output, page;
+};
+
+void print_before_and_after(const topography::HeightMap& before, const topography::HeightMap& after) {
+  const auto old_numbers = report::map_numbers(before), new_numbers = report::map_numbers(after);
+  std::cout << fmt::format("{:<20}{:>16}{:>16}\n", "", "before", "after");
+  for (std::size_t k = 0; k < new_numbers.size(); ++k)
+    std::cout << fmt::format("{:<20}{:>16}{:>16}\n", new_numbers[k].name, old_numbers[k].value,
+                             new_numbers[k].value);
+}
+
+void prepare_map(const PrepareArguments& arguments) {
+  // What comes before is the part that is kept, as it was measured: both show the same surface.
+  topography::Preparation cropping, preparation = preparation_of(arguments.preparation);
+  std::swap(cropping.crop, preparation.crop);
+  cropping.leveling.kind = topography::Leveling::Kind::none;
+  topography::HeightMap before = read_map(arguments.map);
+  topography::prepare(before, cropping);
+  topography::HeightMap after = before;
+  topography::prepare(after, preparation);
+  print_before_and_after(before, after);
+  std::cout << "\n";
+  for (const std::string& step : after.steps) std::cout << step << "\n";
+  print_warnings(after);
+  topography::write_gsf(arguments.output, after);
+  std::cout << "written      " << arguments.output << "\n";
+  if (arguments.page.empty()) return;
+  report::write_map_page(arguments.page, std::filesystem::path(arguments.map.map).filename().string(), before,
+                         after);
+  std::cout << "written      " << arguments.page << "\n";
+}
+
+}  // namespace
+
+void add_map_prepare_command(CLI::App& map) {
+  auto arguments = std::make_shared<PrepareArguments>();
+  CLI::App* app = map.add_subcommand(
+      "prepare", "Crop, mend, filter and level a map, in that order, and print what became of it");
+  add_map_options(*app, arguments->map);
+  app->add_option("-o,--output", arguments->output, "Height map to write (.gsf)")->required();
+  add_preparation_options(*app, arguments->preparation);
+  app->add_option("--page", arguments->page, "HTML page with the map before and after, and profiles");
+  app->callback([arguments] { prepare_map(*arguments); });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/repair_report.hpp"
+#include "scintray/cli/repair_scene.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/mesh/import/file_checks.hpp"
+
+namespace scintray::cli {
+
+void add_repair_command(CLI::App& app) {
+  struct Options {
+    std::filesystem::path in, out;
+    std::string unit, body, weld, largest_hole;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("repair", "Mend a mesh, or all meshes of a scene, and print what was done");
+  command->add_option("FILE", options->in, "mesh file, or scene file (.toml)")->required();
+  command
+      ->add_option(
+          "-o,--output", options->out,
+          "mesh file to write: .stl, .ply (double precision) or .glb (keeps groups and tags); for a scene, "
+          "a folder")
+      ->required();
+  command->add_option("--unit", options->unit, "unit of the numbers in a mesh file, as mm (glTF: metres)");
+  command->add_option("--body", options->body, "the one body of a mesh file to take, by name or number");
+  command->add_option("--weld", options->weld,
+                      "make vertices this near to each other one (default: single-precision rounding)");
+  command->add_option("--largest-hole", options->largest_hole,
+                      "leave larger holes open (default: a quarter of the mesh's diagonal)");
+  command->callback([options] {
+    const auto length = [](const std::string& text) {
+      return text.empty() ? 0.0 : core::parse_quantity(text, core::Dimension::length);
+    };
+    const mesh::RepairSettings settings{length(options->weld), length(options->largest_hole)};
+    mesh::ImportOptions import;
+    import.mm_per_unit =
+        options->unit.empty() ? 0.0 : core::unit_factor(options->unit, core::Dimension::length);
+    import.body = options->body;
+    const bool sound = mesh::lower_extension(options->in) == ".toml"
+                           ? repair_scene(options->in, options->out, settings)
+                           : repair_file(options->in, import, options->out, settings);
+    if (!sound) throw CLI::RuntimeError(kBadInput);
+  });
+}
+
+}  // namespace scintray::cli

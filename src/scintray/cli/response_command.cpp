@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulate_mapped.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct BuildOptions {
+  std::filesystem::path scene, output;
+  std::string pitch = "1 mm";
+  std::uint32_t photons = simulation::ResponseSettings{}.photons_per_cell;
+  std::uint32_t delays = simulation::ResponseSettings{}.delays_kept;
+  std::optional<int> threads;
+  std::optional<std::uint64_t> seed;
+  bool quiet = false;
+};
+
+struct MappedRunOptions {
+  std::filesystem::path scene, map, output;
+  std::optional<int> threads;
+  std::optional<std::uint64_t> seed, events;
+  bool quiet = false;
+};
+
+double pitch_of(const std::string& text) {
+  try {
+    const double pitch_mm = core::parse_quantity(text, core::Dimension::length);
+    if (pitch_mm > 0.0) return pitch_mm;
+  } catch (const core::InputError& error) {
+    throw CLI::ValidationError("--pitch",
+                               error.problems().front().what + "; " + error.problems().front().hint);
+  }
+  throw CLI::ValidationError("--pitch", "\"" + text + "\" is not above zero");
+}
+
+void print_map(const simulation::ResponseMap& map) {
+  for (const simulation::ResponseGrid& grid : map.grids) {
+    std::uint64_t emitted = 0, detected = 0, filled = 0;
+    for (const std::uint32_t photons : grid.photons) {
+      emitted += photons;
+      filled += photons > 0 ? 1 : 0;
+    }
+    for (const std::uint32_t photons : grid.detected) detected += photons;
+    std::cout << fmt::format(
+        "{}: {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} mm, {} of them filled; {} photons, {:.4f} "
+        "detected\n",
+        grid.part, grid.cells[0], grid.cells[1], grid.cells[2], grid.pitch.x(), grid.pitch.y(),
+        grid.pitch.z(), filled, emitted, static_cast<double>(detected) / static_cast<double>(emitted));
+  }
+}
+
+void build(const BuildOptions& options) {
+  simulation::MapOptions map_options;
+  map_options.settings = {pitch_of(options.pitch), options.photons, options.delays};
+  simulation::check_response_path(options.output);
+  const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
+  ProgressLine line(!options.quiet);
+  map_options.threads = options.threads;
+  map_options.seed = options.seed;
+  map_options.surface_hooks = watched_surfaces(line);
+  map_options.hooks.stop = &InterruptGuard::requested();
+  map_options.hooks.progress = [&line](std::uint64_t done, std::uint64_t of) {
+    line.show("mapping", static_cast<double>(done), static_cast<double>(of), "cells");
+  };
+  const simulation::ResponseFile file = simulation::build_map(scene, map_options);
+  line.clear();
+  if (file.map.grids.empty()) {
+    std::cerr << "stopped: a map needs all its cells, so there is none\n";
+    throw CLI::RuntimeError(kInterrupted);
+  }
+  simulation::write_response(options.output, file);
+  if (!options.quiet) print_map(file.map);
+  std::cout << "map      " << options.output.string() << "\n";
+}
+
+void print_events(const tally::PointResult& point) {
+  const tally::EnergyBalance& energy = point.energy;
+  const core::Estimate mean = energy.detected.mean();
+  std::cout << fmt::format(
+      "{} events, {} of them without energy in a scintillator; {:.6g} ± {:.2g} photons detected in each of "
+      "the others\n{:.3g} s, {:.3g} events a second\n",
+      energy.events, energy.silent, mean.value, mean.error, point.wall_seconds,
+      static_cast<double>(energy.events) / point.wall_seconds);
+}
+
+void run(const MappedRunOptions& options) {
+  const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
+  ProgressLine line(!options.quiet);
+  simulation::SimulationOptions simulation;
+  simulation.threads = options.threads;
+  simulation.seed = options.seed;
+  simulation.events = options.events;
+  simulation.surface_hooks = watched_surfaces(line);
+  simulation::SimulationHooks hooks;
+  hooks.stop = &InterruptGuard::requested();
+  hooks.progress = [&line](const simulation::SimulationProgress& p) {
+    line.show("events", static_cast<double>(p.done), static_cast<double>(p.total), p.thing);
+  };
+  simulation::ResultsFile results(options.output);
+  const tally::RunResult result = simulation::simulate_mapped(scene, options.map, results, simulation, hooks);
+  line.clear();
+  if (!options.quiet) print_events(result.points.front());
+  std::cout << "results  " << options.output.string() << "\n";
+  if (!result.complete()) {
+    std::cerr << "stopped: the results are partial and marked so\n";
+    throw CLI::RuntimeError(kInterrupted);
+  }
+}
+
+void add_build(CLI::App& response) {
+  auto options = std::make_shared<BuildOptions>();
+  CLI::App* command = response.add_subcommand(
+      "build", "Trace light from each cell of a grid over the parts that scintillate");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->output, "the map (HDF5)")->required();
+  command->add_option("--pitch", options->pitch, "largest edge of a cell (default: \"1 mm\")");
+  command->add_option("--photons", options->photons, "photons from each cell (default: 10000)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--delays", options->delays, "most times kept of each cell and channel (default: 64)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_flag("-q,--quiet", options->quiet, "print only where the map is");
+  command->callback([options] {
+    const InterruptGuard guard;
+    build(*options);
+  });
+}
+
+void add_run(CLI::App& response) {
+  auto options = std::make_shared<MappedRunOptions>();
+  CLI::App* command =
+      response.add_subcommand("run", "Make events from a map; write results as `scintray run` does");
+  command
+      ->add_option("SCENE", options->scene,
+                   "scene file (TOML): the map's, but for its [source], [run] and [readout]")
+      ->required();
+  command->add_option("MAP", options->map, "the map (HDF5)")->required();
+  command->add_option("-o,--output", options->output, "results file")->required();
+  command->add_option("--events", options->events, "events, in place of the scene's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
+  command->callback([options] {
+    const InterruptGuard guard;
+    run(*options);
+  });
+}
+
+}  // namespace
+
+void add_response_command(CLI::App& app) {
+  CLI::App* response = app.add_subcommand("response", "Response maps: trace once, make events often");
+  response->require_subcommand(1);
+  add_build(*response);
+  add_run(*response);
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/reweight_options.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/core/version.hpp"
+#include "scintray/report/text/format.hpp"
+#include "scintray/report/text/sweep_view.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/simulation/reweight.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct ReweightOptions {
+  std::filesystem::path results, output;
+  std::vector<std::string> lengths, reflectances;
+};
+
+std::vector<simulation::PropertyScan> scans_of(const ReweightOptions& options) {
+  std::vector<simulation::PropertyScan> scans;
+  for (const std::string& text : options.lengths)
+    scans.push_back(parse_scan("--absorption-length", simulation::OpticalProperty::absorption_length, text));
+  for (const std::string& text : options.reflectances)
+    scans.push_back(parse_scan("--reflectance", simulation::OpticalProperty::reflectance, text));
+  if (scans.empty())
+    throw CLI::ValidationError("reweight",
+                               "nothing is wanted otherwise; give --absorption-length \"LSO=200 mm\" or "
+                               "--reflectance \"PTFE=0.95\"");
+  return scans;
+}
+
+std::string setting_text(const std::vector<simulation::PropertyScan>& scans,
+                         const simulation::ReweightedPoint& point) {
+  std::string text;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    text += (i == 0 ? "" : ", ") + describe(scans[i]) + " " +
+            simulation::describe_value(scans[i], point.values[i]);
+  return text;
+}
+
+void print(const tally::RunResult& run, const std::vector<simulation::PropertyScan>& scans,
+           const std::vector<simulation::ReweightedPoint>& points) {
+  std::size_t last = run.points.size();
+  for (const simulation::ReweightedPoint& point : points) {
+    if (point.point != last) {
+      if (run.points.size() > 1) std::cout << report::point_label(run.points[point.point]) << "\n";
+      std::cout << "as traced: detected " << report::percent_with_error(point.traced_fraction);
+      if (point.traced_per_event)
+        std::cout << ", " << report::with_error(*point.traced_per_event) << " per event";
+      std::cout << "\n";
+      last = point.point;
+    }
+    const analysis::Reweighted& light = point.light;
+    std::cout << setting_text(scans, point) << ": detected "
+              << report::percent_with_error(light.detected_fraction);
+    if (point.per_event) std::cout << ", " << report::with_error(*point.per_event) << " per event";
+    std::cout << ", " << report::with_error(light.relative) << " of what was traced; "
+              << fmt::format("{:.0f} effective photons ({:.0f} %)", light.effective_photons,
+                             100.0 * light.effective_share)
+              << "; " << (light.valid ? "valid" : "NOT VALID: " + light.reason) << "\n";
+  }
+}
+
+/// A field of a CSV file (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string estimate_fields(const core::Estimate& estimate) {
+  return fmt::format(",{:.9g},{:.4g}", estimate.value, estimate.error);
+}
+
+std::string column_name(const simulation::PropertyScan& scan) {
+  const bool length = scan.property == simulation::OpticalProperty::absorption_length;
+  return describe(scan) + (scan.times ? " (factor)" : length ? " (mm)" : "");
+}
+
+std::string csv_of(const ReweightOptions& options, const tally::RunResult& run,
+                   const std::vector<simulation::PropertyScan>& scans,
+                   const std::vector<simulation::ReweightedPoint>& points) {
+  std::string text =
+      fmt::format("# {}\n# reweighted by ScintRay {} from {}, which ScintRay {} traced of {}, seed {}\n",
+                  run.header.title, core::version(), options.results.filename().string(), run.header.version,
+                  run.header.scene_file, run.header.seed);
+  text += "point";
+  for (const std::string& key : run.header.sweep_keys) text += "," + csv_field(key);
+  for (const simulation::PropertyScan& scan : scans) text += "," + csv_field(column_name(scan));
+  text +=
+      ",traced_fraction,traced_fraction_error,fraction,fraction_error,relative,relative_error,"
+      "traced_per_event,traced_per_event_error,per_event,per_event_error,effective_photons,"
+      "effective_share,largest_share,tail_shape,valid,reason\n";
+  for (const simulation::ReweightedPoint& point : points) {
+    const analysis::Reweighted& light = point.light;
+    text += std::to_string(point.point);
+    for (const std::string& value : run.points[point.point].parameters) text += "," + csv_field(value);
+    for (const double value : point.values) text += fmt::format(",{:.9g}", value);
+    text += estimate_fields(point.traced_fraction) + estimate_fields(light.detected_fraction) +
+            estimate_fields(light.relative);
+    text += point.per_event ? estimate_fields(*point.traced_per_event) + estimate_fields(*point.per_event)
+                            : std::string(",,,,");
+    text +=
+        fmt::format(",{:.6g},{:.4g},{:.4g},{:.4g},{},{}\n", light.effective_photons, light.effective_share,
+                    light.largest_share, light.tail_shape, light.valid ? 1 : 0, csv_field(light.reason));
+  }
+  return text;
+}
+
+void reweight(const ReweightOptions& options) {
+  const std::vector<simulation::PropertyScan> scans = scans_of(options);
+  const tally::RunResult run = results::read_results(options.results);
+  const std::vector<simulation::ReweightedPoint> points =
+      simulation::reweight_results(options.results, run, scans);
+  if (!run.complete()) std::cout << "partial result: " << run.partial_reason << "\n";
+  print(run, scans, points);
+  if (options.output.empty()) return;
+  core::write_whole_file(options.output, csv_of(options, run, scans, points), "the table");
+  std::cout << "table    " << options.output.string() << "\n";
+}
+
+}  // namespace
+
+void add_reweight_command(CLI::App& app) {
+  auto options = std::make_shared<ReweightOptions>();
+  CLI::App* command = app.add_subcommand(
+      "reweight", "A result under other absorption lengths and reflectances, without tracing again");
+  command
+      ->add_option("RESULT", options->results,
+                   "results file (HDF5) of a scene with photon_history = true in [run]")
+      ->required();
+  command
+      ->add_option("--absorption-length", options->lengths,
+                   "\"MEDIUM=200 mm\", several \"MEDIUM=100,200 mm,none\", or times what was traced "
+                   "\"MEDIUM=x0.5,x2\"")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--reflectance", options->reflectances,
+                   "\"REFLECTOR=0.95\" (or the surface it is behind), \"REFLECTOR=0.9,0.95\", "
+                   "\"REFLECTOR=x0.98\"")
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options->output, "write a table (CSV)");
+  command->callback([options] { reweight(*options); });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,30 @@
+#include "scintray/cli/run_analysis.hpp"
+
+#include "scintray/report/acceptance.hpp"
+#include "scintray/report/surface_acceptance.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/scene_file/analysis.hpp"
+#include "scintray/simulation/analyze_results.hpp"
+
+namespace scintray::cli {
+
+void check_criteria(const scene_file::SceneFile& scene) {
+  const scene_file::SceneSpec spec = scene.spec(0);
+  report::check_surface_criteria(spec.goniometers, spec.criteria);
+  if (spec.criteria.empty() && spec.analysis.reference.empty()) return;
+  tally::RunResult points;
+  points.header.sweep_keys = scene.sweep_keys();
+  points.points.resize(scene.points());
+  for (std::size_t i = 0; i < scene.points(); ++i) points.points[i].parameters = scene.parameters(i);
+  report::check_curves(points, spec.analysis.reference, spec.criteria);
+}
+
+report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run) {
+  const scene_file::AnalysisSpec analysis =
+      scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file);
+  return {simulation::analyze_results(results, run, analysis), analysis.reference,
+          scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
+          results::read_surfaces(results)};
+}
+
+}  // namespace scintray::cli

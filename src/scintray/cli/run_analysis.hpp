@@ -1,0 +1,19 @@
+#pragma once
+/// What commands show of the events of a results file.
+
+#include <filesystem>
+
+#include "scintray/report/run_analysis.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray::cli {
+
+/// Finds before a run what its page would find too late: curves that the scene does not have.
+void check_criteria(const scene_file::SceneFile& scene);
+
+/// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene that the run
+/// is of.
+report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
+
+}  // namespace scintray::cli

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/progress.hpp"
+#include "scintray/cli/run_analysis.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/text/text_summary.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct RunOptions {
+  std::vector<std::filesystem::path> scenes;
+  std::filesystem::path output;
+  std::optional<int> threads;
+  std::optional<std::uint64_t> seed, photons, events;
+  bool no_report = false;
+  bool quiet = false;
+  bool quick = false;
+};
+
+/// Results go where the command line states, then where the scene states, then beside the working folder
+/// under the scene's name.
+std::filesystem::path output_path(const RunOptions& options, const std::filesystem::path& scene,
+                                  const scene_file::SceneFile& file) {
+  if (!options.output.empty()) return options.output;
+  if (const auto own = file.spec(0).run.output; !own.empty()) return own;
+  return scene.stem().string() + ".h5";
+}
+
+simulation::SimulationOptions simulation_options(const RunOptions& options, ProgressLine& line) {
+  simulation::SimulationOptions result;
+  result.threads = options.threads;
+  result.seed = options.seed;
+  result.photons = options.photons;
+  result.events = options.events;
+  result.quick = options.quick;
+  result.surface_hooks = watched_surfaces(line);
+  return result;
+}
+
+simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
+  simulation::SimulationHooks hooks;
+  hooks.stop = &InterruptGuard::requested();
+  hooks.progress = [&line](const simulation::SimulationProgress& p) {
+    line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.done),
+              static_cast<double>(p.total), p.thing);
+  };
+  return hooks;
+}
+
+void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
+  const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
+  check_criteria(file);
+  ProgressLine line(!options.quiet);
+  const std::filesystem::path output = output_path(options, scene, file);
+  simulation::Simulation simulation(file, simulation_options(options, line));
+  simulation::ResultsFile results(output);
+  const tally::RunResult result = simulation.run_all(results, simulation_hooks(line));
+  line.clear();
+
+  const report::RunAnalysis analyses = analysis_of(output, result);
+  if (!options.quiet) std::cout << report::text_summary(result, analyses);
+  std::cout << "results  " << output.string() << "\n";
+  if (!options.no_report) {
+    auto page = output;
+    page.replace_extension(".html");
+    report::write_report(page, result, analyses);
+    std::cout << "report   " << page.string() << "\n";
+  }
+  if (!result.complete()) {
+    std::cerr << "stopped: the results are partial and marked so\n";
+    throw CLI::RuntimeError(kInterrupted);
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "Trace the photons of scenes; write results and a report");
+  command->add_option("SCENE", options->scenes, "scene files (TOML)")->required();
+  command->add_option("-o,--output", options->output, "results file (default: SCENE's name with .h5, here)");
+  command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--events", options->events, "events per point, in place of the scene's")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--quick", options->quick,
+                    "take the scene's quick_events or quick_photons: fewer, to try it");
+  command->add_flag("--no-report", options->no_report, "do not write the HTML page");
+  command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
+  command->callback([options] {
+    if (options->scenes.size() > 1 && !options->output.empty())
+      throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
+    const InterruptGuard guard;
+    for (const auto& scene : options->scenes) run_scene(*options, scene);
+  });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,86 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scintray/core/error.hpp"
+#include "scintray/exchange/davis.hpp"
+#include "scintray/exchange/lbnl.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct ImportArguments {
+  std::string file, format, output, from_outside, unreflected;
+  std::optional<double> reflectance;
+  exchange::ImportSettings settings;
+};
+
+void require_options_of_format(const ImportArguments& arguments) {
+  const bool davis = arguments.format == "davis";
+  if (davis && arguments.reflectance)
+    throw core::InputError({{}, "--reflectance with --format davis", "the pair holds its own reflectances"});
+  if (!davis && !arguments.unreflected.empty())
+    throw core::InputError(
+        {{}, "--unreflected with --format lbnl", "light that it does not reflect is absorbed"});
+  if (davis && arguments.unreflected.empty())
+    throw core::InputError(
+        {{},
+         "a Davis pair without --unreflected",
+         "the pair does not say whether light that is not reflected passes (transmitted: Geant4 "
+         "with EFFICIENCY 0) or ends at the surface (absorbed: with EFFICIENCY above 0)"});
+  if (!davis && !arguments.reflectance)
+    throw core::InputError({{},
+                            "an LBNL table without --reflectance",
+                            "the file holds none: give the REFLECTIVITY that the surface has in Geant4"});
+}
+
+void import_table(ImportArguments arguments) {
+  require_options_of_format(arguments);
+  exchange::ImportSettings& settings = arguments.settings;
+  settings.from_outside = arguments.from_outside == "smooth"   ? exchange::FromOutside::smooth
+                          : arguments.from_outside == "mirror" ? exchange::FromOutside::mirror
+                                                               : exchange::FromOutside::absorb;
+  settings.unreflected = arguments.unreflected == "absorbed" ? exchange::Unreflected::absorbed
+                                                             : exchange::Unreflected::transmitted;
+  settings.reflectance = arguments.reflectance.value_or(1.0);
+  const optics::SurfaceTable table = arguments.format == "davis"
+                                         ? exchange::read_davis(arguments.file, settings)
+                                         : exchange::read_lbnl(arguments.file, settings);
+  optics::write_table(arguments.output, table);
+  std::cout << "read         " << table.provenance().map << "\n             "
+            << table.provenance().preparation << "\nwritten      " << arguments.output << "\n";
+}
+
+}  // namespace
+
+void add_table_import_command(CLI::App& table) {
+  auto arguments = std::make_shared<ImportArguments>();
+  CLI::App* app = table.add_subcommand("import", "Make a surface table of another program's");
+  app->add_option("file", arguments->file,
+                  "davis: X_LUT.z or X_LUT.dat, with X_LUTR beside it; lbnl: one of the 21 finishes' files")
+      ->required();
+  app->add_option("--format", arguments->format, "Geant4's LUTDAVIS pair or LBNL's table (model LUT)")
+      ->required()
+      ->check(CLI::IsMember({"davis", "lbnl"}));
+  app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
+  app->add_option("--inside-index", arguments->settings.index.inside,
+                  "Refractive index of the crystal that the table was made for: the files do not state it")
+      ->required();
+  app->add_option("--outside-index", arguments->settings.index.outside, "Refractive index outside")
+      ->required();
+  app->add_option("--from-outside", arguments->from_outside,
+                  "What becomes of light incident from outside, of which the files state nothing: "
+                  "smooth (Fresnel), mirror or absorb")
+      ->required()
+      ->check(CLI::IsMember({"smooth", "mirror", "absorb"}));
+  app->add_option("--unreflected", arguments->unreflected,
+                  "davis: what becomes of light that is not reflected")
+      ->check(CLI::IsMember({"transmitted", "absorbed"}));
+  app->add_option("--reflectance", arguments->reflectance, "lbnl: Geant4's REFLECTIVITY of the surface");
+  app->callback([arguments] { import_table(*arguments); });
+}
+
+}  // namespace scintray::cli

@@ -1,0 +1,124 @@
+#include "scintray/cli/table_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/progress.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/materials/database.hpp"
+#include "scintray/materials/wavelength_cover.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+optics::Medium side_medium(const std::string& name, double index, const std::string& side) {
+  if (name.empty() == (index == 0.0))
+    throw core::InputError({{},
+                            "the medium " + side + " is " + (name.empty() ? "not given" : "given twice"),
+                            "give either --" + side + " MEDIUM, as LSO, or --" + side + "-index, as 1.82"});
+  if (!name.empty()) return materials::MaterialDatabase::shipped().medium(name);
+  optics::Medium medium;
+  medium.name = fmt::format("index {:g}", index);
+  medium.index = core::Curve::constant(index);
+  return medium;
+}
+
+}  // namespace
+
+void add_tracing_options(CLI::App& app, TracingOptions& options) {
+  app.add_option("--inside", options.inside, "Medium of the part whose face it is, as LSO");
+  app.add_option("--inside-index", options.inside_index, "... or its refractive index")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--outside", options.outside, "Medium outside, as air");
+  app.add_option("--outside-index", options.outside_index, "... or its refractive index")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--wavelength", options.wavelengths,
+                 "Wavelengths to tabulate, as \"420 nm\"; needed with media")
+      ->delimiter(',');
+  app.add_option("--rays", options.settings.rays, "Rays per incidence angle and azimuth")
+      ->capture_default_str();
+  app.add_option("--target-error", options.settings.target_error,
+                 "Add rays until the reflectance of every node is known to this standard error")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--most-rays", options.settings.most_rays, "... at most this many times --rays")
+      ->capture_default_str();
+  app.add_flag("--directional", options.settings.directional,
+               "For surfaces with direction: a slice of the table for every azimuth of incidence");
+  app.add_flag("--reciprocal", options.settings.reciprocal,
+               "Make the table of a lossless surface exactly reciprocal, and print how far it was");
+  app.add_option("--seed", options.settings.seed, "Seed of the random numbers")->capture_default_str();
+  app.add_option("--incidence-step", options.incidence_step, "Step of incidence, \"2.25 deg\" unless given");
+  app.add_option("--azimuth-step", options.azimuth_step, "Step of azimuth, \"9 deg\" unless given");
+  app.add_flag("--no-refine", options.no_refine, "No extra nodes where the reflectance changes fast");
+}
+
+Between between(const TracingOptions& options) {
+  Between result{side_medium(options.inside, options.inside_index, "inside"),
+                 side_medium(options.outside, options.outside_index, "outside"),
+                 {}};
+  for (const std::string& text : options.wavelengths)
+    result.wavelengths_nm.push_back(core::parse_quantity(text, core::Dimension::wavelength));
+  std::sort(result.wavelengths_nm.begin(), result.wavelengths_nm.end());
+  if (result.wavelengths_nm.empty() && !(options.inside.empty() && options.outside.empty()))
+    throw core::InputError({{},
+                            "media are given, but no wavelength",
+                            "give --wavelength \"420 nm\", or several: --wavelength \"400 nm,420 nm\""});
+  core::Problems problems;
+  for (const optics::Medium* medium : {&result.inside, &result.outside})
+    for (const double nm : result.wavelengths_nm) materials::check_cover(problems, {}, *medium, nm, nm);
+  problems.throw_if_any();
+  return result;
+}
+
+std::vector<topography::SpectralPoint> Between::spectrum() const {
+  if (wavelengths_nm.empty()) return {{0.0, {inside.index(0.0), outside.index(0.0)}}};
+  std::vector<topography::SpectralPoint> points;
+  for (const double nm : wavelengths_nm) points.push_back({nm, {inside.index(nm), outside.index(nm)}});
+  return points;
+}
+
+topography::TableSettings settings_of(const TracingOptions& options) {
+  topography::TableSettings settings = options.settings;
+  if (!options.incidence_step.empty())
+    settings.incidence_step_rad = core::parse_quantity(options.incidence_step, core::Dimension::angle);
+  if (!options.azimuth_step.empty())
+    settings.azimuth_step_rad = core::parse_quantity(options.azimuth_step, core::Dimension::angle);
+  settings.refine = !options.no_refine;
+  return settings;
+}
+
+optics::SurfaceTable build_with_progress(const BuildTable& build) {
+  const InterruptGuard guard;
+  ProgressLine line(true);
+  const auto progress = [&](double share) {
+    line.show("table", 100.0 * share, 100.0, "percent");
+    return !InterruptGuard::requested();
+  };
+  optics::SurfaceTable table = build(progress);
+  line.clear();
+  return table;
+}
+
+void write_and_report(const std::string& path, const optics::SurfaceTable& table) {
+  optics::write_table(path, table);
+  const optics::TableProvenance& p = table.provenance();
+  std::size_t nodes = 0;
+  for (const optics::TableSlice& slice : table.slices())
+    nodes += slice.from_inside.size() + slice.from_outside.size();
+  std::cout << fmt::format(
+      "table        {} wavelengths, {} azimuths, {} nodes in all; {} rays unclassified, {} cut\n",
+      table.wavelengths_nm().size(), table.azimuths(), nodes, p.unclassified, p.cut);
+  if (p.unconverged > 0)
+    std::cout << fmt::format(
+        "warning      {} nodes have a larger error than {:g} at the most rays allowed; raise --most-rays\n",
+        p.unconverged, p.target_error);
+  if (!p.reciprocity.empty()) std::cout << "reciprocal   " << p.reciprocity << "\n";
+  std::cout << "written      " << path << "\n";
+}
+
+}  // namespace scintray::cli

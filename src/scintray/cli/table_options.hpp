@@ -1,0 +1,42 @@
+#pragma once
+/// Options of every command that traces a surface table.
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "scintray/optics/medium.hpp"
+#include "scintray/topography/build_table.hpp"
+
+namespace scintray::cli {
+
+/// How a table is traced, and between what.
+struct TracingOptions {
+  std::string inside, outside;                     ///< media of the database
+  double inside_index = 0.0, outside_index = 0.0;  ///< in place of media; 0: not given
+  std::vector<std::string> wavelengths;
+  std::string incidence_step, azimuth_step;
+  bool no_refine = false;
+  topography::TableSettings settings;
+};
+void add_tracing_options(CLI::App& app, TracingOptions& options);
+
+/// What light goes between, at which wavelengths.
+struct Between {
+  optics::Medium inside, outside;
+  std::vector<double> wavelengths_nm;  ///< empty where only indices were given
+  std::vector<topography::SpectralPoint> spectrum() const;
+};
+/// InputError when neither an index nor a medium is given for a side, for media without wavelengths, and
+/// for wavelengths beyond their indices.
+Between between(const TracingOptions& options);
+topography::TableSettings settings_of(const TracingOptions& options);
+
+/// Traces with a progress line, stops at Ctrl-C.
+using BuildTable = std::function<optics::SurfaceTable(const topography::TableProgress&)>;
+optics::SurfaceTable build_with_progress(const BuildTable& build);
+
+/// Writes the table and states what it holds; a warning when a stated error was not reached.
+void write_and_report(const std::string& path, const optics::SurfaceTable& table);
+
+}  // namespace scintray::cli

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "scintray/cli/table_options.hpp"
+#include "scintray/materials/database.hpp"
+#include "scintray/materials/surface_factory.hpp"
+#include "scintray/materials/wavelength_cover.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct StackArguments {
+  std::string surface, output;
+  std::filesystem::path scene;
+  TracingOptions tracing;
+};
+
+std::string describe(const materials::SurfaceSpec& spec) {
+  if (!spec.mixture.empty()) {
+    std::string text;
+    for (const materials::ShareSpec& part : spec.mixture)
+      text += fmt::format("{}{:g} of {}", text.empty() ? "" : ", ", part.share, describe(*part.surface));
+    return text;
+  }
+  std::string text = spec.name;
+  if (!spec.gap.empty()) text += " | " + spec.gap;
+  if (spec.gap_thickness_um) text += fmt::format(" {:g} um", *spec.gap_thickness_um);
+  if (spec.reflector) text += " | " + spec.reflector->name;
+  return text;
+}
+
+void build(const StackArguments& arguments) {
+  materials::MaterialDatabase database = materials::MaterialDatabase::shipped();
+  if (!arguments.scene.empty())
+    scene::add_definitions(database, scene_file::SceneFile::load(arguments.scene).spec(0));
+  const materials::SurfaceSpec spec = materials::traced_on_the_spot(database.surface(arguments.surface));
+  const Between media = between(arguments.tracing);
+  core::Problems problems;
+  for (const double at : media.wavelengths_nm) materials::check_cover(problems, spec, at, at);
+  problems.throw_if_any();
+  const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
+  const optics::Surface surface =
+      materials::SurfaceFactory().make(spec, media.inside, media.outside, nm, nm, nm).surface;
+  optics::TableProvenance provenance;
+  if (surface.shifts())
+    throw core::InputError(core::Problem{
+        spec.where,
+        "surface \"" + spec.name + "\" gives light back at other wavelengths, which a table cannot hold",
+        "use the surface itself in a scene"});
+  provenance.map = spec.name;
+  provenance.stack = describe(spec);
+  provenance.preparation = "as the surface's definition says";
+  provenance.tiling = "as the surface's definition says";
+  write_and_report(arguments.output, build_with_progress([&](const topography::TableProgress& progress) {
+                     return topography::build_stack_table(
+                         surface, media.spectrum(), settings_of(arguments.tracing), provenance, progress);
+                   }));
+}
+
+}  // namespace
+
+void add_table_stack_command(CLI::App& table) {
+  auto arguments = std::make_shared<StackArguments>();
+  CLI::App* app = table.add_subcommand(
+      "stack", "Trace a whole surface of the library, with its gap, reflector and shares, into one table");
+  app->add_option("surface", arguments->surface, "Name of the surface")->required();
+  app->add_option("--scene", arguments->scene, "Scene file whose own definitions are known, too");
+  app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
+  add_tracing_options(*app, arguments->tracing);
+  app->callback([arguments] { build(*arguments); });
+}
+
+}  // namespace scintray::cli

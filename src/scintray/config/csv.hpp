@@ -1,0 +1,31 @@
+#pragma once
+/// Tables of numbers in CSV files.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+
+namespace scintray::config {
+
+/// Rows of numbers, and the names of the columns if the file has a heading.
+struct CsvTable {
+  struct Row {
+    long line = 0;
+    std::vector<double> values;
+  };
+  std::string file;
+  std::vector<std::string> columns;  ///< empty without a heading
+  std::vector<Row> rows;             ///< one at least, all equally long
+
+  /// Index of the named column, or `standard` when the name is empty. Throws InputError at `where`
+  /// when there is no such column.
+  std::size_t column(const std::string& name, std::size_t standard, const core::FileLocation& where) const;
+};
+
+/// Reads numbers separated by commas, a row a line. The first row may be a heading; empty lines and
+/// lines that start with # are passed over. Throws InputError with every row that is wrong.
+CsvTable read_csv(const std::filesystem::path& path);
+
+}  // namespace scintray::config

@@ -1,0 +1,76 @@
+#include "scintray/config/detail/toml11.hpp"
+
+#include <charconv>
+#include <sstream>
+
+namespace scintray::config::toml11 {
+
+namespace {
+
+Mistake mistake_in(const std::string& message) {
+  const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
+  if (has("expected newline")) return Mistake::more_on_the_line;
+  if (has("defined twice") || has("already exists")) return Mistake::defined_twice;
+  if (has("valid string")) return Mistake::open_string;
+  if (has("utf8") || has("UTF-8")) return Mistake::not_utf8;
+  if (has("separator `=`")) return Mistake::no_equals_sign;
+  if (has("valid key")) return Mistake::bad_key;
+  if (has("array separator")) return Mistake::open_array;
+  if (has("missing value") || has("got nothing")) return Mistake::no_value;
+  return Mistake::other;
+}
+
+/// The first line of a drawing without the name of the function that failed: "[error] toml::function:
+/// message".
+std::string message_of(std::string line) {
+  if (line.rfind("[error] ", 0) == 0) line.erase(0, 8);
+  for (const char* prefix : {"toml::", "parse_"})
+    if (line.rfind(prefix, 0) == 0) {
+      const auto colon = line.find(": ");
+      if (colon != std::string::npos) line.erase(0, colon + 2);
+    }
+  return line;
+}
+
+}  // namespace
+
+// The public location() counts the lines before every value anew, so that reading a scene would take time as
+// the square of its length; the region that it counts in has the offset.
+Span span_of(const toml::value& value) {
+  const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  if (region == nullptr) return {};
+  return {static_cast<std::size_t>(region->first() - region->begin()), region->size()};
+}
+
+// The drawing: "[error] toml::function: message\n --> file\n   |\n 3 | line\n   |   ^--- comment". The last
+// caret is where the text went wrong; the public location() is where the value began.
+SyntaxError syntax_error(const toml::exception& error) {
+  SyntaxError result{error.location().line(), error.location().column(), {}, Mistake::other};
+  std::istringstream drawing(error.what());
+  std::string line;
+  std::getline(drawing, line);
+  result.message = message_of(line);
+  std::string comment;
+  std::size_t number = 0;
+  while (std::getline(drawing, line)) {
+    const auto bar = line.find(" | ");
+    if (bar == std::string::npos) continue;
+    const auto digit = line.find_first_not_of(' ');
+    if (digit < bar && std::from_chars(line.data() + digit, line.data() + bar, number).ec == std::errc{})
+      continue;
+    const auto caret = line.find_first_not_of(' ', bar + 3);
+    if (number == 0 || caret == std::string::npos || (line[caret] != '^' && line[caret] != '~')) continue;
+    result.line = number;
+    result.byte_column = caret - bar - 2;
+    const auto words = line.find_first_not_of("^~- ", caret);
+    comment = words == std::string::npos ? "" : line.substr(words);
+    number = 0;
+  }
+  if (comment == "here") comment.clear();
+  if (!comment.empty())
+    result.message = result.message.empty() ? comment : result.message + " (" + comment + ")";
+  result.mistake = mistake_in(result.message);
+  return result;
+}
+
+}  // namespace scintray::config::toml11

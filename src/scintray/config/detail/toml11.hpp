@@ -1,0 +1,48 @@
+#pragma once
+/// What ScintRay knows of toml11 beyond its public interface: where a value stands in the text, and what a
+/// syntax error is about. Nothing else uses toml::detail or reads toml11's messages;
+/// tests/scene/toml11_test.cpp pins both for the version in use.
+
+#include <cstddef>
+#include <string>
+#include <toml.hpp>
+
+#if !defined(TOML11_VERSION_MAJOR) || TOML11_VERSION_MAJOR != 3
+#error \
+    "ScintRay knows the regions and the messages of toml11 3 only: see src/scintray/config/detail/toml11.cpp"
+#endif
+
+namespace scintray::config::toml11 {
+
+/// Where a value stands in the text, in bytes.
+struct Span {
+  std::size_t offset = 0, size = 0;
+};
+
+/// Empty, at the start of the text, for a value that was not read from one.
+[[nodiscard]] Span span_of(const toml::value& value);
+
+/// What a text that is not TOML has wrong, as far as toml11's message states.
+enum class Mistake {
+  more_on_the_line,  ///< something after the value
+  defined_twice,
+  open_string,
+  not_utf8,
+  no_equals_sign,
+  bad_key,
+  open_array,
+  no_value,
+  other,
+};
+
+/// A syntax error in plain words.
+struct SyntaxError {
+  std::size_t line = 0, byte_column = 0;  ///< from 1
+  std::string message;                    ///< one line, with toml11's comment on the place in brackets
+  Mistake mistake = Mistake::other;
+};
+
+/// Reads toml11's drawing of the error; where that shows no place, the place is its public location().
+[[nodiscard]] SyntaxError syntax_error(const toml::exception& error);
+
+}  // namespace scintray::config::toml11

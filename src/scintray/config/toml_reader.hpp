@@ -1,0 +1,212 @@
+#pragma once
+/// Reading TOML so that every mistake is reported, with its place, at once.
+///
+///     Problems problems;
+///     TomlTable table(parse_toml_file("materials/media/LSO.toml"), problems);
+///     const double density = table.quantity("density", Dimension::density);
+///     table.expect("density", density > 0.0, "a density must be positive");
+///     const Curve index = table.curve("index", Dimension::dimensionless);
+///     table.finish();           // keys that nobody read are problems
+///     problems.throw_if_any();
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scintray/config/words.hpp"
+#include "scintray/core/curve.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/units.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::config {
+
+/// A value of a TOML document, with where it stands. A plain tree, so that a sweep can edit it.
+struct TomlNode {
+  enum class Kind { string, integer, number, boolean, date, array, table };
+
+  Kind kind = Kind::table;
+  std::string key;               ///< name within its table; empty in an array and at the root
+  core::FileLocation where;      ///< of the value; of its header for a [table]
+  core::FileLocation key_where;  ///< of the key; that of the value where there is none
+  std::string text;              ///< a string's content; any other scalar as written
+  double number = 0.0;           ///< of an integer or number
+  std::int64_t integer = 0;
+  bool boolean = false;
+  std::vector<TomlNode> items;  ///< elements of an array, or members of a table in file order
+
+  /// Member of a table, or nullptr.
+  const TomlNode* find(const std::string& member) const;
+  TomlNode* find(const std::string& member);
+  /// The value as it would be written, for headings and messages: 2 mm, ["1 mm", "2 mm"].
+  std::string as_written() const;
+};
+
+using TomlNodePtr = std::shared_ptr<const TomlNode>;
+
+/// Parses a document. `file` is used in messages, and relative paths in the document count from its
+/// folder. Throws InputError with the place and nature of a syntax error.
+TomlNodePtr parse_toml(const std::string& text, const std::string& file);
+
+/// Reads and parses a file. Throws InputError when it is missing, is not text, or is malformed.
+TomlNodePtr parse_toml_file(const std::filesystem::path& path);
+
+/// The content of a text file. Throws InputError at `where`, or without a place, when it cannot be
+/// read.
+std::string read_text_file(const std::filesystem::path& path, const core::FileLocation& where = {});
+
+/// A table being read. What is wrong is added to a collector, and a harmless default returned, so
+/// that reading goes on and all problems come out together.
+///
+/// Of each kind of getter there are three: `x(key)` requires the key, `x(key, fallback)` returns the
+/// fallback when it is absent, `optional_x(key)` returns nothing when it is absent or wrong. Copies
+/// share their state. The collector must outlive the table.
+class TomlTable {
+ public:
+  /// The outermost table of a document, or a table taken from one. A value of another kind is a problem.
+  TomlTable(TomlNodePtr table, core::Problems& problems);
+
+  /// Place of the table, of a key's value (the table's place when absent), and name as in
+  /// "part.face".
+  const core::FileLocation& where() const { return node_->where; }
+  core::FileLocation where(const std::string& key) const;
+  const std::string& path() const { return path_; }
+  /// The key under which the table stands in its parent; empty in arrays and at the root.
+  const std::string& name() const { return node_->key; }
+  const TomlNodePtr& node() const { return node_; }
+
+  /// True when the key is there. Makes it known, but not read.
+  bool has(const std::string& key) const;
+  /// True when the key's value is written as an array. Neither makes it known nor reads it.
+  bool is_array(const std::string& key) const;
+  /// Names of all keys, in file order.
+  std::vector<std::string> keys() const;
+  /// True when the key is there, was read, and nothing was wrong with it so far.
+  bool good(const std::string& key) const;
+  /// Adds a problem at the key's value (at the table when absent); marks the key as bad.
+  void report(const std::string& key, std::string what, std::string hint = {}) const;
+  /// Problems found so far, in the whole document and whatever else shares the collector.
+  std::size_t problem_count() const;
+  /// Reports unless `ok`. Does nothing when the key is absent or was already found wrong.
+  void expect(const std::string& key, bool ok, const std::string& what, const std::string& hint = {}) const;
+  /// Which one of `choices` is present. Reports none (when required) and more than one.
+  std::optional<std::string> one_of(const std::vector<std::string>& choices, bool required) const;
+  /// The same for keys that stand for values; nullptr when none is present.
+  template <typename T, std::size_t N>
+  const Word<T>* one_of(const Word<T> (&choices)[N], bool required) const {
+    const std::optional<std::string> key = one_of(word_list(choices), required);
+    for (const Word<T>& known : choices)
+      if (key == known.word) return &known;
+    return nullptr;
+  }
+
+  std::string string(const std::string& key) const;
+  std::string string(const std::string& key, const std::string& fallback) const;
+  std::optional<std::string> optional_string(const std::string& key) const;
+
+  bool boolean(const std::string& key) const;
+  bool boolean(const std::string& key, bool fallback) const;
+
+  std::int64_t integer(const std::string& key) const;
+  std::int64_t integer(const std::string& key, std::int64_t fallback) const;
+  std::optional<std::int64_t> optional_integer(const std::string& key) const;
+
+  /// A plain number, integer or not.
+  double number(const std::string& key) const;
+  double number(const std::string& key, double fallback) const;
+  std::optional<double> optional_number(const std::string& key) const;
+
+  /// "2 mm" in internal units. A bare number is wrong unless the dimension is dimensionless.
+  double quantity(const std::string& key, core::Dimension dimension) const;
+  double quantity(const std::string& key, core::Dimension dimension, double fallback) const;
+  std::optional<double> optional_quantity(const std::string& key, core::Dimension dimension) const;
+
+  /// One of the words; returns allowed.front() when wrong.
+  std::string choice(const std::string& key, const std::vector<std::string>& allowed) const;
+  std::string choice(const std::string& key, const std::vector<std::string>& allowed,
+                     const std::string& fallback) const;
+  /// The value of one of the words; that of the first when wrong.
+  template <typename T, std::size_t N>
+  T choice(const std::string& key, const Word<T> (&words)[N]) const {
+    return find_word(words, choice(key, word_list(words))).value_or(words[0].value);
+  }
+  template <typename T, std::size_t N>
+  T choice(const std::string& key, const Word<T> (&words)[N], std::type_identity_t<T> fallback) const {
+    return find_word(words, choice(key, word_list(words), "")).value_or(fallback);
+  }
+
+  /// Arrays. `count` 0 means any length, and one at least unless stated otherwise. Empty when wrong
+  /// or absent.
+  std::vector<std::string> strings(const std::string& key, std::size_t count = 0, bool required = true) const;
+  std::vector<double> numbers(const std::string& key, std::size_t count = 0, bool required = true) const;
+  std::vector<double> quantities(const std::string& key, core::Dimension dimension, std::size_t count = 0,
+                                 bool required = true) const;
+  /// Three quantities ("1 mm", ...) or three plain numbers.
+  std::optional<core::Vec3> optional_quantity3(const std::string& key, core::Dimension dimension) const;
+  std::optional<core::Vec3> optional_number3(const std::string& key) const;
+  /// Three plain numbers scaled to unit length; reports zero.
+  std::optional<core::Vec3> optional_direction(const std::string& key) const;
+
+  /// A file named by the key: relative paths count from the folder of the document. Reports a file
+  /// that does not exist. Empty when wrong or absent.
+  std::filesystem::path existing_file(const std::string& key, bool required = true) const;
+
+  /// A curve y(x): a single quantity (a constant), or a table in one of two forms
+  ///     { wavelength = ["400 nm", "500 nm"], value = ["1 m", "2 m"] }
+  ///     { wavelength = [400, 500], wavelength_unit = "nm", value = [1, 2], value_unit = "m" }
+  ///     { file = "x.csv", wavelength_unit = "nm", value_unit = "m",
+  ///       wavelength_column = "lambda", value_column = "y" }     # columns: default first, second
+  /// where "wavelength" stands for the name of the dimension of x. x may rise or fall, and must not
+  /// repeat. `value_unit` may be left out when y is dimensionless. Curve::constant(0) when wrong.
+  core::Curve curve(const std::string& key, core::Dimension y,
+                    core::Dimension x = core::Dimension::wavelength) const;
+  std::optional<core::Curve> optional_curve(const std::string& key, core::Dimension y,
+                                            core::Dimension x = core::Dimension::wavelength) const;
+
+  /// Sub-tables, [a.b] or inline. `table` reports an absent one and then returns an empty table.
+  TomlTable table(const std::string& key) const;
+  std::optional<TomlTable> optional_table(const std::string& key) const;
+  /// Every element of [[key]] or key = [{...}]; empty when absent.
+  std::vector<TomlTable> tables(const std::string& key) const;
+  /// The tables in a table of tables, [key.NAME]: their names are TomlTable::name(). Empty when
+  /// absent.
+  std::vector<TomlTable> named_tables(const std::string& key) const;
+  /// The raw value, taken as read together with everything in it; nullptr when absent.
+  TomlNodePtr take(const std::string& key) const;
+  /// Takes every key here as read: for a table given up on, so that one mistake is reported once.
+  void skip() const;
+
+  /// Reports keys that nobody read, here and in every sub-table that was opened, with the nearest
+  /// known key. Call once, on the outermost table, when everything has been read.
+  void finish() const;
+
+  /// Every key read so far from this document, as "part.face.select", sorted. For tests that
+  /// compare with the documentation.
+  std::vector<std::string> known_keys() const;
+
+ private:
+  struct Session;
+  TomlTable(TomlNodePtr node, std::string path, std::shared_ptr<Session> session);
+  const TomlNode* read(const std::string& key, bool required) const;
+  void report_at(const core::FileLocation& where, const std::string& key, std::string what,
+                 std::string hint) const;
+  void mark_bad(const std::string& key) const;
+  std::string quoted(const std::string& key) const;
+  TomlTable child(const TomlNode& node, const std::string& key) const;
+  std::optional<double> quantity_of(const std::string& key, const TomlNode& value,
+                                    core::Dimension dimension) const;
+  std::optional<double> number_of(const std::string& key, const TomlNode& value) const;
+  const TomlNode* array(const std::string& key, std::size_t count, bool required) const;
+  std::optional<core::Curve> curve_of(const std::string& key, const TomlNode& value, core::Dimension y,
+                                      core::Dimension x) const;
+
+  TomlNodePtr node_;
+  std::string path_;
+  std::shared_ptr<Session> session_;
+};
+
+}  // namespace scintray::config

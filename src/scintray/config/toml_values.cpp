@@ -1,0 +1,236 @@
+// Values of a table, one by one and in arrays, with their units.
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/config/detail/toml_words.hpp"
+#include "scintray/config/toml_reader.hpp"
+
+namespace scintray::config {
+
+namespace {
+
+using Kind = TomlNode::Kind;
+
+}  // namespace
+
+std::optional<std::string> TomlTable::optional_string(const std::string& key) const {
+  const TomlNode* value = read(key, false);
+  if (!value) return std::nullopt;
+  if (value->kind != Kind::string) {
+    report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but a string is expected",
+              "write it in quotes, as " + key + " = \"...\"");
+    return std::nullopt;
+  }
+  if (value->text.empty()) {
+    report_at(value->where, key, quoted(key) + " is an empty string", "fill it in, or remove the key");
+    return std::nullopt;
+  }
+  return value->text;
+}
+
+std::string TomlTable::string(const std::string& key) const {
+  return read(key, true) ? optional_string(key).value_or("") : "";
+}
+
+std::string TomlTable::string(const std::string& key, const std::string& fallback) const {
+  return optional_string(key).value_or(fallback);
+}
+
+bool TomlTable::boolean(const std::string& key) const {
+  return read(key, true) ? boolean(key, false) : false;
+}
+
+bool TomlTable::boolean(const std::string& key, bool fallback) const {
+  const TomlNode* value = read(key, false);
+  if (!value) return fallback;
+  if (value->kind == Kind::boolean) return value->boolean;
+  report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but true or false is expected",
+            "write " + key + " = true or " + key + " = false, without quotes");
+  return fallback;
+}
+
+std::optional<std::int64_t> TomlTable::optional_integer(const std::string& key) const {
+  const TomlNode* value = read(key, false);
+  if (!value) return std::nullopt;
+  if (value->kind == Kind::integer) return value->integer;
+  report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but an integer is expected",
+            "write a whole number without quotes, point or exponent, as 1_000_000");
+  return std::nullopt;
+}
+
+std::int64_t TomlTable::integer(const std::string& key) const {
+  return read(key, true) ? optional_integer(key).value_or(0) : 0;
+}
+
+std::int64_t TomlTable::integer(const std::string& key, std::int64_t fallback) const {
+  return optional_integer(key).value_or(fallback);
+}
+
+std::optional<double> TomlTable::number_of(const std::string& key, const TomlNode& value) const {
+  if (value.kind != Kind::integer && value.kind != Kind::number) {
+    report_at(value.where, key, quoted(key) + " is " + kind_name(value) + ", but a plain number is expected",
+              "write a number without quotes and unit");
+    return std::nullopt;
+  }
+  if (std::isfinite(value.number)) return value.number;
+  report_at(value.where, key, quoted(key) + " is " + value.text + ", which is not a finite number",
+            "give a finite number");
+  return std::nullopt;
+}
+
+std::optional<double> TomlTable::optional_number(const std::string& key) const {
+  const TomlNode* value = read(key, false);
+  return value ? number_of(key, *value) : std::nullopt;
+}
+
+double TomlTable::number(const std::string& key) const {
+  return read(key, true) ? optional_number(key).value_or(0.0) : 0.0;
+}
+
+double TomlTable::number(const std::string& key, double fallback) const {
+  return optional_number(key).value_or(fallback);
+}
+
+std::optional<double> TomlTable::quantity_of(const std::string& key, const TomlNode& value,
+                                             core::Dimension dimension) const {
+  const bool bare = value.kind == Kind::integer || value.kind == Kind::number;
+  if (bare && dimension == core::Dimension::dimensionless) return number_of(key, value);
+  if (value.kind != Kind::string) {
+    report_at(
+        value.where, key,
+        quoted(key) + " is " + kind_name(value) + ", but " + expected_quantity(dimension) + ", is expected",
+        bare ? "write it as a string with its unit, as \"" + value.text + " " + usual_unit(dimension) + "\""
+             : "accepted units: " + core::list_of(core::units_of(dimension)));
+    return std::nullopt;
+  }
+  try {
+    return core::parse_quantity(value.text, dimension);
+  } catch (const core::InputError& error) {
+    for (const core::Problem& problem : error.problems())
+      report_at(value.where, key, quoted(key) + ": " + problem.what, problem.hint);
+    return std::nullopt;
+  }
+}
+
+std::optional<double> TomlTable::optional_quantity(const std::string& key, core::Dimension dimension) const {
+  const TomlNode* value = read(key, false);
+  return value ? quantity_of(key, *value, dimension) : std::nullopt;
+}
+
+double TomlTable::quantity(const std::string& key, core::Dimension dimension) const {
+  return read(key, true) ? optional_quantity(key, dimension).value_or(0.0) : 0.0;
+}
+
+double TomlTable::quantity(const std::string& key, core::Dimension dimension, double fallback) const {
+  return optional_quantity(key, dimension).value_or(fallback);
+}
+
+std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed) const {
+  return read(key, true) ? choice(key, allowed, allowed.front()) : allowed.front();
+}
+
+std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed,
+                              const std::string& fallback) const {
+  const TomlNode* value = read(key, false);
+  if (!value) return fallback;
+  if (value->kind == Kind::string && std::find(allowed.begin(), allowed.end(), value->text) != allowed.end())
+    return value->text;
+  report_at(value->where, key,
+            quoted(key) + " is " + kind_name(*value) + ", but one of " + core::list_quoted(allowed) +
+                " is expected",
+            did_you_mean(value->text, allowed) + "write one of these words in quotes");
+  return allowed.front();
+}
+
+const TomlNode* TomlTable::array(const std::string& key, std::size_t count, bool required) const {
+  const TomlNode* value = read(key, required);
+  if (!value) return nullptr;
+  const std::string wanted = count == 0 ? "an array" : "an array of " + std::to_string(count);
+  if (value->kind != Kind::array) {
+    report_at(value->where, key,
+              quoted(key) + " is " + kind_name(*value) + ", but " + wanted + " is expected",
+              "write the elements in brackets, with commas");
+    return nullptr;
+  }
+  const std::size_t size = value->items.size();
+  if ((count > 0 && size == count) || (count == 0 && size > 0)) return value;
+  report_at(value->where, key,
+            quoted(key) + " has " + std::to_string(size) + " elements, but " + wanted +
+                (count == 0 ? " of one or more" : "") + " is expected",
+            count == 0 ? "give at least one element" : "give exactly " + std::to_string(count));
+  return nullptr;
+}
+
+std::vector<std::string> TomlTable::strings(const std::string& key, std::size_t count, bool required) const {
+  std::vector<std::string> result;
+  const TomlNode* list = array(key, count, required);
+  if (!list) return result;
+  for (const TomlNode& item : list->items) {
+    if (item.kind == Kind::string && !item.text.empty())
+      result.push_back(item.text);
+    else
+      report_at(item.where, key,
+                "an element of " + quoted(key) + " is " + kind_name(item) +
+                    ", but a string that is not empty is expected",
+                "write it in quotes");
+  }
+  return good(key) ? result : std::vector<std::string>{};
+}
+
+std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count, bool required) const {
+  std::vector<double> result;
+  const TomlNode* list = array(key, count, required);
+  if (!list) return result;
+  for (const TomlNode& item : list->items) result.push_back(number_of(key, item).value_or(0.0));
+  return good(key) ? result : std::vector<double>{};
+}
+
+std::vector<double> TomlTable::quantities(const std::string& key, core::Dimension dimension,
+                                          std::size_t count, bool required) const {
+  std::vector<double> result;
+  const TomlNode* list = array(key, count, required);
+  if (!list) return result;
+  for (const TomlNode& item : list->items) result.push_back(quantity_of(key, item, dimension).value_or(0.0));
+  return good(key) ? result : std::vector<double>{};
+}
+
+std::optional<core::Vec3> TomlTable::optional_quantity3(const std::string& key,
+                                                        core::Dimension dimension) const {
+  const std::vector<double> values = quantities(key, dimension, 3, false);
+  if (values.empty()) return std::nullopt;
+  return core::Vec3(values[0], values[1], values[2]);
+}
+
+std::optional<core::Vec3> TomlTable::optional_number3(const std::string& key) const {
+  const std::vector<double> values = numbers(key, 3, false);
+  if (values.empty()) return std::nullopt;
+  return core::Vec3(values[0], values[1], values[2]);
+}
+
+std::optional<core::Vec3> TomlTable::optional_direction(const std::string& key) const {
+  const std::optional<core::Vec3> vector = optional_number3(key);
+  if (!vector) return std::nullopt;
+  const double length = vector->stableNorm();
+  if (length > 0.0) return core::Vec3(*vector / length);
+  report(key, quoted(key) + " is a direction of no length", "give a direction, as [0, 0, 1]");
+  return std::nullopt;
+}
+
+std::filesystem::path TomlTable::existing_file(const std::string& key, bool required) const {
+  if (required && !read(key, true)) return {};
+  const std::optional<std::string> name = optional_string(key);
+  if (!name) return {};
+  std::filesystem::path path(*name);
+  if (path.is_relative()) path = std::filesystem::path(where(key).file).parent_path() / path;
+  std::error_code status;
+  if (std::filesystem::is_regular_file(path, status)) return path;
+  report(
+      key,
+      quoted(key) + ": " +
+          (std::filesystem::is_directory(path, status) ? "\"" + path.string() + "\" is a folder, not a file"
+                                                       : "the file \"" + path.string() + "\" does not exist"),
+      "check the name; a relative path counts from the folder of the file that names it");
+  return {};
+}
+
+}  // namespace scintray::config

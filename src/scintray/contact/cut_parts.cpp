@@ -1,0 +1,86 @@
+#include "scintray/contact/cut_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scintray/contact/detail/boolean_difference.hpp"
+#include "scintray/contact/detail/nesting.hpp"
+#include "scintray/mesh/diagnose_in_place.hpp"
+
+namespace scintray::contact {
+
+namespace {
+
+/// A part and one of higher priority that shares volume with it.
+struct Cut {
+  std::uint32_t part, by;
+};
+
+/// All cuts to make; parts of higher priority come first, so that they have their own shape when they cut.
+std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Matrix3d& axes,
+                           double tolerance_mm) {
+  std::vector<Body> bodies;
+  for (const PlacedMesh& part : parts) bodies.emplace_back(geometry_of(part), axes);
+  std::vector<BodyPair> pairs = near_pairs(bodies, tolerance_mm);
+  std::erase_if(pairs,
+                [&](const BodyPair& pair) { return parts[pair.a].priority == parts[pair.b].priority; });
+  std::vector<Cut> cuts;
+  for (const auto& [a, b] : find_nesting(bodies, pairs, tolerance_mm).overlaps)
+    cuts.push_back(parts[a].priority < parts[b].priority ? Cut{a, b} : Cut{b, a});
+  std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& x, const Cut& y) {
+    return parts[x.part].priority > parts[y.part].priority;
+  });
+  return cuts;
+}
+
+/// The face of the part that stands for what `by` cut.
+std::uint32_t cut_face(PlacedMesh& part, const PlacedMesh& by) {
+  part.faces.push_back({kCutFaces + by.name, part.surface, {}});
+  return static_cast<std::uint32_t>(part.faces.size() - 1);
+}
+
+void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, double tolerance_mm,
+         core::Problems& problems) {
+  const auto refuse = [&](const std::string& why, const std::string& hint) {
+    const core::Vec3 at = part.diagnosis.bounds.intersection(by.diagnosis.bounds).center();
+    problems.add(
+        part.where,
+        fmt::format("part \"{}\" (priority {}) cannot be cut by \"{}\" (priority {}): {}{}", part.name,
+                    part.priority, by.name, by.priority, why, also_at(by.name, by.where, part.where)),
+        hint, {{at.x(), at.y(), at.z()}});
+  };
+  const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
+  if (!cut) return refuse("the result would be no proper solid", "move one of them a little");
+  if (cut->mesh.triangles.empty())
+    return refuse("nothing of it would be left", "remove the part, or change the priorities");
+  if (part.surface.empty() && part.needs_surface)
+    return refuse("the faces born in the cut have no surface", "give the part a surface = \"...\"");
+  const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
+  const auto unsound = mesh::mesh_problems(diagnosis, part.name);
+  if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, "move one of them a little");
+
+  std::vector<std::uint32_t> face_of;
+  const std::uint32_t face = cut_face(part, by);
+  for (const mesh::TriangleOrigin& origin : cut->origin)
+    face_of.push_back(origin.of_second ? face : part.face_of[origin.triangle]);
+  part.notes.push_back(fmt::format("cut by \"{}\", which has the higher priority: {:.6g} of {:.6g} mm3 left",
+                                   by.name, diagnosis.volume_mm3, part.diagnosis.volume_mm3));
+  part.mesh = cut->mesh;
+  part.face_of = std::move(face_of);
+  part.diagnosis = diagnosis;
+}
+
+}  // namespace
+
+void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Problems& problems) {
+  const bool equal = std::all_of(parts.begin(), parts.end(), [&](const PlacedMesh& part) {
+    return part.priority == parts.front().priority;
+  });
+  if (equal) return;
+  const Eigen::Matrix3d axes = difference_axes(parts);
+  for (const Cut& c : find_cuts(parts, axes, tolerance_mm))
+    cut(parts[c.part], parts[c.by], axes, tolerance_mm, problems);
+}
+
+}  // namespace scintray::contact

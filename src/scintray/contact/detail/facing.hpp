@@ -1,0 +1,41 @@
+#pragma once
+/// Which faces of two parts, curved ones too, lie near each other and face each other.
+
+#include <vector>
+
+#include "scintray/contact/detail/geometry.hpp"
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::contact {
+
+/// How a triangle of one part lies to the other part.
+enum class Facing {
+  none,     ///< nowhere within the tolerance
+  flat,     ///< in contact within the scene's own tolerance where it is in contact at all
+  partly,   ///< here within the tolerance and there not
+  covered,  ///< everywhere within it
+};
+
+/// Points of a triangle: a regular grid of 6 steps a side, its corners included.
+std::vector<core::Vec3> samples_of(const core::Vec3& a, const core::Vec3& b, const core::Vec3& c);
+std::vector<core::Vec3> samples_of(const Body& body, std::uint32_t triangle);
+
+/// The triangle of `body` nearest to a point, of those within `reach` whose normal has at least (at most,
+/// when `opposed`) half a right angle's cosine with `normal`.
+struct Nearest {
+  std::uint32_t triangle = ~0U;
+  double distance = HUGE_VAL;
+  bool found() const { return triangle != ~0U; }
+};
+Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& normal, bool opposed,
+                double reach);
+
+/// How each triangle of `body` faces `other`. What lies within `flat_mm` of each other is in contact already.
+std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm);
+
+/// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles go outwards by
+/// `by` and those of their neighbours stay (least squares, weighted by area so that slivers, whose normals
+/// are rounding, do not count; nearly parallel planes count as one).
+mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<char>& marked, double by);
+
+}  // namespace scintray::contact

@@ -1,0 +1,40 @@
+#pragma once
+/// Parts in world coordinates, with a surface on each face: what contacts are found between.
+
+#include <string>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::contact {
+
+/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
+inline constexpr const char* kCutFaces = "cut:";
+
+/// One face of a placed part.
+struct PlacedFace {
+  std::string name;         ///< within the part
+  config::NameRef surface;  ///< empty: smooth
+  config::NameRef sensor;   ///< empty: none
+};
+
+/// A part in world coordinates.
+struct PlacedMesh {
+  std::string name;
+  core::FileLocation where;
+  mesh::TriMesh mesh;
+  std::vector<PlacedFace> faces;
+  std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
+  config::NameRef surface;             ///< of faces that no rule matches; may be empty
+  bool needs_surface = true;           ///< not so for sensors, opaque parts, glue and fillers
+  int priority = 0;                    ///< see PartSpec
+  config::NameRef medium;              ///< empty only where the part is a sensor
+  config::NameRef sensor;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  mesh::MeshDiagnosis diagnosis;
+  std::vector<std::string> notes;  ///< what importing left out or turned round
+};
+
+}  // namespace scintray::contact

@@ -1,0 +1,125 @@
+#pragma once
+/// What the files of the HDF5 layer share; nothing outside src/core/h5_*.cpp includes this.
+
+#include <hdf5.h>
+#include <sys/types.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "scintray/core/h5.hpp"
+
+namespace scintray::core::h5 {
+
+/// Switches HDF5's printing to stderr off while it lives; the caller's setting comes back after.
+class Quiet {
+ public:
+  Quiet() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Where HDF5's latest failure began: the deepest entry of its error stack.
+std::string hdf5_reason();
+/// "FILE: cannot ACTION OBJECT: why", with the reason of HDF5's latest failure.
+std::string failure_text(const std::string& file, const std::string& object, const std::string& action);
+
+/// An HDF5 identifier, closed with its own function.
+class Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+  Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(closer_, other.closer_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) closer_(id_);
+  }
+  hid_t id() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+  /// For a file that is already closed, with everything in it.
+  void release() { id_ = -1; }
+
+ private:
+  hid_t id_;
+  Closer closer_;
+};
+
+/// Text of any length in UTF-8.
+Handle text_type();
+/// For files and groups: members keep their order, and no time stamps make equal results equal files.
+Handle creation_order_properties(hid_t kind);
+
+/// Makes [from, to) of a file real disk space. 0 or an errno value.
+int allocate(int descriptor, off_t from, off_t to);
+
+/// What a file and its groups know of each other: groups may outlive the file.
+///
+/// HDF5 cannot let go of a file whose caches it could not write: closing fails, and the process crashes
+/// in HDF5's exit handler. So disk space is taken before HDF5 needs it, and a full disk is met here.
+struct Life {
+  hid_t file = -1;  ///< -1 once closed
+  bool writing = false;
+  std::string failure;             ///< message of the first failed write; nothing is written after it
+  std::uint64_t reserved = 0;      ///< bytes of the file known to have disk space
+  std::uint64_t stream_bytes = 0;  ///< most that the chunk caches of all streams can hold back
+
+  int descriptor() const;
+  /// Takes disk space for `bytes` more of data and for what describes it. 0 or an errno value.
+  int reserve(std::uint64_t bytes);
+  /// Should a write fail all the same, the file is thrown away: from then on its descriptor points to
+  /// memory, where what the caches still hold goes when the file is closed.
+  void give_up(const std::string& message);
+  void require_usable(const std::string& name) const;
+};
+
+struct File::State {
+  std::filesystem::path path;
+  std::filesystem::path temporary;  ///< empty for a file opened for reading
+  std::shared_ptr<Life> life = std::make_shared<Life>();
+
+  [[noreturn]] void give_up() const;
+};
+
+struct Group::State {
+  std::string file;
+  std::string name;  ///< path inside the file, "/" for the root
+  Handle group{-1, H5Gclose};
+  std::map<std::string, Handle> streams;  ///< kept open, so that a chunk is compressed once
+  std::shared_ptr<Life> life;
+
+  ~State();
+  std::string object(const std::string& member) const;
+  [[noreturn]] void fail(const std::string& action, const std::string& member) const;
+  /// As fail(), when data already accepted may not have reached the file.
+  [[noreturn]] void give_up(const std::string& action, const std::string& member) const;
+  [[noreturn]] void refuse(const std::string& action, const std::string& member,
+                           const std::string& reason) const;
+  void reserve(std::uint64_t bytes, const std::string& action, const std::string& member) const;
+  void require_open() const { life->require_usable(file + ": " + name); }
+
+  /// The object that carries attributes: a member or, for "", the group itself.
+  Handle attribute_owner(const std::string& member) const;
+  Handle open_dataset(const std::string& member) const;
+  /// Shape of a dataset, checked to be no larger than what the file can hold.
+  Shape checked_shape(const Handle& dataset, const std::string& member) const;
+  void write_text_attribute(const std::string& member, const std::string& attribute, const char* text) const;
+  void write_attribute(const std::string& member, const std::string& attribute, hid_t file_type,
+                       hid_t memory_type, const void* value) const;
+  /// An attribute of one value whose type has class text or number, as requested.
+  Handle open_attribute(const std::string& member, const std::string& attribute, bool text) const;
+};
+
+}  // namespace scintray::core::h5

@@ -1,0 +1,95 @@
+#pragma once
+/// Errors. Library code throws; only the command line prints and exits.
+///
+/// Grammar of a message: what was found, then what was expected, then `hint: what to do`.
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scintray::core {
+
+/// A place in an input file; line and column count from 1, 0 means unknown.
+struct FileLocation {
+  std::string file;
+  long line = 0;
+  long column = 0;
+
+  /// "file:line:column", shortened to what is known; empty when nothing is.
+  std::string text() const;
+};
+
+/// One thing wrong with the input: where, what, and how to mend it.
+struct Problem {
+  FileLocation where;
+  std::string what;  ///< what was found and what was expected
+  std::string hint;  ///< what to do about it; may be empty
+  /// Where in space, x, y and z in mm: a few examples, for pictures. Empty when it is nowhere.
+  std::vector<std::array<double, 3>> places_mm = {};
+
+  /// "file:line:column: error: what\n  hint: hint"
+  std::string text() const;
+};
+
+/// Base of everything ScintRay throws on purpose.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The input is wrong. Carries every problem found, not only the first.
+class InputError : public Error {
+ public:
+  explicit InputError(Problem problem);
+  explicit InputError(std::vector<Problem> problems);
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// The machine refused: a file cannot be opened, a disk is full.
+class SystemError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A defect in ScintRay itself: something that cannot happen did.
+class InternalError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Collects problems while reading so that all are reported at once.
+class Problems {
+ public:
+  void add(FileLocation where, std::string what, std::string hint = {},
+           std::vector<std::array<double, 3>> places_mm = {});
+  void add(Problem problem);
+  /// Takes over the problems of an InputError thrown further down.
+  void add(const InputError& error);
+  bool empty() const { return list_.empty(); }
+  const std::vector<Problem>& list() const { return list_; }
+  /// Throws InputError with everything collected; does nothing when there is nothing.
+  void throw_if_any();
+
+ private:
+  std::vector<Problem> list_;
+};
+
+/// The candidate closest to `word` by edit distance (Levenshtein 1966), or "" when none is near
+/// (distance above a third of the word's length, at least 2). For "did you mean" hints.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "no face is called "x"" with the nearest name there is, and the first of them.
+/// @param kind what the names are of: "face", "part"
+InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
+                        const std::vector<std::string>& names);
+
+/// `text` for a message: shortened, and with bytes that are no printable ASCII replaced by '?'
+/// unless they are part of UTF-8.
+std::string in_quotes(std::string_view text);
+
+}  // namespace scintray::core

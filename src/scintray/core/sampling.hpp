@@ -1,0 +1,82 @@
+#pragma once
+/// Sampling of the directions and lengths that light transport needs.
+
+#include <algorithm>
+#include <cstdint>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::core {
+
+/// Direction uniform over the sphere.
+inline Vec3 sample_isotropic(Rng& rng) {
+  const double cosine = 2.0 * rng.uniform() - 1.0;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double azimuth = kTwoPi * rng.uniform();
+  return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+}
+
+/// The unit vector at the polar angle of cosine `cosine` from the unit vector `axis`.
+inline Vec3 turned(const Vec3& axis, double cosine, double azimuth_rad) {
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const Frame frame = Frame::about(axis);
+  return (sine * std::cos(azimuth_rad) * frame.x + sine * std::sin(azimuth_rad) * frame.y + cosine * frame.z)
+      .normalized();
+}
+
+/// Direction about the unit vector `normal` with density cos(theta)/pi per solid angle (Lambert).
+inline Vec3 sample_lambertian(const Vec3& normal, Rng& rng) {
+  const double sine2 = rng.uniform();
+  const double sine = std::sqrt(sine2);
+  const double azimuth = kTwoPi * rng.uniform();
+  const Frame frame = Frame::about(normal);
+  return sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y +
+         std::sqrt(1.0 - sine2) * frame.z;
+}
+
+/// A point of the unit circle, uniform in angle, without trigonometry: twice the angle of a point that
+/// is uniform in the disc (J. von Neumann 1951, NBS Applied Math. Series 12, 36).
+inline Eigen::Vector2d sample_circle(Rng& rng) {
+  for (;;) {
+    const std::uint64_t bits = rng.bits();
+    const double x = static_cast<double>(static_cast<std::int32_t>(bits)) * 0x1.0p-31;
+    const double y = static_cast<double>(static_cast<std::int32_t>(bits >> 32)) * 0x1.0p-31;
+    const double r2 = x * x + y * y;
+    if (r2 > 0.0 && r2 <= 1.0) return {(x * x - y * y) / r2, 2.0 * x * y / r2};
+  }
+}
+
+/// Unit vector across `direction`, uniform in azimuth: the polarisation of unpolarised light.
+inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
+  const Frame frame = Frame::about(direction);
+  const Eigen::Vector2d at = sample_circle(rng);
+  return at.x() * frame.x + at.y() * frame.y;
+}
+
+/// Exponential deviate with mean 1.
+inline double sample_exponential(Rng& rng) { return -std::log(rng.uniform_positive()); }
+
+/// Standard normal deviate (Box and Muller 1958).
+inline double sample_normal(Rng& rng) {
+  const double radius = std::sqrt(-2.0 * std::log(rng.uniform_positive()));
+  return radius * std::cos(kTwoPi * rng.uniform());
+}
+
+/// Gamma deviate with mean 1 and standard deviation `spread` above 0 (G. Marsaglia and W. W. Tsang 2000,
+/// ACM Trans. Math. Softw. 26, 363; shapes below 1 as in its section 6).
+inline double sample_gamma(double spread, Rng& rng) {
+  const double shape = 1.0 / (spread * spread);
+  const double d = (shape < 1.0 ? shape + 1.0 : shape) - 1.0 / 3.0;
+  for (;;) {
+    const double x = sample_normal(rng);
+    const double root = 1.0 + x / std::sqrt(9.0 * d);
+    if (root <= 0.0) continue;
+    const double v = root * root * root;
+    if (-sample_exponential(rng) >= 0.5 * x * x + d - d * v + d * std::log(v)) continue;
+    const double boost = shape < 1.0 ? std::exp(-sample_exponential(rng) / shape) : 1.0;
+    return d * v * boost / shape;
+  }
+}
+
+}  // namespace scintray::core

@@ -1,0 +1,30 @@
+#pragma once
+/// Lists of items written into texts.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace scintray::core {
+
+/// The texts of the items in their order with `between` between neighbours; empty without items. `text_of`
+/// makes the text of one item.
+template <typename Range, typename TextOf>
+std::string list_of(const Range& items, std::string_view between, TextOf&& text_of) {
+  std::string list;
+  bool first = true;
+  for (const auto& item : items) {
+    if (!first) list += between;
+    first = false;
+    list += text_of(item);
+  }
+  return list;
+}
+
+/// "a, b, c".
+std::string list_of(std::span<const std::string> words, std::string_view between = ", ");
+
+/// The same with each word in quotes.
+std::string list_quoted(std::span<const std::string> words);
+
+}  // namespace scintray::core

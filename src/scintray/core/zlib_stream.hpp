@@ -1,0 +1,45 @@
+#pragma once
+/// Compressed streams of zlib (RFC 1950) and gzip (RFC 1952), unpacked and packed piece by piece.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace scintray::core {
+
+/// Takes the next bytes that come out of a stream, at most 16 KiB at once. What it throws ends the stream.
+using TakeBytes = std::function<void(std::string_view)>;
+
+/// The header of a stream.
+enum class Packing { zlib, gzip };
+
+/// How a stream ended.
+struct Unpacked {
+  bool complete = false;        ///< the end of the stream was reached and its check sum is right
+  std::size_t bytes_after = 0;  ///< input beyond the end of the stream
+};
+
+/// Unpacks one stream into `take`, which sees all that can be unpacked of a damaged or truncated one.
+/// @throws SystemError when zlib cannot start
+Unpacked unpack(std::string_view packed, Packing packing, const TakeBytes& take);
+
+/// A zlib stream in the making.
+class Packer {
+ public:
+  /// @throws SystemError when zlib cannot start
+  Packer();
+  ~Packer();
+  Packer(const Packer&) = delete;
+  Packer& operator=(const Packer&) = delete;
+
+  void add(std::string_view text, const TakeBytes& take);
+  /// Ends the stream; nothing may be added after.
+  void finish(const TakeBytes& take);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace scintray::core

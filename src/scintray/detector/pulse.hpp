@@ -1,0 +1,59 @@
+#pragma once
+/// The pulse of one avalanche behind the shaper, and waveforms as sums of such pulses.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "scintray/detector/avalanche.hpp"
+
+namespace scintray::detector {
+
+/// A row of low-pass stages 1 / (1 + s tau), which is what the usual pulses are: with two different time
+/// constants (exp(-t/a) - exp(-t/b)) / (a - b), with n + 1 equal ones the CR-RC^n response to a charge,
+/// t^n exp(-t/tau) / (n! tau^(n+1)) (G. F. Knoll, Radiation Detection and Measurement, 4th ed., chapter
+/// 17), and any convolution of these. Scaled so that the peak of a charge of 1 is 1.
+///
+/// The outputs of all stages are carried from sample to sample, so that a waveform costs one small matrix
+/// product a sample and one short series an avalanche. The series (uniformisation: A. Jensen 1953, Skand.
+/// Aktuarietidskr. 36, 87) has positive terms only, so that equal and nearly equal time constants are as
+/// exact as others.
+class PulseShape {
+ public:
+  static constexpr std::size_t kMostStages = 16;
+
+  /// @param time_constants_ns  of the stages, up to kMostStages; those below 1e-4 of a period act as 0
+  /// @param period_ns  of the samples
+  /// Throws InputError when nothing is left that has a duration, or when that is more than 10^6 periods.
+  PulseShape(const std::vector<double>& time_constants_ns, double period_ns);
+
+  /// The pulse at a time after its avalanche, photoelectrons; 0 before.
+  double value(double time_ns) const;
+  /// Integral of the pulse, photoelectrons times ns.
+  double area_ns() const { return scale_; }
+  /// Time after which less than 1e-4 of the pulse's area is left.
+  double duration_ns() const { return duration_ns_; }
+
+  /// Waveform of avalanches, photoelectrons at start_ns, start_ns + period...
+  /// @param avalanches  sorted by time; those before the start leave their tails
+  std::vector<double> waveform(std::span<const Avalanche> avalanches, double start_ns,
+                               std::size_t samples) const;
+
+ private:
+  /// Outputs of the stages.
+  using State = std::array<double, kMostStages>;
+  void check_stages(double mean_ns, double squares);
+  void tabulate();
+  State impulse() const;
+  void pass(State& state, double time_ns) const;
+  void step(State& state) const;  ///< by one period
+  State after(double time_ns) const;
+
+  std::vector<double> rate_per_ns_;  ///< of each stage
+  double fastest_per_ns_ = 0.0;
+  double period_ns_, scale_ = 1.0, duration_ns_ = 0.0;
+  std::vector<State> grid_;      ///< an avalanche's state at even parts of a period
+  std::vector<State> per_step_;  ///< state one period after stage i alone was 1
+};
+
+}  // namespace scintray::detector

@@ -1,0 +1,52 @@
+#pragma once
+/// Tabulated scattering functions as text, in the layout of the "BSDF Data Interchange file format" that
+/// Zemax OpticStudio, LightTools and others read (Radiant Zemax knowledge base, article 50076; Zemax,
+/// "Zemax Tabular BSDF data file format").
+
+#include <filesystem>
+#include <vector>
+
+#include "scintray/exchange/table_side.hpp"
+
+namespace scintray::exchange {
+
+/// Angles of the table, deg. `specular` are the angles of the mirrored or refracted ray, which is what the
+/// format calls AngleOfIncidence. Azimuth runs about that ray from the side of the normal, 0 to 180;
+/// radial is the angle from that ray, 0 to 180.
+struct BsdfAngles {
+  std::vector<double> specular, azimuth, radial;
+};
+
+/// 0 to 85 deg in steps of 5, azimuths in steps of 10, radial angles from 0.5 deg apart near the specular
+/// ray to 5 deg apart far from it.
+BsdfAngles default_bsdf_angles();
+
+/// A scattering function on such angles: mean radiance over irradiance (1/sr) in the cell about each point,
+/// whose borders lie halfway to the next.
+struct Bsdf {
+  BsdfAngles angles;
+  std::vector<double> total;   ///< per specular angle: reflectance or transmittance
+  std::vector<double> values;  ///< [specular][azimuth][radial], 1/sr; 0 below the horizon
+};
+
+struct BsdfSettings {
+  optics::Side side = optics::Side::inside;
+  Leaving way = Leaving::reflected;
+  std::size_t slice = 0;        ///< of the table, as from slice_at
+  std::uint64_t rays = 200000;  ///< points that fill the distribution evenly, for each specular angle
+  std::uint64_t seed = 1;
+  BsdfAngles angles = default_bsdf_angles();
+};
+
+/// Of transmitted light, specular angles that no refracted ray has are left out, and so is all light that
+/// is incident beyond the critical angle. InputError when nothing is left.
+Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
+
+/// Solid angle of each cell weighted by the cosine to the normal (sr), [azimuth][radial], on both sides of
+/// the plane of incidence and above the horizon: the values times this add up to the total.
+std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad);
+
+void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,
+                const BsdfSettings& settings);
+
+}  // namespace scintray::exchange

@@ -1,0 +1,99 @@
+#pragma once
+/// The <define> section of a GDML file, and everything in the file that is written as an expression.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/core/vec.hpp"
+#include "scintray/exchange/gdml/detail/gdml_file.hpp"
+
+namespace scintray::exchange::gdml {
+
+/// Numbers of a <matrix>, row by row, in Geant4's units (mm, ns, MeV, rad).
+struct Matrix {
+  std::size_t columns = 1;
+  std::vector<double> values;
+};
+
+/// Variables of the loops around an element, as they were when it was met. What is evaluated later than that
+/// needs them back.
+using LoopVariables = std::map<std::string, double>;
+
+/// Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
+class Definitions {
+ public:
+  /// Reads <define>, loops expanded. Throws InputError at the first expression that cannot be evaluated.
+  explicit Definitions(const GdmlFile& file);
+  ~Definitions();
+  Definitions(const Definitions&) = delete;
+  Definitions& operator=(const Definitions&) = delete;
+
+  /// Value of an expression: + - * / ^, parentheses, functions, names of constants, units ("2.034*eV").
+  double evaluate(const std::string& expression, Node where) const;
+  /// An attribute's value, or the fallback when it is left out.
+  double number(Node node, const char* attribute, double fallback) const;
+  double number(Node node, const char* attribute) const;
+  /// An attribute times the node's unit: `lunit` or `unit`, mm when left out.
+  double length(Node node, const char* attribute, double fallback = 0.0) const;
+  /// An attribute times the node's `aunit`, rad when left out.
+  double angle(Node node, const char* attribute, double fallback = 0.0) const;
+  /// x, y, z of a node times its `unit`.
+  core::Vec3 vector(Node node, const char* default_unit, double fallback = 0.0) const;
+
+  /// A name, with every [expression] in it (as in loops) replaced by _ and its whole number.
+  std::string name(const std::string& text, Node where) const;
+
+  /// The position under `node`, as <position> or <positionref>, for example; zero when there is none.
+  core::Vec3 position(Node node, const std::string& tag = "position") const;
+  core::Vec3 rotation(Node node, const std::string& tag = "rotation") const;
+  core::Vec3 scale(Node node) const;
+  const core::Vec3& position_named(const std::string& name, Node where) const;
+  /// nullptr, or nothing, when there is none of that name.
+  const Matrix* matrix(const std::string& name) const;
+  std::optional<double> constant(const std::string& name) const;
+
+  /// Calls `action` for the children of a node, those in <loop>s once for every value of the loop's variable.
+  void for_each_child(Node parent, const std::function<void(Node)>& action) const;
+
+  const LoopVariables& loop_variables() const;
+  void set_loop_variables(const LoopVariables& variables) const;
+
+ private:
+  class Evaluator;
+  void define(Node node);
+  core::Vec3 referred(const std::map<std::string, core::Vec3>& known, Node node, const std::string& tag,
+                      const char* default_unit, double fallback) const;
+
+  const GdmlFile& file_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::map<std::string, core::Vec3> positions_, rotations_, scales_;
+  std::map<std::string, Matrix> matrices_;
+};
+
+/// Puts loop variables back for as long as it lives.
+class LoopScope {
+ public:
+  LoopScope(const Definitions& definitions, const LoopVariables& variables)
+      : definitions_(definitions), before_(definitions.loop_variables()) {
+    definitions_.set_loop_variables(variables);
+  }
+  LoopScope(const LoopScope&) = delete;
+  LoopScope& operator=(const LoopScope&) = delete;
+  ~LoopScope() { definitions_.set_loop_variables(before_); }
+
+ private:
+  const Definitions& definitions_;
+  LoopVariables before_;
+};
+
+/// An element and the loop variables that it was met with.
+struct LoopedNode {
+  Node node;
+  LoopVariables variables;
+};
+
+}  // namespace scintray::exchange::gdml

@@ -1,0 +1,62 @@
+#pragma once
+/// The numbers of one solid of a GDML file.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scintray/exchange/gdml/detail/definitions.hpp"
+#include "scintray/mesh/shapes/shape_error.hpp"
+#include "scintray/mesh/tessellation.hpp"
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::exchange::gdml {
+
+/// What the makers of solids have in common. Lengths in mm, angles in rad, by the solid's own units.
+class SolidReader {
+ public:
+  SolidReader(Node solid, const Definitions& definitions, const mesh::Tessellation& tessellation)
+      : solid_(solid), definitions_(definitions), tessellation_(tessellation) {}
+
+ protected:
+  double length(const char* attribute, double fallback = 0.0) const {
+    return definitions_.length(solid_, attribute, fallback);
+  }
+  /// A length that must be there and above 0.
+  double size(const char* attribute) const {
+    const double value = length(attribute);
+    if (!(value > 0.0)) mesh::reject_shape(std::string("\"") + attribute + "\" is missing or not above 0");
+    return value;
+  }
+  double angle(const char* attribute, double fallback = 0.0) const {
+    return definitions_.angle(solid_, attribute, fallback);
+  }
+  double unit() const { return definitions_.number(solid_, "lunit", 1.0); }
+
+  /// Facets with corners in any order of rotation, welded and turned outwards.
+  static mesh::TriMesh from_facets(const std::vector<std::vector<core::Vec3>>& facets);
+
+  /// Makes the solid by the member function that has its element's name, if any has.
+  template <typename Maker, typename Kinds>
+  static std::optional<mesh::TriMesh> make_one_of(const Maker& maker, const Kinds& kinds) {
+    for (const auto& kind : kinds)
+      if (kind.name == maker.solid_.name()) return (maker.*kind.make)();
+    return std::nullopt;
+  }
+
+  Node solid_;
+  const Definitions& definitions_;
+  const mesh::Tessellation& tessellation_;
+};
+
+/// A solid of flat faces or ruled walls, by the name of its element; nothing for other solids.
+/// Throws InputError for impossible measures.
+std::optional<mesh::TriMesh> make_flat_solid(Node solid, const Definitions& definitions,
+                                             const mesh::Tessellation& tessellation);
+
+/// The same for solids of revolution and those with curved walls.
+std::optional<mesh::TriMesh> make_round_solid(Node solid, const Definitions& definitions,
+                                              const mesh::Tessellation& tessellation);
+
+}  // namespace scintray::exchange::gdml

@@ -1,0 +1,167 @@
+#include "scintray/exchange/gdml/detail/structure.hpp"
+
+#include <map>
+#include <set>
+
+#include "scintray/config/words.hpp"
+#include "scintray/exchange/gdml/detail/solids.hpp"
+
+namespace scintray::exchange::gdml {
+
+namespace {
+
+/// What the elements of <structure> and of a volume are.
+enum class Element { volume, assembly, skin, border, placement, replica, division };
+constexpr config::Word<Element> kElements[] = {
+    {"volume", Element::volume},        {"assembly", Element::assembly}, {"skinsurface", Element::skin},
+    {"bordersurface", Element::border}, {"physvol", Element::placement}, {"replicavol", Element::replica},
+    {"divisionvol", Element::division}, {"paramvol", Element::division}};
+
+std::optional<Element> element_of(Node node) { return config::find_word(kElements, node.name()); }
+
+class StructureReader {
+ public:
+  StructureReader(const GdmlFile& file, const Definitions& definitions)
+      : file_(file), definitions_(definitions) {}
+
+  Structure read() {
+    definitions_.for_each_child(file_.section("structure"), [this](Node node) { remember(node); });
+    const Node world = file_.section("setup").child("world");
+    if (!world)
+      file_.reject(file_.section("structure"), "the file does not say which volume is the world",
+                   "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
+    structure_.world_volume = reference(world);
+    const Node volume = find(structure_.world_volume, world).node;
+    structure_.world_material = reference(child(volume, "materialref"));
+    structure_.world_solid = reference(child(volume, "solidref"));
+    place_daughters(volume, Eigen::Affine3d::Identity(), std::nullopt);
+    return std::move(structure_);
+  }
+
+ private:
+  void remember(Node node) {
+    const std::optional<Element> element = element_of(node);
+    if (element == Element::volume || element == Element::assembly) {
+      volumes_[definitions_.name(file_.required(node, "name"), node)] = {node, definitions_.loop_variables()};
+    } else if (element == Element::skin) {
+      structure_.surfaces.push_back(
+          {file_.required(node, "surfaceproperty"), reference(child(node, "volumeref")), "", "", node});
+    } else if (element == Element::border) {
+      const Node first = child(node, "physvolref");
+      const Node second = first.next_sibling("physvolref");
+      if (!second) file_.reject(node, "a border between fewer than two <physvolref>s");
+      structure_.surfaces.push_back(
+          {file_.required(node, "surfaceproperty"), "", reference(first), reference(second), node});
+    } else {
+      structure_.notes.push_back(std::string("<") + node.name() + "> in <structure>");
+    }
+  }
+
+  Node child(Node node, const char* tag) const {
+    const Node found = node.child(tag);
+    if (!found) file_.reject(node, std::string("<") + node.name() + "> has no <" + tag + ">");
+    return found;
+  }
+
+  std::string reference(Node node) const { return definitions_.name(file_.required(node, "ref"), node); }
+
+  const LoopedNode& find(const std::string& name, Node where) const {
+    const auto found = volumes_.find(name);
+    if (found == volumes_.end())
+      file_.reject(where, "no volume is called \"" + name + "\"", "define it in <structure>");
+    return found->second;
+  }
+
+  void place_daughters(Node volume, const Eigen::Affine3d& to_world, std::optional<std::size_t> mother) {
+    definitions_.for_each_child(volume, [&](Node node) {
+      const std::optional<Element> element = element_of(node);
+      if (element == Element::placement) place(node, to_world, mother);
+      if (element == Element::replica) replicate(node, to_world, mother);
+      if (element == Element::division)
+        file_.reject(node, std::string("<") + node.name() + "> is not read",
+                     "write its copies as <physvol>s");
+    });
+  }
+
+  void place(Node physvol, const Eigen::Affine3d& mother_to_world, std::optional<std::size_t> mother) {
+    if (const Node other = physvol.child("file"))
+      file_.reject(other,
+                   std::string("the volume is in another file, \"") + other.attribute("name").value() + "\"",
+                   "put both files together, or import each by itself");
+    const Node reference_node = child(physvol, "volumeref");
+    const std::string volume = reference(reference_node);
+    Eigen::Affine3d own = Eigen::Translation3d(definitions_.position(physvol)) *
+                          Eigen::Affine3d(rotation_matrix(definitions_.rotation(physvol)).transpose());
+    own.linear() *= definitions_.scale(physvol).asDiagonal();
+    if (!own.matrix().allFinite() || own.linear().determinant() == 0.0)
+      file_.reject(physvol, "a placement that leaves no volume: its scale is 0 or not finite");
+    const std::string name =
+        physvol.attribute("name") ? definitions_.name(physvol.attribute("name").value(), physvol) : volume;
+    add(name, volume, reference_node, mother_to_world * own, mother);
+  }
+
+  void add(const std::string& physvol, const std::string& volume, Node where, const Eigen::Affine3d& to_world,
+           std::optional<std::size_t> mother) {
+    const auto& [element, variables] = find(volume, where);
+    const LoopScope scope(definitions_, variables);
+    if (!inside_.insert(volume).second)
+      file_.reject(where, "volume \"" + volume + "\" is placed inside itself");
+    if (inside_.size() > 500) file_.reject(where, "volumes are nested more than 500 deep");
+    if (element_of(element) == Element::assembly) {
+      place_daughters(element, to_world, mother);
+    } else {
+      if (structure_.placed.size() >= kMostPlaced)
+        file_.reject(where, "more than " + std::to_string(kMostPlaced) + " volumes are placed");
+      PlacedVolume placed{physvol,
+                          volume,
+                          reference(child(element, "materialref")),
+                          reference(child(element, "solidref")),
+                          element,
+                          to_world,
+                          mother,
+                          ""};
+      for (const Node auxiliary : element.children("auxiliary"))
+        if (std::string(auxiliary.attribute("auxtype").value()) == "SensDet")
+          placed.sensitive = auxiliary.attribute("auxvalue").value();
+      structure_.placed.push_back(std::move(placed));
+      place_daughters(element, to_world, structure_.placed.size() - 1);
+    }
+    inside_.erase(volume);
+  }
+
+  /// Copies side by side along an axis of the mother, centred in it: number * width is its extent.
+  void replicate(Node replica, const Eigen::Affine3d& mother_to_world, std::optional<std::size_t> mother) {
+    const double count = definitions_.number(replica, "number");
+    const Node along = child(replica, "replicate_along_axis"), direction = child(along, "direction");
+    const Node width_node = child(along, "width");
+    core::Vec3 axis(definitions_.number(direction, "x", 0.0), definitions_.number(direction, "y", 0.0),
+                    definitions_.number(direction, "z", 0.0));
+    if (direction.attribute("rho") || direction.attribute("phi") || axis.norm() != 1.0 || !(count >= 1.0) ||
+        count > static_cast<double>(kMostPlaced))
+      file_.reject(replica, "replicas other than along x, y or z are not read", "write them as <physvol>s");
+    const double width =
+        definitions_.number(width_node, "value") * definitions_.number(width_node, "unit", 1.0);
+    const Node reference_node = child(replica, "volumeref");
+    const std::string volume = reference(reference_node);
+    const auto copies = static_cast<int>(count);
+    for (int copy = 0; copy < copies; ++copy) {
+      const core::Vec3 shift = axis * (width * (copy - 0.5 * (copies - 1)));
+      add(volume + "_" + std::to_string(copy), volume, reference_node,
+          mother_to_world * Eigen::Translation3d(shift), mother);
+    }
+  }
+
+  const GdmlFile& file_;
+  const Definitions& definitions_;
+  Structure structure_;
+  std::map<std::string, LoopedNode> volumes_;
+  std::set<std::string> inside_;
+};
+
+}  // namespace
+
+Structure read_structure(const GdmlFile& file, const Definitions& definitions) {
+  return StructureReader(file, definitions).read();
+}
+
+}  // namespace scintray::exchange::gdml

@@ -1,0 +1,51 @@
+#pragma once
+/// Which volumes of a GDML file stand where.
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/exchange/gdml/detail/definitions.hpp"
+#include "scintray/exchange/gdml/detail/gdml_file.hpp"
+
+namespace scintray::exchange::gdml {
+
+/// Most volumes that a file may place, replicas counted one by one.
+inline constexpr std::size_t kMostPlaced = 200'000;
+
+/// One placed volume.
+struct PlacedVolume {
+  std::string physvol;   ///< name of its <physvol>; that of its volume when it has none
+  std::string volume;    ///< its <volume>
+  std::string material;  ///< <materialref>
+  std::string solid;     ///< <solidref>
+  Node element;          ///< the <volume>, for messages
+  Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  ///< mm; may mirror
+  std::optional<std::size_t> mother;                       ///< nothing: the world
+  std::string sensitive;                                   ///< auxiliary "SensDet"
+};
+
+/// A <skinsurface> or <bordersurface>.
+struct SurfacePlacement {
+  std::string property;  ///< name of the <opticalsurface>
+  std::string volume;    ///< of a skin; empty for a border
+  std::string from, to;  ///< names of the <physvol>s of a border: light from the first to the second
+  Node element;
+};
+
+struct Structure {
+  std::string world_volume, world_material, world_solid;
+  std::vector<PlacedVolume> placed;  ///< mothers before their daughters, the world left out
+  std::vector<SurfacePlacement> surfaces;
+  std::vector<std::string> notes;
+};
+
+/// Walks the tree from the world of <setup>. A <physvol> is placed as Geant4 does: turned by the inverse of
+/// its rotation, moved by its position, after its scale. Assemblies are taken apart; replicas along x, y or z
+/// are placed one by one.
+/// Throws InputError for references that lead nowhere, a volume inside itself, volumes of other files, other
+/// replicas, and more than kMostPlaced volumes.
+Structure read_structure(const GdmlFile& file, const Definitions& definitions);
+
+}  // namespace scintray::exchange::gdml

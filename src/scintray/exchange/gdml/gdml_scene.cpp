@@ -1,0 +1,288 @@
+#include "scintray/exchange/gdml/gdml_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scintray/core/units.hpp"
+#include "scintray/exchange/gdml/detail/optical.hpp"
+#include "scintray/exchange/gdml/detail/solids.hpp"
+#include "scintray/exchange/gdml/detail/structure.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+
+namespace scintray::exchange::gdml {
+
+namespace {
+
+std::string lengths(const core::Vec3& mm) {
+  return fmt::format("[\"{:.17g} mm\", \"{:.17g} mm\", \"{:.17g} mm\"]", mm.x(), mm.y(), mm.z());
+}
+
+bool is_identity(const Eigen::Matrix3d& rotation) { return rotation.isIdentity(1e-14); }
+
+class SceneMaker {
+ public:
+  SceneMaker(const GdmlFile& file, const GdmlImport& options)
+      : options_(options),
+        file_(file),
+        definitions_(file),
+        solids_(file, definitions_, options.tessellation),
+        structure_(read_structure(file, definitions_)) {}
+
+  SceneDraft make(const std::string& file_name) {
+    read_media();
+    name_parts();
+    std::string parts;
+    for (std::size_t i = 0; i < structure_.placed.size(); ++i) parts += part(i);
+    const std::string contacts = contacts_between_siblings();
+    SceneDraft& draft = draft_;
+    for (const std::string& note : structure_.notes) draft.notes.push_back(note);
+    const std::string source_table = source();
+    std::string notes;
+    for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
+    draft.toml = "# Made by scintray import from " + file_name + ".\n";
+    if (!notes.empty()) draft.toml += "# Not carried over:\n" + notes;
+    draft.toml +=
+        "title = " + toml_string(file_name) +
+        "\nambient = " + toml_string(medium_name(structure_.world_material)) +
+        "  # the material of the world\ncontacts_default = \"bonded\"  # as volumes that touch in Geant4\n" +
+        parts + contacts + source_table + media_tables() + surface_tables_;
+    return std::move(draft);
+  }
+
+ private:
+  void note(const std::string& text) {
+    if (std::find(draft_.notes.begin(), draft_.notes.end(), text) == draft_.notes.end())
+      draft_.notes.push_back(text);
+  }
+
+  void read_media() {
+    for (ImportedMedium& medium : import_materials(file_, definitions_))
+      media_[medium.material] = std::move(medium);
+    for (const auto& [material, definition] : options_.media)
+      if (!media_.contains(material))
+        throw core::InputError(
+            core::Problem{{},
+                          "--medium names a material \"" + material + "\" that the file does not have",
+                          "its materials are " + material_list()});
+  }
+
+  std::string material_list() const {
+    std::string list;
+    for (const auto& [name, medium] : media_) list += (list.empty() ? "\"" : ", \"") + name + "\"";
+    return list;
+  }
+
+  const ImportedMedium* find_medium(const std::string& material) const {
+    const auto found = media_.find(material);
+    return found == media_.end() ? nullptr : &found->second;
+  }
+
+  bool is_opaque(const std::string& material) const {
+    if (options_.media.contains(material)) return false;
+    const ImportedMedium* medium = find_medium(material);
+    return !medium || medium->opaque;
+  }
+
+  std::string medium_name(const std::string& material) const {
+    if (const auto given = options_.media.find(material); given != options_.media.end()) return given->second;
+    return is_opaque(material) ? "opaque" : material;
+  }
+
+  void name_parts() {
+    std::set<std::string> taken;
+    for (const PlacedVolume& placed : structure_.placed) {
+      const std::string base = part_name(placed.physvol);
+      std::string name = base;
+      for (int number = 2; !taken.insert(name).second; ++number) name = base + "_" + std::to_string(number);
+      names_.push_back(name);
+    }
+    left_out_.assign(names_.size(), false);
+  }
+
+  /// Keys of the shape: a box as it is, everything else as a mesh beside the scene.
+  std::string shape(const PlacedVolume& placed, bool mirrored) {
+    const mesh::TriMesh& mesh = solids_.mesh(placed.solid, placed.element);
+    const Node solid = solids_.element(placed.solid, placed.element);
+    if (std::string(solid.name()) == "box" && !mirrored) {
+      const core::Vec3 half =
+          0.5 * core::Vec3(definitions_.length(solid, "x"), definitions_.length(solid, "y"),
+                           definitions_.length(solid, "z"));
+      return "box = { low = " + lengths(-half) + ", high = " + lengths(half) + " }\n";
+    }
+    mesh::TriMesh own = mesh;
+    std::string name = part_name(placed.solid);
+    if (mirrored) {
+      Eigen::Affine3d scale = Eigen::Affine3d::Identity();
+      scale.linear() = placed.to_world.linear();
+      own = mesh::transformed(mesh, scale);
+      name += "_" + std::to_string(mirrored_count_++);
+    }
+    const std::filesystem::path path = options_.mesh_folder / (name + ".ply");
+    draft_.meshes.emplace(path, std::move(own));
+    return "mesh = " + toml_string(path.generic_string()) + "\nunit = \"mm\"\n";
+  }
+
+  std::string part(std::size_t i) {
+    const PlacedVolume& placed = structure_.placed[i];
+    const Eigen::Matrix3d linear = placed.to_world.linear();
+    // Scaled placements: turn and scale go into the mesh.
+    const bool scaled = !(linear.transpose() * linear).isIdentity(1e-9) || linear.determinant() < 0.0;
+    std::string keys;
+    try {
+      keys = shape(placed, scaled);
+    } catch (const core::InputError& error) {
+      if (!options_.skip_unsupported) throw;
+      left_out_[i] = true;
+      note("volume " + placed.volume + ": " + error.problems().front().what);
+      return "";
+    }
+    std::string text = "\n[[part]]\nname = " + toml_string(names_[i]) + "\n";
+    if (!placed.sensitive.empty())
+      text += "# Geant4 has the sensitive detector " + toml_string(placed.sensitive) +
+              " here: give it sensor = \"...\" to detect light\n";
+    text += keys;
+    if (!scaled && !is_identity(linear)) {
+      const Eigen::AngleAxisd turn(linear);
+      text += fmt::format("rotate = {{ axis = [{:.17g}, {:.17g}, {:.17g}], angle = \"{:.17g} rad\" }}\n",
+                          turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle());
+    }
+    if (!placed.to_world.translation().isZero())
+      text += "translate = " + lengths(placed.to_world.translation()) + "\n";
+    text += "medium = " + toml_string(medium_name(placed.material)) +
+            (is_opaque(placed.material) ? "  # material " + placed.material + " has no RINDEX" : "") + "\n";
+    used_media_.insert(placed.material);
+    return text + "surface = " + toml_string(surface_of(i)) + "\n";
+  }
+
+  /// A border into the mother, else the skin of the volume, else that of the mother's.
+  std::string surface_of(std::size_t i) {
+    const PlacedVolume& placed = structure_.placed[i];
+    const std::optional<std::size_t> mother = placed.mother;
+    if (mother) {
+      const std::string& outside = structure_.placed[*mother].physvol;
+      if (const SurfacePlacement* border = find_border(placed.physvol, outside)) {
+        if (const SurfacePlacement* back = find_border(outside, placed.physvol);
+            back && back->property != border->property)
+          note("the border from " + outside + " into " + placed.physvol +
+               ": a face has one finish, and that of the way out is taken");
+        return use_surface(*border);
+      }
+      if (const SurfacePlacement* back = find_border(outside, placed.physvol)) return use_surface(*back);
+    }
+    for (std::optional<std::size_t> owner = i; owner; owner = owner == i ? mother : std::nullopt)
+      for (const SurfacePlacement& surface : structure_.surfaces)
+        if (surface.volume == structure_.placed[*owner].volume) return use_surface(surface);
+    return "geant4_polished";
+  }
+
+  const SurfacePlacement* find_border(const std::string& from, const std::string& to) const {
+    for (const SurfacePlacement& surface : structure_.surfaces)
+      if (surface.volume.empty() && surface.from == from && surface.to == to) return &surface;
+    return nullptr;
+  }
+
+  std::string contacts_between_siblings() {
+    std::string text;
+    std::set<std::pair<std::size_t, std::size_t>> done;
+    for (const SurfacePlacement& surface : structure_.surfaces) {
+      if (!surface.volume.empty()) continue;
+      bool used = false;
+      for (std::size_t a = 0; a < names_.size(); ++a) {
+        if (structure_.placed[a].physvol != surface.from) continue;
+        for (std::size_t b = 0; b < names_.size(); ++b) {
+          if (structure_.placed[b].physvol != surface.to || a == b) continue;
+          used |= structure_.placed[a].mother == b || structure_.placed[b].mother == a;
+          if (structure_.placed[a].mother != structure_.placed[b].mother) continue;
+          used = true;
+          if (left_out_[a] || left_out_[b] || !done.insert(std::minmax(a, b)).second) continue;
+          text += "\n[[contact]]\nbetween = [" + toml_string(names_[a]) + ", " + toml_string(names_[b]) +
+                  "]\nkind = \"bonded\"\nsurface = " + toml_string(use_surface(surface)) + "\n";
+        }
+      }
+      if (!used)
+        note("border surface " + surface.property +
+             ": it is not between two volumes of which one is in the "
+             "other, or both in a third");
+    }
+    return text;
+  }
+
+  /// Name of the surface in the scene; writes its definition when it is met first.
+  std::string use_surface(const SurfacePlacement& placement) {
+    const std::string& property = placement.property;
+    if (const auto given = options_.surfaces.find(property); given != options_.surfaces.end())
+      return given->second;
+    if (!defined_surfaces_.insert(property).second) return property;
+    const Node element = solids_.optical_surface(property);
+    if (!element)
+      file_.reject(placement.element, "no <opticalsurface> is called \"" + property + "\"",
+                   "define it in <solids>");
+    const ImportedSurface surface = import_surface(element, file_, definitions_);
+    for (const std::string& left_out : surface.notes) note("surface " + property + ": " + left_out);
+    if (surface.toml.empty())
+      draft_.missing.push_back("surface " + toml_string(property) + ": [surfaces." + toml_string(property) +
+                               "], or --surface " + property + "=LIBRARY_SURFACE");
+    else
+      surface_tables_ += "\n[surfaces." + toml_string(property) + "]\n" + surface.toml;
+    return property;
+  }
+
+  std::string media_tables() {
+    used_media_.insert(structure_.world_material);
+    std::string text;
+    for (const std::string& material : used_media_) {
+      const ImportedMedium* medium = find_medium(material);
+      if (!medium || is_opaque(material) || options_.media.contains(material)) continue;
+      text += "\n[media." + toml_string(material) + "]\n" + medium->toml;
+    }
+    return text;
+  }
+
+  std::string source() {
+    for (const PlacedVolume& placed : structure_.placed)
+      if (const ImportedMedium* medium = find_medium(placed.material);
+          medium && !options_.media.contains(placed.material))
+        for (const std::string& left_out : medium->notes)
+          note("material " + placed.material + ": " + left_out);
+    for (const bool scintillating : {true, false})
+      for (std::size_t i = 0; i < names_.size(); ++i) {
+        const PlacedVolume& placed = structure_.placed[i];
+        const ImportedMedium* medium = find_medium(placed.material);
+        const bool own = medium && !options_.media.contains(placed.material);
+        if (left_out_[i] || is_opaque(placed.material) || (scintillating && !(own && medium->scintillates)))
+          continue;
+        const std::string wavelength = scintillating ? "emission" : "420 nm";
+        return "\n[source]  # an example: a GDML file has none\ntype = \"photons\"\nregion = { part = " +
+               toml_string(names_[i]) + " }\nwavelength = \"" + wavelength + "\"\n" +
+               (scintillating ? "time = \"decay\"\n" : "") + "photons = 10_000\n";
+      }
+    draft_.missing.push_back(
+        "[source]: no volume has a material with RINDEX for light to start in; give its materials media with "
+        "--medium MATERIAL=LIBRARY_MEDIUM");
+    return "";
+  }
+
+  const GdmlImport& options_;
+  const GdmlFile& file_;
+  Definitions definitions_;
+  Solids solids_;
+  Structure structure_;
+  SceneDraft draft_;
+  std::map<std::string, ImportedMedium> media_;
+  std::vector<std::string> names_;
+  std::vector<bool> left_out_;
+  std::set<std::string> used_media_, defined_surfaces_;
+  std::string surface_tables_;
+  int mirrored_count_ = 1;
+};
+
+}  // namespace
+
+SceneDraft draft_of_gdml(const std::string& content, const std::string& file, const GdmlImport& options) {
+  const GdmlFile gdml(content, file);
+  return SceneMaker(gdml, options).make(std::filesystem::path(file).filename().string());
+}
+
+}  // namespace scintray::exchange::gdml

@@ -1,0 +1,63 @@
+#pragma once
+/// One side of a surface table as a continuous function of the incidence angle, for the writers.
+
+#include <optional>
+#include <vector>
+
+#include "scintray/optics/table.hpp"
+
+namespace scintray::exchange {
+
+/// The two ways in which light leaves a surface.
+enum class Leaving { reflected, transmitted };
+
+/// The slice of a table at one of its wavelengths; without a wavelength, the only one. InputError when there
+/// is none such, or several and none was requested.
+std::size_t slice_at(const optics::SurfaceTable& table, std::optional<double> wavelength_nm);
+
+/// Light met from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller states
+/// where in the distribution, so that points can be spread evenly.
+class TableSide {
+ public:
+  /// `table` must outlive this; `slice` as from slice_at. InputError for a table of a surface with
+  /// direction, which is no function of the incidence angle alone, and for one made reciprocal.
+  TableSide(const optics::SurfaceTable& table, optics::Side side, std::size_t slice = 0);
+
+  /// Share of the light met at an incidence (rad) that leaves this way.
+  double share(Leaving way, double incidence_rad) const;
+  /// Share that is absorbed at the surface.
+  double absorptance(double incidence_rad) const;
+  /// True when the table has directions for light that leaves this way at this incidence.
+  bool has_directions(Leaving way, double incidence_rad) const;
+  /// The direction at `u` of the polar angle's cumulative distribution and, given that, at `v` of
+  /// |azimuth|'s; u, v in [0, 1). Requires has_directions.
+  optics::ExitAngles direction(Leaving way, double incidence_rad, double u, double v) const;
+
+  const std::vector<optics::TableNode>& nodes() const { return *nodes_; }
+  /// Index of the medium on the side of the light, and on the other.
+  double index_before() const { return before_; }
+  double index_behind() const { return behind_; }
+
+ private:
+  struct Place {
+    const optics::TableNode *low, *high;
+    double share;
+  };
+  Place place(double incidence_rad) const;
+
+  const std::vector<optics::TableNode>* nodes_;
+  double before_, behind_;
+};
+
+/// Point `k` of an even filling of the unit cube, moved by `shift` (each in [0, 1)) modulo 1.
+/// Source: J. H. Halton 1960, Numer. Math. 2, 84-90, bases 2, 3, 5; the shift is that of R. Cranley and
+/// T. Patterson 1976, SIAM J. Numer. Anal. 13, 904-914.
+struct CubePoint {
+  double u, v, w;
+};
+CubePoint cube_point(std::uint64_t k, const CubePoint& shift);
+
+/// A random shift for `cube_point`, from a seed and two numbers that say what for.
+CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b);
+
+}  // namespace scintray::exchange

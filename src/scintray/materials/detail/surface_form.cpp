@@ -1,0 +1,379 @@
+#include "scintray/materials/detail/surface_form.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "scintray/materials/detail/map_forms.hpp"
+#include "scintray/materials/material_forms.hpp"
+
+namespace scintray::materials {
+
+namespace {
+
+using Kind = config::TomlNode::Kind;
+
+/// The models and the table that each reads beside [tracing].
+constexpr std::array<std::pair<const char*, const char*>, 6> kModels{{{"smooth", ""},
+                                                                      {"painted", ""},
+                                                                      {"unified", "unified"},
+                                                                      {"table", "table"},
+                                                                      {"height_map", "height_map"},
+                                                                      {"recipe", "recipe"}}};
+
+void drop(config::TomlNode& table, const std::string& key) {
+  std::erase_if(table.items, [&](const config::TomlNode& member) { return member.key == key; });
+}
+
+/// The value at a dotted key, or nullptr.
+const config::TomlNode* find_path(const config::TomlNode& table, const std::string& path) {
+  const config::TomlNode* node = &table;
+  for (std::size_t start = 0; node && start <= path.size();) {
+    const std::size_t end = std::min(path.find('.', start), path.size());
+    node = node->kind == Kind::table ? node->find(path.substr(start, end - start)) : nullptr;
+    start = end + 1;
+  }
+  return node;
+}
+
+double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback) {
+  const double share = fallback ? table.quantity(key, core::Dimension::dimensionless, *fallback)
+                                : table.quantity(key, core::Dimension::dimensionless);
+  table.expect(key, share >= 0.0 && share <= 1.0, "\"" + key + "\" is a share and lies between 0 and 1");
+  return share;
+}
+
+optics::UnifiedSurface read_unified(const config::TomlTable& table) {
+  optics::UnifiedSurface surface;
+  surface.sigma_alpha_rad = table.quantity("sigma_alpha", core::Dimension::angle);
+  table.expect("sigma_alpha",
+               surface.sigma_alpha_rad >= 0.0 && surface.sigma_alpha_rad < 90.0 * core::kDegree,
+               "\"sigma_alpha\" lies between 0 and 90 deg");
+  surface.definition = table.choice("definition", {"solid_angle", "polar_angle"}) == "solid_angle"
+                           ? optics::SigmaAlphaDefinition::solid_angle
+                           : optics::SigmaAlphaDefinition::polar_angle;
+  surface.sampling = table.choice("facets", {"projected_area", "geant4"}) == "projected_area"
+                         ? optics::FacetSampling::projected_area
+                         : optics::FacetSampling::geant4;
+  surface.lobe = read_share(table, "lobe", std::nullopt);
+  surface.spike = read_share(table, "spike", 0.0);
+  surface.backscatter = read_share(table, "backscatter", 0.0);
+  const double sum = surface.lobe + surface.spike + surface.backscatter;
+  table.expect("lobe", sum <= 1.0 + 1e-12,
+               "spike, lobe and backscatter sum to " + std::to_string(sum) + ", above 1",
+               "they are shares of the reflected light; what is left of 1 is Lambertian");
+  return surface;
+}
+
+double read_positive(const config::TomlTable& table, const std::string& key, core::Dimension dimension,
+                     double fallback) {
+  const double value = table.quantity(key, dimension, fallback);
+  table.expect(key, value > 0.0, "\"" + key + "\" must be positive");
+  return value;
+}
+
+std::uint64_t read_count(const config::TomlTable& table, const std::string& key, std::uint64_t fallback,
+                         std::int64_t least) {
+  const std::int64_t value = table.integer(key, static_cast<std::int64_t>(fallback));
+  table.expect(key, value >= least, "\"" + key + "\" must be at least " + std::to_string(least));
+  return value < least ? fallback : static_cast<std::uint64_t>(value);
+}
+
+/// [tracing]: nothing for rays traced on the spot, else how the table is made.
+std::optional<TracingSpec> read_tracing(const config::TomlTable& surface) {
+  TracingSpec tracing;
+  topography::TableSettings& settings = tracing.settings;
+  const std::optional<config::TomlTable> table = surface.optional_table("tracing");
+  if (!table) return tracing;
+  const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
+  if (on_the_spot) {
+    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine", "wavelengths",
+                            "directional", "target_error", "reciprocal"})
+      table->has(key);
+    return std::nullopt;
+  }
+  settings.incidence_step_rad =
+      read_positive(*table, "incidence_step", core::Dimension::angle, settings.incidence_step_rad);
+  settings.azimuth_step_rad =
+      read_positive(*table, "azimuth_step", core::Dimension::angle, settings.azimuth_step_rad);
+  settings.rays = read_count(*table, "rays", settings.rays, 1);
+  settings.seed = read_count(*table, "seed", settings.seed, 0);
+  settings.refine = table->boolean("refine", settings.refine);
+  settings.directional = table->boolean("directional", settings.directional);
+  settings.reciprocal = table->boolean("reciprocal", settings.reciprocal);
+  table->expect("reciprocal", !(settings.reciprocal && settings.directional),
+                "a table with direction cannot be made reciprocal", "keep one of the two keys");
+  settings.target_error = table->number("target_error", settings.target_error);
+  table->expect("target_error", settings.target_error >= 0.0 && settings.target_error < 1.0,
+                "\"target_error\" is an error of the reflectance, between 0 (none) and 1");
+  tracing.wavelengths_nm = table->quantities("wavelengths", core::Dimension::wavelength, 0, false);
+  table->expect("wavelengths",
+                std::adjacent_find(tracing.wavelengths_nm.begin(), tracing.wavelengths_nm.end(),
+                                   std::greater_equal<>()) == tracing.wavelengths_nm.end(),
+                "the wavelengths of a table rise, without repeats");
+  return tracing;
+}
+
+/// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take what is left.
+std::vector<ShareSpec> read_mixture(const config::TomlTable& table, const SurfaceLookup& lookup,
+                                    core::Problems& problems) {
+  constexpr double kRounding = 1e-9;
+  const std::vector<config::TomlTable> parts = table.tables("mixture");
+  std::vector<double> shares;
+  std::optional<std::size_t> rest;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool given = parts[i].has("share");
+    shares.push_back(given ? read_share(parts[i], "share", std::nullopt) : 0.0);
+    sum += shares.back();
+    if (!given && rest)
+      parts[i].report("share", "two surfaces of a mixture have no share, but only one can take what is left",
+                      "give all but one their share");
+    if (!given) rest = i;
+  }
+  const bool whole = rest ? sum <= 1.0 + kRounding : std::abs(sum - 1.0) <= kRounding;
+  table.expect(
+      "mixture", parts.empty() || whole,
+      "the shares of a mixture sum to " + std::to_string(sum) + "; expected " + (rest ? "at most 1" : "1"),
+      "one surface without a share takes what the others leave");
+  if (rest) shares[*rest] = std::max(0.0, 1.0 - sum);
+  std::vector<ShareSpec> mixture;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string name = parts[i].string("surface");
+    if (name.empty()) continue;
+    try {
+      mixture.push_back(
+          {shares[i], std::make_shared<const SurfaceSpec>(lookup.surface(name, parts[i].where("surface")))});
+    } catch (const core::InputError& error) {
+      problems.add(error);
+    }
+  }
+  return mixture;
+}
+
+HeightMapSpec read_height_map_spec(const config::TomlTable& surface) {
+  const config::TomlTable table = surface.table("height_map");
+  HeightMapSpec spec;
+  spec.where = table.where();
+  spec.path = table.existing_file("file");
+  spec.options.channel = table.optional_string("channel");
+  spec.options.pitch_um = read_optional_um(table, "pitch");
+  spec.options.width_um = read_optional_um(table, "width");
+  spec.options.height_unit_um = read_optional_um(table, "height_unit");
+  spec.options.periodic = table.boolean("periodic", false);
+  table.expect("width", !spec.options.pitch_um || !spec.options.width_um,
+               "\"pitch\" and \"width\" are both given, but each follows from the other", "keep one of them");
+  if (surface.has("height_map")) spec.preparation = read_preparation(table);
+  const std::string tiling = table.choice("tiling", {"automatic", "mirror", "periodic"}, "automatic");
+  spec.tiling = tiling == "mirror"     ? topography::Tiling::mirror
+                : tiling == "periodic" ? topography::Tiling::periodic
+                                       : topography::Tiling::automatic;
+  spec.table = read_tracing(surface);
+  return spec;
+}
+
+RecipeSpec read_recipe(const config::TomlTable& surface) {
+  const config::TomlTable table = surface.table("recipe");
+  RecipeSpec spec;
+  spec.where = table.where();
+  if (!surface.has("recipe")) return spec;
+  spec.recipe = read_synthesis(table);
+  spec.table = read_tracing(surface);
+  return spec;
+}
+
+MicrosurfaceSpec read_microsurface(const config::TomlTable& table) {
+  std::vector<std::string> models;
+  for (const auto& [model, own] : kModels) {
+    models.emplace_back(model);
+    if (*own) table.has(own);
+  }
+  table.has("tracing");
+  const std::string model = table.choice("model", models);
+  if (!table.good("model") || model == "smooth") return SmoothSpec{};
+  if (model == "painted") return PaintedSpec{};
+  if (model == "unified") return read_unified(table.table("unified"));
+  if (model == "height_map") return read_height_map_spec(table);
+  if (model == "recipe") return read_recipe(table);
+  const config::TomlTable file = table.table("table");
+  return TableFileSpec{file.existing_file("file"), file.where()};
+}
+
+void read_gap(const config::TomlTable& table, const SurfaceLookup& lookup, core::Problems& problems,
+              SurfaceSpec& surface) {
+  const config::TomlNode* value = table.has("gap") ? table.node()->find("gap") : nullptr;
+  if (!value) return;
+  surface.gap = value->as_written();
+  if (value->kind == Kind::string) {
+    surface.gap = table.string("gap");
+    if (surface.gap.empty()) return;
+    try {
+      const optics::Medium medium = lookup.medium(surface.gap, value->where);
+      surface.gap_index = medium.index;
+      surface.gap_absorption_per_mm = medium.absorption_per_mm;
+      surface.gap_shifter = medium.shifter;
+    } catch (const core::InputError& error) {
+      problems.add(error);
+    }
+    return;
+  }
+  const double index = table.number("gap");
+  table.expect("gap", index >= 1.0 && index <= 5.0, "the index of a gap lies between 1 and 5",
+               "give an index, or the name of a medium, as gap = \"air\"");
+  surface.gap_index = core::Curve::constant(index);
+}
+
+/// A face of a sheet is a painted one, and its light is not followed through a binder.
+void check_face_of_sheet(const config::TomlTable& table, const SurfaceSpec& surface,
+                         const optics::Reflector& reflector) {
+  table.expect("face_of_sheet", std::holds_alternative<PaintedSpec>(surface.microsurface),
+               "only a painted surface is a face of a sheet: there is nothing else between the two faces",
+               "use model = \"painted\", or remove face_of_sheet and give this face's own reflectance and "
+               "transmittance");
+  table.expect("face_of_sheet", !reflector.transmittance || reflector.volume_index <= 0.0,
+               "reflector \"" + reflector.name +
+                   "\" is volume-like and lets light through, which cannot be shared between two faces with "
+                   "a space between them",
+               "use a reflector without [volume], or paint one face only with it");
+}
+
+void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup& lookup,
+                            core::Problems& problems, SurfaceSpec& surface) {
+  const std::optional<std::string> form = table.one_of({"reflector", "reflectance"}, false);
+  for (const char* key : {"specular_share", "transmittance", "face_of_sheet"}) table.has(key);
+  if (!form) return;
+  optics::Reflector reflector;
+  if (*form == "reflector") {
+    const std::string name = table.string("reflector");
+    if (name.empty()) return;
+    try {
+      reflector = lookup.reflector(name, table.where("reflector"));
+    } catch (const core::InputError& error) {
+      problems.add(error);
+    }
+    if (table.has("specular_share"))
+      reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  } else {
+    reflector.name = surface.name;
+    reflector.reflectance = table.curve("reflectance", core::Dimension::dimensionless);
+    table.expect("reflectance", reflector.reflectance.min_y() >= 0.0 && reflector.reflectance.max_y() <= 1.0,
+                 "a reflectance lies between 0 and 1");
+    reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  }
+  if (table.has("transmittance")) {
+    reflector.transmittance = table.curve("transmittance", core::Dimension::dimensionless);
+    table.expect("transmittance",
+                 reflector.transmittance->min_y() >= 0.0 && reflector.transmittance->max_y() <= 1.0,
+                 "a transmittance lies between 0 and 1");
+    expect_sheet(table, "transmittance", reflector);
+  }
+  if (reflector.transmittance && reflector.transmittance->max_y() <= 0.0) reflector.transmittance.reset();
+  surface.face_of_sheet = table.boolean("face_of_sheet", false);
+  if (surface.face_of_sheet) check_face_of_sheet(table, surface, reflector);
+  surface.reflector = surface.face_of_sheet ? optics::face_of_sheet(reflector) : std::move(reflector);
+}
+
+/// The parts of a stack that request or exclude each other.
+void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
+  const bool painted = std::holds_alternative<PaintedSpec>(surface.microsurface);
+  const bool reflector = table.has("reflector") || table.has("reflectance");
+  if (painted && !reflector)
+    table.report("reflector", "a painted surface has no reflector",
+                 "give reflector = \"NAME\", or reflectance and specular_share");
+  if (painted && table.has("gap"))
+    table.report("gap", "a painted surface has a gap, but paint lies on the face itself",
+                 "remove the gap, or use model = \"smooth\" under it");
+  if (!painted && reflector && !table.has("gap"))
+    table.report(
+        "gap", "a reflector is given without the gap that separates it from the face",
+        "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
+  const bool thick = table.has("gap_thickness");
+  if (surface.gap_shifter && !thick)
+    table.report("gap",
+                 "the gap's medium \"" + surface.gap +
+                     "\" shifts wavelengths, but a gap without a thickness absorbs nothing",
+                 "give the layer a gap_thickness: it is this over the absorption length optically thick");
+  if (!reflector && table.has("gap") && !painted && !thick)
+    table.report(
+        "gap", "a gap is given without a reflector behind it",
+        "what lies behind a surface without a reflector is the neighbouring part: remove the gap, give a "
+        "reflector, or give the layer a gap_thickness");
+  if (thick && !table.has("gap"))
+    table.report("gap_thickness", "a gap_thickness is given without a gap",
+                 "give gap = \"MEDIUM\", or remove it");
+}
+
+}  // namespace
+
+config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over) {
+  config::TomlNode merged = base;
+  merged.key = over.key;
+  merged.where = over.where;
+  merged.key_where = over.key_where;
+  const config::TomlNode* model = over.find("model");
+  for (const auto& [name, own] : kModels)
+    if (model && *own && model->text != name) drop(merged, own);
+  // What a base states of its sheet's light goes with that sheet.
+  if (over.find("reflector") || (over.find("reflectance") && base.find("reflector")))
+    drop(merged, "transmittance");
+  if (over.find("reflector")) drop(merged, "reflectance");
+  if (over.find("reflectance")) drop(merged, "reflector");
+  for (const config::TomlNode& member : over.items) {
+    config::TomlNode* old = merged.find(member.key);
+    if (!old) {
+      merged.items.push_back(member);
+    } else if (old->kind == Kind::table && member.kind == Kind::table) {
+      const config::TomlNode inner = merge_over_base(*old, member);
+      *old = inner;
+    } else {
+      *old = member;
+    }
+  }
+  return merged;
+}
+
+std::vector<std::string> missing_needs(const config::TomlNode& definition) {
+  std::vector<std::string> missing;
+  const config::TomlNode* needs = definition.find("needs");
+  if (!needs || needs->kind != Kind::array) return missing;
+  for (const config::TomlNode& need : needs->items) {
+    bool present = false;
+    for (std::size_t start = 0; start <= need.text.size() && !present;) {
+      const std::size_t end = std::min(need.text.find(" or ", start), need.text.size());
+      present = find_path(definition, need.text.substr(start, end - start)) != nullptr;
+      start = end + 4;
+    }
+    if (!present) missing.push_back(need.text);
+  }
+  return missing;
+}
+
+SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name, const SurfaceLookup& lookup,
+                         core::Problems& problems) {
+  SurfaceSpec surface;
+  surface.name = name;
+  surface.where = table.where();
+  table.optional_string("base");
+  table.optional_string("source");
+  table.strings("needs", 0, false);
+  surface.direction = table.optional_direction("direction").value_or(core::Vec3::Zero());
+  if (table.has("mixture")) {
+    surface.mixture = read_mixture(table, lookup, problems);
+    for (const char* key :
+         {"model", "gap", "gap_thickness", "reflector", "reflectance", "transmittance", "direction"})
+      if (table.has(key))
+        table.report(key,
+                     "a mixture is made of whole surfaces, and has no " + std::string(key) + " of its own",
+                     "give it to the surfaces that the mixture names");
+    return surface;
+  }
+  surface.gap_thickness_um = read_optional_um(table, "gap_thickness");
+  surface.microsurface = read_microsurface(table);
+  read_gap(table, lookup, problems, surface);
+  read_surface_reflector(table, lookup, problems, surface);
+  check_stack(table, surface);
+  return surface;
+}
+
+}  // namespace scintray::materials

@@ -1,0 +1,377 @@
+#include "scintray/materials/material_forms.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scintray/materials/detail/light_response_form.hpp"
+#include "scintray/materials/detail/sensor_form.hpp"
+
+namespace scintray::materials {
+
+namespace {
+
+constexpr double kGreatestIndex = 5.0;
+constexpr double kFractionTolerance = 1e-6;
+
+/// Reports unless every wavelength of a table is positive.
+void expect_wavelengths(const config::TomlTable& block, const std::string& key, const core::Curve& curve) {
+  if (curve.is_constant() && curve.x().front() == 0.0) return;
+  block.expect(key, curve.x().front() > 0.0, "\"" + key + "\" has a wavelength that is not positive",
+               "give wavelengths in nm, or photon energies in eV");
+}
+
+/// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2
+/// and returns a value that is not finite where the formula has none.
+template <class Formula>
+core::Curve tabulate(const config::TomlTable& formula, const Formula& index_at) {
+  const std::vector<double> range = formula.quantities("range", core::Dimension::wavelength, 2);
+  if (range.empty()) return core::Curve::constant(1.0);
+  formula.expect("range", range[0] > 0.0 && range[1] > range[0],
+                 "\"range\" must be two positive wavelengths, the smaller first");
+  if (!formula.good("range")) return core::Curve::constant(1.0);
+  const auto steps = static_cast<std::size_t>(std::ceil((range[1] - range[0]) / kFormulaStep_nm));
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double wavelength_nm =
+        range[0] + (range[1] - range[0]) * static_cast<double>(i) / static_cast<double>(steps);
+    x.push_back(wavelength_nm);
+    y.push_back(index_at(1e6 / (wavelength_nm * wavelength_nm)));
+    if (std::isfinite(y.back())) continue;
+    formula.report("range",
+                   "the formula gives no refractive index at " + std::to_string(wavelength_nm) + " nm",
+                   "check the coefficients, or give the range in which the formula holds");
+    return core::Curve::constant(1.0);
+  }
+  return {std::move(x), std::move(y)};
+}
+
+/// n^2 = 1 + sum_i b_i w^2 / (w^2 - c_i), w in um (W. Sellmeier 1871; the form of SCHOTT's data sheets).
+core::Curve read_sellmeier(const config::TomlTable& formula) {
+  const std::vector<double> b = formula.numbers("b");
+  const std::vector<double> c = formula.numbers("c_um2");
+  if (b.size() != c.size() && !b.empty() && !c.empty())
+    formula.report(
+        "c_um2",
+        "\"c_um2\" has " + std::to_string(c.size()) + " numbers, but \"b\" has " + std::to_string(b.size()),
+        "give one c_um2 (in um^2) for every b");
+  const bool usable = !b.empty() && b.size() == c.size();
+  return tabulate(formula, [&](double inverse_square) {
+    double n2 = 1.0;
+    for (std::size_t i = 0; usable && i < b.size(); ++i) n2 += b[i] / (1.0 - c[i] * inverse_square);
+    return std::sqrt(n2);
+  });
+}
+
+/// n = a_0 + a_1 / w^2 + a_2 / w^4 + ..., w in um (A.-L. Cauchy 1836).
+core::Curve read_cauchy(const config::TomlTable& formula) {
+  const std::vector<double> a = formula.numbers("a");
+  return tabulate(formula, [&](double inverse_square) {
+    double n = 0.0, power = 1.0;
+    for (const double coefficient : a) {
+      n += coefficient * power;
+      power *= inverse_square;
+    }
+    return a.empty() ? 1.0 : n;
+  });
+}
+
+core::Curve read_index(const config::TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"n", "sellmeier", "cauchy"}, true);
+  if (!form) return core::Curve::constant(1.0);
+  const core::Curve index = *form == "n"           ? block.curve("n", core::Dimension::dimensionless)
+                            : *form == "sellmeier" ? read_sellmeier(block.table("sellmeier"))
+                                                   : read_cauchy(block.table("cauchy"));
+  block.expect(*form, index.min_y() >= 1.0 && index.max_y() <= kGreatestIndex,
+               "a refractive index lies between 1 and 5, but this one runs from " +
+                   std::to_string(index.min_y()) + " to " + std::to_string(index.max_y()),
+               "check the table or the formula's coefficients (wavelength in um)");
+  expect_wavelengths(block, *form, index);
+  return index;
+}
+
+/// A coefficient per mm from `length`, `coefficient`, or `none = true`.
+core::Curve read_extinction(const config::TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"length", "coefficient", "none"}, true);
+  if (!form) return core::Curve::constant(0.0);
+  if (*form == "none") {
+    const bool none = block.boolean("none");
+    block.expect("none", none, "\"none\" can only be true",
+                 "write none = true, or give a length or a coefficient");
+    return core::Curve::constant(0.0);
+  }
+  if (*form == "coefficient") {
+    const core::Curve coefficient = block.curve("coefficient", core::Dimension::inverse_length);
+    block.expect("coefficient", coefficient.min_y() >= 0.0, "a coefficient cannot be negative");
+    expect_wavelengths(block, "coefficient", coefficient);
+    return coefficient;
+  }
+  const core::Curve length = block.curve("length", core::Dimension::length);
+  block.expect("length", length.min_y() > 0.0, "a length must be positive",
+               "for no absorption or scattering write none = true");
+  expect_wavelengths(block, "length", length);
+  if (!block.good("length")) return core::Curve::constant(0.0);
+  std::vector<double> coefficients;
+  for (const double mm : length.y()) coefficients.push_back(1.0 / mm);
+  return {length.x(), std::move(coefficients)};
+}
+
+core::Curve read_emission(const config::TomlTable& block) {
+  const core::Curve spectrum = block.curve("spectrum", core::Dimension::dimensionless);
+  block.expect("spectrum", spectrum.x().front() > 0.0,
+               "an emission spectrum needs wavelengths, but this is one value",
+               "write { wavelength = [...], wavelength_unit = \"nm\", value = [...] }");
+  block.expect("spectrum", spectrum.min_y() >= 0.0, "an emission spectrum cannot be negative");
+  block.expect("spectrum", spectrum.max_y() > 0.0, "this emission spectrum is zero everywhere");
+  return spectrum;
+}
+
+std::vector<optics::DecayComponent> read_decay(const config::TomlTable& table, SourceRule rule,
+                                               std::vector<std::string>& sources) {
+  std::vector<optics::DecayComponent> components;
+  double sum = 0.0;
+  const std::vector<config::TomlTable> blocks = table.tables("decay");
+  for (const config::TomlTable& block : blocks) {
+    read_source(block, rule, sources);
+    optics::DecayComponent component;
+    component.decay_ns = block.quantity("time", core::Dimension::time);
+    component.rise_ns = block.quantity("rise", core::Dimension::time);
+    component.fraction = block.quantity("fraction", core::Dimension::dimensionless);
+    block.expect("time", component.decay_ns > 0.0, "a decay time must be positive");
+    block.expect("rise", component.rise_ns >= 0.0, "a rise time cannot be negative");
+    block.expect("fraction", component.fraction > 0.0 && component.fraction <= 1.0,
+                 "a fraction lies above 0 and up to 1");
+    sum += component.fraction;
+    components.push_back(component);
+  }
+  if (!components.empty() && std::abs(sum - 1.0) > kFractionTolerance)
+    table.report("decay",
+                 "the fractions of the decay components sum to " + std::to_string(sum) + ", not to 1",
+                 "give shares of all the light");
+  return components;
+}
+
+void read_scintillation(const config::TomlTable& table, SourceRule rule, optics::Medium& medium) {
+  const bool any = table.has("yield") || table.has("emission") || table.has("decay");
+  if (!any) {
+    refuse_light_response(table);
+    return;
+  }
+  for (const char* key : {"yield", "emission", "decay"})
+    if (!table.has(key))
+      table.report(key, std::string("a medium that scintillates needs \"") + key + "\" too",
+                   "give [yield], [emission] and [[decay]], or none of them");
+  if (const std::optional<config::TomlTable> block = table.optional_table("yield")) {
+    read_source(*block, rule, medium.sources);
+    medium.yield_per_keV = block->quantity("value", core::Dimension::photons_per_energy);
+    block->expect("value", medium.yield_per_keV > 0.0, "a light yield must be positive",
+                  "a medium that does not scintillate has no [yield], [emission] and [[decay]]");
+  }
+  if (const std::optional<config::TomlTable> block = table.optional_table("emission")) {
+    read_source(*block, rule, medium.sources);
+    medium.emission = read_emission(*block);
+  }
+  medium.decay = read_decay(table, rule, medium.sources);
+  read_light_response(table, rule, medium);
+}
+
+/// Reports unless a curve stays within 0 and 1.
+void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,
+                  const std::string& what) {
+  block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
+               what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
+                   " to " + std::to_string(curve.max_y()),
+               "percent are written with value_unit = \"%\", or as \"97 %\"");
+  expect_wavelengths(block, key, curve);
+}
+
+/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
+void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
+                     detector::Sensor& sensor) {
+  read_source(efficiency, rule, sensor.sources);
+  sensor.efficiency = efficiency.curve("value", core::Dimension::dimensionless);
+  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
+  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
+  sensor.definition =
+      external ? detector::EfficiencyDefinition::external : detector::EfficiencyDefinition::internal;
+  if (external) {
+    sensor.reference_index = efficiency.number("reference_index");
+    efficiency.expect("reference_index",
+                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
+                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    if (!efficiency.good("reference_index") || !window.good("index")) return;
+    const double r =
+        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
+    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
+                      "this external efficiency is above what the window lets in (" +
+                          std::to_string(1.0 - r * r) + " at normal incidence)",
+                      "check the efficiency and the two indices, or write definition = \"internal\"");
+  }
+}
+
+/// [wavelength_shifting], in which every block states its own source.
+std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::TomlTable& table, SourceRule rule,
+                                                              std::vector<std::string>& sources) {
+  const std::size_t problems = table.problem_count();
+  const auto block = [&](const char* key) {
+    const config::TomlTable found = table.table(key);
+    if (table.has(key)) read_source(found, rule, sources);
+    return found;
+  };
+  const config::TomlTable absorption = block("absorption");
+  const core::Curve absorption_per_mm = table.has("absorption") ? read_extinction(absorption) : core::Curve();
+  absorption.expect("none", false, "a wavelength shifter that absorbs nothing shifts nothing",
+                    "give a length or a coefficient, or leave [wavelength_shifting] out");
+  const config::TomlTable yield = block("quantum_yield");
+  core::Curve quantum_yield;
+  if (table.has("quantum_yield")) {
+    quantum_yield = yield.curve("value", core::Dimension::dimensionless);
+    expect_share(yield, "value", quantum_yield, "a quantum yield");
+  }
+  const config::TomlTable emission = block("emission");
+  const core::Curve spectrum = table.has("emission") ? read_emission(emission) : core::Curve();
+  const std::vector<optics::DecayComponent> decay = read_decay(table, rule, sources);
+  if (!table.has("decay"))
+    table.report("decay", "a wavelength shifter does not say when it gives light back",
+                 "add [[" + table.path() + ".decay]] with time, rise and fraction");
+  if (table.problem_count() > problems) return nullptr;
+  return std::make_shared<const optics::WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
+}
+
+}  // namespace
+
+void read_source(const config::TomlTable& block, SourceRule rule, std::vector<std::string>& sources) {
+  const std::string prefix = block.path().empty() ? "" : block.path() + ": ";
+  if (const std::optional<std::string> source = block.optional_string("source")) {
+    sources.push_back(prefix + *source);
+  } else if (rule == SourceRule::required && !block.has("source")) {
+    block.report("source",
+                 (block.path().empty() ? "the file" : "[" + block.path() + "]") +
+                     " does not say where its numbers were published",
+                 "add source = \"author or maker, year, table or figure, DOI\", or \"assumed: why\"");
+  }
+}
+
+optics::Composition read_composition(const config::TomlTable& block) {
+  const std::optional<std::string> form = block.one_of({"formula", "mass_fractions"}, true);
+  if (!form) return {};
+  try {
+    if (*form == "formula") return optics::composition_of_formula(block.string("formula"));
+    std::vector<std::pair<std::string, double>> shares;
+    const config::TomlTable table = block.table("mass_fractions");
+    for (const std::string& symbol : table.keys())
+      shares.emplace_back(symbol, table.quantity(symbol, core::Dimension::dimensionless));
+    for (const auto& [symbol, share] : shares)
+      if (!table.good(symbol)) return {};
+    return optics::composition_of_mass_fractions(shares);
+  } catch (const core::InputError& error) {
+    for (const core::Problem& problem : error.problems()) block.report(*form, problem.what, problem.hint);
+    return {};
+  }
+}
+
+optics::Medium read_medium(const config::TomlTable& table, const std::string& name, SourceRule rule) {
+  optics::Medium medium;
+  medium.name = name;
+  const config::TomlTable index = table.table("index");
+  if (table.has("index")) {
+    read_source(index, rule, medium.sources);
+    medium.index = read_index(index);
+  }
+  const config::TomlTable absorption = table.table("absorption");
+  if (table.has("absorption")) {
+    read_source(absorption, rule, medium.sources);
+    medium.absorption_per_mm = read_extinction(absorption);
+  }
+  const config::TomlTable scattering = table.table("scattering");
+  if (table.has("scattering")) {
+    read_source(scattering, rule, medium.sources);
+    medium.scattering_per_mm = read_extinction(scattering);
+    if (!scattering.has("none"))
+      medium.scattering = scattering.choice("kind", {"rayleigh", "isotropic"}) == "rayleigh"
+                              ? optics::ScatteringKind::rayleigh
+                              : optics::ScatteringKind::isotropic;
+  }
+  if (const std::optional<config::TomlTable> density = table.optional_table("density")) {
+    read_source(*density, rule, medium.sources);
+    medium.density_g_per_cm3 = density->quantity("value", core::Dimension::density);
+    density->expect("value", medium.density_g_per_cm3 > 0.0, "a density must be positive");
+  }
+  if (const std::optional<config::TomlTable> composition = table.optional_table("composition")) {
+    read_source(*composition, rule, medium.sources);
+    medium.empty_space = composition->has("none") && composition->boolean("none");
+    composition->expect("none", medium.empty_space, "\"none\" can only be true",
+                        "write none = true for empty space, or give a formula or mass fractions");
+    if (!medium.empty_space) medium.composition = read_composition(*composition);
+    if (!medium.empty_space && !table.has("density"))
+      table.report("composition", "a medium with a composition needs its density too",
+                   "add [density] with its value, as \"7.4 g/cm3\", and source");
+  }
+  read_scintillation(table, rule, medium);
+  if (const std::optional<config::TomlTable> shifting = table.optional_table("wavelength_shifting"))
+    medium.shifter = read_shifter(*shifting, rule, medium.sources);
+  return medium;
+}
+
+detector::Sensor read_sensor(const config::TomlTable& table, const std::string& name, SourceRule rule) {
+  detector::Sensor sensor;
+  sensor.name = name;
+  const config::TomlTable window = table.table("window");
+  if (table.has("window")) {
+    read_source(window, rule, sensor.sources);
+    sensor.window_index = window.number("index");
+    window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
+                  "a refractive index lies between 1 and 5");
+  }
+  const config::TomlTable efficiency = table.table("efficiency");
+  if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
+  read_sensor_response(table, rule, sensor);
+  return sensor;
+}
+
+void expect_sheet(const config::TomlTable& table, const std::string& key,
+                  const optics::Reflector& reflector) {
+  if (!table.good(key)) return;
+  constexpr double kRounding = 1e-9;
+  const double most = optics::most_kept(reflector);
+  table.expect(key, most <= 1.0 + kRounding,
+               fmt::format("reflectance and transmittance of \"{}\" come to {:.6g}; together they are shares "
+                           "of one light, at most 1",
+                           reflector.name, most),
+               "lower one of them at the wavelengths where they exceed 1; what is left of 1 is absorbed");
+}
+
+optics::Reflector read_reflector(const config::TomlTable& table, const std::string& name, SourceRule rule) {
+  optics::Reflector reflector;
+  reflector.name = name;
+  std::vector<std::string> sources;
+  const config::TomlTable reflectance = table.table("reflectance");
+  if (table.has("reflectance")) {
+    read_source(reflectance, rule, sources);
+    reflector.reflectance = reflectance.curve("value", core::Dimension::dimensionless);
+    expect_share(reflectance, "value", reflector.reflectance, "a reflectance");
+  }
+  if (const auto transmittance = table.optional_table("transmittance")) {
+    read_source(*transmittance, rule, sources);
+    reflector.transmittance = transmittance->curve("value", core::Dimension::dimensionless);
+    expect_share(*transmittance, "value", *reflector.transmittance, "a transmittance");
+    if (reflectance.good("value")) expect_sheet(*transmittance, "value", reflector);
+  }
+  const config::TomlTable direction = table.table("direction");
+  if (table.has("direction")) {
+    read_source(direction, rule, sources);
+    reflector.specular_share = direction.quantity("specular_share", core::Dimension::dimensionless);
+    direction.expect("specular_share", reflector.specular_share >= 0.0 && reflector.specular_share <= 1.0,
+                     "a share lies between 0 and 1");
+  }
+  if (table.has("volume")) {
+    const config::TomlTable volume = table.table("volume");
+    read_source(volume, rule, sources);
+    reflector.volume_index = volume.number("index");
+    volume.expect("index", reflector.volume_index >= 1.0 && reflector.volume_index <= 5.0,
+                  "the index of a reflector's volume lies between 1 and 5");
+  }
+  return reflector;
+}
+
+}  // namespace scintray::materials

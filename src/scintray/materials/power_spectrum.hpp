@@ -1,0 +1,21 @@
+#pragma once
+/// Power spectra of surfaces in CSV files.
+
+#include <filesystem>
+#include <string>
+
+#include "scintray/core/error.hpp"
+#include "scintray/topography/synthesis.hpp"
+
+namespace scintray::materials {
+
+/// Reads spatial frequencies (first column) and two-dimensional, isotropic power spectral densities
+/// (second column), in the units given: an inverse length such as "1/um", and a length to the fourth
+/// power such as "um4". InputError, at the file's lines, on frequencies that are not positive and
+/// increasing, on negative densities and on fewer than two rows; at `where`, on wrong units.
+topography::SpectrumRelief read_power_spectrum(const std::filesystem::path& path,
+                                               const std::string& frequency_unit,
+                                               const std::string& density_unit,
+                                               const core::FileLocation& where = {});
+
+}  // namespace scintray::materials

@@ -1,0 +1,57 @@
+#include "scintray/materials/wavelength_cover.hpp"
+
+#include <fmt/format.h>
+
+namespace scintray::materials {
+
+void check_cover(core::Problems& problems, const core::FileLocation& where, const core::Curve& curve,
+                 double low_nm, double high_nm, const std::string& whose, const std::string& what,
+                 const std::string& hint) {
+  if (curve.covers(low_nm, high_nm)) return;
+  const std::string light =
+      low_nm == high_nm ? fmt::format("{:g}", low_nm) : fmt::format("{:g} to {:g}", low_nm, high_nm);
+  problems.add(where,
+               fmt::format("{} has {} from {:g} to {:g} nm, but light of {} nm is in use", whose, what,
+                           curve.x().front(), curve.x().back(), light),
+               hint);
+}
+
+namespace {
+
+void check_cover_of_shifter(core::Problems& problems, const core::FileLocation& where,
+                            const optics::WavelengthShifter* shifter, double low_nm, double high_nm,
+                            const std::string& whose) {
+  if (!shifter) return;
+  const std::string hint = "extend the table, with zeros where nothing is absorbed or given back";
+  check_cover(problems, where, shifter->absorption_per_mm(), low_nm, high_nm, whose, "a shifter's absorption",
+              hint);
+  check_cover(problems, where, shifter->quantum_yield(), low_nm, high_nm, whose, "quantum yields", hint);
+}
+
+}  // namespace
+
+void check_cover(core::Problems& problems, const core::FileLocation& where, const optics::Medium& medium,
+                 double low_nm, double high_nm) {
+  const std::string whose = "medium \"" + medium.name + "\"";
+  check_cover(problems, where, medium.index, low_nm, high_nm, whose, "refractive indices",
+              "extend its index table, or choose other wavelengths");
+  check_cover_of_shifter(problems, where, medium.shifter.get(), low_nm, high_nm, whose);
+}
+
+void check_cover(core::Problems& problems, const SurfaceSpec& surface, double low_nm, double high_nm) {
+  const std::string hint = "extend the table in its definition, or choose other wavelengths";
+  const std::string gap = "the gap of surface \"" + surface.name + "\"";
+  check_cover(problems, surface.where, surface.gap_index, low_nm, high_nm, gap, "refractive indices", hint);
+  check_cover(problems, surface.where, surface.gap_absorption_per_mm, low_nm, high_nm, gap, "an absorption",
+              hint);
+  check_cover_of_shifter(problems, surface.where, surface.gap_shifter.get(), low_nm, high_nm, gap);
+  if (surface.reflector)
+    check_cover(problems, surface.where, surface.reflector->reflectance, low_nm, high_nm,
+                "reflector \"" + surface.reflector->name + "\"", "reflectances", hint);
+  if (surface.reflector && surface.reflector->transmittance)
+    check_cover(problems, surface.where, *surface.reflector->transmittance, low_nm, high_nm,
+                "reflector \"" + surface.reflector->name + "\"", "transmittances", hint);
+  for (const ShareSpec& part : surface.mixture) check_cover(problems, *part.surface, low_nm, high_nm);
+}
+
+}  // namespace scintray::materials

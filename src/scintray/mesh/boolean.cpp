@@ -1,0 +1,117 @@
+#include "scintray/mesh/boolean.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "scintray/mesh/detail/cgal_surface.hpp"
+
+namespace scintray::mesh {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+using Face = Surface::Face_index;
+using FaceNumbers = Surface::Property_map<Face, std::uint32_t>;
+
+/// Carries the number of each face over to the pieces that it is cut into and the copies made of it.
+class NumberVisitor : public pmp::Corefinement::Default_visitor<Surface> {
+ public:
+  void watch(Surface& surface, FaceNumbers numbers) { (*numbers_)[&surface] = numbers; }
+  void before_subface_creations(Face whole, Surface& surface) { *current_ = numbers(surface)[whole]; }
+  void after_subface_created(Face piece, Surface& surface) { numbers(surface)[piece] = *current_; }
+  void after_face_copy(Face from, const Surface& source, Face to, Surface& target) {
+    numbers(target)[to] = numbers(source)[from];
+  }
+
+ private:
+  FaceNumbers& numbers(const Surface& surface) const { return numbers_->at(&surface); }
+  // CGAL copies its visitor; the copies share what they know.
+  std::shared_ptr<std::map<const Surface*, FaceNumbers>> numbers_ =
+      std::make_shared<std::map<const Surface*, FaceNumbers>>();
+  std::shared_ptr<std::uint32_t> current_ = std::make_shared<std::uint32_t>(0);
+};
+
+/// Fills `surface` with the mesh; its faces are numbered from `first_number` on.
+bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, FaceNumbers& numbers) {
+  Soup<Kernel::Point_3> soup(mesh);
+  pmp::orient_polygon_soup(soup.points, soup.polygons);  // splits vertices in which several bodies touch
+  if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons)) return false;
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);
+  for (const Face face : surface.faces()) numbers[face] = first_number + static_cast<std::uint32_t>(face);
+  return CGAL::is_closed(surface) && pmp::does_bound_a_volume(surface);
+}
+
+/// Cleans a mesh whose groups are the numbers of the triangles that its triangles are pieces of, those of the
+/// first mesh first, and gives it the first mesh's groups.
+BooleanResult numbered(TriMesh mesh, const TriMesh& first, double clean_mm) {
+  const auto of_first = static_cast<std::uint32_t>(first.triangles.size());
+  BooleanResult result{std::move(mesh), {}};
+  weld_vertices(result.mesh, clean_mm);
+  remove_degenerate(result.mesh, clean_mm);
+  result.mesh.groups = first.groups;
+  result.mesh.group_tags = first.group_tags;
+  for (std::uint32_t& group : result.mesh.group) {
+    const bool of_second = group >= of_first;
+    result.origin.push_back({of_second, of_second ? group - of_first : group});
+    group = first.group.empty() ? 0 : first.group[of_second ? 0 : group];
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second, BooleanOperation operation,
+                                     double clean_mm) {
+  Surface a, b, out;
+  NumberVisitor visitor;
+  std::map<Surface*, FaceNumbers> numbers;
+  for (Surface* surface : {&a, &b, &out}) {
+    numbers[surface] = surface->add_property_map<Face, std::uint32_t>("f:number", 0U).first;
+    visitor.watch(*surface, numbers[surface]);
+  }
+  const auto of_first = static_cast<std::uint32_t>(first.triangles.size());
+  if (!fill(first, 0, a, numbers[&a]) || !fill(second, of_first, b, numbers[&b])) return std::nullopt;
+
+  std::array<boost::optional<Surface*>, 4> outputs;
+  const auto which = operation == BooleanOperation::unite      ? pmp::Corefinement::UNION
+                     : operation == BooleanOperation::subtract ? pmp::Corefinement::TM1_MINUS_TM2
+                                                               : pmp::Corefinement::INTERSECTION;
+  outputs[which] = &out;
+  try {
+    const auto done = pmp::corefine_and_compute_boolean_operations(
+        a, b, outputs, CGAL::parameters::visitor(visitor).throw_on_self_intersection(true));
+    if (!done[which]) return std::nullopt;
+  } catch (const pmp::Corefinement::Self_intersection_exception&) {
+    return std::nullopt;
+  }
+
+  return numbered(mesh_of(out, numbers[&out]), first, clean_mm);
+}
+
+std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second, double clean_mm) {
+  Surface a, b;
+  NumberVisitor visitor;
+  std::map<Surface*, FaceNumbers> numbers;
+  for (Surface* surface : {&a, &b}) {
+    numbers[surface] = surface->add_property_map<Face, std::uint32_t>("f:number", 0U).first;
+    visitor.watch(*surface, numbers[surface]);
+  }
+  if (!fill(first, 0, a, numbers[&a]) || !fill(second, 0, b, numbers[&b])) return std::nullopt;
+  try {
+    pmp::corefine(a, b, CGAL::parameters::visitor(visitor).throw_on_self_intersection(true));
+  } catch (const pmp::Corefinement::Self_intersection_exception&) {
+    return std::nullopt;
+  }
+  return numbered(mesh_of(a, numbers[&a]), first, clean_mm);
+}
+
+}  // namespace scintray::mesh

@@ -1,0 +1,21 @@
+#pragma once
+/// The checks that need exact predicates. CGAL stays in the one file behind this header.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// Pairs of triangles that meet other than in the vertices or edge they share by index. Triangles
+/// without area, and pairs with the same three vertices, are left out: they are counted elsewhere.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const TriMesh& mesh);
+
+/// Mask of triangles to turn round so that normals point out of the solid, nested shells alternating.
+/// The mesh must be closed, consistently oriented and free of self-intersections.
+std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh);
+
+}  // namespace scintray::mesh

@@ -1,0 +1,70 @@
+#pragma once
+/// What is wrong with a mesh, with places.
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// How many, and where the first few are (mm; at most kMaxExamples).
+struct Defects {
+  static constexpr std::size_t kMaxExamples = 5;
+  std::size_t count = 0;
+  std::vector<core::Vec3> examples;
+
+  void add(const core::Vec3& place) {
+    if (count++ < kMaxExamples) examples.push_back(place);
+  }
+};
+
+/// Edges are counted once each; vertices count as the same only when they have the same index.
+struct MeshDiagnosis {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  Defects open_edges;            ///< edges of one triangle only
+  Defects nonmanifold_edges;     ///< edges of three or more triangles
+  Defects flipped_edges;         ///< edges whose two triangles run along them in the same direction
+  Defects degenerate_triangles;  ///< no area (see is_degenerate)
+  Defects duplicate_triangles;   ///< same three vertices as an earlier triangle, in any order
+  Defects self_intersections;    ///< pairs of triangles that meet other than in shared vertices/edges
+  Defects inverted_bodies;       ///< closed bodies whose inside is on the wrong side, given nesting
+  std::size_t bodies = 0;        ///< sets of triangles connected through edges
+  double volume_mm3 = 0.0;       ///< signed; meaningful when closed and consistently oriented
+  double area_mm2 = 0.0;
+  Eigen::AlignedBox3d bounds;  ///< of the vertices that triangles use; empty without triangles
+
+  /// Every edge has exactly two triangles, and there is at least one triangle.
+  bool closed() const { return triangles > 0 && open_edges.count == 0 && nonmanifold_edges.count == 0; }
+  /// Triangles agree with their neighbours and normals point out of the solid.
+  bool outward() const { return flipped_edges.count == 0 && inverted_bodies.count == 0 && volume_mm3 > 0.0; }
+  /// Fit to be a part: closed, outward, and without self-intersection.
+  bool sound() const {
+    return closed() && outward() && self_intersections.count == 0 && degenerate_triangles.count == 0;
+  }
+};
+
+/// Examines a mesh. Self-intersections come from CGAL polygon mesh processing with exact predicates.
+/// Which bodies are inverted is only examined when the mesh is otherwise sound.
+/// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.
+MeshDiagnosis diagnose(const TriMesh& mesh);
+
+/// What makes a part unusable, each with its count, a place in mm, and a hint; empty for sound parts.
+std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis, const std::string& part_name);
+
+/// Makes all triangles agree with their neighbours (where the mesh permits) and turns normals out of
+/// the solid, nested shells included. Returns true when any triangle was turned round. Geometry,
+/// vertex numbers and triangle order stay.
+bool orient_outwards(TriMesh& mesh);
+
+/// Shortest length that single precision resolves at the mesh's largest coordinate: 2^-22 of it.
+double rounding_length(const TriMesh& mesh);
+
+/// True when two vertices are the same or the height over the longest edge is at most `length_mm`.
+bool is_degenerate(const TriMesh& mesh, std::size_t triangle, double length_mm);
+
+}  // namespace scintray::mesh

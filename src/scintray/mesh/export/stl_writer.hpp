@@ -1,0 +1,14 @@
+#pragma once
+/// Writing STL files.
+
+#include <filesystem>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// Writes a binary STL with coordinates in mm, rounded to single precision (groups are lost: the
+/// format has none). The file appears whole or not at all. @throws SystemError when it cannot.
+void write_stl(const std::filesystem::path& path, const TriMesh& mesh);
+
+}  // namespace scintray::mesh

@@ -1,0 +1,47 @@
+#pragma once
+/// Choosing triangles of a mesh, to give them a surface.
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// Conditions on a triangle; all that are given must hold, none selects every triangle.
+/// Lengths in mm, in the coordinates of the mesh.
+struct FaceSelector {
+  /// Outward normal within normal_tolerance_rad of this direction (need not have unit length).
+  std::optional<core::Vec3> normal;
+  double normal_tolerance_rad = 1.0 * core::kDegree;
+  /// All three vertices inside, the border and single-precision rounding (rounding_length) included.
+  std::optional<Eigen::AlignedBox3d> box;
+  /// In the flat region around the triangle nearest this point.
+  std::optional<core::Vec3> flat_region;
+  double flat_tolerance_rad = 0.1 * core::kDegree;
+  /// Group name: glTF material, OBJ group or material, side of a primitive. For a group named
+  /// "object:material" either half alone matches too; the number of a CAD face ("face12") matches whatever
+  /// the face is called.
+  std::optional<std::string> group;
+  /// Tags of the group that must have these values: glTF extras, "color" of a CAD face.
+  FaceTags tags;
+  /// The one triangle nearest this point (the lowest index among equally near ones).
+  std::optional<core::Vec3> nearest;
+};
+
+/// Mask over triangles: 1 where every condition holds. Triangles without area match no normal.
+/// @throws InputError for a normal of length zero or a negative tolerance.
+std::vector<char> select_triangles(const TriMesh& mesh, const FaceSelector& selector);
+
+/// Label per triangle, 0, 1, ... in order of first triangle. A region grows through shared edges from
+/// its first triangle over neighbours whose normal is within the tolerance of that first triangle's,
+/// or that lie in its plane within single-precision rounding; it does not creep round a cylinder.
+std::vector<std::uint32_t> flat_regions(const TriMesh& mesh, double angle_tolerance_rad);
+
+/// Index of the triangle nearest `point`, lowest index among equals. @throws InputError when empty.
+std::size_t nearest_triangle(const TriMesh& mesh, const core::Vec3& point);
+
+}  // namespace scintray::mesh

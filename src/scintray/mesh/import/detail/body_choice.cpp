@@ -1,0 +1,76 @@
+#include "scintray/mesh/import/detail/body_choice.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
+#include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/weld.hpp"
+
+namespace scintray::mesh {
+namespace {
+
+std::string first_names(std::span<const std::string> names) {
+  constexpr std::size_t kMost = 20;
+  return core::list_quoted(names.first(std::min(names.size(), kMost))) +
+         (names.size() > kMost ? " and more" : "");
+}
+
+/// Index of the body called or numbered `wanted`.
+std::size_t find_body(const std::filesystem::path& path, const RawMesh& raw, const std::string& wanted) {
+  const auto named = std::find(raw.bodies.begin(), raw.bodies.end(), wanted);
+  if (named != raw.bodies.end()) return static_cast<std::size_t>(named - raw.bodies.begin());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  if (error == std::errc() && end == wanted.data() + wanted.size() && number >= 1 &&
+      number <= raw.bodies.size())
+    return number - 1;
+  if (raw.bodies.empty())
+    reject_file(path, "the file has no bodies to choose \"" + wanted + "\" from", "remove body");
+  const std::string near = core::nearest_word(wanted, raw.bodies);
+  reject_file(path, "the file has no body \"" + wanted + "\"",
+              (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "its bodies are " +
+                  first_names(raw.bodies) + ", numbered from 1");
+}
+
+void drop_unused_groups(TriMesh& mesh) {
+  TriMesh named;
+  std::map<std::uint32_t, std::uint32_t> renumbered;
+  for (std::uint32_t& group : mesh.group) {
+    const auto [entry, is_new] = renumbered.try_emplace(group, 0);
+    if (is_new) entry->second = named.group_index(mesh.groups[group], mesh.tags_of(group));
+    group = entry->second;
+  }
+  mesh.groups = std::move(named.groups);
+  mesh.group_tags = std::move(named.group_tags);
+}
+
+void keep_body(TriMesh& mesh, const std::vector<std::uint32_t>& body_of, std::uint32_t body) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (body_of[t] != body) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    mesh.group[kept++] = mesh.group[t];
+  }
+  mesh.triangles.resize(kept);
+  mesh.group.resize(kept);
+  drop_unused_vertices(mesh);
+  drop_unused_groups(mesh);
+}
+
+}  // namespace
+
+void choose_body(const std::filesystem::path& path, RawMesh& raw, const std::string& wanted) {
+  if (wanted.empty()) {
+    if (raw.bodies.size() > 1)
+      raw.notes.push_back("the file has " + std::to_string(raw.bodies.size()) +
+                          " bodies, all taken together as one part: " + first_names(raw.bodies) +
+                          "; body = \"NAME\" takes one");
+    return;
+  }
+  keep_body(raw.mesh, raw.body_of, static_cast<std::uint32_t>(find_body(path, raw, wanted)));
+}
+
+}  // namespace scintray::mesh

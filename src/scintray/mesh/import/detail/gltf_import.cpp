@@ -1,0 +1,266 @@
+#include "scintray/mesh/import/detail/formats.hpp"
+
+#include <tiny_gltf.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "scintray/mesh/import/detail/gltf_accessor.hpp"
+#include "scintray/mesh/import/file_checks.hpp"
+
+namespace scintray::mesh {
+namespace {
+
+/// Pictures do not matter here: they are accepted unread.
+bool skip_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
+                void*) {
+  return true;
+}
+
+/// The JSON text: a .glb file's first chunk, whose length stands at byte 12 (section 4.4).
+std::string json_part(const std::string& content, bool binary) {
+  constexpr std::size_t kHeader = 20;  // magic, version, length; chunk length, chunk type
+  if (!binary) return content;
+  if (content.size() < kHeader) return {};
+  std::size_t length = 0;
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    length |= static_cast<std::size_t>(static_cast<unsigned char>(content[12 + byte])) << (8 * byte);
+  }
+  return content.substr(kHeader, length);
+}
+
+tinygltf::Model load(const std::filesystem::path& path, const std::string& content, bool binary,
+                     std::vector<std::string>& notes) {
+  if (content.size() > 0xFFFFFFFFULL)
+    reject_file(path, "the glTF file is larger than 4 GiB", "split it in several");
+  if (json_depth(json_part(content, binary)) > kDeepestNesting) {
+    reject_file(path, "JSON values are nested more than " + std::to_string(kDeepestNesting) + " deep");
+  }
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(skip_image, nullptr);
+  tinygltf::Model model;
+  std::string error, warning;
+  bool good = false;
+  try {
+    const auto size = static_cast<unsigned>(content.size());
+    const std::string folder = path.parent_path().string();
+    good = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                reinterpret_cast<const unsigned char*>(content.data()), size,
+                                                folder)
+                  : loader.LoadASCIIFromString(&model, &error, &warning, content.data(), size, folder);
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  while (!error.empty() && error.back() == '\n') error.pop_back();
+  while (!warning.empty() && warning.back() == '\n') warning.pop_back();
+  if (!good) {
+    reject_file(path, "cannot read the glTF file: " + (error.empty() ? "tinygltf gives no reason" : error),
+                "expected glTF 2.0; export it again");
+  }
+  if (!warning.empty()) notes.push_back("tinygltf: " + warning);
+  return model;
+}
+
+Eigen::Affine3d node_transform(const tinygltf::Node& node) {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  if (node.matrix.size() == 16) {
+    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());  // both column-major
+    return transform;
+  }
+  if (node.translation.size() == 3) {
+    transform.translate(core::Vec3(node.translation[0], node.translation[1], node.translation[2]));
+  }
+  if (node.rotation.size() == 4) {
+    const Eigen::Quaterniond rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    transform.rotate(rotation.normalized());
+  }
+  if (node.scale.size() == 3) transform.scale(core::Vec3(node.scale[0], node.scale[1], node.scale[2]));
+  return transform;
+}
+
+/// Adds the scalar members of `extras` (glTF 2.0 specification, section 3.3), over those of the same name;
+/// objects and arrays in them are passed over.
+void add_tags(const tinygltf::Value& extras, FaceTags& tags) {
+  if (!extras.IsObject()) return;
+  for (const std::string& key : extras.Keys()) {
+    const tinygltf::Value& value = extras.Get(key);
+    if (value.IsString()) tags[key] = value.Get<std::string>();
+    if (value.IsBool()) tags[key] = value.Get<bool>() ? "true" : "false";
+    if (value.IsNumber()) tags[key] = tag_text(value.GetNumberAsDouble());
+  }
+}
+
+class ModelReader {
+ public:
+  ModelReader(const tinygltf::Model& model, const std::filesystem::path& path) : model_(model), path_(path) {}
+
+  RawMesh read() {
+    refuse_hidden_geometry();
+    raw_.unit = {"m", 1000.0, false, 1000.0};
+    for (const int root : root_nodes()) visit(root, {Eigen::Affine3d::Identity(), {}}, 0);
+    raw_.fill_body();
+    add_notes();
+    return std::move(raw_);
+  }
+
+ private:
+  /// What a node hands down to its children and its mesh.
+  struct Inherited {
+    Eigen::Affine3d transform;
+    FaceTags tags;
+  };
+
+  void refuse_hidden_geometry() const {
+    for (const std::string& extension : model_.extensionsRequired) {
+      const bool hides = extension == "KHR_draco_mesh_compression" ||
+                         extension == "EXT_meshopt_compression" || extension == "KHR_mesh_quantization" ||
+                         extension == "EXT_mesh_gpu_instancing";
+      if (hides) {
+        reject_file(path_, "the glTF file needs the extension " + extension + ", which is not supported",
+                    "export the mesh without compression, quantisation and instancing");
+      }
+    }
+  }
+
+  std::vector<int> root_nodes() const {
+    if (!model_.scenes.empty()) {
+      const auto wanted = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+      if (wanted >= model_.scenes.size())
+        reject_file(path_, "the default scene does not exist in the glTF file");
+      return model_.scenes[wanted].nodes;
+    }
+    std::set<int> children;
+    for (const auto& node : model_.nodes) children.insert(node.children.begin(), node.children.end());
+    std::vector<int> roots;
+    for (int i = 0; i < static_cast<int>(model_.nodes.size()); ++i) {
+      if (!children.contains(i)) roots.push_back(i);
+    }
+    return roots;
+  }
+
+  void visit(int index, const Inherited& parent, std::size_t depth) {
+    if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) {
+      reject_file(path_, "node " + std::to_string(index) + " does not exist in the glTF file");
+    }
+    // In a tree every node is met once; a second visit means a loop or a shared child.
+    if (!visited_.insert(index).second) {
+      reject_file(path_, "node " + std::to_string(index) + " has more than one parent or is inside itself",
+                  "the nodes of a glTF file must form a tree");
+    }
+    if (depth > kDeepestNesting) reject_file(path_, "nodes are nested more than 500 deep");
+    const auto& node = model_.nodes[static_cast<std::size_t>(index)];
+    Inherited own{parent.transform * node_transform(node), parent.tags};
+    add_tags(node.extras, own.tags);
+    if (node.skin >= 0) ++skins_;
+    if (node.mesh >= 0) append_mesh(node, own);
+    for (const int child : node.children) visit(child, own, depth + 1);
+  }
+
+  void append_mesh(const tinygltf::Node& node, Inherited own) {
+    if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
+      reject_file(path_, "mesh " + std::to_string(node.mesh) + " does not exist in the glTF file");
+    }
+    used_meshes_.insert(node.mesh);
+    const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+    raw_.begin_body(node.name.empty() ? mesh.name : node.name);
+    add_tags(mesh.extras, own.tags);
+    for (const auto& primitive : mesh.primitives) append_primitive(primitive, own);
+  }
+
+  void append_primitive(const tinygltf::Primitive& primitive, const Inherited& inherited) {
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode < TINYGLTF_MODE_TRIANGLES || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+      ++raw_.points_and_lines;
+      return;
+    }
+    if (!primitive.targets.empty()) ++morphs_;
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) {
+      ++without_positions_;
+      return;
+    }
+    const auto positions = read_positions(model_, position->second, path_);
+    std::vector<std::uint32_t> indices(positions.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+    if (primitive.indices >= 0) indices = read_indices(model_, primitive.indices, positions.size(), path_);
+
+    TriMesh& mesh = raw_.mesh;
+    if (mesh.vertices.size() + positions.size() > kMostElements ||
+        mesh.triangles.size() + indices.size() > kMostElements) {
+      reject_file(path_, "the mesh has more than 2^31 vertices or triangles", "split it in several files");
+    }
+    first_vertex_ = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const core::Vec3& p : positions) mesh.vertices.push_back(inherited.transform * p);
+    FaceTags tags = inherited.tags;
+    const std::string material = material_name(primitive.material);
+    if (primitive.material >= 0)
+      add_tags(model_.materials[static_cast<std::size_t>(primitive.material)].extras, tags);
+    add_tags(primitive.extras, tags);
+    group_ = mesh.group_index(material, tags);
+    mirrored_ = inherited.transform.linear().determinant() < 0.0;
+    append_triangles(mode, indices);
+  }
+
+  void append_triangles(int mode, const std::vector<std::uint32_t>& i) {
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+      leftover_indices_ += i.size() % 3;
+      for (std::size_t k = 0; k + 2 < i.size(); k += 3) add(i[k], i[k + 1], i[k + 2]);
+    } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {  // glTF 2.0 specification, section 3.7.2.1
+      for (std::size_t k = 0; k + 2 < i.size(); ++k) add(i[k], i[k + 1 + k % 2], i[k + 2 - k % 2]);
+    } else {
+      for (std::size_t k = 0; k + 2 < i.size(); ++k) add(i[k + 1], i[k + 2], i[0]);
+    }
+  }
+
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (mirrored_) std::swap(b, c);
+    raw_.mesh.triangles.push_back({first_vertex_ + a, first_vertex_ + b, first_vertex_ + c});
+    raw_.mesh.group.push_back(group_);
+  }
+
+  std::string material_name(int material) const {
+    if (material < 0) return "default";
+    if (static_cast<std::size_t>(material) >= model_.materials.size()) {
+      reject_file(path_, "material " + std::to_string(material) + " does not exist in the glTF file");
+    }
+    const std::string& name = model_.materials[static_cast<std::size_t>(material)].name;
+    return name.empty() ? "material " + std::to_string(material) : name;
+  }
+
+  void add_notes() {
+    const auto note = [this](std::size_t count, const std::string& what) {
+      if (count > 0) raw_.notes.push_back(std::to_string(count) + " " + what);
+    };
+    note(without_positions_, "primitives without POSITION left out");
+    note(leftover_indices_, "indices at the end of primitives left out: they make no whole triangle");
+    note(skins_, "skins left out: the mesh is taken unposed");
+    note(morphs_, "sets of morph targets left out: the mesh is taken undeformed");
+    note(model_.meshes.size() - used_meshes_.size(), "meshes left out: no node of the scene shows them");
+  }
+
+  const tinygltf::Model& model_;
+  const std::filesystem::path& path_;
+  RawMesh raw_;
+  std::set<int> visited_, used_meshes_;
+  std::uint32_t first_vertex_ = 0, group_ = 0;
+  bool mirrored_ = false;
+  std::size_t without_positions_ = 0, leftover_indices_ = 0, skins_ = 0, morphs_ = 0;
+};
+
+RawMesh read_gltf(const MeshFile& file, bool binary) {
+  std::vector<std::string> notes;
+  const tinygltf::Model model = load(file.path, file.content, binary, notes);
+  RawMesh raw = ModelReader(model, file.path).read();
+  raw.notes.insert(raw.notes.end(), notes.begin(), notes.end());
+  return raw;
+}
+
+}  // namespace
+
+RawMesh import_gltf(const MeshFile& file) { return read_gltf(file, false); }
+
+RawMesh import_glb(const MeshFile& file) { return read_gltf(file, true); }
+
+}  // namespace scintray::mesh

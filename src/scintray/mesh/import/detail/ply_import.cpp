@@ -1,0 +1,192 @@
+#include "scintray/mesh/import/detail/formats.hpp"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "scintray/mesh/import/detail/ply_header.hpp"
+#include "scintray/mesh/import/file_checks.hpp"
+
+namespace scintray::mesh {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+/// Takes one number after the other from the data part.
+class NumberReader {
+ public:
+  NumberReader(const std::string& content, std::size_t start, PlyFormat format)
+      : content_(content), at_(start), format_(format) {}
+
+  /// False when the data end or hold no number here.
+  bool next(const PlyType& type, double& value) {
+    return format_ == PlyFormat::ascii ? next_text(value) : next_binary(type, value);
+  }
+
+ private:
+  bool next_text(double& value) {
+    while (at_ < content_.size() && is_space(content_[at_])) ++at_;
+    if (at_ < content_.size() && content_[at_] == '+') ++at_;
+    const char* last = content_.data() + content_.size();
+    const auto [end, error] = std::from_chars(content_.data() + at_, last, value);
+    if (error != std::errc() || (end != last && !is_space(*end))) return false;
+    at_ = static_cast<std::size_t>(end - content_.data());
+    return true;
+  }
+
+  bool next_binary(const PlyType& type, double& value) {
+    if (content_.size() - at_ < type.bytes) return false;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < type.bytes; ++i) {
+      const std::size_t place = format_ == PlyFormat::little_endian ? i : type.bytes - 1 - i;
+      bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(content_[at_ + i])) << (8 * place);
+    }
+    at_ += type.bytes;
+    value = decode(type, bits);
+    return true;
+  }
+
+  static double decode(const PlyType& type, std::uint64_t bits) {
+    if (type.kind == PlyType::Kind::floating) {
+      return type.bytes == 8 ? std::bit_cast<double>(bits)
+                             : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+    }
+    const double range = std::ldexp(1.0, static_cast<int>(8 * type.bytes));
+    const double value = static_cast<double>(bits);
+    return type.kind == PlyType::Kind::signed_integer && value >= 0.5 * range ? value - range : value;
+  }
+
+  const std::string& content_;
+  std::size_t at_;
+  PlyFormat format_;
+};
+
+class PlyReader {
+ public:
+  PlyReader(const std::filesystem::path& path, const std::string& content)
+      : path_(path),
+        header_(read_ply_header(path, content)),
+        numbers_(content, header_.data_start, header_.format) {}
+
+  RawMesh read() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") {
+        read_vertices(element);
+      } else if (element.name == "face") {
+        read_faces(element);
+      } else {
+        skip(element);
+      }
+    }
+    add_faces();
+    return std::move(raw_);
+  }
+
+ private:
+  [[noreturn]] void reject_member(const PlyElement& element, std::uint64_t member,
+                                  const std::string& what) const {
+    reject_file(path_,
+                "element \"" + element.name + "\" number " + std::to_string(member + 1) + " of " +
+                    std::to_string(element.count) + " " + what,
+                "the file is cut short or damaged; export it again");
+  }
+
+  double number(const PlyElement& element, std::uint64_t member, const PlyType& type) {
+    double value = 0.0;
+    if (!numbers_.next(type, value)) reject_member(element, member, "is missing or not a number");
+    return value;
+  }
+
+  /// Reads one property of a member and calls use(value) for each number in it.
+  template <typename Use>
+  void read_property(const PlyElement& element, std::uint64_t member, const PlyProperty& property, Use use) {
+    double count = 1.0;
+    if (property.is_list) count = number(element, member, property.count_type);
+    if (!(count >= 0.0) || count != std::floor(count))
+      reject_member(element, member, "has a list of impossible length");
+    for (double i = 0.0; i < count; ++i) use(number(element, member, property.type));
+  }
+
+  void skip(const PlyElement& element) {
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      for (const PlyProperty& property : element.properties) {
+        read_property(element, member, property, [](double) {});
+      }
+    }
+    raw_.notes.push_back(std::to_string(element.count) + " elements \"" + element.name + "\" left out");
+  }
+
+  void read_vertices(const PlyElement& element) {
+    constexpr int kNoAxis = 3;
+    std::vector<int> axis_of(element.properties.size(), kNoAxis);
+    int found = 0;
+    for (std::size_t p = 0; p < axis_of.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      const auto axis = std::string_view("xyz").find(property.name);
+      if (property.is_list || property.name.size() != 1 || axis == std::string_view::npos) continue;
+      axis_of[p] = static_cast<int>(axis);
+      found |= 1 << axis;
+    }
+    if (found != 7)
+      reject_file(path_, "the PLY element \"vertex\" lacks a property x, y or z", "export it again");
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      core::Vec3 vertex = core::Vec3::Zero();
+      for (std::size_t p = 0; p < axis_of.size(); ++p) {
+        read_property(element, member, element.properties[p], [&](double value) {
+          if (axis_of[p] != kNoAxis) vertex[axis_of[p]] = value;
+        });
+      }
+      raw_.mesh.vertices.push_back(vertex);
+    }
+  }
+
+  void read_faces(const PlyElement& element) {
+    faces_ = &element;
+    for (std::uint64_t member = 0; member < element.count; ++member) {
+      for (const PlyProperty& property : element.properties) {
+        const bool corners =
+            property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+        read_property(element, member, property, [&](double value) {
+          if (corners) corners_.push_back(value);
+        });
+      }
+      corners_end_.push_back(corners_.size());
+    }
+  }
+
+  /// Only now, because faces may stand before the vertices they refer to.
+  void add_faces() {
+    std::size_t start = 0;
+    std::vector<std::uint32_t> polygon;
+    const auto vertices = static_cast<double>(raw_.mesh.vertices.size());
+    for (std::size_t f = 0; f < corners_end_.size(); ++f) {
+      polygon.clear();
+      for (std::size_t c = start; c < corners_end_[f]; ++c) {
+        const double corner = corners_[c];
+        if (!(corner >= 0.0 && corner < vertices) || corner != std::floor(corner)) {
+          reject_member(*faces_, f, "refers to a vertex that does not exist");
+        }
+        polygon.push_back(static_cast<std::uint32_t>(corner));
+      }
+      start = corners_end_[f];
+      if (!raw_.add_polygon(polygon, raw_.mesh.group_index("default"), false)) {
+        reject_member(*faces_, f, "has more corners than can be read");
+      }
+    }
+  }
+
+  const std::filesystem::path& path_;
+  PlyHeader header_;
+  NumberReader numbers_;
+  RawMesh raw_;
+  const PlyElement* faces_ = nullptr;
+  std::vector<double> corners_;
+  std::vector<std::size_t> corners_end_;  ///< per face, end of its part of corners_
+};
+
+}  // namespace
+
+RawMesh import_ply(const MeshFile& file) { return PlyReader(file.path, file.content).read(); }
+
+}  // namespace scintray::mesh

@@ -1,0 +1,252 @@
+#include "scintray/mesh/repair/repair.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include "scintray/mesh/boolean.hpp"
+#include "scintray/mesh/detail/cgal_checks.hpp"
+#include "scintray/mesh/detail/edges.hpp"
+#include "scintray/mesh/repair/detail/repair_edges.hpp"
+#include "scintray/mesh/repair/detail/repair_holes.hpp"
+#include "scintray/mesh/repair/detail/untangle.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/weld.hpp"
+
+namespace scintray::mesh {
+namespace {
+
+void append(TriMesh& mesh, const TriMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + first, b + first, c + first});
+  mesh.group.insert(mesh.group.end(), other.group.begin(), other.group.end());
+}
+
+class Repairer {
+ public:
+  Repairer(TriMesh mesh, const RepairSettings& settings) : settings_(settings) {
+    result_.mesh = std::move(mesh);
+    result_.mesh.group.resize(result_.mesh.triangles.size(), 0);
+    result_.before = diagnose(result_.mesh);
+  }
+
+  RepairedMesh run() {
+    result_.after = result_.before;
+    if (result_.before.sound() && settings_.weld_mm == 0.0) return std::move(result_);
+    weld();
+    remove_flat();
+    clear_edges();
+    fill();
+    clear_edges();  // covers of holes beside each other can meet
+    resolve_crossings();
+    remove_flat();
+    orient("");
+    weld_vertices(mesh(), rounding_length(mesh()));  // drops vertices that nothing uses
+    result_.after = diagnose(mesh());
+    return std::move(result_);
+  }
+
+ private:
+  TriMesh& mesh() { return result_.mesh; }
+  void note(const std::string& what, const Defects& where) {
+    if (where.count == 0) return;
+    const auto known = std::find_if(result_.steps.begin(), result_.steps.end(),
+                                    [&](const RepairStep& step) { return step.what == what; });
+    if (known == result_.steps.end()) {
+      result_.steps.push_back({what, where});
+      return;
+    }
+    for (const core::Vec3& place : where.examples) known->where.add(place);
+    known->where.count += where.count - where.examples.size();
+  }
+
+  void clear_edges() {
+    note("duplicate triangles removed", remove_duplicates(mesh()));
+    note("triangles of fins and inner walls removed", remove_fins(mesh()));
+    orient("edges whose triangles disagreed, mended by turning triangles round");
+    note("edges of several bodies parted", part_touching_bodies(mesh()));
+  }
+
+  void weld() {
+    const double length = std::max(settings_.weld_mm, rounding_length(mesh()));
+    Defects where;
+    where.count = weld_vertices(mesh(), length);
+    note("vertices welded to others beside them", where);
+  }
+
+  void remove_flat() {
+    const double length = rounding_length(mesh());
+    Defects where;
+    for (std::size_t t = 0; t < mesh().triangles.size(); ++t)
+      if (is_degenerate(mesh(), t, length)) where.add(centre_of(mesh(), t));
+    remove_degenerate(mesh(), length);
+    note("triangles without area removed", where);
+  }
+
+  void orient(const std::string& what) {
+    Defects where = diagnose(mesh()).flipped_edges;
+    if (!orient_outwards(mesh()) || what.empty()) return;
+    if (where.count > 0)
+      note(what, where);
+    else
+      note("meshes that were inside out turned", inverted());
+  }
+
+  Defects inverted() const {
+    Defects where;
+    where.add(result_.before.bounds.isEmpty() ? core::Vec3(core::Vec3::Zero())
+                                              : core::Vec3(result_.before.bounds.center()));
+    return where;
+  }
+
+  void fill() {
+    const double limit = settings_.largest_hole_mm > 0.0 ? settings_.largest_hole_mm
+                                                         : 0.25 * result_.before.bounds.diagonal().norm();
+    const HoleFilling filling = fill_holes(mesh(), limit);
+    note("holes filled", filling.filled);
+    std::ostringstream sizes;
+    sizes << " larger than the limit of " << limit << " mm (the largest is " << filling.largest_mm
+          << " mm across)";
+    refuse(filling.too_large.count, "hole stays open:" + sizes.str(), "holes stay open:" + sizes.str());
+    refuse(filling.without_cover.count, "hole could not be covered", "holes could not be covered");
+    refuse(filling.sheets, "open sheet encloses nothing: what lies behind it cannot be known",
+           "open sheets enclose nothing: what lies behind them cannot be known");
+  }
+
+  /// Bodies of one mesh, and which of them cross or touch.
+  struct Bodies {
+    std::vector<TriMesh> body;
+    std::vector<Defects> tangled;  ///< pairs of triangles of one body that cross
+    std::map<std::pair<std::uint32_t, std::uint32_t>, core::Vec3>
+        first_contact;  ///< where each pair of bodies first does
+  };
+
+  Bodies take_apart(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings) {
+    Bodies bodies;
+    std::size_t count = 0;
+    const auto label = connected_bodies(mesh(), count);
+    for (std::uint32_t b = 0; b < count; ++b) {
+      bodies.body.push_back(mesh());
+      std::vector<char> wanted;
+      for (const std::uint32_t l : label) wanted.push_back(l == b);
+      keep_triangles(bodies.body.back(), wanted);
+      drop_unused_vertices(bodies.body.back());
+    }
+    bodies.tangled.resize(count);
+    for (const auto& [s, t] : crossings) {
+      const core::Vec3 place = centre_of(mesh(), s);
+      if (label[s] == label[t])
+        bodies.tangled[label[s]].add(place);
+      else
+        bodies.first_contact.try_emplace(std::minmax(label[s], label[t]), place);
+    }
+    return bodies;
+  }
+
+  /// Takes crossings out of single bodies, then makes one of bodies that cross or touch.
+  void resolve_crossings() {
+    const auto crossings = self_intersections(mesh());
+    if (crossings.empty()) return;
+    Bodies bodies = take_apart(crossings);
+    turn_outwards(bodies);
+    untangle(bodies);
+    unite(bodies);
+    TriMesh whole;
+    whole.groups = mesh().groups;
+    whole.group_tags = mesh().group_tags;
+    for (const TriMesh& body : bodies.body) append(whole, body);
+    mesh() = std::move(whole);
+  }
+
+  /// A body that lies in no other one's box is no cavity: its normals have to point outwards.
+  void turn_outwards(Bodies& bodies) {
+    Defects turned;
+    std::vector<Eigen::AlignedBox3d> box;
+    for (const TriMesh& body : bodies.body) box.push_back(diagnose(body).bounds);
+    for (std::size_t b = 0; b < box.size(); ++b) {
+      const bool inner = std::any_of(box.begin(), box.end(), [&](const Eigen::AlignedBox3d& other) {
+        return &other != &box[b] && other.contains(box[b]);
+      });
+      if (inner || bodies.body[b].volume() >= 0.0 || !diagnose(bodies.body[b]).closed()) continue;
+      reverse_orientation(bodies.body[b]);
+      turned.add(box[b].center());
+    }
+    note("bodies that were inside out turned", turned);
+  }
+
+  void untangle(Bodies& bodies) {
+    Defects replaced;
+    std::size_t refused = 0;
+    for (std::size_t b = 0; b < bodies.body.size(); ++b) {
+      const Defects& tangled = bodies.tangled[b];
+      if (tangled.count == 0) continue;
+      auto better = diagnose(bodies.body[b]).closed() ? untangled(bodies.body[b]) : std::nullopt;
+      if (!better || !diagnose(*better).sound()) {
+        ++refused;
+        continue;
+      }
+      bodies.body[b] = std::move(*better);
+      for (std::size_t i = 0; i < tangled.count; ++i)
+        replaced.add(tangled.examples[std::min(i, tangled.examples.size() - 1)]);
+    }
+    note("pairs of crossing triangles replaced, with some around them", replaced);
+    refuse(refused, "body crosses itself in a way that CGAL cannot mend",
+           "bodies cross themselves in a way that CGAL cannot mend");
+  }
+
+  void unite(Bodies& bodies) {
+    std::vector<std::uint32_t> part_of(bodies.body.size());
+    std::iota(part_of.begin(), part_of.end(), 0U);
+    const auto find = [&](std::uint32_t b) {
+      while (part_of[b] != b) b = part_of[b];
+      return b;
+    };
+    Defects united;
+    std::size_t refused = 0;
+    for (const auto& [pair, place] : bodies.first_contact) {
+      const std::uint32_t a = find(pair.first), b = find(pair.second);
+      if (a == b) continue;
+      if (auto one = united_body(bodies.body[a], bodies.body[b])) {
+        bodies.body[a] = std::move(*one);
+        bodies.body[b] = {};
+        part_of[b] = a;
+        united.add(place);
+      } else {
+        ++refused;
+      }
+    }
+    note("pairs of bodies that cross or touch united", united);
+    const std::string why = " not be united: one is open or crosses itself, or they touch along edges only";
+    refuse(refused, "pair of bodies that cross or touch could" + why,
+           "pairs of bodies that cross or touch could" + why);
+  }
+
+  static std::optional<TriMesh> united_body(const TriMesh& a, const TriMesh& b) {
+    if (!diagnose(a).sound() || !diagnose(b).sound()) return std::nullopt;
+    auto whole = boolean(a, b, BooleanOperation::unite, std::max(rounding_length(a), rounding_length(b)));
+    if (!whole) return std::nullopt;
+    for (std::size_t t = 0; t < whole->origin.size(); ++t) {
+      const TriangleOrigin& origin = whole->origin[t];
+      whole->mesh.group[t] = (origin.of_second ? b : a).group[origin.triangle];
+    }
+    return std::move(whole->mesh);
+  }
+
+  void refuse(std::size_t count, const std::string& one, const std::string& many) {
+    if (count > 0) result_.refused.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
+  }
+
+  RepairSettings settings_;
+  RepairedMesh result_;
+};
+
+}  // namespace
+
+RepairedMesh repair_mesh(TriMesh mesh, const RepairSettings& settings) {
+  return Repairer(std::move(mesh), settings).run();
+}
+
+}  // namespace scintray::mesh

@@ -1,0 +1,46 @@
+#pragma once
+/// Simple closed bodies, oriented outwards, and operations on whole meshes. Lengths in mm.
+
+#include <Eigen/Geometry>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// Box of 12 triangles, two per side in the order of its groups "-x", "+x", "-y", "+y", "-z", "+z".
+/// @throws InputError when a side is not positive or not finite.
+TriMesh make_box(const core::Vec3& low, const core::Vec3& high);
+
+/// Whose circle a cylinder's polygon represents.
+enum class CylinderRadius {
+  inscribed_polygon,  ///< corners on the circle: the polygon is inside the cylinder
+  equal_area,         ///< same cross-section, and so the same volume, as the true cylinder
+};
+
+/// Regular prism standing for a cylinder about the z axis, z from 0 to height, first corner on +x.
+/// Groups "side" (2 triangles a segment), "-z", "+z" (fans without a middle vertex).
+/// @throws InputError when radius or height is not positive, or segments < 3.
+TriMesh make_cylinder(double radius, double height, int segments,
+                      CylinderRadius kind = CylinderRadius::inscribed_polygon);
+
+/// Geodesic sphere about the origin: an icosahedron whose triangles are cut in subdivisions^2 each,
+/// all vertices on the sphere; 20 subdivisions^2 triangles, one group "sphere".
+/// @throws InputError when radius is not positive, or subdivisions < 1.
+TriMesh make_sphere(double radius, int subdivisions);
+
+/// Cuts every triangle in n*n similar ones; shared edges stay shared. Triangle t becomes triangles
+/// n*n*t ... n*n*(t+1)-1. @throws InputError for n < 1.
+TriMesh subdivide_faces(const TriMesh& mesh, int n);
+
+/// Mesh moved by `transform`; triangles are turned round when it mirrors (determinant < 0), so that
+/// outwards stays outwards. @throws InputError when the determinant is zero or not finite.
+TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform);
+
+/// Turns every triangle round, in place.
+void reverse_orientation(TriMesh& mesh);
+
+/// Both meshes in one; vertices are not welded, groups with the same name and
+/// tags become one.
+TriMesh joined(const TriMesh& a, const TriMesh& b);
+
+}  // namespace scintray::mesh

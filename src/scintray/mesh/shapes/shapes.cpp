@@ -1,0 +1,167 @@
+#include "scintray/mesh/shapes/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/shapes/detail/loft.hpp"
+
+namespace scintray::mesh {
+
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+const std::vector<std::string> kRectangleSides{"-y", "+x", "+y", "-x"};
+
+void require(bool ok, const std::string& what, const std::string& hint) {
+  if (!ok) throw core::InputError(core::Problem{{}, what, hint});
+}
+
+bool is_length(double x) { return std::isfinite(x) && x > 0.0; }
+
+std::vector<std::string> numbered_sides(int sides) {
+  std::vector<std::string> names;
+  for (int i = 0; i < sides; ++i) names.push_back("side" + std::to_string(i));
+  return names;
+}
+
+TriMesh straight_prism(const std::vector<Vec2>& outline, double z0, double z1,
+                       const std::vector<std::string>& sides) {
+  return make_loft({{z0, outline}, {z1, outline}}, {sides});
+}
+
+/// Each corner of an outline in three: where the chamfered body leaves the end face, and where it leaves
+/// the two sides that met there.
+struct ChamferedOutline {
+  std::vector<Vec2> inset;  ///< every point twice, to pair with `sides`
+  std::vector<Vec2> sides;  ///< two per corner: end of the side before it, start of the side after it
+};
+
+ChamferedOutline chamfered(const std::vector<Vec2>& outline, double chamfer) {
+  ChamferedOutline result;
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = (outline[i] - outline[(i + n - 1) % n]).normalized();
+    const Vec2 after = (outline[(i + 1) % n] - outline[i]).normalized();
+    const Vec2 inward_before(-before.y(), before.x()), inward_after(-after.y(), after.x());
+    // The point at distance `chamfer` from both sides, and its feet on them.
+    const Vec2 bisector = inward_before + inward_after;
+    const Vec2 inset = outline[i] + bisector * (2.0 * chamfer / bisector.squaredNorm());
+    result.inset.insert(result.inset.end(), {inset, inset});
+    result.sides.push_back(inset - chamfer * inward_before);
+    result.sides.push_back(inset - chamfer * inward_after);
+  }
+  return result;
+}
+
+TriMesh chamfered_prism(const std::vector<Vec2>& outline, double z0, double z1, double chamfer,
+                        const std::vector<std::string>& sides) {
+  const ChamferedOutline cut = chamfered(outline, chamfer);
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 whole = outline[(i + 1) % n] - outline[i];
+    const Vec2 left = cut.sides[(2 * i + 2) % (2 * n)] - cut.sides[2 * i + 1];
+    require(is_length(chamfer) && whole.dot(left) > 0.0 && z1 - z0 > 2.0 * chamfer,
+            "a chamfer that is not positive or leaves nothing of a face",
+            "give a width below half of the shortest edge");
+  }
+  const std::vector<std::string> bevels(2 * n, "chamfer");
+  std::vector<std::string> middle;
+  for (const std::string& side : sides) middle.insert(middle.end(), {"chamfer", side});
+  return make_loft({{z0, cut.inset}, {z0 + chamfer, cut.sides}, {z1 - chamfer, cut.sides}, {z1, cut.inset}},
+                   {bevels, middle, bevels});
+}
+
+/// A point of the concentrator's profile at its parameter phi, from 2 theta (full entrance) to theta +
+/// 90 deg (exit).
+struct ProfilePoint {
+  double radius, z;
+};
+ProfilePoint winston_profile(double exit_radius, double theta, double phi) {
+  const double scale = 2.0 * exit_radius * (1.0 + std::sin(theta)) / (1.0 - std::cos(phi));
+  return {scale * std::sin(phi - theta) - exit_radius, scale * std::cos(phi - theta)};
+}
+
+double winston_parameter(double exit_radius, double theta, double z) {
+  double entrance = 2.0 * theta, exit = theta + 0.5 * core::kPi;  // z falls as phi rises
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (entrance + exit);
+    (winston_profile(exit_radius, theta, middle).z > z ? entrance : exit) = middle;
+  }
+  return 0.5 * (entrance + exit);
+}
+
+}  // namespace
+
+TriMesh make_prism(int sides, double circumradius, double height, double chamfer) {
+  require(sides >= 3, "a prism of " + std::to_string(sides) + " sides", "give at least 3 sides");
+  require(is_length(circumradius) && is_length(height), "a prism needs a positive radius and height", "");
+  const std::vector<Vec2> outline = regular_polygon(sides, circumradius);
+  const std::vector<std::string> names = numbered_sides(sides);
+  return chamfer == 0.0 ? straight_prism(outline, 0.0, height, names)
+                        : chamfered_prism(outline, 0.0, height, chamfer, names);
+}
+
+TriMesh make_chamfered_box(const core::Vec3& low, const core::Vec3& high, double chamfer) {
+  require(low.allFinite() && high.allFinite() && ((high - low).array() > 0.0).all(),
+          "a box needs three positive finite sides",
+          "the first corner must be below the second along x, y and z");
+  return chamfered_prism(rectangle_corners(low.head<2>(), high.head<2>()), low.z(), high.z(), chamfer,
+                         kRectangleSides);
+}
+
+TriMesh make_tapered(const Rectangle& bottom, const Rectangle& top, double height) {
+  require(is_length(height), "a taper needs a positive height", "");
+  std::vector<LoftRing> rings;
+  for (const Rectangle* end : {&bottom, &top}) {
+    const Vec2 half(0.5 * end->size[0], 0.5 * end->size[1]), centre(end->centre[0], end->centre[1]);
+    require(is_length(half.x()) && is_length(half.y()) && centre.allFinite(),
+            "the ends of a taper need positive sizes", "");
+    rings.push_back({end == &bottom ? 0.0 : height, rectangle_corners(centre - half, centre + half)});
+  }
+  return make_loft(rings, {kRectangleSides});
+}
+
+double winston_length(double exit_radius, double acceptance_rad) {
+  return exit_radius * (1.0 + 1.0 / std::sin(acceptance_rad)) / std::tan(acceptance_rad);
+}
+
+double winston_radius(double exit_radius, double acceptance_rad, double z) {
+  const double phi = winston_parameter(exit_radius, acceptance_rad, z);
+  return winston_profile(exit_radius, acceptance_rad, phi).radius;
+}
+
+TriMesh make_winston(const WinstonShape& shape) {
+  const double theta = shape.acceptance_rad;
+  require(is_length(shape.exit_radius), "a Winston cone needs a positive exit radius", "");
+  require(theta > 0.0 && theta < 0.5 * core::kPi, "an acceptance angle outside 0 to 90 deg",
+          "give the largest angle to the axis that is to reach the exit");
+  require(shape.segments >= 3 && shape.rings >= 1, "a Winston cone of too few segments or rings",
+          "give 3 segments and 1 ring at least");
+  const double full = winston_length(shape.exit_radius, theta);
+  const double length = shape.length == 0.0 ? full : shape.length;
+  require(is_length(length) && length <= full * (1.0 + 1e-12),
+          "a Winston cone longer than " + std::to_string(full) + " mm, where its walls become parallel",
+          "give that length or less");
+  const double entrance =
+      shape.length == 0.0 ? 2.0 * theta : winston_parameter(shape.exit_radius, theta, length);
+  const bool trough = shape.trough_width > 0.0;
+  std::vector<LoftRing> rings;
+  for (int i = 0; i <= shape.rings; ++i) {
+    const double exit = theta + 0.5 * core::kPi;
+    const ProfilePoint point =
+        winston_profile(shape.exit_radius, theta, exit + (entrance - exit) * i / shape.rings);
+    // The ends are put where they are known to be, free of rounding.
+    const double z = i == 0 ? 0.0 : i == shape.rings ? length : point.z;
+    const Vec2 half(point.radius, 0.5 * shape.trough_width);
+    rings.push_back(
+        {z, trough ? rectangle_corners(-half, half) : regular_polygon(shape.segments, point.radius)});
+  }
+  const std::vector<std::string> round(static_cast<std::size_t>(shape.segments), "side");
+  return make_loft(rings,
+                   std::vector(static_cast<std::size_t>(shape.rings), trough ? kRectangleSides : round));
+}
+
+}  // namespace scintray::mesh

@@ -1,0 +1,67 @@
+#include "scintray/mesh/trimesh.hpp"
+
+#include <charconv>
+
+namespace scintray::mesh {
+
+core::Vec3 TriMesh::area_vector(std::size_t triangle) const {
+  const auto& [a, b, c] = triangles[triangle];
+  return 0.5 * (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]);
+}
+
+double TriMesh::area() const {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) sum += area_vector(t).norm();
+  return sum;
+}
+
+double TriMesh::volume() const {
+  if (triangles.empty()) return 0.0;
+  // Tetrahedra from a vertex of the mesh: far from the origin, tetrahedra from there would cancel.
+  const core::Vec3 apex = vertices[triangles.front()[0]];
+  double sum = 0.0;
+  for (const auto& [a, b, c] : triangles) {
+    sum += (vertices[a] - apex).dot((vertices[b] - apex).cross(vertices[c] - apex)) / 6.0;
+  }
+  return sum;
+}
+
+std::string tag_text(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+const FaceTags& TriMesh::tags_of(std::size_t group_number) const {
+  static const FaceTags none;
+  return group_number < group_tags.size() ? group_tags[group_number] : none;
+}
+
+std::uint32_t TriMesh::group_index(const std::string& name, const FaceTags& tags) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g] == name && tags_of(g) == tags) return static_cast<std::uint32_t>(g);
+  groups.push_back(name);
+  if (!tags.empty() || !group_tags.empty()) {
+    group_tags.resize(groups.size());
+    group_tags.back() = tags;
+  }
+  return static_cast<std::uint32_t>(groups.size() - 1);
+}
+
+core::Vec3 centre_of(const TriMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
+}
+
+void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!wanted[t]) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    if (!mesh.group.empty()) mesh.group[kept] = mesh.group[t];
+    ++kept;
+  }
+  mesh.triangles.resize(kept);
+  if (!mesh.group.empty()) mesh.group.resize(kept);
+}
+
+}  // namespace scintray::mesh

@@ -1,0 +1,94 @@
+#pragma once
+/// Reflection and refraction at a smooth facet between two lossless dielectrics.
+///
+/// Formulae: M. Born and E. Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. (20), (21).
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/core/plain_vec.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/core/vec.hpp"
+
+namespace scintray::optics {
+
+/// Snell's law at an incidence-angle cosine in [0,1], from index n1 to index n2.
+struct Refraction {
+  double ratio;   ///< n1 / n2
+  double sin2_i;  ///< sine squared of incidence
+  double sin2_t;  ///< ... and of refraction; 1 or more: total reflection
+
+  Refraction(double cos_i, double n1, double n2)
+      : ratio(n1 / n2), sin2_i(1.0 - cos_i * cos_i), sin2_t(ratio * ratio * sin2_i) {}
+  bool total() const { return sin2_t >= 1.0; }
+  double cos_t() const { return std::sqrt(1.0 - sin2_t); }
+};
+
+/// Amplitudes of the reflected electric field relative to the incident one, below the critical angle.
+struct FresnelAmplitudes {
+  double s;  ///< electric field across the plane of incidence
+  double p;  ///< electric field in the plane of incidence
+
+  /// @param cos_i  cosine of incidence in index n1; @param cos_t  of refraction in index n2
+  FresnelAmplitudes(double cos_i, double cos_t, double n1, double n2)
+      : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
+        p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
+};
+
+/// Power reflectances for the two polarisations, and the refraction angle.
+struct FresnelCoefficients {
+  double reflectance_s = 1.0;  ///< electric field across the plane of incidence
+  double reflectance_p = 1.0;  ///< electric field in the plane of incidence
+  double cos_refracted = 0.0;  ///< 0 under total reflection
+
+  double unpolarised() const { return 0.5 * (reflectance_s + reflectance_p); }
+};
+
+/// Coefficients for light in index n1 that meets index n2 at incidence-angle cosine cos_i in [0,1].
+inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
+  const Refraction refraction(cos_i, n1, n2);
+  if (refraction.total()) return {};
+  const double cos_t = refraction.cos_t();
+  const FresnelAmplitudes r(cos_i, cos_t, n1, n2);
+  return {r.s * r.s, r.p * r.p, cos_t};
+}
+
+/// A travelling photon's direction and linear polarisation. A zero polarisation vector means
+/// unpolarised light: Fresnel then uses the mean of the two reflectances.
+struct Ray {
+  core::PlainVec3 direction;
+  core::PlainVec3 polarisation;
+};
+static_assert(std::is_trivially_copyable_v<Ray>);
+
+/// Reflects at a facet with unit normal `m` (either orientation). The polarisation component along
+/// the normal is kept and the others change sign, as for total reflection without the phase lag
+/// between s and p, which one linear polarisation vector cannot carry.
+inline void reflect(Ray& ray, const core::Vec3& m) {
+  ray.direction = core::mirror(ray.direction, m);
+  ray.polarisation = -core::mirror(ray.polarisation, m);
+}
+
+/// Sends the ray in any direction; a polarised one with a polarisation of its own.
+inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  ray.direction = core::sample_isotropic(rng);
+  if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+}
+
+/// Meets a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
+/// polarisation and turns the polarisation accordingly.
+///
+/// @param m   unit normal against the ray: direction . m <= 0
+/// @param n1  index where the ray is; @param n2 index behind the facet
+/// @return true when the ray was refracted into n2.
+bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng);
+
+/// Refracts `ray` by Snell's law without reflecting any of it, as a thin film with indices n1 and n2 on its
+/// sides does with what it lets through; the shares of the two polarisations stay. Beyond the critical
+/// angle it is reflected instead. Arguments and result as of interact_at_facet.
+bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2);
+
+}  // namespace scintray::optics

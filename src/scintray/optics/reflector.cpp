@@ -1,0 +1,116 @@
+#include "scintray/optics/reflector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scintray/core/sampling.hpp"
+
+namespace scintray::optics {
+
+namespace {
+
+void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  ray.direction = core::sample_lambertian(normal, rng);
+  if (polarised)
+    ray.polarisation = core::sample_polarisation(ray.direction, rng);  // diffuse light: none left
+}
+
+bool is_specular(const Reflector& reflector, core::Rng& rng) {
+  return reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share;
+}
+
+/// Light that the sheet lets pass: through, or back where there is no way out beyond.
+SheetOutcome pass(const Reflector& reflector, Ray& ray, const core::Vec3& normal, double index_here,
+                  double index_beyond, core::Rng& rng) {
+  if (is_specular(reflector, rng))
+    return refract_only(ray, normal, index_here, index_beyond) ? SheetOutcome::through : SheetOutcome::back;
+  const double ratio = index_beyond / index_here;
+  const bool back = ratio < 1.0 && rng.uniform() >= ratio * ratio;
+  scatter_lambertian(ray, back ? normal : core::Vec3(-normal), rng);
+  return back ? SheetOutcome::back : SheetOutcome::through;
+}
+
+/// Light that has been refracted into a volume-like reflector, until it is out again.
+SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
+                               double index_here, double index_beyond, double reflectance,
+                               double transmittance, core::Rng& rng, ReflectionLog* log) {
+  for (bool from_here = true;;) {
+    const double u = rng.uniform();
+    if (u >= reflectance + transmittance) return SheetOutcome::absorbed;
+    if (log && u < reflectance) log->add(reflector, reflectance);
+    const bool to_here = (u < reflectance) == from_here;
+    const core::Vec3 out = to_here ? normal : core::Vec3(-normal);
+    scatter_lambertian(ray, out, rng);
+    if (interact_at_facet(ray, -out, reflector.volume_index, to_here ? index_here : index_beyond, rng))
+      return to_here ? SheetOutcome::back : SheetOutcome::through;
+    from_here = to_here;
+  }
+}
+
+/// Every wavelength (nm) at which a curve of the sheet has a point; one of no meaning when all are constant.
+std::set<double> wavelengths_of(const Reflector& reflector) {
+  std::set<double> at;
+  const auto add = [&](const core::Curve& curve) {
+    if (!curve.is_constant()) at.insert(curve.x().begin(), curve.x().end());
+  };
+  add(reflector.reflectance);
+  if (reflector.transmittance) add(*reflector.transmittance);
+  if (at.empty()) at.insert(0.0);
+  return at;
+}
+
+}  // namespace
+
+SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
+                                   double index_here, double index_beyond, double wavelength_nm,
+                                   core::Rng& rng, ReflectionLog* log) {
+  const double reflectance = reflector.reflectance(wavelength_nm);
+  const double transmittance = reflector.transmittance ? (*reflector.transmittance)(wavelength_nm) : 0.0;
+  if (reflector.volume_index > 0.0) {
+    if (!interact_at_facet(ray, normal, index_here, reflector.volume_index, rng)) return SheetOutcome::back;
+    return scatter_in_volume(reflector, ray, normal, index_here, index_beyond, reflectance, transmittance,
+                             rng, log);
+  }
+  const double u = rng.uniform();
+  if (u >= reflectance)
+    return u < reflectance + transmittance ? pass(reflector, ray, normal, index_here, index_beyond, rng)
+                                           : SheetOutcome::absorbed;
+  if (log) log->add(reflector, reflectance);
+  if (is_specular(reflector, rng))
+    reflect(ray, normal);
+  else
+    scatter_lambertian(ray, normal, rng);
+  return SheetOutcome::back;
+}
+
+double most_kept(const Reflector& reflector) {
+  double most = 0.0;
+  for (const double nm : wavelengths_of(reflector))
+    most = std::max(
+        most, reflector.reflectance(nm) + (reflector.transmittance ? (*reflector.transmittance)(nm) : 0.0));
+  return most;
+}
+
+Reflector face_of_sheet(const Reflector& sheet) {
+  if (!sheet.transmittance) return sheet;
+  constexpr double kStep_nm = 1.0;
+  std::set<double> at = wavelengths_of(sheet);
+  const double last = *at.rbegin();
+  for (double nm = *at.begin() + kStep_nm; nm < last; nm += kStep_nm) at.insert(nm);
+  std::vector<double> x, reflectance, transmittance;
+  for (const double nm : at) {
+    const double through = (*sheet.transmittance)(nm);
+    const double r = sheet.reflectance(nm) / (1.0 + through);
+    x.push_back(nm);
+    reflectance.push_back(r);
+    transmittance.push_back(std::sqrt(through * (1.0 - r * r)));
+  }
+  Reflector face = sheet;
+  face.reflectance = core::Curve(x, std::move(reflectance));
+  face.transmittance = core::Curve(std::move(x), std::move(transmittance));
+  return face;
+}
+
+}  // namespace scintray::optics

@@ -1,0 +1,200 @@
+#include "scintray/optics/surface.hpp"
+
+#include <algorithm>
+
+#include "scintray/core/sampling.hpp"
+
+namespace scintray::optics {
+
+namespace {
+
+/// The microsurface during one interaction: a height map keeps its place while light goes to and fro.
+class Interaction {
+ public:
+  Interaction(const Surface& surface, const core::Vec3& normal, double wavelength_nm, ShiftingLight* light,
+              core::Rng& rng)
+      : surface_(surface), normal_(normal), wavelength_nm_(wavelength_nm), light_(light), rng_(rng) {}
+
+  double wavelength_nm() const { return wavelength_nm_; }
+
+  /// The ray arrives at the microsurface on `side` and leaves on the returned one.
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index) {
+    return std::visit(
+        [&](const auto& model) -> SurfaceOutcome {
+          using Model = std::decay_t<decltype(model)>;
+          if constexpr (std::is_same_v<Model, PaintedSurface>) {
+            return outcome_on(other(side));  // nothing between the light and the reflector
+          } else if constexpr (std::is_same_v<Model, std::shared_ptr<const SurfaceTable>>) {
+            return model->interact(ray, side, normal_, surface_.direction, wavelength_nm_, rng_);
+          } else if constexpr (std::is_same_v<Model, std::shared_ptr<const HeightField>>) {
+            if (!place_) place_ = model->random_place(normal_, surface_.direction, rng_);
+            return outcome_on(model->scatter(ray, side, *place_, index, rng_));
+          } else {
+            return outcome_on(model.scatter(ray, side, normal_, index, rng_));
+          }
+        },
+        surface_.microsurface);
+  }
+
+  /// Takes the ray through the gap from one of its faces; states whether it comes out at the far one, or
+  /// nothing when it is absorbed on the way.
+  std::optional<bool> cross_gap(Ray& ray, bool from_far) {
+    if (!surface_.gap_thickness_um) {
+      place_.reset();
+      return !from_far;
+    }
+    if (surface_.gap_shifter) return cross_coating(ray, from_far);
+    const double path_um = *surface_.gap_thickness_um / std::abs(ray.direction.dot(normal_));
+    const double absorption_per_mm = surface_.gap_absorption_per_mm(wavelength_nm_);
+    if (absorption_per_mm > 0.0 && core::sample_exponential(rng_) < absorption_per_mm * path_um * kMmPerUm)
+      return std::nullopt;
+    if (place_) place_->shift(ray.direction, path_um);
+    return !from_far;
+  }
+
+ private:
+  static constexpr double kMmPerUm = 1e-3;
+
+  std::optional<bool> cross_coating(Ray& ray, bool from_far) {
+    const double thickness_um = *surface_.gap_thickness_um;
+    double depth_um = from_far ? thickness_um : 0.0;  // from the microsurface
+    for (;;) {
+      const double shifting_per_mm = surface_.gap_shifter->absorption_per_mm()(wavelength_nm_);
+      const double total_per_mm = shifting_per_mm + surface_.gap_absorption_per_mm(wavelength_nm_);
+      const double along = ray.direction.dot(normal_);
+      const double to_face_um = (along > 0.0 ? thickness_um - depth_um : depth_um) / std::abs(along);
+      const double depth = core::sample_exponential(rng_);
+      const bool absorbed = depth < total_per_mm * to_face_um * kMmPerUm;
+      const double path_um = absorbed ? depth / (total_per_mm * kMmPerUm) : to_face_um;
+      if (place_) place_->shift(ray.direction, path_um);
+      if (!absorbed) return along > 0.0;
+      depth_um += path_um * along;
+      if (rng_.uniform() * total_per_mm >= shifting_per_mm || !shift(ray)) return std::nullopt;
+    }
+  }
+
+  /// Lets the gap's shifter absorb the photon; false when it does not give it back.
+  bool shift(Ray& ray) {
+    if (!light_) return false;
+    const auto back = surface_.gap_shifter->absorb(wavelength_nm_, rng_, light_->count);
+    if (!back) return false;
+    wavelength_nm_ = light_->wavelength_nm = back->wavelength_nm;
+    light_->delay_ns += back->delay_ns;
+    scatter_isotropic(ray, rng_);
+    return true;
+  }
+
+  const Surface& surface_;
+  const core::Vec3& normal_;
+  double wavelength_nm_;
+  ShiftingLight* light_;
+  core::Rng& rng_;
+  std::optional<MapPlace> place_;
+};
+
+const Surface& pick(const std::vector<SurfaceShare>& mixture, core::Rng& rng) {
+  double u = rng.uniform();
+  for (const SurfaceShare& part : mixture) {
+    if (u < part.share) return *part.surface;
+    u -= part.share;
+  }
+  return *mixture.back().surface;
+}
+
+/// Light that meets the far face of a gap from within it, or from beyond it.
+struct FarFace {
+  const std::optional<Reflector>& reflector;
+  const core::Vec3& normal;
+  double gap_index, beyond_index, wavelength_nm;
+  core::Rng& rng;
+  ReflectionLog* log;
+
+  enum class After { in_gap, beyond, absorbed };
+  After from_gap(Ray& ray) const {
+    if (reflector) {
+      const SheetOutcome outcome =
+          interact_at_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
+      return after(outcome, After::in_gap, After::beyond);
+    }
+    return interact_at_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
+  }
+  After from_beyond(Ray& ray) const {
+    if (reflector) {  // the back of the sheet
+      const SheetOutcome outcome =
+          interact_at_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
+      return after(outcome, After::beyond, After::in_gap);
+    }
+    return interact_at_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
+  }
+  static After after(SheetOutcome outcome, After back, After through) {
+    return outcome == SheetOutcome::back      ? back
+           : outcome == SheetOutcome::through ? through
+                                              : After::absorbed;
+  }
+};
+
+}  // namespace
+
+SurfaceOutcome Surface::interact(Ray& ray, Side side, const core::Vec3& normal, IndexPair index,
+                                 double wavelength_nm, ShiftingLight* light, core::Rng& rng,
+                                 ReflectionLog* log) const {
+  if (!mixture.empty())
+    return pick(mixture, rng).interact(ray, side, normal, index, wavelength_nm, light, rng, log);
+  Interaction interaction(*this, normal, wavelength_nm, light, rng);
+  if (!reflector && !gap_thickness_um) return interaction.scatter(ray, side, index);
+
+  // Paint lies on the face itself: its light is still in the inside medium.
+  const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
+  IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
+  const auto far = [&] {
+    return FarFace{reflector, normal, under.outside, index.outside, interaction.wavelength_nm(), rng, log};
+  };
+  bool at_far_face = side == Side::outside;
+  if (at_far_face) {
+    switch (far().from_beyond(ray)) {
+      case FarFace::After::beyond:
+        return SurfaceOutcome::outside;
+      case FarFace::After::absorbed:
+        return SurfaceOutcome::absorbed;
+      case FarFace::After::in_gap:
+        break;
+    }
+  } else if (const SurfaceOutcome first = interaction.scatter(ray, side, under);
+             first != SurfaceOutcome::outside) {
+    return first;
+  }
+  for (;;) {
+    const double before_nm = interaction.wavelength_nm();
+    const std::optional<bool> crossed = interaction.cross_gap(ray, at_far_face);
+    if (!crossed) return SurfaceOutcome::absorbed;
+    at_far_face = *crossed;
+    if (interaction.wavelength_nm() != before_nm) {
+      index = light->index(interaction.wavelength_nm());
+      under = {index.inside, gap_index(interaction.wavelength_nm())};
+    }
+    if (at_far_face) {
+      const FarFace::After after = far().from_gap(ray);
+      if (after == FarFace::After::absorbed) return SurfaceOutcome::absorbed;
+      if (after == FarFace::After::beyond) return SurfaceOutcome::outside;
+    } else {
+      if (painted) return SurfaceOutcome::inside;
+      const SurfaceOutcome after = interaction.scatter(ray, Side::outside, under);
+      if (after != SurfaceOutcome::outside) return after;
+    }
+  }
+}
+
+bool Surface::mixture_shifts() const {
+  return std::any_of(mixture.begin(), mixture.end(),
+                     [](const SurfaceShare& part) { return part.surface->shifts(); });
+}
+
+bool Surface::opaque() const {
+  if (!mixture.empty())
+    return std::all_of(mixture.begin(), mixture.end(),
+                       [](const SurfaceShare& part) { return part.surface->opaque(); });
+  const auto* table = std::get_if<std::shared_ptr<const SurfaceTable>>(&microsurface);
+  return (reflector && !reflector->transmittance) || (table && (*table)->opaque());
+}
+
+}  // namespace scintray::optics

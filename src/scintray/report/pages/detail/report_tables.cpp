@@ -1,0 +1,363 @@
+#include "scintray/report/pages/detail/sections.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "scintray/analysis/light_analysis.hpp"
+#include "scintray/core/vec.hpp"
+#include "scintray/report/pages/detail/html_parts.hpp"
+#include "scintray/report/plots/svg_plot.hpp"
+#include "scintray/report/text/format.hpp"
+
+namespace scintray::report {
+
+namespace {
+
+constexpr std::size_t kFewPoints = 4;
+
+std::uint64_t total(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
+
+/// One way for a photon to end, as the ledger lists them: media and surfaces by name.
+struct LedgerEntry {
+  std::string name;
+  std::string colour;                 ///< class of the bar
+  std::vector<std::uint64_t> counts;  ///< per point
+};
+
+std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
+  std::vector<LedgerEntry> entries;
+  const auto add = [&](const std::string& name, const std::string& colour, const auto& count) {
+    LedgerEntry entry{name, colour, {}};
+    for (const tally::PointResult& point : run.points) entry.counts.push_back(count(point));
+    entries.push_back(std::move(entry));
+  };
+  const auto fate = [](core::Fate f) {
+    return [f](const tally::PointResult& point) { return point.count(f); };
+  };
+  add("detected", "f0", fate(core::Fate::detected));
+  add("unconverted", "f1", fate(core::Fate::not_detected));
+  for (std::size_t m = 0; m < run.header.media.size(); ++m)
+    add("absorbed in " + run.header.media[m], "f2", [m](const tally::PointResult& point) {
+      return m < point.absorbed_in_medium.size() ? point.absorbed_in_medium[m] : 0;
+    });
+  for (std::size_t s = 0; s < run.header.surfaces.size(); ++s)
+    add("absorbed at " + run.header.surfaces[s], "f3", [s](const tally::PointResult& point) {
+      return s < point.absorbed_at_surface.size() ? point.absorbed_at_surface[s] : 0;
+    });
+  add("escaped", "f4", fate(core::Fate::escaped));
+  add("cut: interactions", "f5", fate(core::Fate::cut_interactions));
+  add("cut: time", "f5", fate(core::Fate::cut_time));
+  // What no photon met states nothing; that none was cut does.
+  std::erase_if(entries,
+                [](const LedgerEntry& entry) { return entry.colour != "f5" && total(entry.counts) == 0; });
+  return entries;
+}
+
+std::string bar(const std::vector<LedgerEntry>& entries, const tally::PointResult& point, std::size_t index) {
+  std::string out = "<div class=\"bar\">";
+  for (const LedgerEntry& entry : entries) {
+    if (entry.counts[index] == 0 || point.photons == 0) continue;
+    const double share =
+        100.0 * static_cast<double>(entry.counts[index]) / static_cast<double>(point.photons);
+    out += "<span class=\"" + entry.colour + "\" style=\"width:" + compact(share, 6) + "%\" title=\"" +
+           escape_html(entry.name + ": " +
+                       percent_with_error(core::binomial_estimate(entry.counts[index], point.photons))) +
+           "\">" + (share > 7.0 ? fixed(share, 1) + " %" : "") + "</span>";
+  }
+  return out + "</div>";
+}
+
+std::string bars(const tally::RunResult& run, const std::vector<LedgerEntry>& entries) {
+  std::string out = "<p class=\"key\">";
+  const char* const names[] = {"detected", "unconverted", "absorbed in media", "absorbed at surfaces",
+                               "escaped",  "cut"};
+  for (int i = 0; i < 6; ++i)
+    out += "<span><i class=\"f" + std::to_string(i) + "\"></i>" + names[i] + "</span>";
+  out += "</p>\n<div class=\"bars\">\n";
+  for (std::size_t i = 0; i < run.points.size(); ++i)
+    out += "<div class=\"who\">" + escape_html(point_label(run.points[i])) + "</div>" +
+           bar(entries, run.points[i], i) + "\n";
+  return out + "</div>\n";
+}
+
+std::string rate(double per_second) {
+  if (per_second >= 1e6) return compact(per_second / 1e6, 3) + " million";
+  if (per_second >= 1e3) return compact(per_second / 1e3, 3) + " thousand";
+  return compact(per_second, 3);
+}
+
+std::vector<double> even_edges(std::size_t bins, double width) {
+  std::vector<double> edges;
+  for (std::size_t i = 0; i <= bins; ++i) edges.push_back(width * static_cast<double>(i));
+  return edges;
+}
+
+std::vector<double> as_doubles(const std::vector<std::uint64_t>& counts) {
+  return {counts.begin(), counts.end()};
+}
+
+/// Cells with their head row and head column.
+using LedgerTable = std::vector<std::vector<std::string>>;
+
+LedgerTable ledger_table(const tally::RunResult& run, const std::vector<LedgerEntry>& entries) {
+  LedgerTable cells{{"point"}};
+  for (const LedgerEntry& entry : entries) cells[0].push_back(entry.name);
+  cells[0].insert(cells[0].end(), {"sum", "lost photons"});
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
+    const tally::PointResult& point = run.points[i];
+    std::vector<std::string> row{point_label(point)};
+    for (const LedgerEntry& entry : entries) {
+      const core::Estimate share = core::binomial_estimate(entry.counts[i], point.photons);
+      row.push_back(entry.counts[i] == 0 ? "0" : with_error({100.0 * share.value, 100.0 * share.error}));
+    }
+    const auto sum =
+        static_cast<double>(std::accumulate(point.fates.begin(), point.fates.end(), std::uint64_t{0}));
+    row.push_back(point.photons == 0 ? "no photons"
+                                     : compact(100.0 * sum / static_cast<double>(point.photons), 6));
+    row.push_back(grouped(point.lost));
+    cells.push_back(std::move(row));
+  }
+  return cells;
+}
+
+LedgerTable transposed(const LedgerTable& cells) {
+  LedgerTable turned(cells.front().size());
+  for (const auto& row : cells)
+    for (std::size_t i = 0; i < row.size(); ++i) turned[i].push_back(row[i]);
+  return turned;
+}
+
+std::string table_of(const LedgerTable& cells) {
+  std::string rows;
+  for (std::size_t r = 1; r < cells.size(); ++r) {
+    rows += cells[r].front() == "sum" ? "<tr class=\"sum\">" : "<tr>";
+    for (std::size_t i = 0; i < cells[r].size(); ++i)
+      rows += i == 0 ? cell(cells[r][i], "th") : number_cell(cells[r][i]);
+    rows += "</tr>\n";
+  }
+  return table(cells.front(), rows);
+}
+
+/// Points whose histograms are drawn at once: the ends of each curve of a sweep, else the first few.
+std::vector<std::size_t> shown_points(const tally::RunResult& run) {
+  std::vector<std::size_t> shown;
+  if (const auto view = view_sweep(run)) {
+    for (const SweepSeries& series : view->series) {
+      shown.push_back(series.points.front());
+      if (series.points.size() > 1) shown.push_back(series.points.back());
+    }
+  } else {
+    for (std::size_t i = 0; i < std::min(run.points.size(), kFewPoints); ++i) shown.push_back(i);
+  }
+  return shown;
+}
+
+/// "31.2 ± 0.1° inside and 40.1 ± 0.2° outside".
+std::string half_angles(const tally::ExitAngleTally& tally) {
+  const auto text = [](const std::vector<std::uint64_t>& counts) {
+    const core::Estimate half = analysis::divergence(counts).half_rad;
+    return with_error({half.value / core::kDegree, half.error / core::kDegree}) + "°";
+  };
+  return text(tally.inside) + " inside and " + text(tally.outside) + " outside";
+}
+
+std::string angle_figures(const tally::RunResult& run, const tally::PointResult& point) {
+  std::string figures;
+  for (const tally::ExitAngleTally& tally : point.exit_angles) {
+    if (total(tally.inside) + total(tally.outside) == 0) continue;
+    Plot plot;
+    plot.title = point_label(point) + ": " + tally.name;
+    plot.x_label = "angle to the outward normal of " + run.header.faces.at(tally.face) + " (deg)";
+    plot.y_label = "crossings per bin";
+    plot.width = 560.0;
+    plot.height = 300.0;
+    const auto add = [&](const char* side, const std::vector<std::uint64_t>& counts) {
+      if (counts.empty()) return;
+      const double width = 90.0 / static_cast<double>(counts.size());
+      plot.series.push_back({side, even_edges(counts.size(), width), as_doubles(counts), {}, true});
+    };
+    add("inside", tally.inside);
+    add("outside", tally.outside);
+    figures += "<figure>" + svg_plot(plot) + "<figcaption>" + escape_html(plot.title) +
+               (tally.detected_only ? " (last crossing of each detected photon)" : " (every crossing)") +
+               ". Half of the light is within " + half_angles(tally) +
+               " of the normal.</figcaption></figure>\n";
+  }
+  return figures;
+}
+
+}  // namespace
+
+std::string sweep_section(const tally::RunResult& run, const SweepView& view) {
+  Plot plot;
+  plot.title = "Detected fraction against " + view.key;
+  plot.x_label = view.key + (view.unit.empty() ? "" : " (" + view.unit + ")");
+  plot.y_label = "detected fraction";
+  std::vector<std::string> head{view.key};
+  for (const SweepSeries& series : view.series) {
+    PlotSeries drawn{series.label, series.x, {}, {}, false};
+    for (const std::size_t i : series.points) {
+      const core::Estimate light = run.points[i].fraction(core::Fate::detected);
+      drawn.y.push_back(light.value);
+      drawn.error.push_back(light.error);
+    }
+    plot.series.push_back(std::move(drawn));
+    head.push_back(series.label.empty() ? "detected fraction" : series.label);
+  }
+  std::string rows;
+  for (std::size_t r = 0; r < view.rows.size(); ++r) {
+    rows += "<tr>" + cell(view.rows[r], "th");
+    for (const SweepSeries& series : view.series) {
+      const auto found = std::find(series.x.begin(), series.x.end(), view.row_values[r]);
+      const auto at = static_cast<std::size_t>(found - series.x.begin());
+      rows += number_cell(found == series.x.end()
+                              ? ""
+                              : with_error(run.points[series.points[at]].fraction(core::Fate::detected)));
+    }
+    rows += "</tr>\n";
+  }
+  return section("Light output",
+                 "<figure>" + svg_plot(plot) +
+                     "<figcaption>Fraction of photons detected. Bars show one standard error; where "
+                     "none is seen it is smaller than the mark.</figcaption></figure>\n" +
+                     table(head, rows));
+}
+
+std::string headline(const tally::PointResult& point) {
+  return "<p class=\"headline\"><b>" + escape_html(percent_with_error(point.fraction(core::Fate::detected))) +
+         "</b> of the photons were detected</p>\n";
+}
+
+std::string fate_section(const tally::RunResult& run) {
+  const auto entries = ledger(run);
+  const LedgerTable cells = ledger_table(run, entries);
+  // A sweep grows downwards, a few points are read side by side.
+  const std::string numbers = run.points.size() > kFewPoints ? table_of(cells) : table_of(transposed(cells));
+  return section("Where every photon ended",
+                 bars(run, entries) +
+                     "<details open=\"open\"><summary>In per cent of the photons</summary>\n" + numbers +
+                     "</details>\n");
+}
+
+std::string sensor_section(const tally::RunResult& run) {
+  std::string rows;
+  for (const tally::PointResult& point : run.points)
+    for (const tally::SensorFaceCount& count : point.sensor_faces)
+      rows += "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
+              cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
+              number_cell(percent_with_error(core::binomial_estimate(count.detected, point.photons))) +
+              number_cell(grouped(count.not_detected)) + "</tr>\n";
+  if (rows.empty()) return "";
+  return section(
+      "Sensors, face by face",
+      "<details" + std::string(run.points.size() <= kFewPoints ? " open=\"open\"" : "") +
+          "><summary>Counts</summary>\n" +
+          table({"point", "sensor", "face", "detected", "of all photons", "not converted"}, rows, 3) +
+          "</details>\n");
+}
+
+std::string angle_section(const tally::RunResult& run) {
+  const auto shown = shown_points(run);
+  std::string first, others;
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
+    const bool drawn_at_once = std::find(shown.begin(), shown.end(), i) != shown.end();
+    (drawn_at_once ? first : others) += angle_figures(run, run.points[i]);
+  }
+  if (first.empty() && others.empty()) return "";
+  std::string body = "<div class=\"grid\">\n" + first + "</div>\n";
+  if (!others.empty())
+    body += "<details><summary>The points between</summary>\n<div class=\"grid\">\n" + others +
+            "</div></details>\n";
+  return section("Exit angles", body);
+}
+
+std::string path_section(const tally::RunResult& run) {
+  std::string figures, rows;
+  for (const tally::PointResult& point : run.points) {
+    if (point.detected_path_mm.count > 0)
+      rows += "<tr>" + cell(point_label(point), "th") +
+              number_cell(with_error(point.detected_path_mm.mean()) + " mm") +
+              number_cell(with_error(point.detected_time_ns.mean()) + " ns") +
+              number_cell(with_error(point.detected_interactions.mean())) +
+              number_cell(with_error(point.interactions.mean())) + "</tr>\n";
+  }
+  std::size_t used = 0;
+  for (const tally::PointResult& point : run.points)
+    for (std::size_t bin = 0; bin < 50; ++bin)
+      if (point.detected_path_histogram[bin] > 0) used = std::max(used, bin + 1);
+  const std::size_t bins = std::min<std::size_t>(50, used + 1);
+  const auto shown = shown_points(run);
+  for (std::size_t k = 0; k < shown.size() && used > 0; k += 2) {
+    Plot plot;
+    plot.title = "Path length of detected photons";
+    plot.x_label = "path length (mm)";
+    plot.y_label = "photons per 10 mm";
+    plot.width = 560.0;
+    plot.height = 300.0;
+    std::uint64_t beyond = 0;
+    for (std::size_t j = k; j < std::min(k + 2, shown.size()); ++j) {
+      const tally::PointResult& point = run.points[shown[j]];
+      const auto& histogram = point.detected_path_histogram;
+      plot.series.push_back({point_label(point),
+                             even_edges(bins, 10.0),
+                             {histogram.begin(), histogram.begin() + static_cast<long>(bins)},
+                             {},
+                             true});
+      beyond += histogram.back();
+    }
+    figures += "<figure>" + svg_plot(plot) + "<figcaption>Path length of detected photons" +
+               (plot.series.size() == 1 ? ": " + escape_html(plot.series[0].label) : "") + "; " +
+               grouped(beyond) + " went 500 mm or more</figcaption></figure>\n";
+  }
+  if (rows.empty()) return "";
+  return section(
+      "Paths of detected photons",
+      "<div class=\"grid\">\n" + figures + "</div>\n" +
+          table({"point", "mean path", "mean time", "bounces, detected", "bounces, all photons"}, rows));
+}
+
+std::string condition_section(const tally::RunResult& run) {
+  std::uint64_t photons = 0, segments = 0, misses = 0, lost = 0;
+  double seconds = 0.0, bias = 0.0;
+  for (const tally::PointResult& point : run.points) {
+    photons += point.photons;
+    segments += point.segments;
+    misses += point.resolved_misses;
+    lost += point.lost;
+    seconds += point.wall_seconds;
+    bias = std::max(bias, point.cut_bias_bound());
+  }
+  std::string rows;
+  const auto row = [&](const std::string& name, const std::string& value) {
+    rows += "<tr>" + cell(name, "th") + cell(value) + "</tr>\n";
+  };
+  row("ScintRay", run.header.version);
+  row("scene", run.header.scene_file);
+  row("seed", std::to_string(run.header.seed));
+  row("photons", grouped(photons) + " in " + grouped(run.points.size()) +
+                     (run.points.size() == 1 ? " point" : " points"));
+  row("lost photons", grouped(lost));
+  row("largest bias from cut photons",
+      bias == 0.0 ? "none: no photon was cut" : compact(bias, 2) + " of a fraction");
+  row("straight segments", grouped(segments) + ", " + grouped(misses) + " resolved by the exact query");
+  row("time", compact(seconds, 3) + " s");
+  if (seconds > 0.0)
+    row("speed", rate(static_cast<double>(segments) / seconds) + " segments/s, " +
+                     rate(static_cast<double>(photons) / seconds) + " photons/s");
+  std::string notes;
+  if (!run.header.note.empty()) {
+    notes = "<h3>Warnings</h3>\n<ul>\n";
+    for (std::size_t start = 0; start < run.header.note.size();) {
+      const std::size_t end = std::min(run.header.note.find('\n', start), run.header.note.size());
+      if (end > start) notes += "<li>" + escape_html(run.header.note.substr(start, end - start)) + "</li>\n";
+      start = end + 1;
+    }
+    notes += "</ul>\n";
+  }
+  return section("Conditions of the run", "<div class=\"scroll\"><table class=\"pairs\"><tbody>\n" + rows +
+                                              "</tbody></table></div>\n" + notes);
+}
+
+}  // namespace scintray::report

@@ -1,0 +1,52 @@
+#include "scintray/report/pages/page.hpp"
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/core/version.hpp"
+#include "scintray/report/plots/svg_plot.hpp"
+#include "scintray/report/text/format.hpp"
+
+namespace scintray::report {
+
+namespace {
+
+constexpr const char* kPageStyle = R"css(
+:root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }
+@media (prefers-color-scheme: dark) {
+:root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
+  font: 16px/1.5 system-ui, sans-serif; }
+h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
+h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-bottom: 1px solid var(--rule); }
+.under { color: var(--soft); margin: 0; }
+figure { margin: 0; break-inside: avoid; } figcaption { font-weight: 600; margin-bottom: .3rem; }
+figcaption span { color: var(--soft); font-weight: 400; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
+th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
+thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
+)css";
+
+}  // namespace
+
+std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
+                       const std::string& body) {
+  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
+  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
+          escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
+          "</style>\n</head>\n<body>\n";
+  page += "<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) + "</p>\n";
+  return page + body + "</body>\n</html>\n";
+}
+
+std::string html_page(const std::string& title, const std::string& under, const std::string& style,
+                      const std::string& body) {
+  return html_frame(title, under + " · ScintRay " + core::version(), style, body);
+}
+
+void write_page(const std::filesystem::path& path, const std::string& content) {
+  core::write_whole_file(path, content);
+}
+
+}  // namespace scintray::report

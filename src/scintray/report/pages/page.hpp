@@ -1,0 +1,21 @@
+#pragma once
+/// The frame of the self-contained HTML pages: light and dark, no scripts, nothing loaded from elsewhere.
+
+#include <filesystem>
+#include <string>
+
+namespace scintray::report {
+
+/// A page whose style covers text, tables (.n: numbers), figures and plots; `style` is added CSS.
+/// `title` and `under`, the line below it, are escaped. `body` is HTML.
+std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
+                       const std::string& body);
+
+/// The same with the version of this program after `under`.
+std::string html_page(const std::string& title, const std::string& under, const std::string& style,
+                      const std::string& body);
+
+/// Writes a page or a drawing. SystemError when it cannot.
+void write_page(const std::filesystem::path& path, const std::string& content);
+
+}  // namespace scintray::report

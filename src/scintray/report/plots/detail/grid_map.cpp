@@ -1,0 +1,133 @@
+#include "scintray/report/plots/detail/grid_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "scintray/core/vec.hpp"
+#include "scintray/report/plots/png_image.hpp"
+#include "scintray/report/plots/svg_plot.hpp"
+#include "scintray/report/text/format.hpp"
+
+namespace scintray::report {
+
+namespace {
+
+/// Drawing: longest side of the grid, and room for ticks and labels.
+constexpr double kSide = 340.0, kLeft = 64.0, kBelow = 46.0, kMargin = 12.0;
+constexpr double kMostStretch = 4.0;
+constexpr std::uint32_t kPolarPixels = 320;
+
+void check(const GridMap& map) {
+  if (map.values.size() != map.rows * map.columns || map.values.empty())
+    throw std::invalid_argument("a map of " + std::to_string(map.values.size()) + " values for " +
+                                std::to_string(map.rows) + " x " + std::to_string(map.columns) + " cells");
+}
+
+double largest(const GridMap& map) {
+  return std::max(*std::max_element(map.values.begin(), map.values.end()), 1e-300);
+}
+
+std::string scale(const GridMap& map) {
+  return "<div class=\"scale\"><span>0</span><i style=\"background:" + viridis_gradient() + "\"></i><span>" +
+         escape_html(compact(largest(map), 3) + " " + map.value_label) + "</span></div>\n";
+}
+
+std::string image(const std::string& data, double x, double y, double width, double height) {
+  return fmt::format(
+      "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\" "
+      "style=\"image-rendering:pixelated\" href=\"{}\"/>\n",
+      x, y, width, height, data);
+}
+
+std::string opening(double width, double height, const std::string& alternative) {
+  return fmt::format(
+      "<svg class=\"grid-map\" viewBox=\"0 0 {0:.0f} {1:.0f}\" style=\"max-width:{0:.0f}px\" role=\"img\" "
+      "aria-label=\"{2}\">\n",
+      width, height, escape_html(alternative));
+}
+
+}  // namespace
+
+std::string grid_map(const GridMap& map) {
+  check(map);
+  const double wide = map.x_high - map.x_low, high = map.y_high - map.y_low;
+  const double ratio = wide > 0.0 && high > 0.0 ? wide / high : 1.0;
+  const bool keeps = ratio < kMostStretch && ratio > 1.0 / kMostStretch;
+  const double width = keeps && ratio < 1.0 ? kSide * ratio : kSide;
+  const double height = keeps && ratio > 1.0 ? kSide / ratio : kSide;
+
+  std::vector<Colour> pixels;
+  const double most = largest(map);
+  for (std::size_t row = map.rows; row-- > 0;)
+    for (std::size_t column = 0; column < map.columns; ++column)
+      pixels.push_back(viridis(map.values[row * map.columns + column] / most));
+  const std::string data =
+      png_data(pixels, static_cast<std::uint32_t>(map.columns), static_cast<std::uint32_t>(map.rows));
+
+  std::string out = opening(kLeft + width + kMargin, kMargin + height + kBelow, map.alternative);
+  out += image(data, kLeft, kMargin, width, height);
+  for (const double tick : nice_ticks(map.x_low, map.x_high, 5)) {
+    if (tick < map.x_low || tick > map.x_high) continue;
+    out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+                       kLeft + width * (tick - map.x_low) / wide, kMargin + height + 16.0, compact(tick));
+  }
+  for (const double tick : nice_ticks(map.y_low, map.y_high, 5)) {
+    if (tick < map.y_low || tick > map.y_high) continue;
+    out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
+                       kLeft - 6.0, kMargin + height * (map.y_high - tick) / high + 4.0, compact(tick));
+  }
+  out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+                     kLeft + 0.5 * width, kMargin + height + 36.0, escape_html(map.x_label));
+  out += fmt::format(
+      "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n</svg>\n",
+      kMargin + 0.5 * height, escape_html(map.y_label));
+  return out + scale(map);
+}
+
+std::string polar_map(const GridMap& map) {
+  check(map);
+  const double most = largest(map);
+  constexpr double kHalf = 0.5 * kPolarPixels, kMiddle = kMargin + 0.5 * kSide;
+  std::vector<Colour> pixels;
+  for (std::uint32_t y = 0; y < kPolarPixels; ++y)
+    for (std::uint32_t x = 0; x < kPolarPixels; ++x) {
+      const double right = (x + 0.5 - kHalf) / kHalf, up = (kHalf - y - 0.5) / kHalf;
+      const double polar = 0.5 * core::kPi * std::hypot(right, up);
+      if (polar >= 0.5 * core::kPi) {
+        pixels.push_back(viridis(0.0));
+        continue;
+      }
+      const double sine = std::sin(polar), azimuth = std::atan2(up, right);
+      const auto row =
+          std::min(map.rows - 1, static_cast<std::size_t>(sine * sine * static_cast<double>(map.rows)));
+      const auto column = std::min(
+          map.columns - 1,
+          static_cast<std::size_t>((azimuth + core::kPi) / core::kTwoPi * static_cast<double>(map.columns)));
+      pixels.push_back(viridis(map.values[row * map.columns + column] / most));
+    }
+  std::string out = opening(kSide + 2.0 * kMargin, kSide + 2.0 * kMargin, map.alternative);
+  out += image(png_data(pixels, kPolarPixels, kPolarPixels), kMargin, kMargin, kSide, kSide);
+  out += fmt::format(
+      "<path class=\"beyond\" fill-rule=\"evenodd\" d=\"M0 0H{0}V{0}H0Z M{1} {2}a{3} {3} 0 1 0 {4} 0a{3} {3} "
+      "0 1 0 "
+      "-{4} 0Z\"/>\n",
+      kSide + 2.0 * kMargin, kMargin, kMiddle, 0.5 * kSide, kSide);
+  for (const int degrees : {30, 60, 90})
+    out += fmt::format("<circle class=\"ring\" cx=\"{0}\" cy=\"{0}\" r=\"{1:.1f}\"/>\n", kMiddle,
+                       0.5 * kSide * degrees / 90.0);
+  return out + "</svg>\n" + scale(map);
+}
+
+std::string grid_map_style() {
+  return ".grid-map { width: 100%; height: auto; display: block; } .grid-map text { font-size: 13px; fill: "
+         "var(--ink); }\n"
+         ".grid-map .tick { font-size: 12px; fill: var(--soft); } .grid-map .beyond { fill: var(--paper); }\n"
+         ".grid-map .ring { fill: none; stroke: #fff; stroke-opacity: .5; }\n"
+         ".scale { display: flex; gap: .5rem; align-items: center; font-size: .85rem; color: var(--soft); }\n"
+         ".scale i { width: 10rem; height: .7rem; border-radius: 2px; }\n";
+}
+
+}  // namespace scintray::report

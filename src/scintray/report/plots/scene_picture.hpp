@@ -1,0 +1,32 @@
+#pragma once
+/// A scene seen from three sides, as SVG.
+
+#include <string>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+#include "scintray/report/plots/png_image.hpp"
+
+namespace scintray::report {
+
+struct PicturePart {
+  std::string name;
+  std::string medium;  ///< decides the colour
+  const mesh::TriMesh* mesh = nullptr;
+};
+
+/// Something to point at.
+struct PictureMark {
+  std::string text;
+  std::vector<core::Vec3> places;  ///< mm
+};
+
+/// A colour for the medium that is the `index`th to appear (Okabe and Ito 2008, without the red that marks
+/// need; repeated after six).
+Colour picture_colour(std::size_t index);
+
+/// Front, side and top view in one scale: parts translucent, farther ones first, with their edges and
+/// outlines; each mark a numbered red ring; and below the media and what the marks say.
+std::string scene_svg(const std::vector<PicturePart>& parts, const std::vector<PictureMark>& marks);
+
+}  // namespace scintray::report

@@ -1,0 +1,143 @@
+#pragma once
+/// The columns of a results file's tables: detected photons, events, what channels saw of them, the channels,
+/// and what wavelength shifters did.
+
+#include <cmath>
+
+#include "scintray/optics/wavelength_shifter.hpp"
+#include "scintray/tally/event_record.hpp"
+#include "scintray/tally/readout_channels.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray::results::format {
+
+/// Calls visit(name, member) for every column of a kind of row, which the null pointer names;
+/// `member(row)` is a reference to its value.
+template <typename Visit>
+void for_each_column(const tally::DetectedPhoton*, const Visit& visit) {
+  visit(
+      "point", [](auto& p) -> auto& { return p.point; });
+  visit(
+      "event", [](auto& p) -> auto& { return p.event; });
+  visit(
+      "photon", [](auto& p) -> auto& { return p.photon; });
+  visit(
+      "part", [](auto& p) -> auto& { return p.part; });
+  visit(
+      "face", [](auto& p) -> auto& { return p.face; });
+  visit(
+      "x_mm", [](auto& p) -> auto& { return p.position_mm[0]; });
+  visit(
+      "y_mm", [](auto& p) -> auto& { return p.position_mm[1]; });
+  visit(
+      "z_mm", [](auto& p) -> auto& { return p.position_mm[2]; });
+  visit(
+      "direction_x", [](auto& p) -> auto& { return p.direction[0]; });
+  visit(
+      "direction_y", [](auto& p) -> auto& { return p.direction[1]; });
+  visit(
+      "direction_z", [](auto& p) -> auto& { return p.direction[2]; });
+  visit(
+      "wavelength_nm", [](auto& p) -> auto& { return p.wavelength_nm; });
+  visit(
+      "time_ns", [](auto& p) -> auto& { return p.time_ns; });
+  visit(
+      "path_mm", [](auto& p) -> auto& { return p.path_mm; });
+  visit(
+      "interactions", [](auto& p) -> auto& { return p.interactions; });
+}
+
+/// A row of /events: an event without its channels, which are rows of /signals.
+struct EventRow {
+  tally::EventRecord event;
+  std::uint64_t first_signal = 0;  ///< row of /signals
+};
+
+/// A row of /signals.
+struct SignalRow {
+  std::uint64_t event_row = 0;  ///< row of /events
+  std::uint32_t channel = 0;    ///< number within the point
+  tally::ChannelRecord signal;
+};
+
+template <typename Visit>
+void for_each_column(const EventRow*, const Visit& visit) {
+  visit(
+      "point", [](auto& r) -> auto& { return r.event.point; });
+  visit(
+      "event", [](auto& r) -> auto& { return r.event.event; });
+  visit(
+      "energy_keV", [](auto& r) -> auto& { return r.event.energy_keV; });
+  visit(
+      "escaped_keV", [](auto& r) -> auto& { return r.event.escaped_keV; });
+  visit(
+      "unseen_keV", [](auto& r) -> auto& { return r.event.non_scintillating_keV; });
+  visit(
+      "mean_x_mm", [](auto& r) -> auto& { return r.event.position_mm[0]; });
+  visit(
+      "mean_y_mm", [](auto& r) -> auto& { return r.event.position_mm[1]; });
+  visit(
+      "mean_z_mm", [](auto& r) -> auto& { return r.event.position_mm[2]; });
+  visit(
+      "main_part", [](auto& r) -> auto& { return r.event.part; });
+  visit(
+      "photons_emitted", [](auto& r) -> auto& { return r.event.emitted; });
+  visit(
+      "photons_detected", [](auto& r) -> auto& { return r.event.detected; });
+  visit(
+      "first_signal", [](auto& r) -> auto& { return r.first_signal; });
+}
+
+template <typename Visit>
+void for_each_column(const SignalRow*, const Visit& visit) {
+  visit(
+      "event_row", [](auto& r) -> auto& { return r.event_row; });
+  visit(
+      "channel", [](auto& r) -> auto& { return r.channel; });
+  visit(
+      "photons_detected", [](auto& r) -> auto& { return r.signal.detected; });
+  visit(
+      "first_ns", [](auto& r) -> auto& { return r.signal.first_ns; });
+  visit(
+      "charge", [](auto& r) -> auto& { return r.signal.charge; });
+  visit(
+      "amplitude", [](auto& r) -> auto& { return r.signal.amplitude; });
+  visit(
+      "pickoff_ns", [](auto& r) -> auto& { return r.signal.time_ns; });
+}
+
+/// The numbers of a channel.
+template <typename Visit>
+void for_each_channel_number(const Visit& visit) {
+  visit(
+      "channel_x_mm", [](auto& c) -> auto& { return c.position.x(); });
+  visit(
+      "channel_y_mm", [](auto& c) -> auto& { return c.position.y(); });
+  visit(
+      "channel_z_mm", [](auto& c) -> auto& { return c.position.z(); });
+  visit(
+      "channel_normal_x", [](auto& c) -> auto& { return c.normal.x(); });
+  visit(
+      "channel_normal_y", [](auto& c) -> auto& { return c.normal.y(); });
+  visit(
+      "channel_normal_z", [](auto& c) -> auto& { return c.normal.z(); });
+  visit(
+      "channel_area_mm2", [](auto& c) -> auto& { return c.area_mm2; });
+}
+
+/// True when a channel has something to say of an event; other channels have no row.
+inline bool has_signal(const tally::ChannelRecord& record) {
+  return record.detected > 0 || !std::isnan(record.charge);  // NaN: no readout
+}
+
+/// Calls `visit(name, member)` for each column; `member` points to the field of ShiftCount that it holds.
+template <typename Visit>
+void for_each_shift_column(Visit&& visit) {
+  visit("shifter_absorbed", &optics::ShiftCount::absorbed);
+  visit("shifter_emitted", &optics::ShiftCount::emitted);
+  visit("energy_before", &optics::ShiftCount::before_eV);
+  visit("energy_after", &optics::ShiftCount::after_eV);
+  visit("energy_kept", &optics::ShiftCount::kept_eV);
+}
+
+}  // namespace scintray::results::format

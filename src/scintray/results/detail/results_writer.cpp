@@ -1,0 +1,345 @@
+#include <map>
+#include <optional>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+#include "scintray/results/detail/columns.hpp"
+#include "scintray/results/detail/goniometer_columns.hpp"
+#include "scintray/results/detail/row_table.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/results/results_format.hpp"
+
+namespace scintray::results {
+
+namespace {
+
+using format::describe;
+using format::numbered;
+using format::put;
+using format::put_text;
+
+void put_moments(core::h5::Group& point, const std::string& name, const std::string& unit,
+                 const std::string& description, const core::Moments& moments) {
+  core::h5::Group group = point.create_group(name);
+  group.set_attribute("", "description", description);
+  group.set_attribute("", "unit", unit);
+  format::put(group, "count", moments.count);
+  format::put(group, "sum", moments.sum);
+  format::put(group, "sum_of_squares", moments.sum_of_squares);
+  format::put(group, "mean", moments.mean().value);
+  format::put(group, "mean_error", moments.mean().error);
+}
+
+void put_fates(core::h5::Group& group, const tally::PointResult& point) {
+  std::vector<std::uint64_t> counts(point.fates.begin(), point.fates.end());
+  std::vector<double> fractions, errors;
+  for (int fate = 0; fate < core::kFateCount; ++fate) {
+    const core::Estimate estimate = point.fraction(core::fate_at(fate));
+    fractions.push_back(estimate.value);
+    errors.push_back(estimate.error);
+  }
+  format::put(group, "fate_count", counts);
+  format::put(group, "fate_fraction", fractions);
+  format::put(group, "fate_error", errors);
+}
+
+void put_shifts(core::h5::Group& point, const std::string& name, const std::string& description,
+                const std::vector<optics::ShiftCount>& counts) {
+  core::h5::Group group = point.create_group(name);
+  group.set_attribute("", "description", description);
+  format::for_each_shift_column([&](const char* field, auto member) {
+    std::vector<std::decay_t<decltype(optics::ShiftCount{}.*member)>> values;
+    for (const optics::ShiftCount& count : counts) values.push_back(count.*member);
+    format::put(group, field, values);
+  });
+}
+
+void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFaceCount>& faces) {
+  core::h5::Group group = point.create_group("sensor_faces");
+  group.set_attribute("", "description", std::string("photons that reached each sensor through each face"));
+  std::vector<std::uint32_t> part, face;
+  std::vector<std::uint64_t> detected, not_detected;
+  for (const tally::SensorFaceCount& count : faces) {
+    part.push_back(count.part);
+    face.push_back(count.face);
+    detected.push_back(count.detected);
+    not_detected.push_back(count.not_detected);
+  }
+  format::put(group, "part", part);
+  format::put(group, "face", face);
+  format::put(group, "detected", detected);
+  format::put(group, "unconverted", not_detected);
+}
+
+void put_exit_angles(core::h5::Group& point, const std::vector<tally::ExitAngleTally>& tallies) {
+  core::h5::Group group = point.create_group("exit_angles");
+  group.set_attribute("", "description", std::string("histograms of crossing angles, one group a tally"));
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    core::h5::Group tally = group.create_group(format::numbered(i));
+    tally.set_attribute("", "name", tallies[i].name);
+    tally.set_attribute("", "face", static_cast<std::int64_t>(tallies[i].face));
+    tally.set_attribute("", "detected_only", static_cast<std::int64_t>(tallies[i].detected_only));
+    format::put(tally, "inside", tallies[i].inside);
+    format::put(tally, "outside", tallies[i].outside);
+  }
+}
+
+void put_axis(core::h5::Group& tally, const std::string& name, const tally::TallyAxis& axis) {
+  core::h5::Group group = tally.create_group(name);
+  group.set_attribute("", "variable", axis.variable);
+  group.set_attribute("", "unit", axis.unit);
+  if (axis.names.empty()) {
+    format::put(group, "edges", axis.edges);
+    format::put(group, "along", std::vector<double>(axis.along.begin(), axis.along.end()));
+  } else {
+    format::put_text(group, "names", axis.names);
+  }
+}
+
+void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& tallies) {
+  core::h5::Group group = point.create_group("tallies");
+  group.set_attribute("", "description", std::string("counts that the scene asked for, one group a tally"));
+  for (std::size_t i = 0; i < tallies.size(); ++i) {
+    const tally::TallyResult& from = tallies[i];
+    core::h5::Group tally = group.create_group(format::numbered(i));
+    tally.set_attribute("", "name", from.name);
+    tally.set_attribute("", "type", from.type);
+    tally.set_attribute("", "score", from.score);
+    tally.set_attribute("", "unit", from.unit);
+    std::vector<std::size_t> shape;
+    for (std::size_t k = 0; k < from.axes.size(); ++k) {
+      put_axis(tally, "axis_" + std::to_string(k), from.axes[k]);
+      shape.push_back(from.axes[k].bins());
+    }
+    tally.write("sum", from.sum, shape);
+    describe(tally, "sum");
+    tally.write("sum_of_squares", from.sum_of_squares, shape);
+    describe(tally, "sum_of_squares");
+    format::put(tally, "beyond", from.outside);
+    format::put(tally, "refractive_index", from.index);
+  }
+}
+
+void put_energy(core::h5::Group& point, const tally::EnergyBalance& energy) {
+  core::h5::Group group = point.create_group("energy");
+  group.set_attribute("", "description", std::string("what became of the energy of the events"));
+  format::put(group, "events_requested", energy.events_requested);
+  format::put(group, "events_traced", energy.events);
+  format::put(group, "events_silent", energy.silent);
+  format::put(group, "started_keV", energy.started);
+  format::put(group, "deposited_keV", energy.deposited);
+  format::put(group, "escaped_total_keV", energy.escaped);
+  format::put(group, "unseen_total_keV", energy.non_scintillating);
+  put_moments(group, "detected_per_event", "1",
+              "photons detected per event that left energy in a scintillator", energy.detected);
+}
+
+void put_light_timing(core::h5::Group& point, const tally::LightTiming& timing) {
+  core::h5::Group group = point.create_group("light_timing");
+  group.set_attribute("", "description", std::string("when one photon is detected, but for its way"));
+  std::vector<double> decay, rise, share;
+  for (const optics::DecayComponent& component : timing.decay) {
+    decay.push_back(component.decay_ns);
+    rise.push_back(component.rise_ns);
+    share.push_back(component.fraction);
+  }
+  format::put(group, "decay_ns", decay);
+  format::put(group, "rise_ns", rise);
+  format::put(group, "decay_share", share);
+  format::put(group, "time_spread_ns", timing.time_spread_ns);
+}
+
+void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChannel>& channels) {
+  core::h5::Group group = point.create_group("channels");
+  group.set_attribute("", "description", std::string("what the sensors are read out as"));
+  std::vector<std::string> names;
+  std::vector<std::uint32_t> parts;
+  for (const tally::ReadoutChannel& channel : channels) {
+    names.push_back(channel.name);
+    parts.push_back(channel.part);
+  }
+  format::put_text(group, "channel_name", names);
+  format::put(group, "channel_part", parts);
+  format::for_each_channel_number([&](const char* name, auto member) {
+    std::vector<double> column;
+    for (const tally::ReadoutChannel& channel : channels) column.push_back(member(channel));
+    format::put(group, name, column);
+  });
+}
+
+void put_header(core::h5::Group& root, const tally::RunHeader& header) {
+  root.set_attribute("", "format", std::string(format::kFormat));
+  root.set_attribute("", "version", kResultsVersion);
+  root.set_attribute("", "scintray_version", header.version);
+  root.set_attribute("", "title", header.title);
+  root.set_attribute("", "scene_file", header.scene_file);
+  format::put(root, "seed", header.seed);
+  format::put_text(root, "scene", {header.scene_text});
+  format::put_text(root, "sweep_keys", header.sweep_keys);
+  format::put_text(root, "media", header.media);
+  format::put_text(root, "surfaces", header.surfaces);
+  format::put_text(root, "parts", header.parts);
+  format::put_text(root, "faces", header.faces);
+  std::vector<std::string> fates;
+  for (int fate = 0; fate < core::kFateCount; ++fate)
+    fates.emplace_back(core::fate_name(core::fate_at(fate)));
+  format::put_text(root, "fate_names", fates);
+}
+
+/// A result may be written anew, anything else may be someone's only copy.
+void refuse_foreign_file(const std::filesystem::path& path) {
+  const auto status = std::filesystem::status(path);
+  if (!std::filesystem::exists(status) || is_results_file(path)) return;
+  throw core::InputError({{path.string()},
+                          "this exists and is not a ScintRay result, so it is not written over",
+                          "choose another name for the result, or move what is there away"});
+}
+
+}  // namespace
+
+struct ResultsWriter::State {
+  core::h5::File file;
+  core::h5::Group root, points;
+  std::string note;
+  std::size_t point_count = 0;
+  format::RowWriter<tally::DetectedPhoton> photons;
+  format::RowWriter<format::EventRow> events;
+  format::RowWriter<format::SignalRow> signals;
+  format::SampleWriter orders, pulses;  ///< a row a signal
+  std::optional<HistoryWriter> histories;
+  std::map<std::size_t, std::vector<tally::ReadoutChannel>> channels;  ///< per point, until it is written
+};
+
+ResultsWriter::ResultsWriter(const std::filesystem::path& path, const tally::RunHeader& header,
+                             bool photon_list) {
+  refuse_foreign_file(path);
+  core::h5::File file = core::h5::File::create(path);
+  core::h5::Group root = file.root();
+  put_header(root, header);
+  core::h5::Group points = root.create_group("points");
+  points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
+  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}, {}, {}, {}});
+  if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
+}
+
+ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
+ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
+ResultsWriter::~ResultsWriter() = default;
+
+void ResultsWriter::add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  format::put_surface_analyses(state_->root, analyses);
+}
+
+void ResultsWriter::append_photons(const std::vector<tally::DetectedPhoton>& photons) {
+  if (!state_->photons.exists()) throw core::InternalError("photons for a result that has no photon list");
+  for (const tally::DetectedPhoton& photon : photons) state_->photons.add(photon);
+}
+
+void ResultsWriter::begin_events(std::size_t point, std::vector<tally::ReadoutChannel> channels,
+                                 const std::optional<detector::ReadoutSpec>& readout) {
+  state_->channels[point] = std::move(channels);
+  const std::size_t orders = readout ? readout->photon_order.size() : 0;
+  const std::size_t samples = readout && readout->pulses ? readout->samples() : 0;
+  if (state_->events.exists()) {
+    if (orders != state_->orders.width() || samples != state_->pulses.width())
+      throw core::InputError(
+          {readout ? readout->where : core::FileLocation{},
+           "the points of the sweep differ in the number of samples or of n-th photons",
+           "keep readout.window, readout.sampling, pulses and photon_order the same in all points, "
+           "or make runs of their own"});
+    return;
+  }
+  state_->events = {state_->root, "events", "events, one row an event"};
+  state_->signals = {state_->root, "signals", "what channels saw of events, one row an event and channel"};
+  if (orders > 0) {
+    state_->orders = {state_->root, "photon_times", "times of the n-th photons, one row a signal", orders};
+    format::put(state_->orders.group(), "order", readout->photon_order);
+  }
+  if (samples > 0) {
+    state_->pulses = {state_->root, "pulses", "waveforms, one row a signal", samples};
+    format::put(state_->pulses.group(), "period_ns", readout->period_ns);
+    format::put(state_->pulses.group(), "first_sample_ns", -readout->before_ns);
+  }
+}
+
+void ResultsWriter::append_events(const std::vector<tally::EventRecord>& events) {
+  if (!state_->events.exists()) throw core::InternalError("events for a result that has none");
+  for (const tally::EventRecord& event : events) {
+    const std::uint64_t row = state_->events.rows();
+    state_->events.add({event, state_->signals.rows()});
+    for (std::uint32_t channel = 0; channel < event.channels.size(); ++channel) {
+      const tally::ChannelRecord& signal = event.channels[channel];
+      if (!format::has_signal(signal)) continue;
+      state_->signals.add({row, channel, signal});
+      state_->orders.add(signal.order_ns);
+      state_->pulses.add(signal.waveform);
+    }
+  }
+}
+
+void ResultsWriter::begin_histories(HistoryColumns columns) {
+  state_->histories.emplace(state_->root, std::move(columns));
+}
+
+void ResultsWriter::append_histories(const tally::PhotonHistories& histories,
+                                     const tally::HistorySubjects& point) {
+  if (!state_->histories) throw core::InternalError("histories for a result that has none");
+  state_->histories->add(histories, point);
+}
+
+void ResultsWriter::add_point(const tally::PointResult& point, const tally::HistorySubjects* history) {
+  const std::size_t number = state_->point_count++;
+  core::h5::Group group = state_->points.create_group(format::numbered(number));
+  group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
+  format::put_text(group, "parameters", point.parameters);
+  format::put(group, "photons_requested", point.photons_requested);
+  format::put(group, "photons_traced", point.photons);
+  put_fates(group, point);
+  format::put(group, "absorbed_in_medium", point.absorbed_in_medium);
+  format::put(group, "absorbed_at_surface", point.absorbed_at_surface);
+  put_shifts(group, "shifted_in_medium", "what the wavelength shifter of each medium did",
+             point.shifted_in_medium);
+  put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
+             point.shifted_at_surface);
+  put_sensor_faces(group, point.sensor_faces);
+  put_exit_angles(group, point.exit_angles);
+  put_tallies(group, point.tallies);
+  put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
+              point.interactions);
+  put_moments(group, "detected_path", "mm", "path length of detected photons", point.detected_path_mm);
+  put_moments(group, "detected_time", "ns", "time of detection since the event", point.detected_time_ns);
+  put_moments(group, "detected_interactions", "1", "boundary interactions of detected photons",
+              point.detected_interactions);
+  format::put(
+      group, "detected_path_histogram",
+      std::vector<std::uint64_t>(point.detected_path_histogram.begin(), point.detected_path_histogram.end()));
+  format::put(group, "scatterings", point.scatterings);
+  format::put(group, "segments", point.segments);
+  format::put(group, "resolved_misses", point.resolved_misses);
+  format::put(group, "lost", point.lost);
+  format::put(group, "wall_seconds", point.wall_seconds);
+  if (state_->histories && history) state_->histories->describe_point(group, *history);
+  if (point.energy.events_requested > 0) put_energy(group, point.energy);
+  if (point.light_timing) put_light_timing(group, *point.light_timing);
+  if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
+    put_channels(group, channels->second);
+    state_->channels.erase(channels);
+  }
+}
+
+void ResultsWriter::set_note(const std::string& note) { state_->note = note; }
+
+void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) {
+  state_->photons.write_waiting();
+  state_->events.write_waiting();
+  state_->signals.write_waiting();
+  state_->orders.write_waiting();
+  state_->pulses.write_waiting();
+  if (state_->histories) state_->histories->write_waiting();
+  format::put_text(state_->root, "note", {state_->note});
+  state_->root.set_attribute("", "complete", static_cast<std::int64_t>(complete));
+  state_->root.set_attribute("", "partial_reason", complete ? std::string() : reason_if_partial);
+  state_->file.commit();
+}
+
+}  // namespace scintray::results

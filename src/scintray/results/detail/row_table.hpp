@@ -1,0 +1,120 @@
+#pragma once
+/// Tables of a results file: a group whose datasets are columns of equal length.
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scintray/core/h5.hpp"
+#include "scintray/results/detail/columns.hpp"
+#include "scintray/results/results_format.hpp"
+
+namespace scintray::results::format {
+
+/// Type of the values of a column of rows.
+template <typename Row, typename Member>
+using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, Row&>>;
+
+/// Writes rows; they go to disk in blocks, so memory stays bounded.
+template <typename Row>
+class RowWriter {
+ public:
+  RowWriter() = default;
+  /// Makes the group and its columns.
+  RowWriter(core::h5::Group& root, const std::string& name, const std::string& description)
+      : group_(root.create_group(name)) {
+    group_->set_attribute("", "description", description);
+    for_each_column(static_cast<const Row*>(nullptr), [&](const char* column, auto member) {
+      group_->create_stream<ColumnValue<Row, decltype(member)>>(column, kBlockRows);
+      describe(*group_, column);
+    });
+  }
+
+  bool exists() const { return group_.has_value(); }
+  std::uint64_t rows() const { return rows_; }
+
+  void add(const Row& row) {
+    ++rows_;
+    waiting_.push_back(row);
+    if (waiting_.size() == kBlockRows) write_waiting();
+  }
+
+  void write_waiting() {
+    if (waiting_.empty()) return;
+    for_each_column(static_cast<const Row*>(nullptr), [&](const char* name, auto member) {
+      std::vector<ColumnValue<Row, decltype(member)>> column;
+      column.reserve(waiting_.size());
+      for (const Row& row : waiting_) column.push_back(member(row));
+      group_->append(name, column);
+    });
+    waiting_.clear();
+  }
+
+ private:
+  /// Rows kept in memory before they go to disk, and rows compressed together. While they are compressed,
+  /// other threads make the next ones, and would wait for larger blocks.
+  static constexpr std::size_t kBlockRows = 8192;
+
+  std::optional<core::h5::Group> group_;
+  std::vector<Row> waiting_;
+  std::uint64_t rows_ = 0;
+};
+
+/// Writes rows of equally many samples into the dataset "samples" of a group.
+class SampleWriter {
+ public:
+  SampleWriter() = default;
+  SampleWriter(core::h5::Group& root, const std::string& name, const std::string& description,
+               std::size_t width)
+      : group_(root.create_group(name)),
+        width_(width),
+        rows_(std::max<std::size_t>(1, kBlockSamples / width)) {
+    group_->set_attribute("", "description", description);
+    group_->create_stream<float>("samples", rows_, width);
+    describe(*group_, "samples");
+  }
+
+  core::h5::Group& group() { return *group_; }
+  std::size_t width() const { return width_; }
+
+  /// Nothing without a group.
+  void add(const std::vector<float>& samples) {
+    if (!group_) return;
+    waiting_.insert(waiting_.end(), samples.begin(), samples.end());
+    if (waiting_.size() >= rows_ * width_) write_waiting();
+  }
+
+  void write_waiting() {
+    if (group_) group_->append("samples", waiting_);
+    waiting_.clear();
+  }
+
+ private:
+  /// Samples kept in memory before they go to disk, and samples compressed together: 1 MB.
+  static constexpr std::size_t kBlockSamples = 262144;
+
+  std::optional<core::h5::Group> group_;
+  std::size_t width_ = 0, rows_ = 0;
+  std::vector<float> waiting_;
+};
+
+/// At most `count` rows from `offset` on. Nothing when the columns differ in length.
+template <typename Row>
+std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uint64_t offset,
+                                          std::uint64_t count) {
+  std::vector<Row> rows;
+  bool first = true, equal = true;
+  for_each_column(static_cast<const Row*>(nullptr), [&](const char* name, auto member) {
+    const auto column = group.read_part<ColumnValue<Row, decltype(member)>>(name, offset, count);
+    if (first) rows.resize(column.size());
+    first = false;
+    equal = equal && column.size() == rows.size();
+    for (std::size_t i = 0; i < std::min(column.size(), rows.size()); ++i) member(rows[i]) = column[i];
+  });
+  if (!equal) return std::nullopt;
+  return rows;
+}
+
+}  // namespace scintray::results::format

@@ -1,0 +1,104 @@
+#pragma once
+/// The results file: HDF5, described field by field in docs/results.md.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/analysis/goniometer/surface_analysis.hpp"
+#include "scintray/detector/readout_spec.hpp"
+#include "scintray/results/history_table.hpp"
+#include "scintray/tally/event_record.hpp"
+#include "scintray/tally/readout_channels.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray::results {
+
+/// Version of the layout; grows when a reader of the older one would misread the newer.
+inline constexpr std::int64_t kResultsVersion = 1;
+
+/// Writes one results file while a run goes on. Nothing is at `path` before commit().
+class ResultsWriter {
+ public:
+  /// Opens the file at once, so that a place that cannot be written is found before hours of work.
+  /// `photon_list` also prepares the list of detected photons. Throws InputError when `path` is taken
+  /// by something that is not a ScintRay result, SystemError when it cannot be written.
+  ResultsWriter(const std::filesystem::path& path, const tally::RunHeader& header, bool photon_list);
+  ResultsWriter(ResultsWriter&&) noexcept;
+  ResultsWriter& operator=(ResultsWriter&&) noexcept;
+  /// Without commit() nothing stays.
+  ~ResultsWriter();
+
+  /// Adds the surfaces that were read on the goniometer; once at most.
+  void add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses);
+  /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
+  void append_photons(const std::vector<tally::DetectedPhoton>& photons);
+  /// Says what the events of a point are read out by, before the first of them; without it the file has
+  /// no events. Throws InputError when points differ in the length of waveforms or in the order of photons.
+  void begin_events(std::size_t point, std::vector<tally::ReadoutChannel> channels,
+                    const std::optional<detector::ReadoutSpec>& readout);
+  /// Adds to the table of events, as append_photons does.
+  void append_events(const std::vector<tally::EventRecord>& events);
+  /// Prepares the table of photon histories, before the first of them; without it the file has none.
+  void begin_histories(HistoryColumns columns);
+  /// Adds histories of the point whose media and reflectors these are, as append_photons does.
+  void append_histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& point);
+  /// Adds the result of the next point, and how it was traced where histories are kept.
+  void add_point(const tally::PointResult& point, const tally::HistorySubjects* history = nullptr);
+  /// Replaces the warnings of the header, which may grow during the run.
+  void set_note(const std::string& note);
+  /// Puts the file in place. An interrupted run is committed with complete = false and the reason
+  /// ("interrupted by Ctrl-C"); readers then show it as partial.
+  void commit(bool complete, const std::string& reason_if_partial = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What a file states about being partial.
+struct ResultsStatus {
+  bool complete = false;
+  std::string reason;  ///< empty when complete
+  bool has_photon_list = false;
+  std::uint64_t listed_photons = 0;
+  std::uint64_t listed_events = 0;  ///< 0 when there are none
+};
+
+/// Reads everything but the photon list. Throws InputError when the file is missing, is not a ScintRay
+/// result, has a version this program does not read (both versions are named) or contradicts itself.
+tally::RunResult read_results(const std::filesystem::path& path);
+ResultsStatus read_results_status(const std::filesystem::path& path);
+
+/// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
+std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
+                                                std::uint64_t count);
+
+/// Surfaces that were read on the goniometer; empty when there are none.
+std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path);
+
+/// What the events of a point are read out by; empty when it has none.
+std::vector<tally::ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
+
+/// Which photons the times of n-th photons are of, from 1; empty without such times.
+std::vector<std::uint64_t> read_photon_order(const std::filesystem::path& path);
+
+/// How much of events is read.
+enum class EventDetail {
+  numbers,       ///< without the times of n-th photons and the waveforms
+  photon_times,  ///< without the waveforms
+  all,
+};
+
+/// At most `count` events from row `offset` on, in the order of points. Each has all channels of its
+/// point. Throws InputError when there are no events.
+std::vector<tally::EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
+                                            std::uint64_t count, EventDetail detail = EventDetail::all);
+
+/// True when `path` is an HDF5 file that ScintRay wrote as a result, of whatever version.
+bool is_results_file(const std::filesystem::path& path);
+
+}  // namespace scintray::results

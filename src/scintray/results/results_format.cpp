@@ -1,0 +1,223 @@
+#include "scintray/results/results_format.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "scintray/results/results.hpp"
+
+namespace scintray::results::format {
+
+namespace {
+
+constexpr std::array kFields = {
+    // the run
+    Field{"seed", "1", "seed of the random streams"},
+    Field{"scene", "", "the scene file, whole"},
+    Field{"note", "", "warnings of the run, one a line"},
+    Field{"sweep_keys", "", "swept keys, the slowest first"},
+    Field{"media", "", "names of the media; absorbed_in_medium is in this order"},
+    Field{"surfaces", "", "names of the surfaces; absorbed_at_surface is in this order"},
+    Field{"parts", "", "names of the parts; columns called part are indices into this"},
+    Field{"faces", "", "names of the faces as part:face; columns called face are indices into this"},
+    Field{"fate_names", "", "names of the fates; the fate datasets are in this order"},
+    // a point
+    Field{"parameters", "", "value of each swept key at this point, as written"},
+    Field{"photons_requested", "1", "photons asked for"},
+    Field{"photons_traced", "1", "photons followed to their end"},
+    Field{"fate_count", "1", "photons per fate"},
+    Field{"fate_fraction", "1", "fate_count / photons_traced"},
+    Field{"fate_error", "1", "binomial standard error of fate_fraction"},
+    Field{"absorbed_in_medium", "1", "photons absorbed in each medium"},
+    Field{"absorbed_at_surface", "1", "photons absorbed at each surface"},
+    Field{"shifter_absorbed", "1", "photons absorbed by the wavelength shifter"},
+    Field{"shifter_emitted", "1", "of these, photons given back; the others are absorbed"},
+    Field{"energy_before", "eV", "energy of the photons given back, as they were absorbed"},
+    Field{"energy_after", "eV", "energy of the same photons as they were given back"},
+    Field{"energy_kept", "eV", "energy of the photons not given back"},
+    Field{"detected_path_histogram", "1",
+          "detected photons per 10 mm of path length; the last bin is 500 mm and more"},
+    Field{"scatterings", "1", "scatterings in media"},
+    Field{"segments", "1", "straight flights traced"},
+    Field{"resolved_misses", "1", "ray queries settled by the exact search"},
+    Field{"lost", "1", "photons without a fate; zero in every sound run"},
+    Field{"wall_seconds", "s", "time the point took"},
+    // sensor_faces
+    Field{"detected", "1", "photons converted by the sensor that came through the face"},
+    Field{"unconverted", "1", "photons not converted by the sensor that came through the face"},
+    // exit_angles
+    Field{"inside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium of the face's part"},
+    Field{"outside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium beyond"},
+    // tallies
+    Field{"names", "", "what each bin of the axis stands for"},
+    Field{"edges", "see group", "edges of the bins, one more than bins"},
+    Field{"along", "1", "direction along which a position, start or direction is measured; zeros otherwise"},
+    Field{"beyond", "see group", "score of what fell beyond the axes"},
+    Field{"refractive_index", "1",
+          "of the medium in which directions at the face are; 0 when there is no one index"},
+    // energy
+    Field{"events_requested", "1", "events asked for"},
+    Field{"events_traced", "1", "events traced to their end"},
+    Field{"events_silent", "1", "of them, those that left no energy in a scintillator"},
+    Field{"started_keV", "keV", "energy of all particles as they started; 0 when it is not known"},
+    Field{"deposited_keV", "keV", "energy left in scintillators, all events"},
+    Field{"escaped_total_keV", "keV", "energy carried out of the scene, all events"},
+    Field{"unseen_total_keV", "keV", "energy left in what does not scintillate, all events"},
+    // light_timing
+    Field{"decay_ns", "ns", "decay time of each exponential of the emission"},
+    Field{"rise_ns", "ns", "its rise time"},
+    Field{"decay_share", "1", "its share of the light"},
+    Field{"time_spread_ns", "ns", "standard deviation of the sensors' transit time or single photon time"},
+    // events
+    Field{"energy_keV", "keV", "energy left in scintillators"},
+    Field{"escaped_keV", "keV", "energy carried out of the scene"},
+    Field{"unseen_keV", "keV", "energy left in what does not scintillate"},
+    Field{"mean_x_mm", "mm", "mean of the deposits, weighted by energy, x"},
+    Field{"mean_y_mm", "mm", "mean of the deposits, weighted by energy, y"},
+    Field{"mean_z_mm", "mm", "mean of the deposits, weighted by energy, z"},
+    Field{"main_part", "1", "part of the largest deposit, index into /parts; 4294967295: none"},
+    Field{"photons_emitted", "1", "photons emitted"},
+    Field{"photons_detected", "1", "photons converted by sensors"},
+    Field{"first_signal", "1", "the event's first row of /signals; the next event's follow its last"},
+    // signals
+    Field{"event_row", "1", "row of /events"},
+    Field{"channel", "1", "number of the channel within its point"},
+    Field{"first_ns", "ns", "time of the first detected photon since the event; NaN: none"},
+    Field{"charge", "photoelectrons", "charge after the sensor's response; NaN without a readout"},
+    Field{"amplitude", "photoelectrons", "of the waveform; NaN without a readout"},
+    Field{"pickoff_ns", "ns", "time by the readout's pick-off; NaN: none"},
+    // photon_times, pulses
+    Field{"samples", "see group", "one row for each row of /signals"},
+    Field{"order", "1", "which photons: 1 is the first"},
+    Field{"period_ns", "ns", "time between samples"},
+    Field{"first_sample_ns", "ns", "time of the first sample since the event"},
+    // benches
+    Field{"cell_polar_low_deg", "deg", "cell of directions: least angle to the normal"},
+    Field{"cell_polar_high_deg", "deg", "cell of directions: largest angle to the normal"},
+    Field{"cell_azimuth_low_deg", "deg", "cell of directions: azimuth from forward, where it begins"},
+    Field{"cell_azimuth_high_deg", "deg", "cell of directions: azimuth from forward, where it ends"},
+    Field{"cell_solid_angle_sr", "sr", "cell of directions: solid angle"},
+    Field{"index_inside", "1", "refractive index of the medium that the light comes from"},
+    Field{"index_outside", "1", "refractive index of the medium behind the surface"},
+    Field{"rays", "1", "rays shot at each angle of incidence"},
+    Field{"incidence_deg", "deg", "angles of incidence"},
+    Field{"reflectance", "1", "share of the rays that is reflected, at each incidence"},
+    Field{"reflectance_error", "1", "its standard error"},
+    Field{"mean_slope_deg", "deg",
+          "mean angle of the facets met first to the mean normal, at each incidence"},
+    Field{"mean_slope_error_deg", "deg", "its standard error; 0: interpolated in a table"},
+    Field{"directions_at_deg", "deg", "angle of incidence of what follows"},
+    Field{"rays_reflected", "1", "rays reflected"},
+    Field{"rays_transmitted", "1", "rays transmitted"},
+    Field{"rays_absorbed", "1", "rays absorbed"},
+    Field{"lobe_width", "1",
+          "rms of the reflected rays' component across their mean direction, in the plane of incidence"},
+    Field{"reflected_cells", "1", "reflected rays in each cell of directions"},
+    Field{"transmitted_cells", "1", "transmitted rays in each cell of directions"},
+    Field{"reflected_profile", "1", "reflected rays near the plane of incidence, bins of 1 deg from -90 deg"},
+    Field{"transmitted_profile", "1",
+          "transmitted rays near the plane of incidence, bins of 1 deg from -90 deg"},
+    // channels
+    Field{"channel_name", "", "name of each channel: a sensor's part, or part:face of a face that is one"},
+    Field{"channel_part", "1", "the sensor's part, index into /parts"},
+    Field{"channel_x_mm", "mm", "centre of the faces through which light enters, x"},
+    Field{"channel_y_mm", "mm", "centre of the faces through which light enters, y"},
+    Field{"channel_z_mm", "mm", "centre of the faces through which light enters, z"},
+    Field{"channel_normal_x", "1", "mean normal of these faces, into the sensor, x"},
+    Field{"channel_normal_y", "1", "mean normal of these faces, into the sensor, y"},
+    Field{"channel_normal_z", "1", "mean normal of these faces, into the sensor, z"},
+    Field{"channel_area_mm2", "mm2", "area of these faces"},
+    // moments
+    Field{"count", "1", "photons counted"},
+    Field{"sum", "see group", "sum over the photons"},
+    Field{"sum_of_squares", "see group, squared", "sum over the photons of the square of what each gave"},
+    Field{"mean", "see group", "sum / count"},
+    Field{"mean_error", "see group", "standard error of mean"},
+    // photons
+    Field{"point", "1", "index of the point of the sweep"},
+    Field{"event", "1", "event number"},
+    Field{"photon", "1", "photon number within the event; with seed and event, enough to replay it"},
+    Field{"part", "1", "sensor's part, index into /parts"},
+    Field{"face", "1", "face crossed, index into /faces"},
+    Field{"x_mm", "mm", "position of detection, x"},
+    Field{"y_mm", "mm", "position of detection, y"},
+    Field{"z_mm", "mm", "position of detection, z"},
+    Field{"direction_x", "1", "direction of travel at detection, x"},
+    Field{"direction_y", "1", "direction of travel at detection, y"},
+    Field{"direction_z", "1", "direction of travel at detection, z"},
+    Field{"wavelength_nm", "nm", "wavelength in vacuum"},
+    Field{"time_ns", "ns", "time of detection since the event"},
+    Field{"path_mm", "mm", "path length since emission"},
+    Field{"interactions", "1", "boundary interactions since emission"},
+    // histories, traced_optics
+    Field{"history_media", "",
+          "media in which paths are recorded; columns with one number a medium are in "
+          "this order"},
+    Field{"history_gap_media", "", "media that fill gaps of surfaces too, where paths are not recorded"},
+    Field{"history_transmitting", "",
+          "reflectors that let light through, and surfaces with them: they are not recorded"},
+    Field{"reflector_surface", "",
+          "surface of each reflector, a mixture's own; columns with one number a "
+          "reflector are in this order"},
+    Field{"reflector_stack", "", "stack of each reflector: the surface, or what it is mixed of"},
+    Field{"reflector_name", "", "name of each reflector"},
+    Field{"medium_path_mm", "mm", "path length in each medium"},
+    Field{"absorption_depth", "1", "integral of 1 / absorption length along the path in each medium"},
+    Field{"reflections", "1", "reflections at each reflector that were survived by its reflectance"},
+    Field{"reflection_depth", "1", "sum of -ln(reflectance) over these reflections"},
+    Field{"absorption_per_mm_least", "1/mm",
+          "least 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"absorption_per_mm_most", "1/mm",
+          "most 1 / absorption length of each medium in the wavelengths in use"},
+    Field{"reflectance_least", "1", "least reflectance of each reflector in the wavelengths in use"},
+    Field{"reflectance_most", "1", "most reflectance of each reflector in the wavelengths in use"},
+};
+
+}  // namespace
+
+const Field& field(std::string_view name) {
+  for (const Field& known : kFields)
+    if (name == known.name) return known;
+  throw core::InternalError("results file: no description of " + std::string(name));
+}
+
+void describe(core::h5::Group& group, const std::string& name) {
+  const Field& known = field(name);
+  group.set_attribute(name, "description", std::string(known.description));
+  group.set_attribute(name, "unit", std::string(known.unit));
+}
+
+core::h5::File open_results(const std::filesystem::path& path) {
+  core::h5::File file = core::h5::File::open(path);
+  const core::h5::Group root = file.root();
+  if (!has_format(root))
+    throw core::InputError({{path.string()},
+                            "this HDF5 file is not a ScintRay result",
+                            "name a file that `scintray run` wrote"});
+  const std::int64_t version = root.integer_attribute("", "version");
+  if (version != kResultsVersion)
+    throw core::InputError({{path.string()},
+                            "this result has format version " + std::to_string(version) +
+                                " (written by ScintRay " + root.string_attribute("", "scintray_version") +
+                                "), but this program reads version " + std::to_string(kResultsVersion),
+                            version > kResultsVersion ? "use a newer ScintRay"
+                                                      : "run the scene again, or use the older ScintRay"});
+  return file;
+}
+
+bool has_format(const core::h5::Group& root) {
+  return root.has_attribute("", "format") && root.string_attribute("", "format") == kFormat;
+}
+
+core::InputError damaged(const std::filesystem::path& path, const std::string& what) {
+  return core::InputError({{path.string()},
+                           "this result contradicts itself: " + what,
+                           "copy it again from where it was made, or run again"});
+}
+
+std::string numbered(std::size_t index) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04zu", index);
+  return text.data();
+}
+
+}  // namespace scintray::results::format

@@ -1,0 +1,60 @@
+#pragma once
+/// Names, units and descriptions of everything in a results file, for its writer and its reader.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
+
+namespace scintray::results::format {
+
+inline constexpr const char* kFormat = "scintray-results";
+
+/// One dataset of the file.
+struct Field {
+  const char* name;
+  const char* unit;  ///< "1" for counts and fractions, "" for text
+  const char* description;
+};
+
+/// The description of dataset `name` ("photons", "path_mm"); InternalError when it has none, so that
+/// nothing undescribed is ever written.
+const Field& field(std::string_view name);
+
+/// Sets `description` and `unit` on a dataset just written.
+void describe(core::h5::Group& group, const std::string& name);
+
+/// Opens a result and checks that this program can read it; InputError when it cannot.
+core::h5::File open_results(const std::filesystem::path& path);
+
+/// True when the root states that the file is a ScintRay result.
+bool has_format(const core::h5::Group& root);
+
+/// The error of a result that contradicts itself.
+core::InputError damaged(const std::filesystem::path& path, const std::string& what);
+
+/// Writes a dataset and describes it.
+inline void put_text(core::h5::Group& group, const std::string& name,
+                     const std::vector<std::string>& values) {
+  group.write_strings(name, values);
+  describe(group, name);
+}
+template <typename T>
+void put(core::h5::Group& group, const std::string& name, const std::vector<T>& values) {
+  group.write(name, values);
+  describe(group, name);
+}
+/// A scalar.
+template <typename T>
+void put(core::h5::Group& group, const std::string& name, T value) {
+  group.write(name, std::vector<T>{value}, {});
+  describe(group, name);
+}
+
+/// "0007": name of the group of a point or tally.
+std::string numbered(std::size_t index);
+
+}  // namespace scintray::results::format

@@ -1,0 +1,382 @@
+#include "scintray/scene/accelerator.hpp"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include "scintray/core/error.hpp"
+#include "scintray/mesh/triangle_distance.hpp"
+
+namespace scintray::scene {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Rays start this far ahead, relative to the region's size, so that they do not meet the triangle
+/// they start on; single precision resolves about 1e-7.
+constexpr double kStartAhead = 1e-6;
+/// How far behind its start, relative to the region's size, a ray may already have left the region.
+constexpr double kBehind = 1e-5;
+/// Vertices this close to a plane, relative to the region's size, lie on it.
+constexpr double kCoplanar = 1e-10;
+/// Barycentric distance from a triangle's edges at which single precision is beyond doubt.
+constexpr float kClearOfEdge = 1e-4f;
+constexpr std::size_t kMostPlanes = 32;
+constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
+/// Meetings with the plane the ray starts on and leaves inwards that are stepped over before the exact
+/// search.
+constexpr int kMostSelfHits = 2;
+
+/// Single rays gain nothing from the widest vectors and lose some of the clock to them: with them a step in
+/// a box takes 3 % longer (tools/bench crystal), one in a million triangles as long.
+constexpr const char* kDevice = "set_affinity=0,max_isa=avx2";
+
+/// Triangles from which on Embree builds its hierarchy without splitting them.
+constexpr std::size_t kManyTriangles = 200'000;
+
+/// Distance in the plane from `point` to the triangle; 0 inside.
+double distance_outside(const BoundaryTriangle& triangle, const core::Vec3& normal, const core::Vec3& point) {
+  double outside = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const core::Vec3& a = triangle[static_cast<std::size_t>(i)];
+    const core::Vec3& b = triangle[static_cast<std::size_t>((i + 1) % 3)];
+    const core::Vec3 edge = b - a;
+    const double beyond = -normal.cross(edge).dot(point - a);
+    if (beyond > 0.0) outside = std::max(outside, mesh::distance_to_segment(point, a, b));
+  }
+  return outside;
+}
+
+#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, RTCRayHit& hit) { rtcIntersect1(scene, &hit); }
+#else
+void intersect(RTCScene scene, RTCRayHit& hit) {
+  RTCIntersectContext context;  // NOLINT(cppcoreguidelines-pro-type-member-init): the next line does it
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &hit);
+}
+#endif
+
+/// Embree reads the ray by fours: behind single stores its first instruction would wait until these have left
+/// the processor's store buffer (3 % of a step in a box).
+RTCRayHit make_ray(core::FourFloats origin_and_start, core::FourFloats direction_and_time) {
+  static_assert(offsetof(RTCRay, tnear) == 3 * sizeof(float) &&
+                offsetof(RTCRay, time) == offsetof(RTCRay, dir_x) + 3 * sizeof(float));
+  RTCRayHit hit;  // NOLINT(cppcoreguidelines-pro-type-member-init): what Embree does not read stays as it is
+  std::memcpy(&hit.ray.org_x, &origin_and_start, sizeof origin_and_start);
+  std::memcpy(&hit.ray.dir_x, &direction_and_time, sizeof direction_and_time);
+  hit.ray.tfar = std::numeric_limits<float>::infinity();
+  hit.ray.mask = 0xffffffffu;
+  hit.ray.flags = 0;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return hit;
+}
+
+RTCRayHit make_ray(const core::Vec3& origin, const core::Vec3& direction, double start) {
+  return make_ray(core::Lanes(origin, start).floats(), core::Lanes(direction, 0.0).floats());
+}
+
+/// The device of all accelerators of the process: it holds threads and settings, and no scene. Started by the
+/// first that needs it, by one thread only; released after the last scene that holds it, and not before the
+/// process ends.
+std::shared_ptr<RTCDeviceTy> embree_device() {
+  static const std::shared_ptr<RTCDeviceTy> device = [] {
+    const RTCDevice started = rtcNewDevice(kDevice);
+    if (!started) throw core::SystemError("Embree could not start on this machine");
+    return std::shared_ptr<RTCDeviceTy>(started, rtcReleaseDevice);
+  }();
+  return device;
+}
+
+}  // namespace
+
+struct Accelerator::EmbreeScene {
+  std::shared_ptr<RTCDeviceTy> shared_device = embree_device();
+  RTCScene scene = nullptr;
+
+  explicit EmbreeScene(const Boundary& triangles) {
+    const RTCDevice device = shared_device.get();
+    scene = rtcNewScene(device);
+    // Splitting triangles for a better hierarchy takes memory that large meshes feel.
+    rtcSetSceneBuildQuality(
+        scene, triangles.size() > kManyTriangles ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices =
+        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                    3 * sizeof(float), triangles.vertices.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+    if (!vertices || !indices) throw core::SystemError("Embree could not allocate its mesh buffers");
+    for (const core::PlainVec3& vertex : triangles.vertices)
+      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
+    std::copy(triangles.corners.begin(), triangles.corners.end(), indices);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      throw core::SystemError("Embree could not build its hierarchy (error " + std::to_string(error) + ")");
+  }
+  ~EmbreeScene() {
+    if (scene) rtcReleaseScene(scene);
+  }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+};
+
+namespace {
+
+bool ordered(const core::PlainVec3& a, const core::PlainVec3& b) {
+  return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
+}
+
+/// Fills in vertices and corners.
+void index_vertices(const std::vector<BoundaryTriangle>& triangles, Boundary& boundary) {
+  std::vector<core::PlainVec3>& vertices = boundary.vertices;
+  vertices.reserve(3 * triangles.size());
+  for (const BoundaryTriangle& triangle : triangles)
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+  std::sort(vertices.begin(), vertices.end(), ordered);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices.shrink_to_fit();
+  boundary.corners.reserve(3 * triangles.size());
+  for (const BoundaryTriangle& triangle : triangles)
+    for (const core::Vec3& vertex : triangle)
+      boundary.corners.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(vertices.begin(), vertices.end(), vertex, ordered) - vertices.begin()));
+}
+
+/// All but the planes of a convex region.
+Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles, bool closed) {
+  Boundary boundary;
+  index_vertices(triangles, boundary);
+  Eigen::AlignedBox3d bounds;
+  boundary.triangle_planes.reserve(triangles.size());
+  for (const BoundaryTriangle& t : triangles) {
+    const core::Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+    boundary.triangle_planes.push_back({normal, normal.dot(t[0])});
+    for (const core::Vec3& vertex : t) bounds.extend(vertex);
+  }
+  boundary.size_mm = triangles.empty() ? 0.0 : bounds.diagonal().norm();
+  boundary.closed = closed;
+  return boundary;
+}
+
+/// Fills in the planes of a convex region with few; false where it is none.
+bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
+  if (!boundary.closed || boundary.size() == 0) return false;
+  const double tolerance = kCoplanar * boundary.size_mm;
+  std::vector<BoundingPlane> planes;
+  std::vector<std::vector<std::uint32_t>> on;  // triangles on each
+  for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+    const BoundaryTriangle corners = boundary.triangle(i);
+    const auto on_plane = [&](const BoundingPlane& plane) {
+      return plane.normal.dot(boundary.triangle_planes[i].normal) > 0.0 &&
+             std::all_of(corners.begin(), corners.end(), [&](const core::Vec3& v) {
+               return std::abs(plane.normal.dot(v) - plane.offset) <= tolerance;
+             });
+    };
+    const auto known = std::find_if(planes.begin(), planes.end(), on_plane);
+    const auto at = static_cast<std::size_t>(known - planes.begin());
+    if (known == planes.end()) {
+      if (planes.size() == kMostPlanes) return false;
+      planes.push_back({boundary.triangle_planes[i].normal, boundary.triangle_planes[i].offset, i, 0, 0});
+      on.emplace_back();
+    }
+    on[at].push_back(i);
+  }
+  std::vector<std::uint32_t> plane_triangles;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    BoundingPlane& plane = planes[i];
+    for (const core::PlainVec3& vertex : boundary.vertices)
+      if (plane.normal.dot(vertex) > plane.offset + tolerance) return false;
+    const bool one_label = std::all_of(on[i].begin(), on[i].end(),
+                                       [&](std::uint32_t t) { return labels[t] == labels[plane.first]; });
+    if (one_label) continue;
+    if (on[i].size() > kMostTrianglesOnMixedPlane) return false;
+    plane.triangles_begin = static_cast<std::uint32_t>(plane_triangles.size());
+    plane_triangles.insert(plane_triangles.end(), on[i].begin(), on[i].end());
+    plane.triangles_end = static_cast<std::uint32_t>(plane_triangles.size());
+  }
+  boundary.planes = std::move(planes);
+  boundary.plane_triangles = std::move(plane_triangles);
+  return true;
+}
+
+Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles,
+                       const std::vector<std::uint32_t>& labels, bool closed,
+                       scene_file::AcceleratorKind kind) {
+  Boundary boundary = make_boundary(triangles, closed);
+  const bool planes = kind != scene_file::AcceleratorKind::embree && find_planes(labels, boundary);
+  if (!planes && kind == scene_file::AcceleratorKind::planes && closed)
+    throw core::InputError(
+        core::Problem{{},
+                      "accelerator \"planes\" is asked for, but a region is not convex with at most " +
+                          std::to_string(kMostPlanes) + " planes",
+                      "use accelerator = \"auto\" or \"embree\""});
+  return boundary;
+}
+
+}  // namespace
+
+Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
+                         const std::vector<std::uint32_t>& labels, bool closed,
+                         scene_file::AcceleratorKind kind)
+    : Accelerator(make_boundary(triangles, labels, closed, kind)) {}
+
+Accelerator::Accelerator(Boundary boundary)
+    : boundary_(std::move(boundary)), start_mm_(kStartAhead * boundary_.size_mm) {
+  if (boundary_.size() > 0 && boundary_.planes.empty()) embree_ = std::make_unique<EmbreeScene>(boundary_);
+}
+
+Accelerator::~Accelerator() = default;
+
+Exit Accelerator::find_exit(const core::Vec3& origin, const core::Vec3& direction) const {
+  if (!boundary_.planes.empty()) return exit_by_planes(origin, direction);
+  if (!embree_) return {};
+  const core::Lanes from(origin, -1.0), along(direction, 0.0);
+  const FirstHit hit = first_hit(core::Lanes(origin, start_mm_).floats(), along.floats());
+  if (hit.triangle != kNoTriangle) {
+    const Approach approach = approach_of(hit.triangle, from, along);
+    if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
+  }
+  return exact_exit(origin, direction, hit);
+}
+
+Exit Accelerator::exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const {
+  double nearest = kInfinity;
+  const BoundingPlane* exit = nullptr;
+  for (const BoundingPlane& plane : boundary_.planes) {
+    const double along = plane.normal.dot(direction);
+    if (along <= 0.0) continue;
+    const double distance = (plane.offset - plane.normal.dot(origin)) / along;
+    if (distance < nearest) {
+      nearest = distance;
+      exit = &plane;
+    }
+  }
+  nearest = std::max(nearest, 0.0);
+  std::uint32_t triangle = exit->first;
+  if (exit->triangles_begin != exit->triangles_end) {
+    const core::Vec3 point = origin + nearest * direction;
+    double least_outside = kInfinity;
+    for (std::uint32_t i = exit->triangles_begin; i < exit->triangles_end; ++i) {
+      const std::uint32_t candidate = boundary_.plane_triangles[i];
+      const double outside = distance_outside(boundary_.triangle(candidate), normal(candidate), point);
+      if (outside >= least_outside) continue;
+      least_outside = outside;
+      triangle = candidate;
+      if (outside == 0.0) break;
+    }
+  }
+  return {nearest, triangle, false};
+}
+
+FirstHit Accelerator::first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const {
+  RTCRayHit hit = make_ray(origin_and_start, direction);
+  intersect(embree_->scene, hit);
+  return {hit.ray.tfar, 0.0f, hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.hit.primID, 0};
+}
+
+Exit Accelerator::exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const {
+  for (int self_hits = 0;; ++self_hits) {
+    if (hit.triangle == kNoTriangle) {
+      if (!boundary_.closed) return {};
+      break;
+    }
+    const Approach approach =
+        approach_of(hit.triangle, core::Lanes(origin, -1.0), core::Lanes(direction, 0.0));
+    if (approach.cosine > 0.0) return {approach.distance_mm, hit.triangle, false};
+    const TrianglePlane& plane = boundary_.triangle_planes[hit.triangle];
+    const double ahead = plane.offset - plane.normal.dot(origin);
+    if (self_hits == kMostSelfHits || std::abs(ahead) > start_mm_) break;
+    const double start = std::nextafter(hit.distance_mm, std::numeric_limits<float>::infinity()) + start_mm_;
+    hit = first_hit(core::Lanes(origin, start).floats(), core::Lanes(direction, 0.0).floats());
+  }
+  return exit_by_search(origin, direction);
+}
+
+Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const {
+  const double behind = kBehind * boundary_.size_mm;
+  double entered = kInfinity;  // where the ray would come in again from outside
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (normal(i).dot(direction) >= 0.0) continue;
+    const double distance = distance_to_plane(i, origin, direction);
+    if (distance > behind && distance < entered &&
+        distance_outside(triangle(i), normal(i), origin + distance * direction) == 0.0)
+      entered = distance;
+  }
+  // The nearest triangle really met, or failing that the one that was missed by least.
+  Exit exit{0.0, kNoTriangle, true};
+  double least_miss = kInfinity;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (normal(i).dot(direction) <= 0.0) continue;
+    const double distance = distance_to_plane(i, origin, direction);
+    if (!(distance >= -behind && distance <= entered + behind)) continue;
+    const double outside = distance_outside(triangle(i), normal(i), origin + distance * direction);
+    const double miss = outside + (distance < -kCoplanar * boundary_.size_mm ? -distance : 0.0);
+    if (miss < least_miss || (miss == least_miss && distance < exit.distance_mm)) {
+      least_miss = miss;
+      exit.distance_mm = distance;
+      exit.triangle = i;
+    }
+  }
+  // An unbounded region is left through infinity unless the ray really went through an edge.
+  if (!boundary_.closed && least_miss > behind) return {0.0, kNoTriangle, true};
+  exit.distance_mm = std::max(0.0, exit.distance_mm);
+  return exit;
+}
+
+bool Accelerator::contains(const core::Vec3& point) const {
+  if (!boundary_.planes.empty())
+    return std::all_of(boundary_.planes.begin(), boundary_.planes.end(),
+                       [&](const BoundingPlane& plane) { return plane.normal.dot(point) <= plane.offset; });
+  if (!embree_) return false;
+  // A skew direction keeps clear of the edges that axis-aligned meshes have.
+  static const core::Vec3 kSkew = core::Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
+  const auto ahead = inside_by_embree(point, kSkew);
+  if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
+  const auto behind = inside_by_embree(point, -kSkew);
+  if (behind == Inside::yes || behind == Inside::no) return behind == Inside::yes;
+  if (ahead == Inside::no_hit && behind == Inside::no_hit) return false;
+  return inside_by_search(point, kSkew);
+}
+
+Accelerator::Inside Accelerator::inside_by_embree(const core::Vec3& point,
+                                                  const core::Vec3& direction) const {
+  RTCRayHit hit = make_ray(point, direction, 0.0);
+  intersect(embree_->scene, hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::no_hit;
+  // Near the start or near an edge single precision cannot say which side is met.
+  const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
+  if (hit.ray.tfar < kBehind * boundary_.size_mm || edge < kClearOfEdge) return Inside::unclear;
+  return normal(hit.hit.primID).dot(direction) > 0.0 ? Inside::yes : Inside::no;
+}
+
+bool Accelerator::inside_by_search(const core::Vec3& point, const core::Vec3& direction) const {
+  double nearest = kInfinity;
+  bool inside = false;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    const double along = normal(i).dot(direction);
+    if (along == 0.0) continue;
+    const double distance = distance_to_plane(i, point, direction);
+    if (distance < 0.0 || distance >= nearest) continue;
+    if (distance_outside(triangle(i), normal(i), point + distance * direction) > 0.0) continue;
+    nearest = distance;
+    inside = along > 0.0;
+  }
+  return inside;
+}
+
+}  // namespace scintray::scene

@@ -1,0 +1,162 @@
+#pragma once
+/// Finds where a photon leaves a region. Everything Embree is in accelerator.cpp.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "scintray/core/lanes.hpp"
+#include "scintray/core/plain_vec.hpp"
+#include "scintray/scene_file/run.hpp"
+
+namespace scintray::scene {
+
+/// A triangle of a region's boundary in the region's own frame; normals point out of the region.
+using BoundaryTriangle = std::array<core::Vec3, 3>;
+
+/// The plane of a triangle.
+struct TrianglePlane {
+  core::PlainVec3 normal;  ///< unit, out of the region
+  double offset;           ///< normal . x on the plane
+};
+static_assert(std::is_trivially_copyable_v<TrianglePlane> && sizeof(TrianglePlane) == 4 * sizeof(double));
+
+/// A plane that bounds a convex region.
+struct BoundingPlane {
+  core::PlainVec3 normal;           ///< unit, out of the region
+  double offset;                    ///< normal . x on the plane
+  std::uint32_t first;              ///< a triangle on the plane
+  std::uint32_t triangles_begin;    ///< where they lead to different places, all triangles on it, as a
+  std::uint32_t triangles_end = 0;  ///< range of Boundary::plane_triangles; empty: they lead to one
+};
+static_assert(std::is_trivially_copyable_v<BoundingPlane>);
+
+/// The boundary of one shape of region as plain records, in the region's own frame (mm).
+struct Boundary {
+  std::vector<core::PlainVec3> vertices;  ///< each once: a third of the memory for a large mesh
+  std::vector<std::uint32_t> corners;     ///< three a triangle, indices into `vertices`
+  std::vector<TrianglePlane> triangle_planes;
+  std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
+  std::vector<std::uint32_t> plane_triangles;  ///< as BoundingPlane states
+  double size_mm = 0.0;                        ///< diagonal of the bounding box
+  bool closed = true;                          ///< false for the ambient region
+
+  std::size_t size() const { return triangle_planes.size(); }
+  BoundaryTriangle triangle(std::size_t i) const {
+    return {vertices[corners[3 * i]], vertices[corners[3 * i + 1]], vertices[corners[3 * i + 2]]};
+  }
+};
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+/// Where a ray leaves a region.
+struct Exit {
+  double distance_mm = 0.0;
+  std::uint32_t triangle = kNoTriangle;  ///< kNoTriangle: the ray goes to infinity
+  bool resolved = false;                 ///< resolved by the exact query
+};
+
+/// What Embree states a ray meets first, in single precision.
+struct FirstHit {
+  float distance_mm = 0.0f;  ///< along the ray
+  float unused = 0.0f;       ///< so that the distance and the triangle come back in registers
+  std::uint32_t triangle = kNoTriangle;
+  std::uint32_t unused_too = 0;
+};
+
+/// How a ray comes to the plane of a triangle, in double precision.
+struct Approach {
+  double cosine = 0.0;  ///< of the angle between ray and normal; the ray leaves the region where positive
+  double distance_mm = 0.0;  ///< along the ray; 0 where the plane lies behind. Only for a positive cosine
+};
+
+/// The boundary of one region, immutable, shared by regions of the same shape.
+///
+/// A photon is inside the region, so the boundary it meets next has its normal along the ray. An
+/// answer that contradicts this - nothing ahead in a closed region, or the next triangle entered from
+/// behind - is a ray that slipped through an edge in single precision; it is settled by a search of
+/// all triangles in double precision, so no photon is ever lost.
+class Accelerator {
+ public:
+  /// @param triangles boundary, mm, centred near the origin (Embree works in single precision)
+  /// @param labels    what each triangle leads to; on a plane with one label any triangle of it may
+  ///                  be returned
+  /// @param closed    false for the ambient region, from which rays may escape
+  /// @param kind      throws InputError for `planes` where they do not apply
+  Accelerator(const std::vector<BoundaryTriangle>& triangles, const std::vector<std::uint32_t>& labels,
+              bool closed, scene_file::AcceleratorKind kind);
+  /// The same from the records of another.
+  explicit Accelerator(Boundary boundary);
+  ~Accelerator();
+  Accelerator(const Accelerator&) = delete;
+  Accelerator& operator=(const Accelerator&) = delete;
+
+  /// Where the ray from `origin` (inside the region or on its boundary) along the unit vector
+  /// `direction` leaves the region.
+  Exit find_exit(const core::Vec3& origin, const core::Vec3& direction) const;
+
+  /// find_exit in pieces, for what follows a photon from wall to wall and has the next ray in single
+  /// precision before it has it in double: the first hit, the approach to it, and where that does not leave
+  /// the region, or nothing is hit, exact_exit.
+  bool uses_embree() const { return embree_ != nullptr; }
+  /// @param origin_and_start  fourth: start_mm(); the others mm
+  /// @param direction         fourth: 0
+  /// Only where Embree is used.
+  FirstHit first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const;
+  /// Rays start this far ahead of their origin.
+  double start_mm() const { return start_mm_; }
+  /// @param origin  fourth: -1; @param direction  fourth: 0
+  Approach approach_of(std::uint32_t triangle, const core::Lanes& origin,
+                       const core::Lanes& direction) const {
+    const core::Lanes plane = this->plane(triangle);
+    const double cosine = dot(plane, direction);
+    return {cosine, std::max(0.0, -dot(plane, origin) / cosine)};
+  }
+  [[gnu::cold]] Exit exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const;
+
+  /// True when `point` is inside the (closed) boundary.
+  bool contains(const core::Vec3& point) const;
+
+  /// Unit normal of a triangle, out of the region.
+  const core::PlainVec3& normal(std::uint32_t triangle) const {
+    return boundary_.triangle_planes[triangle].normal;
+  }
+  /// The normal, and as the fourth its product with any point of the plane, mm.
+  core::Lanes plane(std::uint32_t triangle) const {
+    return core::Lanes::at(reinterpret_cast<const double*>(&boundary_.triangle_planes[triangle]));
+  }
+  std::size_t size() const { return boundary_.size(); }
+  BoundaryTriangle triangle(std::uint32_t i) const { return boundary_.triangle(i); }
+  bool uses_planes() const { return !boundary_.planes.empty(); }
+  /// Triangles whose planes bound the region, when it is convex: the number of distinct planes.
+  std::size_t plane_count() const { return boundary_.planes.size(); }
+  /// Everything but Embree's scene, which is made from it.
+  const Boundary& boundary() const { return boundary_; }
+
+ private:
+  struct EmbreeScene;
+
+  /// What one ray states of a point.
+  enum class Inside { yes, no, no_hit, unclear };
+
+  bool make_planes(const std::vector<std::uint32_t>& labels);
+  Exit exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const;
+  Exit exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const;
+  Inside inside_by_embree(const core::Vec3& point, const core::Vec3& direction) const;
+  bool inside_by_search(const core::Vec3& point, const core::Vec3& direction) const;
+  /// Along the ray to the triangle's plane.
+  double distance_to_plane(std::uint32_t triangle, const core::Vec3& origin,
+                           const core::Vec3& direction) const {
+    const TrianglePlane& plane = boundary_.triangle_planes[triangle];
+    return (plane.offset - plane.normal.dot(origin)) / plane.normal.dot(direction);
+  }
+
+  Boundary boundary_;
+  double start_mm_ = 0.0;  ///< rays start this far ahead
+  std::unique_ptr<EmbreeScene> embree_;
+};
+
+}  // namespace scintray::scene

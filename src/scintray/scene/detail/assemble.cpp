@@ -1,0 +1,312 @@
+#include "scintray/scene/detail/assemble.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "scintray/core/pattern.hpp"
+#include "scintray/scene/detail/regions.hpp"
+
+namespace scintray::scene {
+
+namespace {
+
+using InterfaceKey = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+
+std::string name_or_smooth(const std::string& surface) { return surface.empty() ? "smooth" : surface; }
+
+/// Turns groups of interface triangles into interfaces.
+class InterfaceMaker {
+ public:
+  InterfaceMaker(const Assembly& assembly, Scene& scene, core::Problems& problems)
+      : assembly_(assembly),
+        scene_(scene),
+        problems_(problems),
+        contact_used_(assembly.contacts.size(), false) {}
+
+  std::uint32_t interface_of(const contact::InterfaceTriangle& t) {
+    const InterfaceKey key{t.back, t.front, t.back_face, t.front_face};
+    const auto [known, is_new] =
+        known_.try_emplace(key, static_cast<std::uint32_t>(scene_.interfaces.size()));
+    if (is_new) {
+      scene_.interfaces.push_back(make(t));
+      scene_.interface_area_mm2.push_back(0.0);
+    }
+    return known->second;
+  }
+
+  void report_unused_contacts() {
+    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+      if (contact_used_[i] || assembly_.contacts[i].by_builder) continue;
+      const scene_file::ContactSpec& contact = assembly_.contacts[i];
+      problems_.add(
+          contact.where,
+          "\"" + side_name(contact, 0) + "\" and \"" + side_name(contact, 1) +
+              "\" of this contact do not touch",
+          "check their positions (scintray check lists every interface), or raise run.contact_tolerance");
+    }
+  }
+
+ private:
+  static std::string side_name(const scene_file::ContactSpec& contact, std::size_t side) {
+    const std::string& face = contact.faces[side];
+    return contact.between[side].name + (face.empty() ? "" : ":" + face);
+  }
+
+  Interface make(const contact::InterfaceTriangle& t) {
+    Interface result;
+    result.back = static_cast<std::uint32_t>(t.back + 1);
+    result.front = static_cast<std::uint32_t>(t.front + 1);
+    result.back_face = t.back_face;
+    result.front_face = t.front_face;
+    bind_sensors(t, result);
+    if (t.back_face != contact::kNoFace && t.front_face != contact::kNoFace)
+      make_contact(t, result);
+    else if (t.back_face != contact::kNoFace && t.front != contact::kAmbient)
+      make_nested(t, result);
+    else if (t.back_face != contact::kNoFace)
+      result.back_surface = surface(face(t.back_face).surface, medium(t.back), medium(t.front));
+    else
+      result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
+    const std::int32_t only = result.back_surface != kNone ? result.back_surface : result.front_surface;
+    const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
+    if (one && result.gap_medium == kNone)
+      result.plain = scene_.surfaces[static_cast<std::size_t>(only)].plain();
+    return result;
+  }
+
+  /// A sensor part detects what enters it; a sensor face what leaves its part there.
+  void bind_sensors(const contact::InterfaceTriangle& t, Interface& result) const {
+    const auto bind = [&](std::int32_t entered, std::int32_t left, std::int32_t left_face,
+                          std::int32_t& sensor, std::uint32_t& part) {
+      if (entered != contact::kAmbient &&
+          assembly_.parts[static_cast<std::size_t>(entered)].sensor != kNone) {
+        sensor = assembly_.parts[static_cast<std::size_t>(entered)].sensor;
+        part = static_cast<std::uint32_t>(entered);
+      } else if (left_face != contact::kNoFace && face(left_face).sensor != kNone) {
+        sensor = face(left_face).sensor;
+        part = static_cast<std::uint32_t>(left);
+      }
+    };
+    bind(t.front, t.back, t.back_face, result.front_sensor, result.front_sensor_part);
+    bind(t.back, t.front, t.front_face, result.back_sensor, result.back_sensor_part);
+  }
+
+  void make_dry(const contact::InterfaceTriangle& t, const std::string& back, const std::string& front,
+                Interface& result) {
+    result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
+    result.back_surface = surface(back, medium(t.back), assembly_.ambient);
+    result.front_surface = surface(front, medium(t.front), assembly_.ambient);
+  }
+
+  /// Where a part lies in another, its own finish counts unless a contact states otherwise.
+  void make_nested(const contact::InterfaceTriangle& t, Interface& result) {
+    const scene_file::ContactSpec* contact = find_contact(t).first;
+    const std::string& own = face(t.back_face).surface;
+    if (contact && contact->kind == scene_file::ContactKind::dry)
+      make_dry(t, own, part(t.front).surface, result);
+    else
+      set_surface(t, result, true, contact && !contact->surface.empty() ? contact->surface.name : own);
+  }
+
+  void make_contact(const contact::InterfaceTriangle& t, Interface& result) {
+    const AssemblyFace &back = face(t.back_face), &front = face(t.front_face);
+    const auto [contact, back_is_first] = find_contact(t);
+    const scene_file::ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
+    if (kind == scene_file::ContactKind::dry) {
+      make_dry(t, back.surface, front.surface, result);
+      return;
+    }
+    if (contact && contact->joint) {
+      set_surface(t, result, true, std::string());
+    } else if (contact && !contact->surface.empty()) {
+      set_surface(t, result, back_is_first, contact->surface.name);
+    } else if (front.surface.empty() || back.surface == front.surface) {
+      set_surface(t, result, true, back.surface);
+    } else if (back.surface.empty()) {
+      set_surface(t, result, false, front.surface);
+    } else {
+      const contact::PlacedPart &at_back = part(t.back).geometry, &at_front = part(t.front).geometry;
+      const core::FileLocation& where = contact ? contact->where : at_back.where;
+      problems_.add(where,
+                    "faces \"" + back.name + "\" (surface \"" + name_or_smooth(back.surface) + "\") and \"" +
+                        front.name + "\" (surface \"" + name_or_smooth(front.surface) +
+                        "\") are bonded, but an interface has one surface" +
+                        contact::also_at(at_front.name, at_front.where, where),
+                    "add [[contact]] between = [\"" + at_back.name + "\", \"" + at_front.name +
+                        "\"] with the surface of the joint, or kind = \"dry\"");
+      set_surface(t, result, true, std::string());
+    }
+  }
+
+  void set_surface(const contact::InterfaceTriangle& t, Interface& result, bool of_back,
+                   const std::string& name) {
+    if (of_back)
+      result.back_surface = surface(name, medium(t.back), medium(t.front));
+    else
+      result.front_surface = surface(name, medium(t.front), medium(t.back));
+  }
+
+  /// Does the contact's side name this face of this part? Inside another part there is no face.
+  bool names(const scene_file::ContactSpec& contact, std::size_t side, std::int32_t of_part,
+             std::int32_t of_face) const {
+    const std::string& part_name = part(of_part).geometry.name;
+    if (!core::matches_pattern(contact.between[side].name, part_name)) return false;
+    return contact.faces[side].empty() ||
+           (of_face != contact::kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
+  }
+
+  /// How much a contact states of a pair; of several that match, the one that states most holds. What the
+  /// file states goes before what builders say, then more faces before fewer, then more letters of both
+  /// names.
+  static std::tuple<bool, int, std::size_t> weight(const scene_file::ContactSpec& contact) {
+    return {!contact.by_builder, !contact.faces[0].empty() + !contact.faces[1].empty(),
+            core::literal_length(contact.between[0].name) + core::literal_length(contact.between[1].name)};
+  }
+
+  /// The contact that speaks of these two faces, and whether its first name stands for the back.
+  std::pair<const scene_file::ContactSpec*, bool> find_contact(const contact::InterfaceTriangle& t) {
+    std::optional<std::size_t> best;
+    bool back_is_first = true;
+    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+      const scene_file::ContactSpec& contact = assembly_.contacts[i];
+      const bool straight =
+          names(contact, 0, t.back, t.back_face) && names(contact, 1, t.front, t.front_face);
+      if (!straight && !(names(contact, 0, t.front, t.front_face) && names(contact, 1, t.back, t.back_face)))
+        continue;
+      contact_used_[i] = true;
+      if (best && weight(contact) < weight(assembly_.contacts[*best])) continue;
+      if (best && weight(contact) == weight(assembly_.contacts[*best]))
+        report_tie(assembly_.contacts[*best], contact, t);
+      best = i;
+      back_is_first = straight;
+    }
+    if (!best) return {nullptr, true};
+    return {&assembly_.contacts[*best], back_is_first};
+  }
+
+  void report_tie(const scene_file::ContactSpec& one, const scene_file::ContactSpec& other,
+                  const contact::InterfaceTriangle& t) {
+    if (one.kind == other.kind && one.surface.name == other.surface.name) return;
+    const auto pattern = [](const scene_file::ContactSpec& c) {
+      return "\"" + side_name(c, 0) + "\" - \"" + side_name(c, 1) + "\"";
+    };
+    if (!ties_.insert(pattern(one) + pattern(other)).second) return;
+    problems_.add(
+        other.where,
+        "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" +
+            face(t.back_face).name + "\" - \"" +
+            (t.front_face == contact::kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
+            "\", and differ",
+        "name this pair in a [[contact]] of its own, or spell out more of one of them");
+  }
+
+  /// A surface for two media, made once per triple.
+  std::int32_t surface(const std::string& name, std::uint32_t inside, std::uint32_t outside) {
+    const auto [known, is_new] =
+        surfaces_.try_emplace({name, inside, outside}, static_cast<std::int32_t>(scene_.surfaces.size()));
+    if (is_new) {
+      optics::Surface made;
+      try {
+        made = assembly_.make_surface(name, inside, outside);
+      } catch (const core::InputError& error) {
+        problems_.add(error);
+      }
+      made.name = name_or_smooth(name) + " (" + assembly_.media[inside].medium().name + " to " +
+                  assembly_.media[outside].medium().name + ")";
+      scene_.surfaces.push_back(std::move(made));
+    }
+    return known->second;
+  }
+
+  const AssemblyFace& face(std::int32_t id) const { return assembly_.faces[static_cast<std::size_t>(id)]; }
+  const AssemblyPart& part(std::int32_t id) const { return assembly_.parts[static_cast<std::size_t>(id)]; }
+  std::uint32_t medium(std::int32_t id) const {
+    return id == contact::kAmbient ? assembly_.ambient : part(id).medium;
+  }
+
+  const Assembly& assembly_;
+  Scene& scene_;
+  core::Problems& problems_;
+  std::vector<bool> contact_used_;
+  std::set<std::string> ties_;  ///< pairs of contacts already reported
+  std::map<InterfaceKey, std::uint32_t> known_;
+  std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
+};
+
+double triangle_area(const contact::InterfaceTriangle& t) {
+  return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
+}
+
+/// Gives every face the vertices that its triangles use.
+void collect_corners(const contact::PlacedPart& geometry, Scene& scene) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
+    for (const std::uint32_t vertex : geometry.triangles[t])
+      if (seen.emplace(geometry.face[t], vertex).second)
+        scene.faces[geometry.face[t]].corners.push_back(geometry.vertices[vertex]);
+}
+
+void describe_parts(const Assembly& assembly, Scene& scene) {
+  for (const AssemblyFace& face : assembly.faces)
+    scene.faces.push_back(
+        {face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, core::Vec3::Zero(), {}});
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
+    const contact::PlacedPart& geometry = assembly.parts[i].geometry;
+    PartInfo info;
+    info.name = geometry.name;
+    info.region = static_cast<std::uint32_t>(i + 1);
+    info.sensor = assembly.parts[i].sensor;
+    for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+      const auto& [a, b, c] = geometry.triangles[t];
+      const core::Vec3 &va = geometry.vertices[a], &vb = geometry.vertices[b], &vc = geometry.vertices[c];
+      const core::Vec3& origin = geometry.vertices.front();  // keeps far-away parts exact
+      info.volume_mm3 += (va - origin).dot((vb - origin).cross(vc - origin)) / 6.0;
+      for (const core::Vec3& v : {va, vb, vc}) info.bounds.extend(v);
+      FaceInfo& face = scene.faces[geometry.face[t]];
+      const core::Vec3 area = 0.5 * (vb - va).cross(vc - va);
+      face.area_mm2 += area.norm();
+      face.area_vector_mm2 += area;
+      ++face.triangles;
+    }
+    scene.parts.push_back(info);
+    collect_corners(geometry, scene);
+  }
+}
+
+}  // namespace
+
+Scene assemble(const Assembly& assembly) {
+  Scene scene;
+  scene.media = assembly.media;
+  for (const SceneMedium& medium : scene.media) scene.optics.add(medium, assembly.low_nm, assembly.high_nm);
+  scene.sensors = assembly.sensors;
+  scene.low_nm = assembly.low_nm;
+  scene.high_nm = assembly.high_nm;
+  describe_parts(assembly, scene);
+
+  std::vector<contact::PlacedPart> placed;
+  for (const AssemblyPart& part : assembly.parts) placed.push_back(part.geometry);
+  const std::vector<contact::InterfaceTriangle> triangles =
+      contact::resolve_contacts(placed, assembly.contact_tolerance_mm);
+
+  core::Problems problems;
+  InterfaceMaker maker(assembly, scene, problems);
+  std::vector<std::uint32_t> interface_of;
+  for (const contact::InterfaceTriangle& triangle : triangles) {
+    interface_of.push_back(maker.interface_of(triangle));
+    const double area = triangle_area(triangle);
+    scene.interface_area_mm2[interface_of.back()] += area;
+    if (triangle.back_face == contact::kNoFace || triangle.front_face == contact::kNoFace) continue;
+    scene.faces[static_cast<std::size_t>(triangle.back_face)].contact_area_mm2 += area;
+    scene.faces[static_cast<std::size_t>(triangle.front_face)].contact_area_mm2 += area;
+  }
+  maker.report_unused_contacts();
+  problems.throw_if_any();
+  build_regions(assembly, triangles, interface_of, scene);
+  return scene;
+}
+
+}  // namespace scintray::scene

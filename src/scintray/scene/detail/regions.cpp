@@ -1,0 +1,137 @@
+#include "scintray/scene/detail/regions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace scintray::scene {
+
+namespace {
+
+/// Vertices equal within about this length are the same when boundaries are compared, mm.
+constexpr double kSameVertex_mm = 1e-6;
+/// Keeps round coordinates away from the edges of the comparison grid.
+constexpr double kGridShift = 0.37;
+
+using GridPoint = std::array<std::int64_t, 3>;
+using GridTriangle = std::array<GridPoint, 3>;
+
+/// A boundary triangle in the region's frame, with what orders and identifies it.
+struct Entry {
+  GridTriangle key;
+  BoundaryTriangle local;
+  BoundaryLink link;
+};
+
+/// What makes two boundaries the same.
+struct Shape {
+  std::vector<GridTriangle> triangles;
+  std::vector<std::uint32_t> labels;
+  auto operator<=>(const Shape&) const = default;
+};
+
+GridPoint on_grid(const core::Vec3& v) {
+  GridPoint point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[static_cast<std::size_t>(axis)] = std::llround(std::floor(v[axis] / kSameVertex_mm + kGridShift));
+  return point;
+}
+
+Entry make_entry(BoundaryTriangle local, BoundaryLink link) {
+  GridTriangle key{on_grid(local[0]), on_grid(local[1]), on_grid(local[2])};
+  const auto first = std::min_element(key.begin(), key.end()) - key.begin();
+  std::rotate(key.begin(), key.begin() + first, key.end());
+  std::rotate(local.begin(), local.begin() + first, local.end());
+  return {key, local, link};
+}
+
+/// Numbers what the triangles lead to in order of first appearance.
+std::vector<std::uint32_t> pattern_of(const std::vector<Entry>& entries) {
+  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> seen;
+  std::vector<std::uint32_t> labels;
+  for (const Entry& entry : entries)
+    labels.push_back(seen.try_emplace({entry.link.interface, entry.link.from_back},
+                                      static_cast<std::uint32_t>(seen.size()))
+                         .first->second);
+  return labels;
+}
+
+std::vector<std::vector<std::pair<std::uint32_t, bool>>> triangles_by_region(
+    const std::vector<contact::InterfaceTriangle>& triangles, std::size_t regions) {
+  std::vector<std::vector<std::pair<std::uint32_t, bool>>> by_region(regions);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    by_region[static_cast<std::size_t>(triangles[i].back + 1)].push_back({i, true});
+    by_region[static_cast<std::size_t>(triangles[i].front + 1)].push_back({i, false});
+  }
+  return by_region;
+}
+
+/// Fills in BoundaryLink::smooth_to, which needs all regions.
+void link_smooth_media(Scene& scene) {
+  for (BoundaryLink& link : scene.links) {
+    const Interface& interface = scene.interfaces[link.interface];
+    if (interface.plain)
+      link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
+  }
+}
+
+}  // namespace
+
+void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                   const std::vector<std::uint32_t>& interface_of, Scene& scene) {
+  const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
+  std::map<Shape, std::uint32_t> known;  // accelerators
+  for (std::size_t r = 0; r < by_region.size(); ++r) {
+    const bool ambient = r == kAmbientRegion;
+    Region region;
+    scene.region_names.push_back(ambient ? "ambient" : assembly.parts[r - 1].geometry.name);
+    region.part = ambient ? kNone : static_cast<std::int32_t>(r - 1);
+    region.medium = ambient ? assembly.ambient : assembly.parts[r - 1].medium;
+    const Eigen::Matrix3d rotation =
+        ambient ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : assembly.parts[r - 1].rotation;
+    region.rotation = rotation;
+    region.rotated = !rotation.isIdentity(0.0);
+
+    Eigen::AlignedBox3d bounds;  // in the part's own orientation
+    for (const auto& [index, is_back] : by_region[r])
+      for (const core::Vec3& vertex : triangles[index].vertex) bounds.extend(rotation.transpose() * vertex);
+    if (!bounds.isEmpty()) region.centre = rotation * bounds.center();
+
+    std::vector<Entry> entries;
+    for (const auto& [index, is_back] : by_region[r]) {
+      BoundaryTriangle local;
+      for (std::size_t i = 0; i < 3; ++i)
+        local[i] = rotation.transpose() * (triangles[index].vertex[i] - region.centre);
+      if (!is_back) std::swap(local[1], local[2]);
+      entries.push_back(make_entry(local, {interface_of[index], kNotSmooth, is_back}));
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.key < b.key; });
+
+    Shape shape;
+    std::vector<BoundaryTriangle> boundary;
+    region.first_link = static_cast<std::uint32_t>(scene.links.size());
+    shape.labels = pattern_of(entries);
+    for (const Entry& entry : entries) {
+      shape.triangles.push_back(entry.key);
+      boundary.push_back(entry.local);
+      scene.links.push_back(entry.link);
+    }
+    region.accelerator = static_cast<std::uint32_t>(scene.accelerators.size());
+    bool is_new = true;
+    if (!ambient) {
+      const auto shared = known.try_emplace(shape, region.accelerator);
+      region.accelerator = shared.first->second;
+      is_new = shared.second;
+    }
+    if (is_new)
+      scene.accelerators.push_back(
+          std::make_shared<Accelerator>(boundary, shape.labels, !ambient, assembly.accelerator));
+    scene.regions.push_back(region);
+  }
+  link_smooth_media(scene);
+}
+
+}  // namespace scintray::scene

@@ -1,0 +1,83 @@
+#include "scintray/scene/scene.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace scintray::scene {
+
+namespace {
+
+constexpr double kWavelengthStep_nm = 0.5;
+
+bool constant_optics(const optics::Medium& medium) {
+  return medium.index.is_constant() && medium.absorption_per_mm.is_constant() &&
+         medium.scattering_per_mm.is_constant() &&
+         (!medium.shifter || medium.shifter->absorption_per_mm().is_constant());
+}
+
+}  // namespace
+
+void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double high_nm) {
+  const optics::Medium& medium = scene_medium.medium();
+  MediumRecord record;
+  record.first = static_cast<std::uint32_t>(table.size());
+  record.scattering = medium.scattering;
+  record.opaque = scene_medium.is_opaque();
+  record.shifts = medium.shifter != nullptr;
+  if (record.opaque) {
+    table.push_back(optics::MediumOptics{});
+  } else if (constant_optics(medium) || !(high_nm > low_nm)) {
+    table.push_back(medium.at(low_nm));
+  } else {
+    const auto steps = static_cast<std::uint32_t>(std::ceil((high_nm - low_nm) / kWavelengthStep_nm));
+    record.count = steps + 1;
+    record.low_nm = low_nm;
+    record.per_nm = static_cast<double>(steps) / (high_nm - low_nm);
+    record.last = static_cast<double>(steps);
+    for (std::uint32_t i = 0; i <= steps; ++i)
+      table.push_back(medium.at(low_nm + static_cast<double>(i) / record.per_nm));
+  }
+  media.push_back(record);
+}
+
+SceneMedium SceneMedium::opaque() {
+  optics::Medium nothing;
+  nothing.name = "opaque";
+  nothing.index = core::Curve::constant(1.0);
+  SceneMedium medium(std::move(nothing));
+  medium.opaque_ = true;
+  return medium;
+}
+
+BoundaryTriangle Scene::triangle(const Region& region, std::uint32_t number) const {
+  BoundaryTriangle corners = accelerator(region).triangle(number);
+  for (core::Vec3& corner : corners) corner = region.centre + region.direction_to_world(corner);
+  return corners;
+}
+
+bool Scene::region_contains(std::uint32_t region, const core::Vec3& point) const {
+  const Region& candidate = regions[region];
+  return accelerator(candidate).contains(candidate.point_to_local(point));
+}
+
+bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const {
+  if (region == kAmbientRegion || !region_contains(region, core::Vec3(box.center()))) return false;
+  constexpr double kRounding = 1e-9;  // of the box's size
+  const core::Vec3 slack = core::Vec3::Constant(kRounding * box.diagonal().norm());
+  const Eigen::AlignedBox3d inner(box.min() + slack, box.max() - slack);
+  const Region& candidate = regions[region];
+  for (std::uint32_t i = 0; i < accelerator(candidate).size(); ++i) {
+    Eigen::AlignedBox3d bounds;
+    for (const core::Vec3& vertex : triangle(candidate, i)) bounds.extend(vertex);
+    if (inner.intersects(bounds)) return false;
+  }
+  return true;
+}
+
+std::uint32_t Scene::locate(const core::Vec3& point) const {
+  for (std::uint32_t region = 0; region < regions.size(); ++region)
+    if (region != kAmbientRegion && region_contains(region, point)) return region;
+  return kAmbientRegion;
+}
+
+}  // namespace scintray::scene

@@ -1,0 +1,198 @@
+#pragma once
+/// The scene as photons see it: regions, interfaces, and what binds to them. Immutable once built.
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "scintray/core/plain_vec.hpp"
+#include "scintray/detector/sensor.hpp"
+#include "scintray/optics/medium.hpp"
+#include "scintray/optics/surface.hpp"
+#include "scintray/scene/accelerator.hpp"
+
+namespace scintray::scene {
+
+inline constexpr std::uint32_t kAmbientRegion = 0;
+inline constexpr std::int32_t kNone = -1;
+
+/// A medium of the scene, as it was defined.
+class SceneMedium {
+ public:
+  explicit SceneMedium(optics::Medium medium) : medium_(std::move(medium)) {}
+  /// A medium that absorbs whatever enters it.
+  static SceneMedium opaque();
+
+  const optics::Medium& medium() const { return medium_; }
+  bool is_opaque() const { return opaque_; }
+
+ private:
+  optics::Medium medium_;
+  bool opaque_ = false;
+};
+
+/// What photons see of a medium: where its optics are in SceneOptics::table, and how it interacts.
+struct MediumRecord {
+  std::uint32_t first = 0, count = 1;  ///< entries of the table; 1: the same at every wavelength
+  double low_nm = 0.0, per_nm = 0.0;   ///< wavelength of the first, and entries per nm
+  double last = 0.0;                   ///< place of the last entry, count - 1
+  optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
+  bool opaque = false;
+  bool shifts = false;  ///< it has a wavelength shifter
+};
+static_assert(std::is_trivially_copyable_v<MediumRecord>);
+static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
+
+/// The optics of all media, tabulated at even steps of wavelength, for use once per interaction.
+struct SceneOptics {
+  std::vector<MediumRecord> media;  ///< as Scene::media
+  std::vector<optics::MediumOptics> table;
+
+  /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
+  void add(const SceneMedium& medium, double low_nm, double high_nm);
+
+  /// Optics of a medium at a wavelength (nm); beyond the table's ends as at them.
+  optics::MediumOptics at(std::uint32_t medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    const optics::MediumOptics* entries = &table[record.first];
+    if (record.count == 1) return *entries;
+    const double position = std::clamp((wavelength_nm - record.low_nm) * record.per_nm, 0.0, record.last);
+    const auto i = std::min(static_cast<std::size_t>(position), std::size_t{record.count} - 2);
+    const double t = position - static_cast<double>(i);
+    const optics::MediumOptics &a = entries[i], &b = entries[i + 1];
+    return {a.index + t * (b.index - a.index), a.group_index + t * (b.group_index - a.group_index),
+            a.absorption_per_mm + t * (b.absorption_per_mm - a.absorption_per_mm),
+            a.scattering_per_mm + t * (b.scattering_per_mm - a.scattering_per_mm)};
+  }
+  double index(std::uint32_t medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    return record.count == 1 ? table[record.first].index : at(medium, wavelength_nm).index;
+  }
+  bool is_opaque(std::uint32_t medium) const { return media[medium].opaque; }
+};
+
+/// What separates two regions over some of their boundary. Its normal points from `back` to `front`.
+///
+/// Light meets `back_surface` (whose inside is the back region), then, in a dry contact, a gap of no
+/// thickness, then `front_surface` (whose inside is the front region). A bonded contact or a free
+/// face has exactly one of the two surfaces.
+struct Interface {
+  std::uint32_t back = 0, front = 0;  ///< regions
+  std::int32_t back_surface = kNone, front_surface = kNone;
+  std::int32_t gap_medium = kNone;                         ///< dry contact: the medium in the gap
+  std::int32_t back_sensor = kNone, front_sensor = kNone;  ///< sensor that light entering that region meets
+  std::uint32_t back_sensor_part = 0, front_sensor_part = 0;
+  std::int32_t back_face = kNone, front_face = kNone;  ///< faces of the two parts, scene-wide
+  bool plain = false;                                  ///< one smooth surface and nothing else
+};
+static_assert(std::is_trivially_copyable_v<Interface>);
+
+inline constexpr std::uint32_t kNotSmooth = 0xffffffffu;
+
+/// Which interface a boundary triangle belongs to, and from which side this region meets it.
+struct BoundaryLink {
+  std::uint32_t interface = 0;
+  std::uint32_t smooth_to = kNotSmooth;  ///< medium behind a plain interface; kNotSmooth: it is not plain
+  bool from_back = true;
+};
+static_assert(std::is_trivially_copyable_v<BoundaryLink>);
+
+/// Connected space of one medium: a part less what is nested in it, or the ambient space.
+struct Region {
+  std::uint32_t medium = 0;
+  std::int32_t part = kNone;
+  std::uint32_t accelerator = 0;                            ///< index into Scene::accelerators
+  std::uint32_t first_link = 0;                             ///< of its triangles', in SceneRecords::links
+  bool rotated = false;                                     ///< `rotation` is not the identity
+  core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());  ///< origin of the region's frame, mm
+  core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
+
+  core::Vec3 point_to_local(const core::PlainVec3& p) const {
+    const core::Vec3 shifted = p - centre;
+    if (rotated) return rotation.matrix().transpose() * shifted;
+    return shifted;
+  }
+  core::Vec3 direction_to_local(const core::PlainVec3& d) const {
+    if (rotated) return rotation.matrix().transpose() * d.vec();
+    return d.vec();
+  }
+  core::Vec3 direction_to_world(const core::PlainVec3& d) const {
+    if (rotated) return rotation.matrix() * d.vec();
+    return d.vec();
+  }
+};
+static_assert(std::is_trivially_copyable_v<Region>);
+
+/// What photons see, as plain records in arrays with indices between them: no names, nothing that points.
+/// With the boundaries of the accelerators it can be copied to another process or device as it is.
+struct SceneRecords {
+  std::vector<Region> regions;      ///< regions[kAmbientRegion] surrounds everything
+  std::vector<BoundaryLink> links;  ///< one a triangle of a region's boundary, region after region
+  std::vector<Interface> interfaces;
+  SceneOptics optics;
+
+  const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
+    return links[region.first_link + triangle];
+  }
+};
+
+struct PartInfo {
+  std::string name;
+  std::uint32_t region = 0;
+  std::int32_t sensor = kNone;
+  double volume_mm3 = 0.0;
+  Eigen::AlignedBox3d bounds;
+};
+
+/// A tagged face of a part.
+struct FaceInfo {
+  std::string name;  ///< "part:face"
+  std::uint32_t part = 0;
+  std::string surface;
+  double area_mm2 = 0.0;          ///< as drawn
+  double contact_area_mm2 = 0.0;  ///< of it, in contact with another part
+  std::size_t triangles = 0;
+  core::Vec3 area_vector_mm2 =
+      core::Vec3::Zero();           ///< sum of outward normal times area: as long as the area when flat
+  std::vector<core::Vec3> corners;  ///< of its triangles, each once
+};
+
+/// A scene: what photons see, and beside it what its records refer to by index.
+struct Scene : SceneRecords {
+  std::vector<SceneMedium> media;
+  std::vector<optics::Surface> surfaces;
+  std::vector<detector::Sensor> sensors;
+  /// Distinct ones; regions of one shape share. A copy of a scene shares them.
+  std::vector<std::shared_ptr<const Accelerator>> accelerators;
+
+  std::vector<std::string> region_names;
+  std::vector<PartInfo> parts;
+  std::vector<FaceInfo> faces;
+  std::vector<double> interface_area_mm2;
+  double low_nm = 0.0, high_nm = 0.0;  ///< wavelengths in use
+
+  const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
+  /// Where a ray inside a region leaves it.
+  /// @param p  world, mm; @param d  of unit length
+  Exit find_exit(const Region& region, const core::PlainVec3& p, const core::PlainVec3& d) const {
+    return accelerator(region).find_exit(region.point_to_local(p), region.direction_to_local(d));
+  }
+  /// Normal of a triangle of a region's boundary (world), out of the region.
+  core::Vec3 normal(const Region& region, std::uint32_t triangle) const {
+    return region.direction_to_world(accelerator(region).normal(triangle));
+  }
+  /// A triangle of a region's boundary (world, mm).
+  BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
+
+  /// The region that contains a point (world, mm).
+  std::uint32_t locate(const core::Vec3& point) const;
+  bool region_contains(std::uint32_t region, const core::Vec3& point) const;
+  /// True when all of a box (world, mm) lies inside. A box that reaches beyond by rounding counts as inside;
+  /// one that a slanted boundary comes near may count as not inside.
+  bool region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const;
+};
+
+}  // namespace scintray::scene

@@ -1,0 +1,66 @@
+#include "scintray/scene_file/contact.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "scintray/core/pattern.hpp"
+#include "scintray/scene_file/detail/face_path.hpp"
+#include "scintray/scene_file/detail/names.hpp"
+
+namespace scintray::scene_file {
+
+namespace {
+
+/// "part" or "part:face".
+void read_side(const config::TomlTable& table, const std::string& text, const std::vector<std::string>& names,
+               const std::vector<PartSpec>& parts, ContactSpec& contact, std::size_t side) {
+  if (text.find(':') == std::string::npos) {
+    contact.between[side] = {text, table.where("between")};
+    expect_parts(table, "between", contact.between[side], names);
+  } else if (const auto path = read_face_path(table, "between", text, names, parts, true)) {
+    contact.between[side] = path->part;
+    contact.faces[side] = path->face.name;
+  }
+}
+
+}  // namespace
+
+std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,
+                                       const std::vector<std::string>& part_names,
+                                       const std::vector<PartSpec>& parts) {
+  std::vector<ContactSpec> contacts;
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const config::TomlTable& table : scene.tables("contact")) {
+    ContactSpec contact;
+    contact.where = table.where();
+    const std::vector<std::string> names = table.strings("between", 2);
+    for (std::size_t i = 0; i < names.size(); ++i) read_side(table, names[i], part_names, parts, contact, i);
+    contact.kind = table.choice("kind", kContactKinds);
+    contact.surface = read_name(table, "surface", false);
+    table.expect("surface", contact.kind == ContactKind::bonded,
+                 "a dry contact has no surface of its own: each part keeps the one of its face",
+                 "remove surface, or write kind = \"bonded\"");
+    contact.tolerance_mm = table.optional_quantity("tolerance", core::Dimension::length);
+    table.expect("tolerance", contact.tolerance_mm.value_or(1.0) > 0.0, "a tolerance that is not positive",
+                 "give a length above 0, as \"20 um\"");
+    const bool plain = std::none_of(names.begin(), names.end(), [](const std::string& name) {
+      return core::is_pattern(name) || name.find(':') != std::string::npos;
+    });
+    table.expect("tolerance", plain,
+                 "a tolerance belongs to one pair of parts, not to faces or to many parts",
+                 "give it in a [[contact]] between = [\"part\", \"part\"]");
+    if (table.good("between")) {
+      const auto& [a, b] = std::minmax(names[0], names[1]);
+      const std::string& first = contact.between[0].name;
+      table.expect("between", first != contact.between[1].name || core::is_pattern(first),
+                   "a contact of the part \"" + first + "\" with itself", "name two parts");
+      table.expect("between", pairs.insert({a, b}).second,
+                   "the contact between \"" + a + "\" and \"" + b + "\" is described twice",
+                   "keep one [[contact]]");
+    }
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
+
+}  // namespace scintray::scene_file

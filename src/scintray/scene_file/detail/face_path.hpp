@@ -1,0 +1,26 @@
+#pragma once
+/// "part:face" in a scene file.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/scene_file/part.hpp"
+
+namespace scintray::scene_file {
+
+/// A part and one of its faces.
+struct FacePath {
+  config::NameRef part, face;
+};
+
+/// Takes `text`, the value or an element of `key`, apart at its first colon; the part may have wildcards
+/// when `wildcards`. `names` are all parts of the scene, `parts` those whose faces are known now. What is
+/// wrong is reported at the key: no colon, a part that is not there, a face that no such part has.
+std::optional<FacePath> read_face_path(const config::TomlTable& table, const std::string& key,
+                                       const std::string& text, const std::vector<std::string>& names,
+                                       const std::vector<PartSpec>& parts, bool wildcards);
+
+}  // namespace scintray::scene_file

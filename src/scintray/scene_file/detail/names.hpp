@@ -1,0 +1,30 @@
+#pragma once
+/// Names and counts in the tables of a scene file.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
+
+namespace scintray::scene_file {
+
+/// A string that names something, with its place; empty when absent and not required.
+config::NameRef read_name(const config::TomlTable& table, const std::string& key, bool required);
+
+/// Reports a new name that holds characters with a meaning elsewhere.
+void expect_plain_name(const config::TomlTable& table, const std::string& key, const std::string& name);
+
+/// Reports at `key` unless the name is one of a part. Says nothing when no name is known.
+void expect_part(const config::TomlTable& table, const std::string& key, const config::NameRef& name,
+                 const std::vector<std::string>& parts);
+
+/// The same for a name that may have wildcards and then must be that of one part at least.
+void expect_parts(const config::TomlTable& table, const std::string& key, const config::NameRef& pattern,
+                  const std::vector<std::string>& parts);
+
+/// The value of an integer key, reported and 1 when it is below 1.
+std::uint64_t positive_count(const config::TomlTable& table, const std::string& key, std::int64_t value);
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,116 @@
+#pragma once
+/// What leaves energy in the scene, as a scene file states it: [source] of the types "gamma_events",
+/// "gammas" and "hits".
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/core/curve.hpp"
+#include "scintray/optics/composition.hpp"
+#include "scintray/scene_file/source.hpp"
+
+namespace scintray::scene_file {
+
+/// type = "gamma_events": one deposit an event, without transport.
+struct SpectrumSpec {
+  std::variant<RegionSpec, core::Vec3> origin;  ///< where the deposits are
+  core::FileLocation origin_where;
+  std::optional<double> energy_keV;  ///< of every event; nothing: drawn from the spectrum
+  core::Curve spectrum;              ///< relative number per keV against energy, keV
+};
+
+/// A parallelogram in the scene, mm.
+struct PlaneSpec {
+  core::Vec3 centre = core::Vec3::Zero();
+  core::Vec3 x = core::Vec3::UnitX(), y = core::Vec3::UnitY();  ///< edges, from end to end
+  core::FileLocation where;
+};
+
+/// Energies that gammas are followed at: below, a gamma's energy stays where it is.
+inline constexpr double kLowestGamma_keV = 10.0;
+inline constexpr double kHighestGamma_keV = 3000.0;
+
+/// What one event of a source of gammas emits.
+enum class Emission {
+  gamma,    ///< one gamma
+  pair,     ///< two of 511 keV, back to back
+  sodium,   ///< a decay of 22Na
+  caesium,  ///< a decay of 137Cs
+  lutetium  ///< a decay of 176Lu, electrons included
+};
+
+inline constexpr config::Word<Emission> kEmissions[] = {{"gamma", Emission::gamma},
+                                                        {"pair", Emission::pair},
+                                                        {"Na22", Emission::sodium},
+                                                        {"Cs137", Emission::caesium},
+                                                        {"Lu176", Emission::lutetium}};
+
+/// What parts are made of, for gammas, where their medium does not state it.
+struct MatterSpec {
+  config::NameRef part;             ///< may have wildcards; "ambient" is what surrounds the parts
+  optics::Composition composition;  ///< empty: gammas pass as through empty space
+  double density_g_per_cm3 = 0.0;
+  core::FileLocation where;
+};
+
+/// Name that stands for the ambient in MatterSpec::part.
+inline constexpr const char* kAmbientName = "ambient";
+
+/// type = "gammas": gammas followed through the scene.
+struct EmitterSpec {
+  std::variant<RegionSpec, core::Vec3, PlaneSpec> origin;
+  core::FileLocation origin_where;
+  Emission emission = Emission::gamma;
+  core::FileLocation emission_where;
+  double energy_keV = 0.0;         ///< of Emission::gamma
+  DirectionSpec direction;         ///< of the gamma, or of the first of the pair; nuclides are isotropic
+  double acollinearity_rad = 0.0;  ///< of the pair: FWHM of either transverse angle from back to back
+  bool fluorescence = true;        ///< K X-rays after photoelectric absorption
+  std::vector<MatterSpec> matter;  ///< the last that names a part holds
+};
+
+/// type = "hits": deposits that another program wrote to a file.
+struct HitsSpec {
+  std::filesystem::path file;  ///< .csv, .h5 or .hdf5
+  core::FileLocation where;
+  std::string group;  ///< of an HDF5 file, that holds the columns; empty: its root
+  std::string event = "event", x = "x", y = "y", z = "z", energy = "energy", time = "time";  ///< columns
+  double length_mm = 1.0;         ///< the file's unit of length
+  double energy_keV = 1.0;        ///< the file's unit of energy
+  std::optional<double> time_ns;  ///< the file's unit of time; nothing: the file has no times
+};
+
+struct GammaSpec {
+  std::variant<SpectrumSpec, EmitterSpec, HitsSpec> kind;
+  std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else at most so many
+  std::optional<std::uint64_t> quick_events;  ///< in their place, for a quick run
+  bool cherenkov = false;                     ///< Cherenkov light beside scintillation
+  bool unpolarised = false;                   ///< the light, as SourceSpec states
+  core::FileLocation where;
+};
+
+/// Types of [source] that leave energy.
+enum class GammaSourceType {
+  spectrum,  ///< SpectrumSpec
+  emitter,   ///< EmitterSpec
+  hits,      ///< HitsSpec
+};
+/// Values of `source.type` that read_gamma_source reads.
+inline constexpr config::Word<GammaSourceType> kGammaSourceTypes[] = {
+    {"gamma_events", GammaSourceType::spectrum},
+    {"gammas", GammaSourceType::emitter},
+    {"hits", GammaSourceType::hits}};
+
+/// Reads the keys of the three types from the table [source] (docs/gamma_sources.md); the caller looks at
+/// keys of its own, and at what is unknown. Adds what is wrong to the collector of the table.
+/// @param source  its `type` is one of kGammaSourceTypes
+/// @param parts   names of the scene's parts
+GammaSpec read_gamma_source(const config::TomlTable& source, const std::vector<std::string>& parts);
+
+}  // namespace scintray::scene_file

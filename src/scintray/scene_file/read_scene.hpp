@@ -1,0 +1,54 @@
+#pragma once
+/// Scene files: parse, then transform (sweeps), then instantiate (SceneSpec).
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scintray/scene_file/spec.hpp"
+#include "scintray/scene_file/sweep.hpp"
+
+namespace scintray::scene_file {
+
+/// Instantiates a parsed scene (its sweeps are checked but not applied). `text` is the file's.
+/// Everything wrong is added to `problems`; the result may be used only when there is nothing.
+SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems);
+
+/// Every key that read_scene looks for in the tables of this document, as "part.place.gap", sorted.
+std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
+
+/// A scene file with its sweeps; reads one scene per point.
+class SceneFile {
+ public:
+  /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws
+  /// InputError with every distinct problem.
+  static SceneFile load(const std::filesystem::path& path);
+  /// The same for a scene in memory; `file` is used in messages and for relative paths.
+  static SceneFile from_text(const std::string& text, const std::string& file);
+
+  /// Product of the numbers of swept values; 1 without a sweep.
+  std::size_t points() const;
+  /// Headings of the swept keys, slowest first.
+  std::vector<std::string> sweep_keys() const;
+  /// Value of each swept key at a point, as written ("2 mm").
+  std::vector<std::string> parameters(std::size_t point) const;
+  /// The swept keys, slowest first, and how many values each takes.
+  std::vector<KeyPath> sweep_paths() const;
+  std::size_t sweep_values(std::size_t sweep) const;
+  /// The scene at a point, 0 <= point < points().
+  SceneSpec spec(std::size_t point) const;
+  /// The same with further keys set after those of the sweeps, which they may be.
+  SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
+  const std::string& text() const { return text_; }
+
+ private:
+  const config::TomlNode& value_at(std::size_t point, std::size_t sweep) const;
+  SceneSpec read_point(std::size_t point, const std::vector<KeySetting>& settings,
+                       core::Problems& problems) const;
+
+  config::TomlNodePtr document_;
+  std::vector<SweepSpec> sweeps_;
+  std::string text_;
+};
+
+}  // namespace scintray::scene_file

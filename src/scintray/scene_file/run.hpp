@@ -1,0 +1,40 @@
+#pragma once
+/// [run]: how a scene is simulated. Lengths mm, times ns.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/core/error.hpp"
+
+namespace scintray::scene_file {
+
+/// Which algorithm answers ray queries.
+enum class AcceleratorKind {
+  automatic,  ///< planes where they apply, else Embree
+  embree,     ///< Embree's bounding volume hierarchy, single rays, corrected in double precision
+  planes,     ///< the nearest plane ahead, for closed regions: all must be convex with few planes
+};
+
+inline constexpr config::Word<AcceleratorKind> kAcceleratorKinds[] = {{"auto", AcceleratorKind::automatic},
+                                                                      {"embree", AcceleratorKind::embree},
+                                                                      {"planes", AcceleratorKind::planes}};
+
+struct RunSpec {
+  std::uint64_t seed = 1;
+  std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
+  std::optional<double> max_time_ns;
+  std::optional<int> threads;  ///< nothing: all cores
+  double contact_tolerance_mm = 1e-4;
+  AcceleratorKind accelerator = AcceleratorKind::automatic;
+  bool photon_list = false;      ///< stream every detected photon to the results
+  bool photon_history = false;   ///< stream what each went through, for reweighting
+  std::filesystem::path output;  ///< results file; empty: the command decides
+  core::FileLocation where;
+};
+
+/// [run] of a scene. Adds what is wrong to the collector of the table.
+RunSpec read_run(const config::TomlTable& scene);
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,284 @@
+#include "scintray/scene_file/shape.hpp"
+
+#include <algorithm>
+
+#include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/import/import.hpp"
+
+namespace scintray::scene_file {
+
+namespace {
+
+using Kind = config::TomlNode::Kind;
+
+/// body = "NAME", or its number.
+std::string read_mesh_body(const config::TomlTable& part) {
+  if (!part.has("body")) return {};
+  if (part.node()->find("body")->kind == config::TomlNode::Kind::integer) {
+    const std::int64_t number = part.integer("body");
+    part.expect("body", number >= 1, "bodies are numbered from 1", "give the name or the number of a body");
+    return std::to_string(number);
+  }
+  const std::string name = part.string("body");
+  part.expect("body", !name.empty(), "a body without a name", "give the name or the number of a body");
+  return name;
+}
+
+mesh::Tessellation read_tessellation(const config::TomlTable& part) {
+  constexpr double kLeast_rad = 0.1 * core::kDegree, kMost_rad = 90.0 * core::kDegree;
+  mesh::Tessellation tessellation;
+  const std::optional<config::TomlTable> table = part.optional_table("tessellation");
+  if (!table) return tessellation;
+  tessellation.deviation_mm =
+      table->quantity("deviation", core::Dimension::length, tessellation.deviation_mm);
+  table->expect("deviation", tessellation.deviation_mm > 0.0, "a deviation that is not positive",
+                "give the largest distance of a triangle from its CAD face, as \"0.01 mm\"");
+  tessellation.angle_rad = table->quantity("angle", core::Dimension::angle, tessellation.angle_rad);
+  table->expect("angle",
+                tessellation.angle_rad >= kLeast_rad * (1.0 - 1e-9) &&
+                    tessellation.angle_rad <= kMost_rad * (1.0 + 1e-9),
+                "an angle between neighbouring triangles outside 0.1 to 90 deg",
+                "give an angle as \"5 deg\"");
+  return tessellation;
+}
+
+/// mesh = "FILE" of a [[part]], with the keys that belong to it: unit, scale, body, tessellation.
+MeshFileSpec read_mesh(const config::TomlTable& table) {
+  MeshFileSpec mesh;
+  mesh.where = table.where("mesh");
+  mesh.path = table.existing_file("mesh");
+  const std::optional<std::string> unit = table.optional_string("unit");
+  if (unit) {
+    try {
+      mesh.unit_mm = core::unit_factor(*unit, core::Dimension::length);
+    } catch (const core::InputError& error) {
+      for (const core::Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
+    }
+  } else if (!table.has("unit")) {
+    table.expect("mesh", mesh::states_its_unit(mesh::lower_extension(mesh.path)),
+                 "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
+                 "add the unit it was exported in, as unit = \"mm\"");
+  }
+  mesh.scale = table.number("scale", 1.0);
+  table.expect("scale", mesh.scale > 0.0, "a scale that is not positive", "give a factor above 0");
+  mesh.body = read_mesh_body(table);
+  mesh.tessellation = read_tessellation(table);
+  const bool cad = mesh::is_step(mesh::lower_extension(mesh.path));
+  table.expect("tessellation", cad,
+               "a tessellation of \"" + mesh.path.filename().string() + "\", which holds triangles already",
+               "remove tessellation: it is for STEP files");
+  return mesh;
+}
+
+/// box = [size, size, size], centred in x and y, from z = 0; or box = { low, high }.
+BoxSpec read_box(const config::TomlTable& table) {
+  const config::TomlNode* node = table.node()->find("box");
+  if (node->kind == Kind::table) return read_low_high(table, "box").value_or(BoxSpec{});
+  BoxSpec box;
+  box.where = node->where;
+  const core::Vec3 size =
+      table.optional_quantity3("box", core::Dimension::length).value_or(core::Vec3::Zero());
+  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
+               "give three lengths above 0");
+  box.low = core::Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
+  box.high = core::Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
+  return box;
+}
+
+/// A length above 0, of a shape called `shape`.
+double positive_length(const config::TomlTable& table, const std::string& key, const std::string& shape) {
+  const double value = table.quantity(key, core::Dimension::length);
+  table.expect(key, value > 0.0, "the " + key + " of a " + shape + " is not positive",
+               "give a length above 0");
+  return value;
+}
+
+/// A whole number from `least` to 1000000; `what` is stated of a wrong one after the number.
+int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
+                     const std::string& what) {
+  const std::int64_t value = table.integer(key, fallback);
+  table.expect(key, value >= least && value <= 1000000,
+               "a " + what + " of " + std::to_string(value) + " " + key,
+               "give " + std::to_string(least) + " or more (" + std::to_string(fallback) +
+                   " is the default), up to 1000000");
+  return static_cast<int>(std::clamp<std::int64_t>(value, least, 1000000));
+}
+
+CylinderSpec read_cylinder(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("cylinder");
+  CylinderSpec cylinder;
+  cylinder.where = table.where();
+  cylinder.radius_mm = positive_length(table, "radius", "cylinder");
+  cylinder.height_mm = positive_length(table, "height", "cylinder");
+  cylinder.segments = number_of_pieces(table, "segments", cylinder.segments, 3, "cylinder");
+  return cylinder;
+}
+
+/// The keys by which a file gives how wide a prism is.
+enum class PrismWidth { radius, flat_to_flat };
+constexpr config::Word<PrismWidth> kPrismWidths[] = {{"radius", PrismWidth::radius},
+                                                     {"flat_to_flat", PrismWidth::flat_to_flat}};
+
+PrismSpec read_prism(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("prism");
+  PrismSpec prism;
+  prism.where = table.where();
+  prism.sides = number_of_pieces(table, "sides", prism.sides, 3, "prism");
+  if (const auto* width = table.one_of(kPrismWidths, true)) {
+    const bool radius = width->value == PrismWidth::radius;
+    const double length = positive_length(table, width->word, "prism");
+    prism.circumradius_mm = radius ? length : 0.5 * length / std::cos(core::kPi / prism.sides);
+    const bool has_flats = prism.sides % 2 == 0 || (table.has("sides") && !table.good("sides"));
+    table.expect(width->word, radius || has_flats,
+                 "a prism of " + std::to_string(prism.sides) + " sides has no flats opposite each other",
+                 "give its radius, through the corners");
+  }
+  prism.height_mm = positive_length(table, "height", "prism");
+  return prism;
+}
+
+/// Two lengths above 0.
+std::array<double, 2> positive_pair(const config::TomlTable& table, const std::string& key) {
+  const std::vector<double> mm = table.quantities(key, core::Dimension::length, 2);
+  if (mm.empty()) return {1.0, 1.0};
+  table.expect(key, mm[0] > 0.0 && mm[1] > 0.0, "a side of \"" + key + "\" is not positive",
+               "give two lengths above 0");
+  return {mm[0], mm[1]};
+}
+
+TaperedSpec read_tapered(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("tapered");
+  TaperedSpec tapered;
+  tapered.where = table.where();
+  tapered.bottom.size = positive_pair(table, "bottom");
+  tapered.top.size = positive_pair(table, "top");
+  tapered.height_mm = positive_length(table, "height", "taper");
+  const std::vector<double> offset = table.quantities("top_offset", core::Dimension::length, 2, false);
+  if (!offset.empty()) tapered.top.centre = {offset[0], offset[1]};
+  return tapered;
+}
+
+/// The keys by which a file gives how wide a Winston cone opens.
+enum class WinstonOpening { acceptance, entrance_radius };
+constexpr config::Word<WinstonOpening> kWinstonOpenings[] = {
+    {"acceptance", WinstonOpening::acceptance}, {"entrance_radius", WinstonOpening::entrance_radius}};
+
+WinstonSpec read_winston(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("winston");
+  WinstonSpec winston;
+  winston.where = table.where();
+  mesh::WinstonShape& shape = winston.shape;
+  shape.exit_radius = positive_length(table, "exit_radius", "Winston cone");
+  const config::Word<WinstonOpening>* opening = table.one_of(kWinstonOpenings, true);
+  if (opening && opening->value == WinstonOpening::acceptance) {
+    shape.acceptance_rad = table.quantity("acceptance", core::Dimension::angle);
+    table.expect("acceptance", shape.acceptance_rad > 0.0 && shape.acceptance_rad < 0.5 * core::kPi,
+                 "an acceptance angle outside 0 to 90 deg",
+                 "give the largest angle to the axis that is taken in");
+  } else if (opening) {
+    const double entrance = positive_length(table, "entrance_radius", "Winston cone");
+    table.expect("entrance_radius", entrance > shape.exit_radius, "an entrance not wider than the exit",
+                 "give a radius above exit_radius");
+    shape.acceptance_rad = std::asin(std::min(1.0, shape.exit_radius / entrance));
+  }
+  if (const auto length = table.optional_quantity("length", core::Dimension::length)) {
+    shape.length = *length;
+    const double full = opening && table.good(opening->word) && table.good("exit_radius")
+                            ? mesh::winston_length(shape.exit_radius, shape.acceptance_rad)
+                            : HUGE_VAL;
+    table.expect(
+        "length", *length > 0.0 && *length <= full,
+        "a Winston cone is " + std::to_string(full) + " mm long at most, where its walls become parallel",
+        "give a length above 0 up to that, or leave it out");
+  }
+  if (const auto width = table.optional_quantity("trough", core::Dimension::length)) {
+    shape.trough_width = *width;
+    table.expect("trough", *width > 0.0, "the width of a trough is not positive", "give a length above 0");
+  }
+  shape.segments = number_of_pieces(table, "segments", shape.segments, 3, "Winston cone");
+  shape.rings = number_of_pieces(table, "rings", shape.rings, 1, "Winston cone");
+  return winston;
+}
+
+SphereSpec read_sphere(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("sphere");
+  SphereSpec sphere;
+  sphere.where = table.where();
+  sphere.radius_mm = positive_length(table, "radius", "sphere");
+  const std::int64_t subdivisions = table.integer("subdivisions", sphere.subdivisions);
+  table.expect("subdivisions", subdivisions >= 1 && subdivisions <= 1000,
+               "a sphere of " + std::to_string(subdivisions) + " subdivisions",
+               "give 1 (an icosahedron) to 1000 (20 million triangles); 16 is the default");
+  sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, 1000));
+  return sphere;
+}
+
+/// Bevels the edges of the shapes that have such edges.
+void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
+  auto* box = std::get_if<BoxSpec>(&shape);
+  auto* prism = std::get_if<PrismSpec>(&shape);
+  part.has("chamfer");
+  if (!box && !prism) return;
+  const std::optional<double> chamfer = part.optional_quantity("chamfer", core::Dimension::length);
+  if (!chamfer) return;
+  double shortest = 0.0;
+  if (box) {
+    shortest = (box->high - box->low).minCoeff();
+    box->chamfer_mm = *chamfer;
+  } else {
+    shortest = std::min(prism->height_mm, 2.0 * prism->circumradius_mm * std::sin(core::kPi / prism->sides));
+    prism->chamfer_mm = *chamfer;
+  }
+  // In a face with corners of other than 90 deg a bevel takes off more of each edge: the mesh maker checks.
+  part.expect("chamfer", *chamfer > 0.0 && 2.0 * *chamfer < shortest,
+              "a chamfer that is not positive, or leaves nothing of the shortest edge",
+              "give a length above 0 and below half of the shortest edge");
+}
+
+using ShapeReader = ShapeSpec (*)(const config::TomlTable&);
+
+template <auto Read>
+ShapeSpec shape_of(const config::TomlTable& part) {
+  return Read(part);
+}
+
+constexpr config::Word<ShapeReader> kShapes[] = {
+    {"mesh", shape_of<read_mesh>},         {"box", shape_of<read_box>},
+    {"cylinder", shape_of<read_cylinder>}, {"prism", shape_of<read_prism>},
+    {"tapered", shape_of<read_tapered>},   {"winston", shape_of<read_winston>},
+    {"sphere", shape_of<read_sphere>}};
+
+}  // namespace
+
+ShapeSpec read_shape(const config::TomlTable& part) {
+  const config::Word<ShapeReader>* kind = part.one_of(kShapes, true);
+  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
+  ShapeSpec shape = kind ? kind->value(part) : BoxSpec{};
+  read_chamfer(part, shape);
+  return shape;
+}
+
+std::optional<BoxSpec> read_low_high(const config::TomlTable& table, const std::string& key) {
+  if (table.is_array(key)) {
+    table.report(key, "\"" + key + "\" is an array, but a table is expected",
+                 "write " + key + " = { low = [\"0 mm\", \"0 mm\", \"0 mm\"], high = [...] }");
+    table.take(key);
+    return std::nullopt;
+  }
+  const std::optional<config::TomlTable> corners = table.optional_table(key);
+  if (!corners) return std::nullopt;
+  BoxSpec box;
+  box.where = corners->where();
+  for (const char* corner : {"low", "high"}) {
+    const std::vector<double> mm = corners->quantities(corner, core::Dimension::length, 3);
+    if (mm.empty()) continue;
+    (corner == std::string("low") ? box.low : box.high) = core::Vec3(mm[0], mm[1], mm[2]);
+  }
+  if (corners->good("low"))
+    corners->expect("high", (box.high - box.low).minCoeff() > 0.0,
+                    "a coordinate of \"high\" is not above that of \"low\"",
+                    "give the corner with the larger x, y and z");
+  return box;
+}
+
+}  // namespace scintray::scene_file

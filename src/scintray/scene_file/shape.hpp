@@ -1,0 +1,94 @@
+#pragma once
+/// Shapes as a scene file gives them. Lengths mm, angles rad.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
+#include "scintray/mesh/tessellation.hpp"
+
+namespace scintray::scene_file {
+
+/// An axis-aligned box, mm.
+struct BoxSpec {
+  core::Vec3 low = core::Vec3::Zero();
+  core::Vec3 high = core::Vec3::Zero();
+  double chamfer_mm = 0.0;  ///< of all edges, where the box is the shape of a part
+  core::FileLocation where;
+};
+
+/// A mesh file, CAD or triangles.
+struct MeshFileSpec {
+  std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
+  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must state
+  double scale = 1.0;
+  std::string body;                 ///< name or number of the one body of the file; empty: all together
+  mesh::Tessellation tessellation;  ///< of a CAD file's curved faces
+  core::FileLocation where;
+};
+
+/// A closed prism about the z axis, from z = 0 up.
+struct CylinderSpec {
+  double radius_mm = 0.0;  ///< of the circle through the vertices
+  double height_mm = 0.0;
+  int segments = 64;  ///< flat sides
+  core::FileLocation where;
+};
+
+/// Regular prism about the z axis, from z = 0 up, first corner on +x.
+struct PrismSpec {
+  int sides = 6;
+  double circumradius_mm = 0.0;
+  double height_mm = 0.0;
+  double chamfer_mm = 0.0;
+  core::FileLocation where;
+};
+
+/// Frustum between two rectangles, from z = 0 up.
+struct TaperedSpec {
+  mesh::Rectangle bottom, top;
+  double height_mm = 0.0;
+  core::FileLocation where;
+};
+
+/// Compound parabolic concentrator, exit on z = 0.
+struct WinstonSpec {
+  mesh::WinstonShape shape;
+  core::FileLocation where;
+};
+
+/// Geodesic sphere about the origin.
+struct SphereSpec {
+  double radius_mm = 0.0;  ///< of the sphere through the vertices
+  int subdivisions = 16;   ///< 20 subdivisions^2 triangles
+  core::FileLocation where;
+};
+
+using ShapeSpec =
+    std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec, SphereSpec>;
+
+/// Where a shape stands in the file.
+core::FileLocation shape_location(const ShapeSpec& shape);
+
+/// A shape as triangles, and what importing it left out or turned round.
+struct ShapeMesh {
+  mesh::TriMesh mesh;
+  std::vector<std::string> notes;
+};
+
+/// Makes or loads a shape. Throws InputError, without a place where the shape's own numbers are wrong.
+ShapeMesh shape_mesh(const ShapeSpec& shape);
+
+/// The one shape that a [[part]] or an element gives, with its chamfer. A unit box when it is wrong.
+ShapeSpec read_shape(const config::TomlTable& part);
+
+/// { low = [...], high = [...] } under `key`; nothing when absent or wrong.
+std::optional<BoxSpec> read_low_high(const config::TomlTable& table, const std::string& key);
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,78 @@
+#pragma once
+/// [source] of photons: where light starts, as a scene file states it. Lengths mm, wavelengths nm, times ns,
+/// angles rad.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/config/toml_reader.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
+#include "scintray/scene_file/shape.hpp"
+
+namespace scintray::scene_file {
+
+/// Points of a part (or of an explicit point) from which light starts.
+struct RegionSpec {
+  config::NameRef part;                            ///< may have wildcards: any of these parts, by volume
+  std::optional<std::array<double, 2>> slab_z_mm;  ///< world z, low then high
+  std::optional<BoxSpec> box;                      ///< world
+  core::FileLocation where;
+};
+
+enum class DirectionKind { isotropic, beam, cone, lambertian };
+
+struct DirectionSpec {
+  DirectionKind kind = DirectionKind::isotropic;
+  core::Vec3 axis =
+      core::Vec3::UnitZ();      ///< unit; of a beam, a cone (uniform in solid angle), a Lambertian lobe
+  double half_angle_rad = 0.0;  ///< of a cone, up to pi
+  core::FileLocation where;
+};
+
+/// type = "photons": photons from a region or a point.
+struct SourceSpec {
+  std::variant<RegionSpec, core::Vec3> origin;  ///< uniform in a region, or one point (mm, world)
+  core::FileLocation origin_where;
+  DirectionSpec direction;
+  std::optional<double> wavelength_nm;  ///< nothing: drawn from the emission of the medium there
+  core::FileLocation wavelength_where;
+  std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay of the medium there
+  core::FileLocation time_where;
+  bool unpolarised = false;  ///< Fresnel's mean at every surface; else each photon carries a
+                             ///< polarisation, drawn uniformly across its direction
+  std::uint64_t photons = 0;
+  std::optional<std::uint64_t> quick_photons;  ///< in their place, for a quick run
+  std::uint64_t photons_per_event = 1000;      ///< the last event may have fewer
+  core::FileLocation where;
+};
+
+/// The value of `source.region`; `parts` are the names of the scene's parts.
+RegionSpec read_region(const config::TomlTable& table, const std::vector<std::string>& parts);
+
+/// The value of `source.position`, mm.
+core::Vec3 read_position(const config::TomlTable& table);
+
+/// The keys by which a file gives where light or energy starts.
+enum class OriginKind { region, position, plane };
+
+/// A region or a position into a variant that may hold both; does nothing for a plane.
+template <class Origin>
+void read_origin(const config::TomlTable& table, OriginKind kind, const std::vector<std::string>& parts,
+                 Origin& origin) {
+  if (kind == OriginKind::region) origin = read_region(table.table("region"), parts);
+  if (kind == OriginKind::position) origin = read_position(table);
+}
+
+/// `direction`: "isotropic", a beam, a cone or a Lambertian lobe.
+DirectionSpec read_direction(const config::TomlTable& table);
+
+/// [source] of type = "photons", but for its type and polarisation.
+SourceSpec read_photon_source(const config::TomlTable& table, const std::vector<std::string>& parts);
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,51 @@
+#pragma once
+/// A scene as its file states it: names and numbers, nothing looked up or built yet. Lengths mm,
+/// wavelengths nm, times ns, angles rad.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/detector/readout_spec.hpp"
+#include "scintray/scene_file/analysis.hpp"
+#include "scintray/scene_file/contact.hpp"
+#include "scintray/scene_file/criterion.hpp"
+#include "scintray/scene_file/fit.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
+#include "scintray/scene_file/goniometer.hpp"
+#include "scintray/scene_file/part.hpp"
+#include "scintray/scene_file/run.hpp"
+#include "scintray/scene_file/source.hpp"
+#include "scintray/scene_file/tally_spec.hpp"
+
+namespace scintray::scene_file {
+
+struct SceneSpec {
+  std::string title;
+  config::NameRef ambient;  ///< medium around everything
+  ContactKind contacts_default = ContactKind::bonded;
+  bool contacts_default_given = false;
+  std::vector<PartSpec> parts;
+  std::vector<GroupSpec> groups;
+  std::vector<ContactSpec> contacts;
+  SourceSpec source;                       ///< [source] of photons
+  std::optional<GammaSpec> energy_source;  ///< [source] of energy; then there is no `source`
+  RunSpec run;
+  std::optional<detector::ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
+  AnalysisSpec analysis;
+  std::vector<CriterionSpec> criteria;
+  std::vector<GoniometerSpec> goniometers;
+  std::optional<FitSpec> fit;  ///< [fit]
+  std::vector<ExitAngleTallySpec> exit_angles;
+  std::vector<TallySpec> tallies;
+  InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
+  InlineTables surfaces;         ///< [surfaces.NAME]
+  InlineTables sensors;          ///< [sensors.NAME]
+  InlineTables reflectors;       ///< [reflectors.NAME]
+  std::filesystem::path file;    ///< the scene file as it was named
+  std::filesystem::path folder;  ///< relative paths in the scene count from here
+  std::string text;              ///< the whole file
+};
+
+}  // namespace scintray::scene_file

@@ -1,0 +1,79 @@
+#include "scintray/simulation/analyze_results.hpp"
+
+#include "scintray/core/pattern.hpp"
+#include "scintray/results/results.hpp"
+
+namespace scintray::simulation {
+
+namespace {
+
+/// Events read at a time.
+constexpr std::uint64_t kPortion = 8192;
+
+std::map<std::uint32_t, std::size_t> layers_of(const scene_file::AnalysisSpec& spec,
+                                               const std::vector<std::string>& parts) {
+  std::map<std::uint32_t, std::size_t> layers;
+  for (std::size_t layer = 0; layer < spec.layers.size(); ++layer)
+    for (const config::NameRef& name : spec.layers[layer]) {
+      bool found = false;
+      for (std::uint32_t part = 0; part < parts.size(); ++part) {
+        if (!core::matches_pattern(name.name, parts[part])) continue;
+        layers[part] = layer;
+        found = true;
+      }
+      if (!found) throw core::unknown_name(name.where, "part", name.name, parts);
+    }
+  return layers;
+}
+
+analysis::AnalysisSetup setup_of(const scene_file::AnalysisSpec& spec,
+                                 const std::vector<tally::ReadoutChannel>& channels,
+                                 const std::vector<std::string>& parts) {
+  analysis::AnalysisSetup setup;
+  for (const tally::ReadoutChannel& channel : channels) setup.channels_mm.push_back(channel.position);
+  if (spec.depth) setup.depth = {spec.depth->origin, spec.depth->along};
+  setup.layer_of_part = layers_of(spec, parts);
+  setup.photopeak.window = spec.photopeak;
+  setup.anger = {spec.anger_power, spec.anger_threshold};
+  setup.flood.expected = spec.peaks;
+  setup.ratio = spec.log_ratio ? analysis::EndRatio::logarithm : analysis::EndRatio::share;
+  setup.calibration =
+      spec.linear_calibration ? analysis::DoiCalibrationKind::linear : analysis::DoiCalibrationKind::monotone;
+  setup.slices = spec.slices;
+  setup.photopeak_only = spec.photopeak_only;
+  return setup;
+}
+
+}  // namespace
+
+std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,
+                                                     const tally::RunResult& run,
+                                                     const scene_file::AnalysisSpec& spec) {
+  if (results::read_results_status(path).listed_events == 0) return {};
+  const std::vector<std::uint64_t> photon_order = results::read_photon_order(path);
+  const results::EventDetail detail =
+      photon_order.empty() ? results::EventDetail::numbers : results::EventDetail::photon_times;
+  std::vector<analysis::EventAnalysis> analyses;
+  std::uint64_t row = 0;
+  std::vector<tally::EventRecord> events;
+  std::size_t at = 0;
+  for (std::size_t point = 0; point < run.points.size(); ++point) {
+    analysis::AnalysisSetup setup = setup_of(spec, results::read_channels(path, point), run.header.parts);
+    setup.photon_order = photon_order;
+    setup.light_timing = run.points[point].light_timing;
+    analysis::EventCollector collector(std::move(setup));
+    for (;;) {
+      if (at == events.size()) {
+        events = results::read_events(path, row, kPortion, detail);
+        row += events.size();
+        at = 0;
+      }
+      if (events.empty() || events[at].point != point) break;
+      collector.add(events[at++]);
+    }
+    analyses.push_back(collector.finish());
+  }
+  return analyses;
+}
+
+}  // namespace scintray::simulation

@@ -1,0 +1,81 @@
+#pragma once
+/// A response map, ready to compute what sensors see of light from any place.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/optics/decay_time.hpp"
+#include "scintray/simulation/response_map.hpp"
+
+namespace scintray::simulation {
+
+/// What one channel sees of light from one place. Cheap to copy; lives no longer than the response.
+class PlaceResponse {
+ public:
+  /// Of a photon emitted there.
+  double probability() const { return probability_; }
+  /// Time from emission to detection of a detected photon, ns: one of those in the map, of a cell nearby.
+  double sample_delay(core::Rng& rng) const;
+  /// No delay is shorter, ns.
+  double earliest_delay() const { return earliest_; }
+
+ private:
+  friend class MappedResponse;
+  struct Cell {
+    double below = 0.0;  ///< probability of the cells before this one, and of it
+    std::span<const float> delays_ns;
+  };
+  double probability_ = 0.0;
+  double earliest_ = std::numeric_limits<double>::infinity();
+  std::size_t count_ = 0;
+  std::array<Cell, 8> cells_;
+};
+
+/// Interpolates a map: probabilities linear in x, y and z between the centres of cells, constant beyond the
+/// outermost centres; empty cells are left out of the mean. Where all around is empty the nearest cell that
+/// is not speaks. Immutable; keeps a reference to the map.
+class MappedResponse {
+ public:
+  explicit MappedResponse(const ResponseMap& map);
+
+  std::size_t channels() const { return map_.channels.size(); }
+  /// True when light from this region is in the map.
+  bool covers(std::uint32_t region) const { return region < grid_of_.size() && grid_of_[region] >= 0; }
+  /// Response of every channel, in order, to light from a place in a region that is covered.
+  /// @param response  one a channel
+  void at(const core::Vec3& position, std::uint32_t region, std::vector<PlaceResponse>& response) const;
+
+ private:
+  struct Grid {
+    const ResponseGrid* data = nullptr;
+    std::vector<std::uint64_t> first_delay;  ///< of each cell
+    std::vector<float> earliest;             ///< delay of each cell and channel; 0 without any
+  };
+  struct Corner {
+    std::size_t cell = 0;
+    double weight = 0.0;
+  };
+  struct Corners {
+    std::array<Corner, 8> list;
+    std::size_t count = 0;
+  };
+  static Corners corners(const ResponseGrid& grid, const core::Vec3& position);
+  static std::size_t nearest_filled(const ResponseGrid& grid, const core::Vec3& position);
+
+  const ResponseMap& map_;
+  std::vector<Grid> grids_;
+  std::vector<std::int32_t> grid_of_;  ///< per region, -1: none
+};
+
+/// Time of the first of `count` photons (at least 1) that a channel detects of light emitted at time 0 with
+/// this decay. Photons are made in the order of their decay, whose steps are those of ordered exponentials
+/// (A. Renyi 1953, Acta Math. Acad. Sci. Hung. 4, 191), up to the one that comes out too late to be first
+/// even by the shortest way: exact, and quick where times of flight are short beside the decay.
+double sample_first(std::uint64_t count, const std::vector<optics::DecayComponent>& decay,
+                    const PlaceResponse& response, core::Rng& rng);
+
+}  // namespace scintray::simulation

@@ -1,0 +1,211 @@
+#include "scintray/simulation/response_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/transport/in_order.hpp"
+#include "scintray/transport/step.hpp"
+
+namespace scintray::simulation {
+
+namespace {
+
+/// Points drawn in a cell to find out whether it holds anything of its region: what fills less than a
+/// hundredth of its cell is missed once in ten times, and then has its neighbours' response.
+constexpr int kSurveyDraws = 256;
+/// Draws after which a photon of a cell that holds something is taken to be in a sliver.
+constexpr int kMostDraws = 1'000'000;
+/// Addresses the stream of a cell's survey, as no photon does.
+constexpr std::uint64_t kSurvey = std::numeric_limits<std::uint64_t>::max();
+
+/// What the light of one cell gave.
+struct CellResponse {
+  std::uint32_t photons = 0;
+  std::vector<std::uint32_t> detected;        ///< per channel
+  std::vector<std::vector<float>> delays_ns;  ///< per channel
+};
+
+/// Traces cells of one grid.
+class CellTracer {
+ public:
+  CellTracer(const scene::Scene& scene, const tally::ReadoutChannels& channels, const ResponseMap& map,
+             const ResponseGrid& grid, const RunSettings& run)
+      : scene_(scene), channels_(channels), map_(map), grid_(grid), run_(run) {
+    medium_ = scene.regions[grid.region].medium;
+    emission_ = core::CurveSampler(scene.media[medium_].medium().emission);
+  }
+
+  /// @param address  of the cell among those of all grids, for its streams
+  CellResponse trace(std::size_t cell, std::uint64_t address) const {
+    CellResponse response{0, std::vector<std::uint32_t>(channels_.list.size()),
+                          std::vector<std::vector<float>>(channels_.list.size())};
+    const Eigen::AlignedBox3d box = box_of(cell);
+    if (!holds_something(box, address)) return response;
+    for (std::uint32_t photon = 0; photon < map_.photons_per_cell; ++photon)
+      trace_photon(box, address, photon, response);
+    return response;
+  }
+
+ private:
+  Eigen::AlignedBox3d box_of(std::size_t cell) const {
+    const std::size_t z = cell % grid_.cells[2], rest = cell / grid_.cells[2];
+    const core::Vec3 at(static_cast<double>(rest / grid_.cells[1]),
+                        static_cast<double>(rest % grid_.cells[1]), static_cast<double>(z));
+    const core::Vec3 low = grid_.low + grid_.pitch.cwiseProduct(at);
+    return {low, core::Vec3(low + grid_.pitch)};
+  }
+
+  static core::Vec3 point_in(const Eigen::AlignedBox3d& box, core::Rng& rng) {
+    const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+    return box.min() + box.sizes().cwiseProduct(core::Vec3(x, y, z));
+  }
+
+  bool holds_something(const Eigen::AlignedBox3d& box, std::uint64_t address) const {
+    core::Rng rng(run_.seed, core::StreamKind::cell, address, kSurvey);
+    for (int draw = 0; draw < kSurveyDraws; ++draw)
+      if (scene_.region_contains(grid_.region, point_in(box, rng))) return true;
+    return false;
+  }
+
+  /// A point of the region within the cell; false when none is found.
+  bool place(const Eigen::AlignedBox3d& box, core::Rng& rng, core::PlainVec3& position) const {
+    for (int draw = 0; draw < kMostDraws; ++draw) {
+      position = point_in(box, rng);
+      if (scene_.region_contains(grid_.region, position)) return true;
+    }
+    return false;
+  }
+
+  void trace_photon(const Eigen::AlignedBox3d& box, std::uint64_t address, std::uint32_t number,
+                    CellResponse& response) const {
+    core::Rng rng(run_.seed, core::StreamKind::cell, address, number);
+    source::Photon photon;
+    if (!place(box, rng, photon.position)) return;
+    ++response.photons;
+    photon.region = grid_.region;
+    photon.ray.direction = core::sample_isotropic(rng);
+    photon.ray.polarisation = map_.unpolarised ? core::Vec3(core::Vec3::Zero())
+                                               : core::sample_polarisation(photon.ray.direction, rng);
+    photon.wavelength_nm = emission_.sample(rng.uniform());
+    photon.optics = scene_.optics.at(medium_, photon.wavelength_nm);
+    photon.optical_depth = core::sample_exponential(rng);
+    const transport::PropagationLimits limits = limits_of(run_);
+    for (;;) {
+      const transport::Step taken = transport::step(scene_, photon, rng, limits);
+      if (taken.event == core::StepEvent::detected) {
+        const std::uint32_t channel = channels_.at(taken);
+        if (response.detected[channel]++ < map_.delays_kept)
+          response.delays_ns[channel].push_back(static_cast<float>(photon.time_ns));
+      }
+      if (core::is_final(taken.event) || limits.reached(photon)) return;
+    }
+  }
+
+  const scene::Scene& scene_;
+  const tally::ReadoutChannels& channels_;
+  const ResponseMap& map_;
+  const ResponseGrid& grid_;
+  const RunSettings& run_;
+  std::uint32_t medium_ = 0;
+  core::CurveSampler emission_;
+};
+
+void append(ResponseGrid& grid, const CellResponse& response) {
+  grid.photons.push_back(response.photons);
+  grid.detected.insert(grid.detected.end(), response.detected.begin(), response.detected.end());
+  for (const std::vector<float>& delays : response.delays_ns)
+    grid.delays_ns.insert(grid.delays_ns.end(), delays.begin(), delays.end());
+}
+
+void refuse_too_large(const std::vector<ResponseGrid>& grids, std::size_t channels,
+                      const ResponseSettings& settings) {
+  double cells = 0.0;
+  for (const ResponseGrid& grid : grids) cells += static_cast<double>(grid.size());
+  const double responses = cells * static_cast<double>(channels);
+  // A photon is detected once, so no cell keeps more delays than it has photons.
+  const double delays = std::min(responses * settings.delays_kept, cells * settings.photons_per_cell);
+  if (responses <= static_cast<double>(kMostResponses) && delays <= static_cast<double>(kMostDelays)) return;
+  throw core::InputError({{},
+                          "the map would have " + std::to_string(static_cast<std::uint64_t>(cells)) +
+                              " cells for " + std::to_string(channels) + " channels, with up to " +
+                              std::to_string(static_cast<std::uint64_t>(delays)) +
+                              " delays: more than fits into memory",
+                          "choose a larger pitch, or keep fewer delays"});
+}
+
+}  // namespace
+
+std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+                                    double pitch_mm) {
+  std::vector<ResponseGrid> grids;
+  for (const std::uint32_t region : regions) {
+    const std::int32_t part = scene.regions[region].part;
+    if (part == scene::kNone) continue;
+    const scene::PartInfo& info = scene.parts[static_cast<std::size_t>(part)];
+    ResponseGrid grid;
+    grid.part = info.name;
+    grid.region = region;
+    grid.low = info.bounds.min();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = info.bounds.sizes()[axis];
+      // Rounding must not make an eleventh cell of 10 mm at a pitch of 1 mm.
+      const double count = std::max(1.0, std::ceil(size / pitch_mm - 1e-6));
+      if (count > 1e6)
+        throw core::InputError({{},
+                                "cells of " + std::to_string(pitch_mm) + " mm are " + std::to_string(count) +
+                                    " along one edge of \"" + info.name + "\"",
+                                "choose a larger pitch"});
+      grid.cells[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(count);
+      grid.pitch[axis] = size / count;
+    }
+    grids.push_back(std::move(grid));
+  }
+  if (grids.empty())
+    throw core::InputError({{},
+                            "no part scintillates, so there is no place to map the light of",
+                            "give the medium of a part [yield], [emission] and [[decay]]"});
+  return grids;
+}
+
+ResponseMap build_response_map(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+                               bool unpolarised, const ResponseSettings& settings, const RunSettings& run,
+                               const ResponseHooks& hooks) {
+  const tally::ReadoutChannels channels(scene);
+  if (channels.list.empty())
+    throw core::InputError({{}, "the scene has no sensor", "give a part or a face a sensor"});
+  ResponseMap map;
+  for (const tally::ReadoutChannel& channel : channels.list) map.channels.push_back(channel.name);
+  map.seed = run.seed;
+  map.photons_per_cell = settings.photons_per_cell;
+  map.delays_kept = settings.delays_kept;
+  map.unpolarised = unpolarised;
+  map.grids = lay_grids(scene, regions, settings.pitch_mm);
+  refuse_too_large(map.grids, map.channels.size(), settings);
+
+  std::vector<CellTracer> tracers;
+  std::vector<std::uint64_t> first;  // address of the first cell of each grid, and the end
+  std::uint64_t total = 0;
+  for (const ResponseGrid& grid : map.grids) {
+    tracers.emplace_back(scene, channels, map, grid, run);
+    first.push_back(total);
+    total += grid.size();
+  }
+  const auto grid_of = [&](std::uint64_t address) {
+    return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), address) - first.begin()) -
+           1;
+  };
+  const auto trace = [&](std::uint64_t address) {
+    const std::size_t grid = grid_of(address);
+    return tracers[grid].trace(address - first[grid], address);
+  };
+  const auto collect = [&](std::uint64_t address, const CellResponse& response) {
+    append(map.grids[grid_of(address)], response);
+    if (hooks.progress) hooks.progress(address + 1, total);
+  };
+  if (transport::work_in_order(total, run.threads, hooks.stop, trace, collect) < total) map.grids.clear();
+  return map;
+}
+
+}  // namespace scintray::simulation

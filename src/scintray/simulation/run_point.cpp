@@ -1,0 +1,160 @@
+#include "scintray/simulation/run_point.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "scintray/tally/event_tally.hpp"
+#include "scintray/transport/in_order.hpp"
+#include "scintray/transport/step.hpp"
+
+namespace scintray::simulation {
+
+namespace {
+
+/// What one piece of work found.
+struct Block {
+  Block(const scene::Scene& scene, const tally::TallyPlan& plan)
+      : photons(scene, plan), events(scene, plan) {}
+  tally::BlockTally photons;
+  tally::EventTally events;
+  std::uint64_t started = 0;  ///< photons
+};
+
+/// Traces the blocks of one point.
+class BlockTracer {
+ public:
+  BlockTracer(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
+              const RunSettings& settings)
+      : scene_(scene), source_(source), plan_(plan), settings_(settings), energy_(source.has_energy()) {}
+
+  Block trace(std::uint64_t number) const {
+    Block block(scene_, plan_);
+    const auto pass = [&](const source::Photon& photon, const transport::Step& passed) {
+      block.photons.pass(photon, passed);
+    };
+    transport::PropagationLimits limits = limits_of(settings_);
+    if (block.photons.wants_reflections()) limits.passed = pass;
+    source::EventLight light;
+    for (const source::PhotonSpan& span : source_.block(number)) {
+      core::Rng rng = event_stream(settings_, span.event);
+      source_.begin(scene_, span.event, rng, light);
+      if (energy_) block.events.begin(span.event, settings_.point, light);
+      const std::uint64_t count = std::min(span.count, light.photons - span.first);
+      for (std::uint64_t i = 0; i < count; ++i)
+        trace_photon(light, span.event, span.first + i, limits, block);
+      block.started += count;
+      if (energy_)
+        block.events.end(
+            [&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
+    }
+    return block;
+  }
+
+ private:
+  void trace_photon(const source::EventLight& light, std::uint64_t event, std::uint64_t number,
+                    const transport::PropagationLimits& limits, Block& block) const {
+    core::Rng rng = photon_stream(settings_, event, number);
+    source::Photon photon = source_.emit(scene_, light, number, rng);
+    tally::BlockTally& tally = block.photons;
+    tally.start(photon, event, number);
+    for (;;) {
+      const transport::Step taken = transport::step(scene_, photon, rng, limits, &tally.records());
+      if (core::is_final(taken.event)) {
+        tally.end(photon, taken, settings_.point);
+        if (energy_ && taken.event == core::StepEvent::detected)
+          block.events.detected(plan_.channels.at(taken), photon);
+        return;
+      }
+      tally.record(photon, taken);
+      if (const auto fate = limits.reached(photon)) return tally.cut(photon, *fate);
+    }
+  }
+
+  const scene::Scene& scene_;
+  const source::LightSource& source_;
+  const tally::TallyPlan& plan_;
+  const RunSettings& settings_;
+  bool energy_;
+};
+
+void check_every_photon_has_a_fate(tally::PointResult& result, std::uint64_t traced) {
+  std::uint64_t ended = 0;
+  for (const std::uint64_t count : result.fates) ended += count;
+  result.lost = traced - ended;
+  if (result.lost != 0)
+    throw core::InternalError(std::to_string(result.lost) + " of " + std::to_string(traced) +
+                              " photons have no fate");
+}
+
+}  // namespace
+
+core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon) {
+  return core::Rng(settings.seed, core::StreamKind::photon, event, photon, settings.point);
+}
+
+core::Rng event_stream(const RunSettings& settings, std::uint64_t event) {
+  return core::Rng(settings.seed, core::StreamKind::event, event, 0, settings.point);
+}
+
+core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel) {
+  return core::Rng(settings.seed, core::StreamKind::sensor, event, channel, settings.point);
+}
+
+tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
+                             const tally::TallyPlan& plan, const RunSettings& settings,
+                             const RunHooks& hooks) {
+  const auto start = std::chrono::steady_clock::now();
+  tally::PointResult total = tally::empty_result(scene, plan);
+  const BlockTracer tracer(scene, source, plan, settings);
+  const bool energy = source.has_energy();
+  const std::uint64_t blocks = source.blocks();
+  std::uint64_t started = 0;
+
+  const auto trace = [&](std::uint64_t block) { return tracer.trace(block); };
+  const auto collect = [&](std::uint64_t, const Block& block) {
+    block.photons.add_to(total);
+    block.events.add_to(total.energy);
+    started += block.started;
+    if (hooks.detected && !block.photons.photons().empty()) hooks.detected(block.photons.photons());
+    if (hooks.histories && block.photons.histories()) hooks.histories(*block.photons.histories());
+    if (hooks.events && !block.events.events().empty()) hooks.events(block.events.events());
+    if (hooks.progress) hooks.progress(energy ? total.energy.events : started);
+  };
+  const std::uint64_t blocks_done =
+      transport::work_in_order(blocks, settings.threads, hooks.stop, trace, collect);
+
+  check_every_photon_has_a_fate(total, started);
+  total.complete = blocks_done == blocks;
+  total.photons_requested = energy ? started : source.photons();
+  total.energy.events_requested = energy ? source.events() : 0;
+  total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return total;
+}
+
+source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
+                      const RunSettings& settings, std::uint64_t event, std::uint64_t number,
+                      transport::StepVisitor visit) {
+  source::EventLight light;
+  if (event < source.events()) {
+    core::Rng rng = event_stream(settings, event);
+    source.begin(scene, event, rng, light);
+  }
+  if (number >= light.photons)
+    throw core::InputError(core::Problem{
+        {},
+        "there is no photon " + std::to_string(number) + " of event " + std::to_string(event) + ": " +
+            (event < source.events() ? "that event has " + std::to_string(light.photons) + " photons"
+                                     : "there are " + std::to_string(source.events()) + " events"),
+        "both count from 0"});
+  core::Rng rng = photon_stream(settings, event, number);
+  source::Photon photon = source.emit(scene, light, number, rng);
+  transport::PropagationLimits limits = limits_of(settings);
+  limits.passed = visit;
+  for (;;) {
+    const transport::Step taken = transport::step(scene, photon, rng, limits);
+    visit(photon, taken);
+    if (core::is_final(taken.event) || limits.reached(photon)) return photon;
+  }
+}
+
+}  // namespace scintray::simulation

@@ -1,0 +1,63 @@
+#pragma once
+/// Many photons: fixed blocks over threads.
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "scintray/source/light_source.hpp"
+#include "scintray/tally/block_tally.hpp"
+#include "scintray/tally/event_record.hpp"
+#include "scintray/transport/propagate.hpp"
+
+namespace scintray::simulation {
+
+struct RunSettings {
+  std::uint64_t seed = 1;
+  std::uint32_t point = 0;                   ///< sweep point: each has its own random streams
+  std::uint64_t max_interactions = 100'000;  ///< boundary interactions after which a photon is cut
+  std::optional<double> max_time_ns;         ///< time after which a photon is cut
+  int threads = 0;                           ///< 0: all cores
+};
+
+/// Progress of a run while it goes on. Any may be empty. All are called from one thread at a time.
+struct RunHooks {
+  /// Photons traced so far, or events of a source of energy.
+  std::function<void(std::uint64_t done)> progress;
+  std::function<void(const std::vector<tally::DetectedPhoton>&)> detected;  ///< in the order of photons
+  std::function<void(const tally::PhotonHistories&)> histories;        ///< of the detected, in the same order
+  std::function<void(const std::vector<tally::EventRecord>&)> events;  ///< of a source of energy, in order
+  const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the blocks under way and return
+};
+
+/// The random stream of one photon of a run.
+core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon);
+/// The random stream of what an event is before its first photon.
+core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
+
+/// The random stream of what a sensor and its electronics add to an event.
+core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
+
+/// The limits of a run, at which photons are cut.
+inline transport::PropagationLimits limits_of(const RunSettings& settings) {
+  transport::PropagationLimits limits;
+  limits.interactions = settings.max_interactions;
+  if (settings.max_time_ns) limits.time_ns = *settings.max_time_ns;
+  return limits;
+}
+
+/// Traces all photons of a source. The result does not depend on the number of threads, to the last
+/// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
+/// the photons of the blocks before the stop and states `complete = false`.
+/// @throws InternalError when a photon has no fate.
+tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
+                             const tally::TallyPlan& plan, const RunSettings& settings,
+                             const RunHooks& hooks = {});
+
+/// Follows one photon again; `visit` sees every step, each total reflection among them. Returns the photon as
+/// it ended. Throws InputError when there is no such photon.
+source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
+                      const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
+                      transport::StepVisitor visit);
+
+}  // namespace scintray::simulation

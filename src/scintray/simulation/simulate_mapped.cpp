@@ -1,0 +1,148 @@
+#include "scintray/simulation/simulate_mapped.hpp"
+
+#include <algorithm>
+
+#include "scintray/config/toml_difference.hpp"
+#include "scintray/core/version.hpp"
+
+namespace scintray::simulation {
+
+namespace {
+
+/// Keys of a scene that do not change how light goes from a place to a sensor.
+const std::vector<std::string> kFreeKeys = {"title", "source", "run",   "readout", "analysis",
+                                            "tally", "claim",  "bench", "fit"};
+
+/// How far a part may be from where the map has it: what rounding of a scene's numbers makes.
+constexpr double kSamePlace_mm = 1e-6;
+
+void refuse_sweep(const scene_file::SceneFile& file) {
+  if (file.points() != 1 || !file.sweep_keys().empty())
+    throw core::InputError({{file.spec(0).file.string()},
+                            "a response map is of one scene, and this one has a sweep",
+                            "make a scene of each point, without [[sweep]]"});
+}
+
+void require_energy(const scene_file::SceneSpec& spec) {
+  if (!spec.energy_source)
+    throw core::InputError({spec.source.where,
+                            "response maps are for sources of energy, and this is a source of photons",
+                            "use type = \"gamma_events\", \"gammas\" or \"hits\" (docs/gamma_sources.md)"});
+  if (spec.energy_source->cherenkov)
+    throw core::InputError(
+        {spec.energy_source->where,
+         "a response map is of scintillation light, and this source has Cherenkov light too",
+         "remove cherenkov, or trace the scene with `scintray run`"});
+}
+
+/// Gives the grids of a map their regions of a scene.
+void bind_grids(ResponseMap& map, const scene::Scene& scene, const std::string& where) {
+  const auto changed = [&](const std::string& what) {
+    return core::InputError(
+        {{where},
+         "this response map is of other parts: " + what,
+         "a mesh or another file of the scene has changed since; build the map again with "
+         "`scintray response build`"});
+  };
+  const tally::ReadoutChannels channels(scene);
+  std::vector<std::string> names;
+  for (const tally::ReadoutChannel& channel : channels.list) names.push_back(channel.name);
+  if (names != map.channels) throw changed("its channels are not those of the scene");
+  for (ResponseGrid& grid : map.grids) {
+    const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
+                                   [&](const scene::PartInfo& info) { return info.name == grid.part; });
+    if (part == scene.parts.end()) throw changed("there is no part \"" + grid.part + "\" any more");
+    const core::Vec3 high =
+        grid.low + grid.pitch.cwiseProduct(core::Vec3(grid.cells[0], grid.cells[1], grid.cells[2]));
+    if ((part->bounds.min() - grid.low).cwiseAbs().maxCoeff() > kSamePlace_mm ||
+        (part->bounds.max() - high).cwiseAbs().maxCoeff() > kSamePlace_mm)
+      throw changed("\"" + grid.part + "\" has another place or size");
+    grid.region = part->region;
+  }
+}
+
+bool counts_photons(const scene_file::SceneSpec& spec) {
+  return !spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list ||
+         spec.run.photon_history;
+}
+
+/// What can only be had of photons that are traced.
+void leave_photons_out(scene_file::SceneSpec& spec) {
+  spec.tallies.clear();
+  spec.exit_angles.clear();
+  spec.run.photon_list = spec.run.photon_history = false;
+}
+
+std::string origin_note(const std::filesystem::path& path, const ResponseFile& response) {
+  const ResponseMap& map = response.map;
+  return "events from the response map " + path.filename().string() + " (ScintRay " + response.version +
+         ", seed " + std::to_string(map.seed) + ", " + std::to_string(map.photons_per_cell) +
+         " photons in each cell); no photon was traced for them";
+}
+
+}  // namespace
+
+ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options) {
+  refuse_sweep(file);
+  require_energy(file.spec(0));
+  SimulationOptions run;
+  run.threads = options.threads;
+  run.seed = options.seed;
+  run.surface_hooks = options.surface_hooks;
+  run.change = leave_photons_out;
+  Simulation simulation(file, run);
+  const auto point = simulation.point(0);
+  const scene_file::SceneSpec& spec = point->spec();
+  return {build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
+                             options.settings, point->settings(), options.hooks),
+          core::version(), spec.file.string(), file.text()};
+}
+
+void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& response) {
+  const scene_file::SceneSpec spec = file.spec(0);
+  const std::string hint = "build the map again with `scintray response build`, or run the scene it is of";
+  const std::string other =
+      config::first_difference(*config::parse_toml(response.scene_text, response.scene_file),
+                               *config::parse_toml(file.text(), spec.file.string()), kFreeKeys);
+  if (!other.empty())
+    throw core::InputError(
+        {{spec.file.string()}, "the response map is of another scene: \"" + other + "\" differs", hint});
+  if (spec.energy_source->unpolarised != response.map.unpolarised)
+    throw core::InputError({spec.energy_source->where,
+                            std::string("the response map is of ") +
+                                (response.map.unpolarised ? "unpolarised" : "polarised") +
+                                " light, and source.polarisation says otherwise",
+                            hint});
+}
+
+tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::filesystem::path& map_file,
+                                 ResultSink& sink, const SimulationOptions& options,
+                                 const SimulationHooks& hooks) {
+  refuse_sweep(file);
+  const scene_file::SceneSpec as_written = file.spec(0);
+  require_energy(as_written);
+  SimulationOptions without_photons = options;
+  without_photons.change = [&](scene_file::SceneSpec& spec) {
+    if (options.change) options.change(spec);
+    leave_photons_out(spec);
+  };
+  Simulation simulation(file, without_photons);
+  simulation.spec(0);  // what is wrong with the options comes first
+  ResponseFile response = read_response(map_file);
+  require_same_scene(file, response);
+  bind_grids(response.map, simulation.point(0)->scene(), map_file.string());
+  RunOutline outline = simulation.outline();
+  std::string& note = outline.header.note;
+  note = origin_note(map_file, response) + (note.empty() ? "" : "\n") + note;
+  if (counts_photons(as_written)) note += "\ntallies, the list of photons and their histories are left out";
+
+  tally::RunResult result;
+  result.header = outline.header;
+  sink.begin(outline);
+  result.points.push_back(simulation.run(0, MappedResponse(response.map), sink, hooks));
+  if (!result.complete()) result.partial_reason = kStopped;
+  sink.commit(result.complete(), result.partial_reason);
+  return result;
+}
+
+}  // namespace scintray::simulation

@@ -1,0 +1,34 @@
+#pragma once
+/// Response maps of scene files, and events from them.
+
+#include "scintray/simulation/response_file.hpp"
+#include "scintray/simulation/simulation.hpp"
+
+namespace scintray::simulation {
+
+struct MapOptions {
+  ResponseSettings settings;
+  std::optional<int> threads;  ///< in place of the scene's
+  std::optional<std::uint64_t> seed;
+  ResponseHooks hooks;
+  materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
+};
+
+/// Builds the map of all parts that scintillate. The scene's [source] states whether light is polarised and,
+/// by being one of energy, which wavelengths are in use; its events are not requested.
+/// @return without grids when stopped
+/// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map does
+ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options);
+
+/// Throws InputError unless the scene is the one that the map is of: everything must be written alike but
+/// the title, [source], [run], [readout], [analysis] and tallies, and light must be polarised or not as then.
+void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& response);
+
+/// Events of the scene from a map, as Simulation::run_all makes them by tracing. The header states in its
+/// note where they come from. Tallies of photons are left out, as no photon is traced.
+/// @throws InputError as require_same_scene does, and when parts are not where they were
+tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::filesystem::path& map_file,
+                                 ResultSink& sink, const SimulationOptions& options,
+                                 const SimulationHooks& hooks = {});
+
+}  // namespace scintray::simulation

@@ -1,0 +1,37 @@
+#pragma once
+/// What a user may set beside a scene.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "scintray/materials/surface_factory.hpp"
+#include "scintray/scene_file/spec.hpp"
+#include "scintray/simulation/run_point.hpp"
+
+namespace scintray::simulation {
+
+struct SimulationOptions {
+  std::optional<int> threads;  ///< in place of the scene's
+  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> photons;  ///< per point, of a source of photons
+  std::optional<std::uint64_t> events;   ///< per point, of a source of energy
+  bool quick = false;  ///< the scene's quick_photons or quick_events in place of its full number
+  std::function<void(scene_file::SceneSpec&)>
+      change;                                      ///< applied to the scene of every point, after all others
+  materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
+  /// Points of a sweep are kept from when they are built until they have been traced, as long as their parts
+  /// have no more triangles than this: a block of 12 x 12 crystals takes 3 MB. Of the points beyond only the
+  /// latest is kept, and the others are built again when they are traced.
+  std::size_t most_triangles_kept = 2'000'000;
+};
+
+/// A scene with the options in place of its own settings.
+/// @throws InputError for an option that the scene's source does not have
+scene_file::SceneSpec with_options(scene_file::SceneSpec spec, const SimulationOptions& options);
+
+/// Settings of the tracer from [run].
+/// @param point  of a sweep: each has random streams of its own
+RunSettings run_settings(const scene_file::RunSpec& run, std::uint32_t point = 0);
+
+}  // namespace scintray::simulation

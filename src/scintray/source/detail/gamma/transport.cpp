@@ -1,0 +1,174 @@
+#include "scintray/source/detail/gamma/transport.hpp"
+
+#include <limits>
+#include <map>
+
+#include "scintray/core/pattern.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/source/detail/gamma/scattering.hpp"
+#include "scintray/source/detail/scintillation.hpp"
+
+namespace scintray::source {
+
+namespace {
+
+/// Steps of one gamma after which something is wrong with the geometry.
+constexpr int kMostSteps = 1'000'000;
+
+/// The last specification that names the region, or nullptr.
+const scene_file::MatterSpec* matter_named(const std::vector<scene_file::MatterSpec>& matter,
+                                           const scene::Scene& scene, std::uint32_t region) {
+  const std::int32_t part = scene.regions[region].part;
+  const std::string& name =
+      part == scene::kNone ? scene_file::kAmbientName : scene.parts[static_cast<std::size_t>(part)].name;
+  const scene_file::MatterSpec* found = nullptr;
+  for (const scene_file::MatterSpec& one : matter)
+    if (core::matches_pattern(one.part.name, name)) found = &one;
+  return found;
+}
+
+}  // namespace
+
+/// What all gammas of an event share.
+struct GammaTransport::Walk {
+  const scene::Scene& scene;
+  core::Rng& rng;
+  Event& event;
+  std::vector<Gamma> waiting;
+
+  void leave(const Gamma& at, double energy_keV) {
+    leave_energy(scene, {at.position, at.region, energy_keV, at.time_ns}, event);
+  }
+};
+
+GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,
+                               bool fluorescence, const core::FileLocation& where)
+    : fluorescence_(fluorescence) {
+  std::map<std::uint32_t, std::shared_ptr<const GammaMatter>> by_medium;
+  std::map<const scene_file::MatterSpec*, std::shared_ptr<const GammaMatter>> by_spec;
+  std::map<std::uint32_t, std::string> unknown;  // medium, and the parts of it
+  for (std::uint32_t region = 0; region < scene.regions.size(); ++region) {
+    matter_.push_back(nullptr);
+    if (const scene_file::MatterSpec* named = matter_named(matter, scene, region)) {
+      if (named->composition.empty()) continue;
+      std::shared_ptr<const GammaMatter>& known = by_spec[named];
+      if (!known) known = std::make_shared<GammaMatter>(named->composition, named->density_g_per_cm3);
+      matter_.back() = known;
+      continue;
+    }
+    const std::uint32_t id = scene.regions[region].medium;
+    const optics::Medium& medium = scene.media[id].medium();
+    if (medium.empty_space) continue;
+    if (medium.composition.empty()) {
+      std::string& names = unknown[id];
+      names += (names.empty() ? "\"" : ", \"") + scene.region_names[region] + "\"";
+      continue;
+    }
+    std::shared_ptr<const GammaMatter>& known = by_medium[id];
+    if (!known) known = std::make_shared<GammaMatter>(medium.composition, medium.density_g_per_cm3);
+    matter_.back() = known;
+  }
+  core::Problems problems;
+  for (const auto& [medium, parts] : unknown)
+    problems.add(where,
+                 "gammas come through the medium \"" + scene.media[medium].medium().name + "\" of " + parts +
+                     ", but it does not say what it is made of",
+                 "add [composition] and [density] to the medium, or to [source] either [[source.matter]] "
+                 "with part, formula and density, or vacuum = [PART], for parts that gammas are to pass");
+  problems.throw_if_any();
+}
+
+void GammaTransport::follow(const scene::Scene& scene, std::vector<Gamma> gammas, core::Rng& rng,
+                            Event& event) const {
+  Walk walk{scene, rng, event, std::move(gammas)};
+  while (!walk.waiting.empty()) {
+    const Gamma next = walk.waiting.back();
+    walk.waiting.pop_back();
+    follow_one(walk, next);
+  }
+}
+
+void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (gamma.energy_keV < scene_file::kLowestGamma_keV) {
+      walk.leave(gamma, gamma.energy_keV);
+      return;
+    }
+    const scene::Region& region = walk.scene.regions[gamma.region];
+    const scene::Exit exit = walk.scene.find_exit(region, gamma.position, gamma.direction);
+    if (exit.triangle == scene::kNoTriangle) {
+      walk.event.escaped_keV += gamma.energy_keV;
+      return;
+    }
+    const GammaMatter* const matter = matter_[gamma.region].get();
+    const double free_mm = matter
+                               ? core::sample_exponential(walk.rng) / matter->total_per_mm(gamma.energy_keV)
+                               : std::numeric_limits<double>::infinity();
+    const bool leaves = exit.distance_mm <= free_mm;
+    const double distance_mm = leaves ? exit.distance_mm : free_mm;
+    gamma.position += distance_mm * gamma.direction;
+    gamma.time_ns += distance_mm / core::kSpeedOfLight_mm_per_ns;
+    if (leaves) {
+      const scene::BoundaryLink link = walk.scene.link(region, exit.triangle);
+      const scene::Interface& interface = walk.scene.interfaces[link.interface];
+      gamma.region = link.from_back ? interface.front : interface.back;
+    } else if (!interact(walk, gamma)) {
+      return;
+    }
+  }
+  throw core::InternalError("a gamma goes to and fro in \"" + walk.scene.region_names[gamma.region] + "\"");
+}
+
+/// Lets the gamma interact where it is. False when it is no more.
+bool GammaTransport::interact(Walk& walk, Gamma& gamma) const {
+  const GammaEncounter encounter = matter_[gamma.region]->sample(gamma.energy_keV, walk.rng);
+  switch (encounter.process) {
+    case GammaProcess::photoelectric:
+      absorb(walk, gamma, *encounter.element);
+      return false;
+    case GammaProcess::pair:
+      make_pair(walk, gamma);
+      return false;
+    case GammaProcess::rayleigh:
+      gamma.direction =
+          core::turned(gamma.direction, encounter.element->sample_rayleigh_cosine(gamma.energy_keV, walk.rng),
+                       core::kTwoPi * walk.rng.uniform());
+      return true;
+    case GammaProcess::compton:
+      break;
+  }
+  const ComptonScattering scattering = sample_compton(*encounter.element, gamma.energy_keV, walk.rng);
+  walk.leave(gamma, gamma.energy_keV - scattering.energy_keV);
+  gamma.energy_keV = scattering.energy_keV;
+  gamma.direction = core::turned(gamma.direction, scattering.cosine, core::kTwoPi * walk.rng.uniform());
+  return true;
+}
+
+void GammaTransport::absorb(Walk& walk, const Gamma& gamma, const ElementData& element) const {
+  double local_keV = gamma.energy_keV;
+  const KShell& k = element.k_shell();
+  if (fluorescence_ && !k.lines.empty() && gamma.energy_keV > k.edge_keV &&
+      k.lines.back().energy_keV >= scene_file::kLowestGamma_keV && walk.rng.uniform() < k.share * k.yield) {
+    const double u = walk.rng.uniform();
+    std::size_t line = 0;
+    while (line + 1 < k.lines.size() && u >= k.lines[line].most) ++line;
+    Gamma xray = gamma;
+    xray.energy_keV = k.lines[line].energy_keV;
+    xray.direction = core::sample_isotropic(walk.rng);
+    walk.waiting.push_back(xray);
+    local_keV -= xray.energy_keV;
+  }
+  walk.leave(gamma, local_keV);
+}
+
+void GammaTransport::make_pair(Walk& walk, const Gamma& gamma) const {
+  Gamma annihilation = gamma;
+  annihilation.energy_keV = core::kElectronMass_keV;
+  annihilation.direction = core::sample_isotropic(walk.rng);
+  walk.waiting.push_back(annihilation);
+  annihilation.direction = -annihilation.direction;
+  walk.waiting.push_back(annihilation);
+  walk.leave(gamma, gamma.energy_keV - 2.0 * core::kElectronMass_keV);
+}
+
+}  // namespace scintray::source

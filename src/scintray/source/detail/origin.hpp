@@ -1,0 +1,51 @@
+#pragma once
+/// Where things start, and in which direction.
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "scintray/core/philox.hpp"
+#include "scintray/scene/scene.hpp"
+#include "scintray/scene_file/spec.hpp"
+
+namespace scintray::source {
+
+/// A place in a scene.
+struct Place {
+  core::Vec3 position = core::Vec3::Zero();  ///< world, mm
+  std::uint32_t region = 0;                  ///< that contains it
+};
+
+/// Places uniform over part of a scene, or one point. Immutable.
+class Origin {
+ public:
+  /// A pattern of parts is the union of those that have some of the region's box. Throws InputError when
+  /// the region is empty or no part has that name.
+  Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, const scene::Scene& scene);
+
+  Place sample(const scene::Scene& scene, core::Rng& rng) const;
+
+  /// Regions in which places lie.
+  std::vector<std::uint32_t> regions() const;
+
+ private:
+  /// A region and the box in which positions are drawn and, if inside, kept.
+  struct Box {
+    std::uint32_t region = 0;
+    Eigen::AlignedBox3d box;
+    bool inside = false;  ///< all of it: no position needs asking
+    double most = 1.0;    ///< share of the volume of the boxes up to this one
+  };
+  void add_parts(const scene_file::RegionSpec& spec, const scene::Scene& scene);
+  void add_box(const scene_file::RegionSpec& spec, const scene::PartInfo& part);
+  const Box& sample_box(core::Rng& rng) const;
+
+  std::vector<Box> boxes_;
+  bool point_ = false;
+};
+
+/// A direction of the given distribution, of unit length.
+core::Vec3 sample_direction(const scene_file::DirectionSpec& spec, core::Rng& rng);
+
+}  // namespace scintray::source

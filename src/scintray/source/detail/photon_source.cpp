@@ -1,0 +1,93 @@
+#include "scintray/source/detail/photon_source.hpp"
+
+#include <algorithm>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/optics/decay_time.hpp"
+
+namespace scintray::source {
+
+namespace {
+
+/// Photons traced as one piece of work; part of what makes results reproducible.
+constexpr std::uint64_t kBlockPhotons = 1024;
+
+}  // namespace
+
+PhotonSource::PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene)
+    : origin_(spec.origin, scene),
+      direction_(spec.direction),
+      unpolarised_(spec.unpolarised),
+      photons_(spec.photons),
+      photons_per_event_(spec.photons_per_event) {
+  check_medium(spec, scene);
+  const optics::Medium& medium = scene.media[scene.regions[regions().front()].medium].medium();
+  if (spec.wavelength_nm)
+    wavelength_nm_ = *spec.wavelength_nm;
+  else
+    emission_.emplace(medium.emission);
+  if (spec.time_ns) {
+    time_ns_ = *spec.time_ns;
+  } else {
+    decay_ = medium.decay;
+    if (decay_.empty())
+      throw core::InputError({spec.time_where, "medium \"" + medium.name + "\" has no scintillation decay",
+                              "give time = \"0 ns\", or a decay in the medium's file"});
+  }
+}
+
+void PhotonSource::check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene) {
+  const std::vector<std::uint32_t> regions = origin_.regions();
+  const std::uint32_t first = scene.regions[regions.front()].medium;
+  for (const std::uint32_t id : regions) {
+    const scene::Region& region = scene.regions[id];
+    if (scene.media[region.medium].is_opaque())
+      throw core::InputError({spec.origin_where, "the source lies in an opaque part",
+                              "put it into a medium that transmits light"});
+    if (region.medium != first)
+      throw core::InputError({spec.origin_where,
+                              "the parts of the source have different media: \"" +
+                                  scene.region_names[regions.front()] + "\" is " +
+                                  scene.media[first].medium().name + " and \"" + scene.region_names[id] +
+                                  "\" is " + scene.media[region.medium].medium().name,
+                              "name parts of one medium; light of others is a run of its own"});
+  }
+}
+
+std::uint64_t PhotonSource::events() const {
+  return (photons_ + photons_per_event_ - 1) / photons_per_event_;
+}
+
+std::uint64_t PhotonSource::blocks() const { return (photons_ + kBlockPhotons - 1) / kBlockPhotons; }
+
+std::vector<PhotonSpan> PhotonSource::block(std::uint64_t number) const {
+  std::vector<PhotonSpan> spans;
+  const std::uint64_t last = std::min(photons_, (number + 1) * kBlockPhotons);
+  for (std::uint64_t i = number * kBlockPhotons; i < last;) {
+    const std::uint64_t event = i / photons_per_event_, first = i % photons_per_event_;
+    spans.push_back({event, first, std::min(photons_per_event_ - first, last - i)});
+    i += spans.back().count;
+  }
+  return spans;
+}
+
+void PhotonSource::begin(const scene::Scene&, std::uint64_t event, core::Rng&, EventLight& light) const {
+  light.photons = std::min(photons_per_event_, photons_ - std::min(photons_, event * photons_per_event_));
+}
+
+Photon PhotonSource::emit(const scene::Scene& scene, core::Rng& rng) const {
+  Photon photon;
+  const Place place = origin_.sample(scene, rng);
+  photon.position = place.position;
+  photon.region = place.region;
+  photon.ray.direction = sample_direction(direction_, rng);
+  photon.ray.polarisation =
+      unpolarised_ ? core::Vec3(core::Vec3::Zero()) : core::sample_polarisation(photon.ray.direction, rng);
+  photon.wavelength_nm = emission_ ? emission_->sample(rng.uniform()) : wavelength_nm_;
+  photon.time_ns = decay_.empty() ? time_ns_ : optics::sample_decay(decay_, rng);
+  photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
+  photon.optical_depth = core::sample_exponential(rng);
+  return photon;
+}
+
+}  // namespace scintray::source

@@ -1,0 +1,50 @@
+#pragma once
+/// Light from energy.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/source/detail/cherenkov.hpp"
+#include "scintray/source/light_source.hpp"
+
+namespace scintray::source {
+
+/// Photons of the deposits of events, as the media there make them: their number from the yield, its
+/// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay;
+/// directions isotropic. Cherenkov light comes at once. Immutable.
+class ScintillationSource : public LightSource {
+ public:
+  /// @param cherenkov  adds Cherenkov light of the wavelengths in use, as of electrons of the deposits'
+  ///                   energies; throws InputError, without a place, for a scintillator without composition
+  ScintillationSource(std::unique_ptr<EventSource> events, const scene::Scene& scene, bool unpolarised,
+                      bool cherenkov = false);
+
+  std::uint64_t events() const override { return events_->events(); }
+  bool has_energy() const override { return true; }
+  std::uint64_t blocks() const override { return events(); }
+  std::vector<PhotonSpan> block(std::uint64_t number) const override { return {{number}}; }
+  std::uint64_t photons() const override { return 0; }
+  void begin(const scene::Scene& scene, std::uint64_t event, core::Rng& rng,
+             EventLight& light) const override;
+  Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
+              core::Rng& rng) const override;
+  std::vector<std::uint32_t> regions() const override;
+
+ private:
+  std::unique_ptr<EventSource> events_;
+  std::vector<core::CurveSampler> emission_;                ///< per medium of the scene
+  std::vector<std::optional<CherenkovEmitter>> cherenkov_;  ///< per medium; empty without that light
+  std::vector<std::uint32_t> regions_;                      ///< that scintillate
+  bool unpolarised_;
+};
+
+/// Number of photons that an electron of so much energy makes in a medium: Poisson about a Gaussian about
+/// yield times relative yield times energy. The variance of the Gaussian, (fwhm / 2.355)^2 yield^2
+/// intrinsic_keV energy, is proportional to the energy: deposits then spread together as one of their
+/// whole energy does, and the resolution it gives falls with the square root of the energy.
+/// @return 0 where the Gaussian falls below zero
+std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_keV, core::Rng& rng);
+
+}  // namespace scintray::source

@@ -1,0 +1,24 @@
+#include "scintray/source/make_event_source.hpp"
+
+#include "scintray/source/detail/gamma/gamma_source.hpp"
+#include "scintray/source/detail/hits_source.hpp"
+#include "scintray/source/detail/spectrum_source.hpp"
+
+namespace scintray::source {
+
+std::unique_ptr<EventSource> make_event_source(const scene_file::GammaSpec& spec, const scene::Scene& scene,
+                                               std::vector<std::string>* notes) {
+  if (const auto* spectrum = std::get_if<scene_file::SpectrumSpec>(&spec.kind))
+    return std::make_unique<SpectrumEventSource>(*spectrum, spec.events, scene);
+  if (const auto* emitter = std::get_if<scene_file::EmitterSpec>(&spec.kind))
+    return std::make_unique<GammaEventSource>(*emitter, spec.events, scene);
+  auto hits =
+      std::make_unique<HitsEventSource>(std::get<scene_file::HitsSpec>(spec.kind), spec.events, scene);
+  if (notes) {
+    const std::vector<std::string> said = hits->notes();
+    notes->insert(notes->end(), said.begin(), said.end());
+  }
+  return hits;
+}
+
+}  // namespace scintray::source

@@ -1,0 +1,51 @@
+#pragma once
+/// What some scenes keep of a photon beside its state.
+
+#include <cstdint>
+#include <vector>
+
+#include "scintray/optics/reflection_log.hpp"
+#include "scintray/optics/wavelength_shifter.hpp"
+
+namespace scintray::source {
+
+/// What the wavelength shifter of one medium or one surface did to a photon.
+struct PhotonShifts {
+  bool at_surface = false;
+  std::uint32_t where = 0;  ///< index into Scene::surfaces or Scene::media
+  optics::ShiftCount count;
+};
+
+/// Side tables of the photon under way, owned by what traces a block and used for one photon after the other.
+/// They stay empty where no wavelength shifter absorbs and no history is requested.
+class PhotonRecords {
+ public:
+  /// @param reflections  whether reflections at reflectors are to be recorded
+  explicit PhotonRecords(bool reflections = false) : records_reflections_(reflections) {}
+
+  /// Begins the next photon.
+  void clear() {
+    shifts_.clear();
+    reflections_.clear();
+  }
+
+  /// One entry for each medium or surface that shifted the photon so far.
+  const std::vector<PhotonShifts>& shifts() const { return shifts_; }
+  /// The entry of a medium or surface, made when there is none.
+  optics::ShiftCount& shifts_of(bool at_surface, std::uint32_t where) {
+    for (PhotonShifts& known : shifts_)
+      if (known.at_surface == at_surface && known.where == where) return known.count;
+    return shifts_.emplace_back(PhotonShifts{at_surface, where, {}}).count;
+  }
+
+  const optics::ReflectionLog& reflections() const { return reflections_; }
+  /// Where to record reflections; null: they are not recorded.
+  optics::ReflectionLog* reflection_log() { return records_reflections_ ? &reflections_ : nullptr; }
+
+ private:
+  std::vector<PhotonShifts> shifts_;
+  optics::ReflectionLog reflections_;
+  bool records_reflections_;
+};
+
+}  // namespace scintray::source

@@ -1,0 +1,176 @@
+#include "scintray/tally/block_tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scintray::tally {
+
+namespace {
+
+constexpr double kPathBin_mm = 10.0;
+
+int angle_bin(double cosine, int bins) {
+  const double angle = std::acos(std::clamp(cosine, 0.0, 1.0));
+  return std::min(bins - 1, static_cast<int>(angle / (0.5 * core::kPi) * bins));
+}
+
+/// What a block counts itself; contributions to counts go to the total one by one.
+PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
+  PointResult result;
+  result.absorbed_in_medium.assign(scene.media.size(), 0);
+  result.absorbed_at_surface.assign(scene.surfaces.size(), 0);
+  result.shifted_in_medium.resize(scene.media.size());
+  result.shifted_at_surface.resize(scene.surfaces.size());
+  result.sensor_faces = plan.sensor_face_names;
+  for (const ExitAngleRequest& request : plan.exit_angles) {
+    ExitAngleTally tally{request.name, request.face, request.detected_only, {}, {}};
+    tally.inside.assign(static_cast<std::size_t>(request.bins), 0);
+    tally.outside = tally.inside;
+    result.exit_angles.push_back(tally);
+  }
+  return result;
+}
+
+void merge(PointResult& total, const PointResult& block) {
+  const auto add = [](auto& into, const auto& from) {
+    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
+  };
+  total.photons += block.photons;
+  add(total.fates, block.fates);
+  add(total.absorbed_in_medium, block.absorbed_in_medium);
+  add(total.absorbed_at_surface, block.absorbed_at_surface);
+  add(total.shifted_in_medium, block.shifted_in_medium);
+  add(total.shifted_at_surface, block.shifted_at_surface);
+  for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
+    total.sensor_faces[i].detected += block.sensor_faces[i].detected;
+    total.sensor_faces[i].not_detected += block.sensor_faces[i].not_detected;
+  }
+  for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
+    add(total.exit_angles[i].inside, block.exit_angles[i].inside);
+    add(total.exit_angles[i].outside, block.exit_angles[i].outside);
+  }
+  total.interactions.merge(block.interactions);
+  total.detected_path_mm.merge(block.detected_path_mm);
+  total.detected_time_ns.merge(block.detected_time_ns);
+  total.detected_interactions.merge(block.detected_interactions);
+  add(total.detected_path_histogram, block.detected_path_histogram);
+  total.scatterings += block.scatterings;
+  total.segments += block.segments;
+  total.resolved_misses += block.resolved_misses;
+}
+
+}  // namespace
+
+PointResult empty_result(const scene::Scene& scene, const TallyPlan& plan) {
+  PointResult result = empty_block(scene, plan);
+  for (const CountRequest& count : plan.counts) result.tallies.push_back(count.empty);
+  return result;
+}
+
+BlockTally::BlockTally(const scene::Scene& scene, const TallyPlan& plan)
+    : plan_(plan),
+      result_(empty_block(scene, plan)),
+      records_(plan.history.has_value()),
+      last_crossing_(plan.exit_angles.size()) {
+  if (!plan.counts.empty()) scorer_.emplace(scene, plan);
+  if (plan.history) history_.emplace(scene, *plan.history);
+}
+
+void BlockTally::start(const source::Photon& emitted, std::uint64_t event, std::uint64_t photon) {
+  event_ = event;
+  photon_ = photon;
+  records_.clear();
+  if (scorer_) scorer_->start(emitted);
+  if (history_) history_->start(emitted);
+  std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
+}
+
+void BlockTally::note_crossing(const transport::Step& step) {
+  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
+  for (const std::uint32_t tally : plan_.exit_angles_at[way]) {
+    const int bins = plan_.exit_angles[tally].bins;
+    const Angles angles{angle_bin(step.cos_before, bins), angle_bin(step.cos_after, bins)};
+    last_crossing_[tally] = angles;
+    if (plan_.exit_angles[tally].detected_only) continue;
+    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
+    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
+  }
+}
+
+void BlockTally::end(const source::Photon& photon, const transport::Step& step, std::uint32_t point) {
+  count_step(step);
+  if (scorer_) scorer_->step(photon, step);
+  if (history_) history_->step(photon, step);
+  switch (step.event) {
+    case core::StepEvent::absorbed_in_medium:
+      ++result_.absorbed_in_medium[step.where];
+      return finish(photon, core::Fate::absorbed_in_medium);
+    case core::StepEvent::absorbed_at_surface:
+      ++result_.absorbed_at_surface[step.where];
+      return finish(photon, core::Fate::absorbed_at_surface);
+    case core::StepEvent::escaped:
+      return finish(photon, core::Fate::escaped);
+    case core::StepEvent::detected:
+    case core::StepEvent::not_detected:
+      break;
+    default:
+      return;  // no end: the run then finds a photon without a fate and states so
+  }
+  note_crossing(step);
+  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
+  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[way]];
+  if (step.event == core::StepEvent::not_detected) {
+    ++at_face.not_detected;
+    return finish(photon, core::Fate::not_detected);
+  }
+  ++at_face.detected;
+  result_.detected_path_mm.add(photon.path_mm);
+  result_.detected_time_ns.add(photon.time_ns);
+  result_.detected_interactions.add(photon.interactions);
+  const auto last = result_.detected_path_histogram.size() - 1;
+  ++result_.detected_path_histogram[std::min(last, static_cast<std::size_t>(photon.path_mm / kPathBin_mm))];
+  for (std::size_t tally = 0; tally < last_crossing_.size(); ++tally) {
+    const Angles& angles = last_crossing_[tally];
+    if (!plan_.exit_angles[tally].detected_only || angles.inside < 0) continue;
+    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
+    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
+  }
+  if (history_) history_->keep(point, event_, photon_, records_.reflections());
+  if (plan_.photon_list) {
+    const core::PlainVec3 &p = photon.position, &d = photon.ray.direction;
+    photons_.push_back({point,
+                        event_,
+                        photon_,
+                        at_face.part,
+                        at_face.face,
+                        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
+                        {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())},
+                        static_cast<float>(photon.wavelength_nm),
+                        static_cast<float>(photon.time_ns),
+                        static_cast<float>(photon.path_mm),
+                        photon.interactions});
+  }
+  finish(photon, core::Fate::detected);
+}
+
+void BlockTally::cut(const source::Photon& photon, core::Fate fate) {
+  if (scorer_) scorer_->cut(photon, fate);
+  finish(photon, fate);
+}
+
+void BlockTally::add_to(PointResult& total) const {
+  merge(total, result_);
+  if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
+}
+
+void BlockTally::finish(const source::Photon& photon, core::Fate fate) {
+  ++result_.photons;
+  ++result_.fates[core::fate_index(fate)];
+  result_.interactions.add(photon.interactions);
+  result_.scatterings += photon.scatterings;
+  for (const source::PhotonShifts& shifts : records_.shifts())
+    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
+        shifts.count;
+}
+
+}  // namespace scintray::tally

@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/core/pattern.hpp"
+#include "scintray/tally/detail/face_axes.hpp"
+#include "scintray/tally/tally_plan.hpp"
+
+namespace scintray::tally {
+
+namespace {
+
+/// Bins of one tally: 160 MB of sums.
+constexpr double kMostBins = 1e7;
+/// Sine of the angle up to which faces count as parallel, and a face as flat.
+constexpr double kFlat = 1e-6;
+constexpr const char* kAmbientName = "(ambient)";
+
+std::vector<std::string> part_names(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::PartInfo& part : scene.parts) names.push_back(part.name);
+  return names;
+}
+
+/// Which of `names` the patterns pick, in their order. @throws InputError for one that picks none.
+std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std::vector<std::string>& names,
+                         const std::string& kind, const core::FileLocation& where) {
+  std::vector<bool> result(names.size(), false);
+  for (const config::NameRef& pattern : patterns) {
+    bool any = false;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (core::matches_pattern(pattern.name, names[i])) result[i] = any = true;
+    if (!any)
+      throw core::unknown_name(pattern.where.file.empty() ? where : pattern.where, kind, pattern.name, names);
+  }
+  return result;
+}
+
+/// Per part, shifted by one; empty without patterns.
+std::vector<bool> picked_parts(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
+                               const core::FileLocation& where) {
+  if (patterns.empty()) return {};
+  std::vector<bool> parts = picked(patterns, part_names(scene), "part", where);
+  parts.insert(parts.begin(), false);
+  return parts;
+}
+
+/// Per region.
+std::vector<bool> picked_regions(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
+                                 const core::FileLocation& where) {
+  const std::vector<bool> parts = picked_parts(patterns, scene, where);
+  if (parts.empty()) return {};
+  std::vector<bool> regions(scene.regions.size(), false);
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    regions[i] = parts[static_cast<std::size_t>(scene.regions[i].part + 1)];
+  return regions;
+}
+
+/// Parts that detect.
+std::vector<config::NameRef> sensor_parts(const scene::Scene& scene) {
+  std::vector<bool> detects(scene.parts.size(), false);
+  for (const scene::Interface& interface : scene.interfaces) {
+    if (interface.back_sensor != scene::kNone) detects[interface.back_sensor_part] = true;
+    if (interface.front_sensor != scene::kNone) detects[interface.front_sensor_part] = true;
+  }
+  std::vector<config::NameRef> names;
+  for (std::size_t i = 0; i < detects.size(); ++i)
+    if (detects[i]) names.push_back({scene.parts[i].name, {}});
+  return names;
+}
+
+class CountBinder {
+ public:
+  CountBinder(const scene_file::TallySpec& spec, const std::vector<config::NameRef>& source_parts,
+              const scene::Scene& scene)
+      : spec_(spec), source_parts_(source_parts), scene_(scene), faces_(faces_of(spec, scene)) {}
+
+  CountRequest bind() {
+    CountRequest count;
+    count.empty.name = spec_.name;
+    count.empty.type = spec_.type;
+    count.score = spec_.score;
+    count.empty.score = spec_.score ? scene_file::tally_variable_name(*spec_.score) : "photons";
+    count.empty.unit = spec_.score ? unit_of(*spec_.score) : "1";
+    count.parts = picked_parts(spec_.parts, scene_, spec_.where);
+    count.source_parts = picked_parts(spec_.source_parts, scene_, spec_.where);
+    count.visited = picked_regions(spec_.visited, scene_, spec_.where);
+    count.not_visited = picked_regions(spec_.not_visited, scene_, spec_.where);
+    for (const core::StepEvent fate : spec_.fate) count.fates |= 1u << static_cast<unsigned>(fate);
+    count.each = spec_.each;
+    for (const scene_file::TallyRangeSpec& range : spec_.ranges)
+      count.ranges.push_back({range.variable, range.along, range.low, range.high});
+    double bins = 1.0;
+    for (const scene_file::TallyAxisSpec& axis : spec_.axes) {
+      scene_file::is_category(axis.variable) ? bind_names(axis, count) : bind_numbers(axis, count);
+      bins *= static_cast<double>(count.empty.axes.back().bins());
+    }
+    if (bins > kMostBins)
+      throw core::InputError({spec_.where,
+                              "the tally \"" + spec_.name + "\" has " + std::to_string(bins) +
+                                  " bins, more than " + std::to_string(kMostBins),
+                              "use fewer or coarser axes, or name fewer parts"});
+    count.empty.index = medium_index();
+    count.empty.sum.assign(static_cast<std::size_t>(bins), 0.0);
+    count.empty.sum_of_squares = count.empty.sum;
+    return count;
+  }
+
+ private:
+  static const char* unit_of(scene_file::TallyVariable variable) {
+    switch (variable) {
+      case scene_file::TallyVariable::wavelength:
+        return "nm";
+      case scene_file::TallyVariable::time:
+        return "ns";
+      case scene_file::TallyVariable::path:
+      case scene_file::TallyVariable::position:
+      case scene_file::TallyVariable::start:
+        return "mm";
+      case scene_file::TallyVariable::angle_before:
+      case scene_file::TallyVariable::angle_after:
+      case scene_file::TallyVariable::azimuth_before:
+      case scene_file::TallyVariable::azimuth_after:
+        return "rad";
+      default:
+        return "1";
+    }
+  }
+
+  void bind_names(const scene_file::TallyAxisSpec& axis, CountRequest& count) {
+    CountAxis bound;
+    bound.variable = axis.variable;
+    TallyAxis made;
+    made.variable = scene_file::tally_variable_name(axis.variable);
+    const auto add = [&](std::size_t slot, const std::string& name) {
+      bound.bin_of[slot] = static_cast<std::int32_t>(made.names.size());
+      made.names.push_back(name);
+    };
+    const core::FileLocation where = axis.where.file.empty() ? spec_.where : axis.where;
+    if (axis.variable == scene_file::TallyVariable::event) {
+      bound.bin_of.assign(core::kStepEventCount, scene::kNone);
+      for (const core::StepEvent event : spec_.at) {
+        if (event ==
+            core::StepEvent::cut_time)  // in the bin of cut_interactions, which the same word stands for
+          bound.bin_of[static_cast<std::size_t>(event)] =
+              bound.bin_of[static_cast<std::size_t>(core::StepEvent::cut_interactions)];
+        else
+          add(static_cast<std::size_t>(event), scene_file::event_word(event));
+      }
+    } else if (axis.variable == scene_file::TallyVariable::face) {
+      bound.bin_of.assign(scene_.faces.size(), scene::kNone);
+      for (const std::uint32_t face : faces_) add(face, scene_.faces[face].name);
+    } else {
+      bound.bin_of.assign(scene_.parts.size() + 1, scene::kNone);
+      const std::vector<config::NameRef> patterns =
+          axis.names.empty() ? usual_parts(axis.variable) : axis.names;
+      const std::vector<bool> parts = picked_parts(patterns, scene_, where);
+      if (patterns.empty() && axis.variable == scene_file::TallyVariable::part) add(0, kAmbientName);
+      for (std::size_t i = 1; i <= scene_.parts.size(); ++i)
+        if (parts.empty() || parts[i]) add(i, scene_.parts[i - 1].name);
+    }
+    if (made.names.empty())
+      throw core::InputError(
+          {where, "an axis of " + made.variable + " without a name", "name some, or remove the axis"});
+    bound.bins = static_cast<std::uint32_t>(made.names.size());
+    count.axes.push_back(std::move(bound));
+    count.empty.axes.push_back(std::move(made));
+  }
+
+  /// The parts of an axis that names none; empty: all.
+  std::vector<config::NameRef> usual_parts(scene_file::TallyVariable variable) const {
+    if (variable == scene_file::TallyVariable::source_part) return source_parts_;
+    const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](core::StepEvent event) {
+      return event == core::StepEvent::detected || event == core::StepEvent::not_detected;
+    });
+    return at_sensors ? sensor_parts(scene_) : std::vector<config::NameRef>{};
+  }
+
+  void bind_numbers(const scene_file::TallyAxisSpec& axis, CountRequest& count) {
+    CountAxis bound;
+    bound.variable = axis.variable;
+    bound.along =
+        axis.across_face ? face_axes(plane_normal())[static_cast<std::size_t>(axis.across)] : axis.along;
+    double low = axis.low.value_or(0.0), high = axis.high.value_or(0.0);
+    if (!axis.low || !axis.high) {
+      const auto [least, most] = extent(bound.along);
+      low = axis.low.value_or(least);
+      high = axis.high.value_or(most);
+      bound.to_the_edge = true;
+    }
+    bound.bins = static_cast<std::uint32_t>(axis.bins);
+    if (axis.pixel_mm) {
+      const double pixels = std::ceil((high - low) / *axis.pixel_mm - 1e-9);
+      if (pixels > kMostBins)
+        throw core::InputError(
+            {axis.where, "the pixels are so small that there are " + std::to_string(pixels) + " in a row",
+             "give a larger pixel"});
+      const double spare = 0.5 * (pixels * *axis.pixel_mm - (high - low));
+      low -= spare;
+      high += spare;
+      bound.bins = static_cast<std::uint32_t>(pixels);
+    }
+    bound.low = low;
+    bound.per_bin = bound.bins / (high - low);
+    TallyAxis made;
+    made.variable = scene_file::tally_variable_name(axis.variable);
+    made.unit = unit_of(axis.variable);
+    made.along = {bound.along.x(), bound.along.y(), bound.along.z()};
+    for (std::uint32_t i = 0; i <= bound.bins; ++i)
+      made.edges.push_back(i == bound.bins ? high : low + i / bound.per_bin);
+    count.axes.push_back(std::move(bound));
+    count.empty.axes.push_back(std::move(made));
+  }
+
+  /// Index of the one medium that directions are in, or 0.
+  double medium_index() const {
+    bool before = false, any = false;
+    for (const scene_file::TallyAxisSpec& axis : spec_.axes) {
+      if (!scene_file::needs_face(axis.variable) || axis.variable == scene_file::TallyVariable::face)
+        continue;
+      any = true;
+      before = axis.variable == scene_file::TallyVariable::angle_before ||
+               axis.variable == scene_file::TallyVariable::sin2_before ||
+               axis.variable == scene_file::TallyVariable::azimuth_before;
+    }
+    if (!any || spec_.way == scene_file::FaceWay::both) return 0.0;
+    const bool in_part = (spec_.way == scene_file::FaceWay::out) == before;
+    std::optional<std::uint32_t> medium;
+    for (const scene::Interface& interface : scene_.interfaces)
+      for (const std::uint32_t face : faces_)
+        for (const bool back : {true, false}) {
+          const std::int32_t own = back ? interface.back_face : interface.front_face;
+          if (own != static_cast<std::int32_t>(face)) continue;
+          const std::uint32_t region = back == in_part ? interface.back : interface.front;
+          const std::uint32_t found = scene_.regions[region].medium;
+          if (medium && *medium != found) return 0.0;
+          medium = found;
+        }
+    if (!medium || scene_.media[*medium].is_opaque()) return 0.0;
+    return scene_.optics.index(*medium, 0.5 * (scene_.low_nm + scene_.high_nm));
+  }
+
+  /// Normal of the plane that the faces lie along.
+  core::Vec3 plane_normal() const {
+    if (spec_.normal) return *spec_.normal;
+    const core::Vec3 first = scene_.faces[faces_.front()].area_vector_mm2.normalized();
+    for (const std::uint32_t face : faces_) {
+      const scene::FaceInfo& info = scene_.faces[face];
+      if (info.area_vector_mm2.norm() < (1.0 - kFlat) * info.area_mm2)
+        throw core::InputError(
+            {spec_.where, "the face \"" + info.name + "\" is not flat, so a grid on it has no plane",
+             "name a flat face, tag one with [[part.face]], or give the normal of the plane"});
+      if (first.cross(info.area_vector_mm2.normalized()).norm() > kFlat)
+        throw core::InputError({spec_.where,
+                                "the faces \"" + scene_.faces[faces_.front()].name + "\" and \"" + info.name +
+                                    "\" are not parallel, so a grid on them has no plane",
+                                "name parallel faces, or give the normal of the plane"});
+    }
+    return first;
+  }
+
+  std::pair<double, double> extent(const core::Vec3& along) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const std::uint32_t face : faces_)
+      for (const core::Vec3& corner : scene_.faces[face].corners) {
+        low = std::min(low, along.dot(corner));
+        high = std::max(high, along.dot(corner));
+      }
+    if (!(high > low))
+      throw core::InputError(
+          {spec_.where, "the face \"" + scene_.faces[faces_.front()].name + "\" has no extent along an axis",
+           "measure along another direction, or give from and to"});
+    return {low, high};
+  }
+
+  const scene_file::TallySpec& spec_;
+  const std::vector<config::NameRef>& source_parts_;
+  const scene::Scene& scene_;
+  std::vector<std::uint32_t> faces_;
+};
+
+}  // namespace
+
+CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<config::NameRef>& source_parts,
+                        const scene::Scene& scene) {
+  return CountBinder(spec, source_parts, scene).bind();
+}
+
+std::vector<std::uint32_t> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::FaceInfo& face : scene.faces) names.push_back(face.name);
+  const std::vector<bool> wanted = picked(spec.faces, names, "face", spec.where);
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t i = 0; i < wanted.size(); ++i)
+    if (wanted[i]) faces.push_back(i);
+  return faces;
+}
+
+}  // namespace scintray::tally

@@ -1,0 +1,50 @@
+#pragma once
+/// Records of events.
+
+#include <functional>
+
+#include "scintray/source/light_source.hpp"
+#include "scintray/tally/event_record.hpp"
+#include "scintray/tally/tally_plan.hpp"
+
+namespace scintray::tally {
+
+/// What a channel's electronics give, in an event's record; its number of detected photons stays.
+void write_signal(detector::ChannelSignal signal, ChannelRecord& record);
+
+/// Gathers one event after the other.
+class EventTally {
+ public:
+  EventTally(const scene::Scene& scene, const TallyPlan& plan)
+      : scene_(scene), plan_(plan), arrivals_(plan.readout.size()) {}
+
+  /// Begins an event.
+  void begin(std::uint64_t event, std::uint32_t point, const source::EventLight& light);
+  /// A photon of it that a sensor converted.
+  void detected(std::uint32_t channel, const source::Photon& photon);
+  /// Photons of it that a sensor converted, at least one, the first of them at `first_ns`.
+  void detected(std::uint32_t channel, std::uint64_t count, double first_ns);
+  /// True when each of them is to be passed on as an arrival, too: there is a readout.
+  bool wants_arrivals() const { return !arrivals_.empty(); }
+  void arrived(std::uint32_t channel, const detector::Arrival& arrival) {
+    arrivals_[channel].push_back(arrival);
+  }
+  /// Ends it: its channels are read out, each with the random stream that `stream(channel)` gives.
+  void end(const std::function<core::Rng(std::uint32_t)>& stream);
+
+  const std::vector<EventRecord>& events() const { return events_; }
+  /// Adds the events to the total of those before them.
+  void add_to(EnergyBalance& total) const;
+
+ private:
+  void read_out(std::uint32_t channel, core::Rng rng);
+
+  const scene::Scene& scene_;
+  const TallyPlan& plan_;
+  std::vector<EventRecord> events_;  ///< the last is under way
+  std::vector<std::vector<detector::Arrival>>
+      arrivals_;  ///< per channel, of that event; empty without [readout]
+  EnergyBalance balance_;
+};
+
+}  // namespace scintray::tally

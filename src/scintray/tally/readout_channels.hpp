@@ -1,0 +1,42 @@
+#pragma once
+/// What the sensors of a scene are read out as.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scintray/transport/step_record.hpp"
+
+namespace scintray::tally {
+
+/// What is read out as one: a part that is a sensor, or a face that is one.
+struct ReadoutChannel {
+  std::string name;                          ///< "pmt", or "crystal:exit" for a face
+  std::uint32_t part = 0;                    ///< the sensor's
+  std::uint32_t sensor = 0;                  ///< index into Scene::sensors
+  std::int32_t face = scene::kNone;          ///< of a face that is a sensor
+  core::Vec3 position = core::Vec3::Zero();  ///< centre of the faces through which light comes, mm
+  core::Vec3 normal = core::Vec3::UnitZ();   ///< of them, into the sensor; of unit length
+  core::Vec3 x = core::Vec3::UnitX(),
+             y = core::Vec3::UnitY();  ///< directions across `normal`, as face_axes gives them
+  double width_mm = 0.0,
+         height_mm = 0.0;  ///< of the rectangle along x and y about the centre that holds them
+  double area_mm2 = 0.0;   ///< of them
+};
+
+/// The channels of a scene, in the order of its interfaces, and which of them light reaches.
+struct ReadoutChannels {
+  ReadoutChannels() = default;
+  explicit ReadoutChannels(const scene::Scene& scene);
+
+  /// The channel of a photon that a sensor converted.
+  std::uint32_t at(const transport::Step& step) const {
+    return static_cast<std::uint32_t>(at_way[2 * step.interface + (step.from_back ? 1 : 0)]);
+  }
+
+  std::vector<ReadoutChannel> list;
+  /// Per interface and way across it (index 2 * interface + from_back): index into `list`, or kNone.
+  std::vector<std::int32_t> at_way;
+};
+
+}  // namespace scintray::tally

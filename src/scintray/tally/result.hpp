@@ -1,0 +1,159 @@
+#pragma once
+/// What a run found. Plain data: the tracer fills it, io writes it, report reads it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/core/statistics.hpp"
+#include "scintray/core/step_event.hpp"
+#include "scintray/optics/decay_time.hpp"
+#include "scintray/optics/wavelength_shifter.hpp"
+
+namespace scintray::tally {
+
+/// Photons that reached one sensor through one face.
+struct SensorFaceCount {
+  std::uint32_t part = 0;  ///< index into RunHeader::parts: the sensor's part
+  std::uint32_t face = 0;  ///< index into RunHeader::faces: the face crossed
+  std::uint64_t detected = 0;
+  std::uint64_t not_detected = 0;
+};
+
+/// Histogram of crossing angles at a face: the angle of travel to the face's outward normal, before
+/// and after the crossing, 0 to 90 deg in equal bins.
+struct ExitAngleTally {
+  std::string name;
+  std::uint32_t face = 0;              ///< index into RunHeader::faces
+  bool detected_only = false;          ///< counts each detected photon's last crossing; else every crossing
+  std::vector<std::uint64_t> inside;   ///< angle in the medium of the face's part
+  std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
+};
+
+/// An axis of a tally: bins of a number between edges, or names.
+struct TallyAxis {
+  std::string variable;            ///< "time", "position", "part", ...
+  std::string unit;                ///< of the edges; "1" for plain numbers, empty for names
+  std::vector<double> edges;       ///< bins + 1, rising; of a number
+  std::vector<std::string> names;  ///< one a bin; of names
+  std::array<double, 3> along{};   ///< of a position, start or direction: what it is measured along
+
+  std::size_t bins() const { return names.empty() ? edges.size() - 1 : names.size(); }
+};
+
+/// Sums over the photons of a point, on a grid of axes (row-major, the last axis fastest).
+struct TallyResult {
+  std::string name;
+  std::string type;   ///< "count", "crosstalk", "irradiance", ...
+  std::string score;  ///< "photons", or the number that is summed
+  std::string unit;   ///< of the score, "1" for photons
+  std::vector<TallyAxis> axes;
+  std::vector<double> sum;             ///< per bin
+  std::vector<double> sum_of_squares;  ///< per bin, of what each photon gave it
+  double outside = 0.0;                ///< score that fell beyond the axes
+  /// Refractive index, at the middle of the wavelengths in use, of the medium in which its directions at
+  /// faces are; 0 when it has none or they are in several.
+  double index = 0.0;
+
+  std::size_t bins() const;
+  /// Score of a bin with its standard error, from `photons` independent photons.
+  core::Estimate at(std::size_t bin, std::uint64_t photons) const;
+  /// The same divided by the photons.
+  core::Estimate per_photon(std::size_t bin, std::uint64_t photons) const;
+};
+
+/// What became of the energy of the events of a point, keV.
+struct EnergyBalance {
+  std::uint64_t events_requested = 0;  ///< 0: the source is one of photons, and the rest is zero too
+  std::uint64_t events = 0;            ///< traced to their end
+  std::uint64_t silent = 0;            ///< of them, those that left no energy in a scintillator
+  double started = 0.0;                ///< of all particles as they started; 0 when not known (lists of hits)
+  double deposited = 0.0;              ///< in scintillators
+  double escaped = 0.0;                ///< carried out of the scene
+  double non_scintillating = 0.0;      ///< left in what does not scintillate
+  core::Moments detected;              ///< photons detected per event that left energy in a scintillator
+};
+
+/// When one photon of an event is detected, but for its way: emission and the sensors' time spread.
+struct LightTiming {
+  std::vector<optics::DecayComponent> decay;
+  double time_spread_ns = 0.0;  ///< standard deviation
+};
+
+/// One traced point of a sweep (a run without a sweep has one point).
+struct PointResult {
+  std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
+  std::uint64_t photons_requested = 0;  ///< for events, as many as those that were traced emitted
+  std::uint64_t photons = 0;            ///< traced to their end
+  bool complete = false;                ///< false when interrupted
+  EnergyBalance energy;
+  std::optional<LightTiming> light_timing;  ///< of a source of energy, where it is one for all light
+  std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
+  std::vector<std::uint64_t> absorbed_in_medium;        ///< per RunHeader::media
+  std::vector<std::uint64_t> absorbed_at_surface;       ///< per RunHeader::surfaces
+  std::vector<optics::ShiftCount> shifted_in_medium;    ///< per RunHeader::media
+  std::vector<optics::ShiftCount> shifted_at_surface;   ///< per RunHeader::surfaces
+  std::vector<SensorFaceCount> sensor_faces;
+  std::vector<ExitAngleTally> exit_angles;
+  std::vector<TallyResult> tallies;
+  core::Moments interactions;      ///< boundary interactions per photon
+  core::Moments detected_path_mm;  ///< path length of detected photons
+  core::Moments detected_time_ns;  ///< time from emission, plus emission time, of detected photons
+  core::Moments detected_interactions;
+  std::array<std::uint64_t, 51> detected_path_histogram{};  ///< 10 mm bins, last: 500 mm and more
+  std::uint64_t scatterings = 0;                            ///< bulk scatterings
+  std::uint64_t segments = 0;                               ///< straight segments traced
+  std::uint64_t resolved_misses = 0;                        ///< ray queries resolved by the exact query
+  std::uint64_t lost = 0;  ///< photons without a fate: zero, checked in every run
+  double wall_seconds = 0.0;
+
+  std::uint64_t count(core::Fate fate) const { return fates[core::fate_index(fate)]; }
+  /// What all wavelength shifters did.
+  optics::ShiftCount shifted() const;
+  core::Estimate fraction(core::Fate fate) const { return core::binomial_estimate(count(fate), photons); }
+  /// Largest error that cutting photons can have made in any fraction: cut photons / photons.
+  double cut_bias_bound() const;
+};
+
+/// One detected photon, as streamed to the results file when a list is requested.
+struct DetectedPhoton {
+  std::uint32_t point = 0;
+  std::uint64_t event = 0;
+  std::uint64_t photon = 0;  ///< index within the event: with the seed, enough to replay it
+  std::uint32_t part = 0;    ///< sensor part
+  std::uint32_t face = 0;    ///< face crossed
+  std::array<float, 3> position_mm{};
+  std::array<float, 3> direction{};
+  float wavelength_nm = 0;
+  float time_ns = 0;
+  float path_mm = 0;
+  std::uint32_t interactions = 0;
+};
+
+/// What the numbers of a run refer to.
+struct RunHeader {
+  std::string title;
+  std::string version;  ///< ScintRay version
+  std::string scene_file;
+  std::string scene_text;  ///< the whole scene file, so that a result explains itself
+  std::uint64_t seed = 0;
+  std::vector<std::string> sweep_keys;  ///< swept keys, slowest first
+  std::vector<std::string> media, surfaces, parts;
+  std::vector<std::string> faces;  ///< "part:face"
+  std::string note;                ///< warnings issued, one a line
+};
+
+/// A whole run.
+struct RunResult {
+  RunHeader header;
+  std::vector<PointResult> points;
+  std::string partial_reason;  ///< why the run ended early; empty when it did not
+  /// Every point was traced to its end and none is missing.
+  bool complete() const;
+  /// False when its events come from a response map.
+  bool traced_photons() const;
+};
+
+}  // namespace scintray::tally

@@ -1,0 +1,105 @@
+#pragma once
+/// What to count, derived once from a scene and what it requests.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scintray/detector/channel.hpp"
+#include "scintray/scene/scene.hpp"
+#include "scintray/scene_file/spec.hpp"
+#include "scintray/tally/photon_history.hpp"
+#include "scintray/tally/readout_channels.hpp"
+#include "scintray/tally/result.hpp"
+
+namespace scintray::tally {
+
+/// A histogram of crossing angles requested of a run.
+struct ExitAngleRequest {
+  std::string name;
+  std::uint32_t face = 0;  ///< scene-wide face id
+  bool detected_only = false;
+  int bins = 18;
+};
+
+/// An axis of a count, bound to the scene.
+struct CountAxis {
+  scene_file::TallyVariable variable = scene_file::TallyVariable::part;
+  core::Vec3 along = core::Vec3::Zero();
+  double low = 0.0, per_bin = 0.0;
+  std::uint32_t bins = 0;
+  bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
+  /// Of names: bin of each part, face or event, kNone where it has none. Parts are shifted by one:
+  /// the first is the ambient space.
+  std::vector<std::int32_t> bin_of;
+};
+
+/// A condition on a number.
+struct CountRange {
+  scene_file::TallyVariable variable = scene_file::TallyVariable::wavelength;
+  core::Vec3 along = core::Vec3::Zero();
+  double low = 0.0, high = 0.0;
+};
+
+/// A count requested of a run.
+struct CountRequest {
+  TallyResult empty;  ///< name, axes and zeros
+  std::vector<CountAxis> axes;
+  std::vector<CountRange> ranges;
+  std::vector<bool> parts, source_parts;   ///< per part, shifted by one; empty: all
+  std::vector<bool> visited, not_visited;  ///< per region; empty: no condition
+  std::uint32_t fates = 0;                 ///< bits of StepEvent; 0: any
+  scene_file::TallyEach each = scene_file::TallyEach::time;
+  std::optional<scene_file::TallyVariable> score;
+};
+
+struct TallyPlan {
+  /// Throws InputError for names that do not exist, naming what there is, and for tallies that cannot
+  /// be: a grid on a face that is not flat, more bins than can be kept.
+  TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
+
+  std::vector<ExitAngleRequest> exit_angles;
+  /// Per interface and way across it (index 2 * interface + from_back): tallies to fill, most have
+  /// none.
+  std::vector<std::vector<std::uint32_t>> exit_angles_at;
+  std::vector<std::uint32_t> sensor_faces;  ///< per interface and way: index into the result, or kNoSensor
+  std::vector<SensorFaceCount> sensor_face_names;
+  ReadoutChannels channels;
+  std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
+
+  std::vector<CountRequest> counts;
+  /// A count to look at at an interaction with a face, and the face that it is bound to.
+  struct CountAtFace {
+    std::uint32_t count = 0;
+    std::uint32_t face = 0;
+    bool inwards = false;  ///< the light comes to the face from outside its part
+  };
+  std::vector<std::vector<CountAtFace>> counts_at;  ///< per interface and way; empty without such counts
+  std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
+  /// Per event: counts that are bound to no face.
+  std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
+  bool follows_regions = false;  ///< some count needs which regions a photon visited
+
+  bool photon_list = false;
+  std::optional<HistoryPlan> history;  ///< when histories are requested
+  static constexpr std::uint32_t kNoSensor = 0xffffffffu;
+
+ private:
+  void bind_readout(const scene_file::SceneSpec& spec, const scene::Scene& scene);
+  void bind_ways(const scene::Scene& scene);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sensor_index_;
+};
+
+/// Binds one count to a scene. @throws InputError
+/// @param source_parts  names of the parts in which light starts; empty: not known by name
+CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<config::NameRef>& source_parts,
+                        const scene::Scene& scene);
+
+/// The faces that a count is bound to, in their order. @throws InputError for a name without a face.
+std::vector<std::uint32_t> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
+
+}  // namespace scintray::tally

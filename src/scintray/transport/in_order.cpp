@@ -1,0 +1,92 @@
+#include "scintray/transport/in_order.hpp"
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <vector>
+
+#include "scintray/transport/detail/happens_before.hpp"
+
+namespace scintray::transport::detail {
+
+namespace {
+
+/// The three stages of the pipeline. Pieces under way are consecutive, so that each has a slot of its own.
+class Stages {
+ public:
+  Stages(std::uint64_t count, std::size_t most_under_way, const std::atomic<bool>* stop,
+         const std::function<std::shared_ptr<void>(std::uint64_t)>& work,
+         const std::function<void(std::uint64_t, void*)>& collect)
+      : count_(count), stop_(stop), work_(work), collect_(collect), slots_(most_under_way) {
+    happens_before(this);
+  }
+
+  std::uint64_t begin_next(tbb::flow_control& control) {
+    happens_after(this);
+    happens_after(&begun_);
+    const bool ended = begun_ == count_ || (stop_ && stop_->load());
+    const std::uint64_t number = ended ? count_ : begun_++;
+    if (ended) control.stop();
+    happens_before(&begun_);
+    return number;
+  }
+
+  std::uint64_t make(std::uint64_t number) {
+    happens_after(this);
+    std::shared_ptr<void>& slot = slots_[number % slots_.size()];
+    happens_after(&slot);
+    slot = work_(number);
+    happens_before(&slot);
+    return number;
+  }
+
+  void take(std::uint64_t number) {
+    happens_after(&taken_);
+    std::shared_ptr<void>& slot = slots_[number % slots_.size()];
+    happens_after(&slot);
+    collect_(number, slot.get());
+    slot.reset();
+    ++taken_;
+    happens_before(&slot);
+    happens_before(&taken_);
+  }
+
+  std::uint64_t taken() const {
+    happens_after(&begun_);
+    happens_after(&taken_);
+    return taken_;
+  }
+
+ private:
+  std::uint64_t count_, begun_ = 0, taken_ = 0;
+  const std::atomic<bool>* stop_;
+  const std::function<std::shared_ptr<void>(std::uint64_t)>& work_;
+  const std::function<void(std::uint64_t, void*)>& collect_;
+  std::vector<std::shared_ptr<void>> slots_;
+};
+
+}  // namespace
+
+std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<bool>* stop,
+                            const std::function<std::shared_ptr<void>(std::uint64_t)>& work,
+                            const std::function<void(std::uint64_t, void*)>& collect) {
+  constexpr std::size_t kPiecesPerThread = 4;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const std::size_t most_under_way = kPiecesPerThread * static_cast<std::size_t>(arena.max_concurrency());
+  Stages stages(count, most_under_way, stop, work, collect);
+  const auto begin_next = [&](tbb::flow_control& control)
+                              SCINTRAY_UNSEEN_BY_THREAD_SANITIZER { return stages.begin_next(control); };
+  const auto make = [&](std::uint64_t number)
+                        SCINTRAY_UNSEEN_BY_THREAD_SANITIZER { return stages.make(number); };
+  const auto take = [&](std::uint64_t number) SCINTRAY_UNSEEN_BY_THREAD_SANITIZER { stages.take(number); };
+  using tbb::filter_mode;
+  arena.execute([&] {
+    tbb::parallel_pipeline(most_under_way,
+                           tbb::make_filter<void, std::uint64_t>(filter_mode::serial_in_order, begin_next) &
+                               tbb::make_filter<std::uint64_t, std::uint64_t>(filter_mode::parallel, make) &
+                               tbb::make_filter<std::uint64_t, void>(filter_mode::serial_in_order, take));
+  });
+  return stages.taken();
+}
+
+}  // namespace scintray::transport::detail

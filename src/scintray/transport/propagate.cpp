@@ -1,0 +1,251 @@
+#include "scintray/transport/propagate.hpp"
+
+#include <cmath>
+
+#include "scintray/core/lanes.hpp"
+
+namespace scintray::transport {
+
+namespace {
+
+/// The sum of three vectors times the first three numbers of v, whose fourth number stays.
+core::Lanes combine(core::Lanes v, core::Lanes x, core::Lanes y, core::Lanes z) {
+  return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
+}
+core::Lanes rotate(const core::PlainMatrix3& m, core::Lanes v) {
+  return combine(v, {m.column(0), 0.0}, {m.column(1), 0.0}, {m.column(2), 0.0});
+}
+core::Lanes rotate_back(const core::PlainMatrix3& m, core::Lanes v) {
+  return combine(v, {m.row(0), 0.0}, {m.row(1), 0.0}, {m.row(2), 0.0});
+}
+
+/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.
+double critical_sin2(const scene::Scene& scene, std::uint32_t medium, const source::Photon& photon) {
+  constexpr double kNever = 2.0;
+  if (medium == scene::kNotSmooth || scene.optics.is_opaque(medium)) return kNever;
+  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
+  return ratio * ratio;
+}
+
+/// Where a ray leaves the region that it is in.
+struct Wall {
+  std::uint32_t triangle = scene::kNoTriangle;
+  double distance_mm = 0.0;
+  bool resolved = false;  ///< by the exact query
+};
+
+/// A photon that moves where it is stored, for any ray query. What is not Embree's, and the way to the first
+/// total reflection, which is all of it on rough faces, is better served by the photon as it is.
+class StoredPropagation {
+ public:
+  StoredPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
+      : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
+
+  Wall next_wall() const {
+    const scene::Exit exit = accelerator_.find_exit(region_.point_to_local(photon_.position),
+                                                    region_.direction_to_local(photon_.ray.direction));
+    return {exit.triangle, exit.distance_mm, exit.resolved};
+  }
+  double depth_left() const { return photon_.optical_depth; }
+  void move(double distance_mm, double depth) {
+    photon_.optical_depth -= depth;
+    advance(photon_, distance_mm);
+  }
+  /// Cosine of incidence at the wall.
+  double incidence(const Wall& wall) {
+    normal_ = region_.direction_to_world(accelerator_.normal(wall.triangle));
+    return photon_.ray.direction.dot(normal_);
+  }
+  void reflect_at(const Wall&, double) {
+    ++photon_.interactions;
+    optics::reflect(photon_.ray, normal_);
+  }
+  bool allowed_by(const PropagationLimits& limits) const {
+    return limits.allow(photon_.interactions, photon_.time_ns);
+  }
+  bool goes_on() const { return !accelerator_.uses_embree(); }
+  void turn() const {}
+  void store(source::Photon&) const {}
+
+ private:
+  const scene::Region& region_;
+  const scene::Accelerator& accelerator_;
+  source::Photon& photon_;
+  core::Vec3 normal_;
+};
+
+/// A photon between Embree's walls, in registers. It waits for Embree and then for what the next ray needs,
+/// so the next ray starts from Embree's own hit, in single precision, while the exact one is computed beside
+/// it; every piece starts from exact numbers again. Nothing may take the address of what changes, which would
+/// put it into memory. tools/bench crystal shows what this is worth.
+class EmbreePropagation {
+ public:
+  EmbreePropagation(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
+      : region_(region),
+        accelerator_(scene.accelerator(region)),
+        rotated_(region.rotated),
+        start_mm_(accelerator_.start_mm()),
+        rates_{1.0, photon.optics.group_index * (1.0 / core::kSpeedOfLight_mm_per_ns)},
+        centre_(region.centre, 1.0),
+        position_(photon.position, 0.0),
+        direction_(photon.ray.direction, 0.0),
+        polarisation_(photon.ray.polarisation, 0.0),
+        path_and_time_{photon.path_mm, photon.time_ns},
+        depth_left_(photon.optical_depth),
+        interactions_(photon.interactions),
+        local_(to_local(position_ - centre_)),
+        ahead_(to_local(direction_)),
+        ray_origin_(local_.with_fourth(start_mm_).floats()),
+        ray_direction_(ahead_.floats()) {}
+
+  Wall next_wall() {
+    const scene::FirstHit hit = accelerator_.first_hit(ray_origin_, ray_direction_);
+    scene::Approach approach;
+    if (hit.triangle != scene::kNoTriangle) [[likely]]
+      approach = accelerator_.approach_of(hit.triangle, local_, ahead_);
+    hit_mm_ = hit.distance_mm;
+    cosine_ = approach.cosine;
+    sure_ = approach.cosine > 0.0;
+    if (sure_) [[likely]]
+      return {hit.triangle, approach.distance_mm, false};
+    const scene::Exit exit = accelerator_.exact_exit(local_.vec(), ahead_.vec(), hit);
+    if (exit.triangle != scene::kNoTriangle) cosine_ = dot(accelerator_.plane(exit.triangle), ahead_);
+    return {exit.triangle, exit.distance_mm, exit.resolved};
+  }
+  double depth_left() const { return depth_left_; }
+  void move(double distance_mm, double depth) {
+    depth_left_ -= depth;
+    path_and_time_ += distance_mm * rates_;
+    position_ = position_ + distance_mm * direction_;
+  }
+  double incidence(const Wall&) const { return cosine_; }
+  /// As reflect().
+  void reflect_at(const Wall& wall, double cosine) {
+    ++interactions_;
+    core::Lanes normal = accelerator_.plane(wall.triangle).with_fourth(0.0);
+    if (rotated_) normal = rotate(region_.rotation, normal);
+    const core::Lanes twice = normal + normal;
+    direction_ = direction_ - cosine * twice;
+    polarisation_ = dot(normal, polarisation_) * twice - polarisation_;
+  }
+  bool allowed_by(const PropagationLimits& limits) const {
+    return limits.allow(interactions_, path_and_time_[1]);
+  }
+  static bool goes_on() { return true; }
+  /// Makes the next ray.
+  void turn() {
+    ray_origin_ = local_.with_fourth(start_mm_).floats() + hit_mm_ * ray_direction_;
+    local_ = to_local(position_ - centre_);
+    ahead_ = to_local(direction_);
+    ray_direction_ = ahead_.floats();
+    if (!sure_) [[unlikely]]
+      ray_origin_ = local_.with_fourth(start_mm_).floats();
+  }
+  void store(source::Photon& photon) const {
+    photon.position = position_.vec();
+    photon.ray.direction = direction_.vec();
+    photon.ray.polarisation = polarisation_.vec();
+    photon.path_mm = path_and_time_[0];
+    photon.time_ns = path_and_time_[1];
+    photon.optical_depth = depth_left_;
+    photon.interactions = static_cast<std::uint32_t>(interactions_);
+  }
+
+ private:
+  core::Lanes to_local(core::Lanes v) const { return rotated_ ? rotate_back(region_.rotation, v) : v; }
+
+  const scene::Region& region_;
+  const scene::Accelerator& accelerator_;
+  const bool rotated_;
+  const double start_mm_;
+  const core::TwoDoubles rates_;  ///< of path and time
+  const core::Lanes centre_;
+
+  core::Lanes position_, direction_, polarisation_;
+  core::TwoDoubles path_and_time_;
+  double depth_left_;
+  std::uint64_t interactions_;
+  core::Lanes local_, ahead_;  ///< in the region's frame, as the accelerator takes them: fourth -1 and 0
+  core::FourFloats ray_origin_, ray_direction_;
+  float hit_mm_ = 0.0f;  ///< Embree's, along the ray
+  double cosine_ = 0.0;
+  bool sure_ = true;  ///< the last wall is Embree's own
+};
+
+/// From wall to wall until something other than a total reflection decides. Adds to `propagation`.
+template <typename State>
+void propagate_as(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits,
+                  Propagation& propagation) {
+  const scene::Region& region = scene.regions[photon.region];
+  const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  State state(scene, region, photon);
+  std::uint32_t known_medium = scene::kNotSmooth;
+  double least_sin2 = critical_sin2(scene, known_medium, photon);
+  PropagationEnd end;
+  Wall wall;
+  double cosine = 0.0;
+  std::uint32_t segments = 0, resolved = 0;
+  for (;;) {
+    ++segments;
+    wall = state.next_wall();
+    resolved += wall.resolved ? 1 : 0;
+    if (wall.triangle == scene::kNoTriangle) [[unlikely]] {
+      end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
+      break;
+    }
+    const double depth = attenuation * wall.distance_mm;
+    if (depth > state.depth_left()) {
+      end = PropagationEnd::bulk;
+      break;
+    }
+    state.move(wall.distance_mm, depth);
+    end = PropagationEnd::boundary;
+    const std::uint32_t medium = links[wall.triangle].smooth_to;
+    if (medium == scene::kNotSmooth) break;
+    if (medium != known_medium) {
+      known_medium = medium;
+      least_sin2 = critical_sin2(scene, medium, photon);
+    }
+    cosine = state.incidence(wall);
+    if (!(1.0 - cosine * cosine >= least_sin2)) break;
+
+    state.reflect_at(wall, cosine);
+    end = PropagationEnd::total;
+    if (!state.allowed_by(limits)) break;
+    if (limits.passed) [[unlikely]] {
+      state.store(photon);
+      limits.passed(photon, total_reflection(scene, photon, wall.triangle, cosine));
+    }
+    if (!state.goes_on()) break;
+    state.turn();
+  }
+  state.store(photon);
+  propagation = {end, wall.triangle, cosine, propagation.segments + segments,
+                 propagation.resolved + resolved};
+}
+
+}  // namespace
+
+Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
+                      double cosine) {
+  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
+  Step step;
+  step.event = core::StepEvent::reflected;
+  step.from_back = link.from_back;
+  step.region = photon.region;
+  step.interface = link.interface;
+  step.triangle = triangle;
+  step.cos_before = step.cos_after = cosine;
+  return step;
+}
+
+Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
+  Propagation propagation;
+  propagate_as<StoredPropagation>(scene, photon, limits, propagation);
+  if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
+    propagate_as<EmbreePropagation>(scene, photon, limits, propagation);
+  return propagation;
+}
+
+}  // namespace scintray::transport

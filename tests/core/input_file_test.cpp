@@ -1,0 +1,37 @@
+#include "scintray/core/input_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scintray/core/output_file.hpp"
+#include "support/shared.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+
+TEST_CASE("A file is read as it is, byte for byte") {
+  const auto folder = test::scratch_folder("input_file");
+  std::string content("\xEF\xBB\xBF\0line\r\n\xFF", 12);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{12}, std::size_t{1} << 16, std::size_t{200'001}}) {
+    CAPTURE(size);
+    std::string written;
+    while (written.size() < size) written += content;
+    written.resize(size);
+    write_whole_file(folder / "file", written);
+    const auto read = read_whole_file(folder / "file");
+    REQUIRE(read);
+    CHECK(*read == written);
+  }
+}
+
+TEST_CASE("A file whose size is not known beforehand is read whole") {
+  const auto status = read_whole_file("/proc/self/status");
+  REQUIRE(status);
+  CHECK(status->find("Name:") == 0);
+}
+
+TEST_CASE("What is no file that can be read gives nothing") {
+  const auto folder = test::scratch_folder("input_file_none");
+  CHECK_FALSE(read_whole_file(folder / "missing"));
+  CHECK_FALSE(read_whole_file(folder));
+}

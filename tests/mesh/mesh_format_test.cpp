@@ -1,0 +1,111 @@
+// A mesh format from outside: nothing of ScintRay knows it but the list that the caller passes.
+#include "scintray/mesh/import/mesh_format.hpp"
+
+#include <sstream>
+
+#include "mesh/box_files.hpp"
+
+using namespace scintray;
+using namespace scintray::mesh;
+using namespace scintray::test;
+
+namespace {
+
+/// Lines "v X Y Z" in cm, "f A B C ..." with corners counted from 0, and "solid NAME".
+RawMesh read_lines_of_toy(const MeshFile& file) {
+  RawMesh raw;
+  raw.unit = {.name = "cm", .mm = 10.0, .written = true, .read_mm = 10.0};
+  raw.mesh.groups = {"default"};
+  std::istringstream lines(file.content);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "v") {
+      core::Vec3 vertex;
+      words >> vertex.x() >> vertex.y() >> vertex.z();
+      raw.mesh.vertices.push_back(vertex);
+    } else if (kind == "f") {
+      std::vector<std::uint32_t> corners;
+      for (std::uint32_t corner = 0; words >> corner;) corners.push_back(corner);
+      raw.add_polygon(corners, 0, false);
+    } else if (kind == "solid") {
+      std::string name;
+      words >> name;
+      raw.begin_body(name);
+    } else {
+      throw core::InputError({{file.path.string(), 0, 0}, "a line that begins with \"" + kind + "\"", ""});
+    }
+  }
+  raw.fill_body();
+  return raw;
+}
+
+MeshFormats with_toy() {
+  MeshFormats formats;
+  formats.add({.extension = ".toy", .states_unit = true, .read = read_lines_of_toy});
+  return formats;
+}
+
+const std::string kToyBox = "solid crystal\n" + corner_lines("v ") + quad_lines("f ", 0);
+
+}  // namespace
+
+TEST_CASE("A mesh format from outside is read as the built-in ones are") {
+  const MeshFormats formats = with_toy();
+  ImportOptions options;
+  options.formats = &formats;
+  const MeshImport box = import_mesh(mesh_file("box.toy", kToyBox), options);
+  check_box(box, 10.0);
+  CHECK(box.unit_from_file == "cm");
+  CHECK(box.bodies == std::vector<std::string>{"crystal"});
+
+  const auto obj = mesh_file("beside.obj", corner_lines("v ") + quad_lines("f ", 1));
+  options.mm_per_unit = 1.0;
+  check_box(import_mesh(obj, options), 1.0);
+  check_contains(complaint_of([&] { import_mesh(mesh_file("box.toy", kToyBox), options); }),
+                 {"the file says that it is in cm"});
+}
+
+TEST_CASE("Body and scale of the options hold for a mesh format from outside") {
+  const MeshFormats formats = with_toy();
+  ImportOptions options;
+  options.formats = &formats;
+  options.body = "lid";
+  options.scale = 0.5;
+  const auto two = mesh_file("two.toy", kToyBox + "solid lid\nf 0 2 1\nf 0 1 4\nf 0 4 2\nf 1 2 4\n");
+  const MeshImport lid = import_mesh(two, options);
+  CHECK(lid.mesh.triangles.size() == 4);
+  CHECK(lid.mesh.volume() == doctest::Approx(125.0));  // a sixth of 1 x 2 x 3 cm^3, halved in length
+  CHECK(lid.bodies == std::vector<std::string>{"crystal", "lid"});
+}
+
+TEST_CASE("A mesh format is known only where it was added") {
+  const auto path = mesh_file("box.toy", kToyBox);
+  check_refused(path, 0.0, {"\".toy\" is not a mesh format"});
+  const MeshFormats formats = with_toy();
+  CHECK(formats.extensions().back() == ".toy");
+  CHECK(formats.extensions().size() == mesh_extensions().size() + 1);
+  CHECK(MeshFormats::built_in().find(".toy") == nullptr);
+
+  ImportOptions options;
+  options.formats = &formats;
+  check_contains(complaint_of([&] { import_mesh(mesh_file("box.unknown", kToyBox), options); }),
+                 {"\".unknown\" is not a mesh format", ".stp", ".toy"});
+}
+
+TEST_CASE("What a reader from outside throws reaches the caller with the file's name") {
+  const MeshFormats formats = with_toy();
+  ImportOptions options;
+  options.formats = &formats;
+  check_contains(complaint_of([&] { import_mesh(mesh_file("odd.toy", "edge 1 2\n"), options); }),
+                 {"odd.toy", "begins with \"edge\""});
+}
+
+TEST_CASE("An extension has one mesh format, and a mesh format a reader") {
+  MeshFormats formats = with_toy();
+  CHECK_THROWS_AS(formats.add({.extension = ".toy", .read = read_lines_of_toy}), core::InternalError);
+  CHECK_THROWS_AS(formats.add({.extension = ".stl", .read = read_lines_of_toy}), core::InternalError);
+  CHECK_THROWS_AS(formats.add({.extension = "toy2", .read = read_lines_of_toy}), core::InternalError);
+  CHECK_THROWS_AS(formats.add({.extension = ".toy2", .read = nullptr}), core::InternalError);
+}

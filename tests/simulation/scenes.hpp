@@ -1,0 +1,59 @@
+#pragma once
+/// Small scenes of the tests of Simulation.
+
+#include <string>
+
+#include "scintray/scene_file/read_scene.hpp"
+#include "support/shared.hpp"
+
+namespace scintray::test {
+
+/// A crystal on a sensor; the material database has all its definitions.
+inline const std::string kCrystal = R"(
+title = "A crystal"
+ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO"
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "R6231"
+)";
+
+inline const std::string kPhotons = R"(
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "emission"
+time = "decay"
+photons = 3_000
+photons_per_event = 100
+)";
+
+inline const std::string kEvents = R"(
+[source]
+type = "gamma_events"
+events = 12
+region = { part = "crystal" }
+energy = "50 keV"
+)";
+
+/// Three surfaces, so three scenes to build.
+inline const std::string kSurfaceSweep = R"(
+[[sweep]]
+key = "part.crystal.surface"
+label = "surface"
+values = ["polished", "roncali2013_unified_rough", "flat"]
+[surfaces.flat]
+model = "smooth"
+)";
+
+inline scene_file::SceneFile scene_of(const std::string& text) {
+  return scene_file::SceneFile::from_text(text, source_file("scene.toml").string());
+}
+
+}  // namespace scintray::test
