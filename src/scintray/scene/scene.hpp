@@ -111,17 +111,19 @@ struct Region {
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
 
   core::Vec3 point_to_local(const core::PlainVec3& p) const {
-    const core::Vec3 shifted = p - centre;
-    if (rotated) return rotation.matrix().transpose() * shifted;
-    return shifted;
+    if (!rotated) [[likely]]
+      return p - centre;
+    return rotation.matrix().transpose() * (p - centre);
   }
   core::Vec3 direction_to_local(const core::PlainVec3& d) const {
-    if (rotated) return rotation.matrix().transpose() * d.vec();
-    return d.vec();
+    if (!rotated) [[likely]]
+      return d.vec();
+    return rotation.matrix().transpose() * d.vec();
   }
   core::Vec3 direction_to_world(const core::PlainVec3& d) const {
-    if (rotated) return rotation.matrix() * d.vec();
-    return d.vec();
+    if (!rotated) [[likely]]
+      return d.vec();
+    return rotation.matrix() * d.vec();
   }
 };
 static_assert(std::is_trivially_copyable_v<Region>);

@@ -172,57 +172,62 @@ class EmbreePropagation {
   bool sure_ = true;  ///< the last wall is Embree's own
 };
 
-/// From wall to wall until something other than a total reflection decides. Adds to `propagation`.
+/// From wall to wall until something other than a total reflection decides. Inlined: it is in every step.
 template <typename State>
-void propagate_as(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits,
-                  Propagation& propagation) {
+[[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
+                                                       const PropagationLimits& limits) {
   const scene::Region& region = scene.regions[photon.region];
   const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
   std::uint32_t known_medium = scene::kNotSmooth;
   double least_sin2 = critical_sin2(scene, known_medium, photon);
-  PropagationEnd end;
-  Wall wall;
-  double cosine = 0.0;
-  std::uint32_t segments = 0, resolved = 0;
+  Propagation propagation;
   for (;;) {
-    ++segments;
-    wall = state.next_wall();
-    resolved += wall.resolved ? 1 : 0;
+    ++propagation.segments;
+    const Wall wall = state.next_wall();
+    propagation.resolved += wall.resolved ? 1 : 0;
+    propagation.triangle = wall.triangle;
     if (wall.triangle == scene::kNoTriangle) [[unlikely]] {
-      end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
+      propagation.end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
       break;
     }
     const double depth = attenuation * wall.distance_mm;
     if (depth > state.depth_left()) {
-      end = PropagationEnd::bulk;
+      propagation.end = PropagationEnd::bulk;
       break;
     }
     state.move(wall.distance_mm, depth);
-    end = PropagationEnd::boundary;
+    propagation.end = PropagationEnd::boundary;
     const std::uint32_t medium = links[wall.triangle].smooth_to;
     if (medium == scene::kNotSmooth) break;
     if (medium != known_medium) {
       known_medium = medium;
       least_sin2 = critical_sin2(scene, medium, photon);
     }
-    cosine = state.incidence(wall);
-    if (!(1.0 - cosine * cosine >= least_sin2)) break;
+    propagation.cosine = state.incidence(wall);
+    if (!(1.0 - propagation.cosine * propagation.cosine >= least_sin2)) break;
 
-    state.reflect_at(wall, cosine);
-    end = PropagationEnd::total;
+    state.reflect_at(wall, propagation.cosine);
+    propagation.end = PropagationEnd::total;
     if (!state.allowed_by(limits)) break;
     if (limits.passed) [[unlikely]] {
       state.store(photon);
-      limits.passed(photon, total_reflection(scene, photon, wall.triangle, cosine));
+      limits.passed(photon, total_reflection(scene, photon, wall.triangle, propagation.cosine));
     }
     if (!state.goes_on()) break;
     state.turn();
   }
   state.store(photon);
-  propagation = {end, wall.triangle, cosine, propagation.segments + segments,
-                 propagation.resolved + resolved};
+  return propagation;
+}
+
+[[gnu::noinline]] void go_on_with_embree(const scene::Scene& scene, source::Photon& photon,
+                                         const PropagationLimits& limits, Propagation& propagation) {
+  const Propagation first = propagation;
+  propagation = propagate_as<EmbreePropagation>(scene, photon, limits);
+  propagation.segments += first.segments;
+  propagation.resolved += first.resolved;
 }
 
 }  // namespace
@@ -241,10 +246,9 @@ Step total_reflection(const scene::Scene& scene, const source::Photon& photon, s
 }
 
 Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
-  Propagation propagation;
-  propagate_as<StoredPropagation>(scene, photon, limits, propagation);
+  Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
   if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
-    propagate_as<EmbreePropagation>(scene, photon, limits, propagation);
+    go_on_with_embree(scene, photon, limits, propagation);
   return propagation;
 }
 

@@ -153,8 +153,9 @@ InterfaceOutcome interact_at_interface(const scene::Scene& scene, const scene::I
   }
 }
 
-Step interact_at_boundary(const scene::Scene& scene, const scene::Region& region, std::uint32_t triangle,
-                          source::Photon& photon, core::Rng& rng, source::PhotonRecords* records) {
+Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
+                          core::Rng& rng, source::PhotonRecords* records) {
+  const scene::Region& region = scene.regions[photon.region];
   const scene::SceneOptics& optics = scene.optics;
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
@@ -222,20 +223,19 @@ Step interact_at_boundary(const scene::Scene& scene, const scene::Region& region
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {
   const std::uint32_t from = photon.region;
-  const scene::Region& region = scene.regions[from];
   const Propagation propagation = propagate(scene, photon, limits);
   Step result;
   switch (propagation.end) {
     case PropagationEnd::bulk:
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
-      result = interact_in_bulk(scene, region.medium, photon, rng, records);
+      result = interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records);
       break;
     case PropagationEnd::escape:
       result.event = core::StepEvent::escaped;
       break;
     case PropagationEnd::boundary:
-      result = interact_at_boundary(scene, region, propagation.triangle, photon, rng, records);
+      result = interact_at_boundary(scene, propagation.triangle, photon, rng, records);
       break;
     case PropagationEnd::total:
       result = total_reflection(scene, photon, propagation.triangle, propagation.cosine);
