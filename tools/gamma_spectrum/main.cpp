@@ -1,5 +1,5 @@
-// Prints scenes/spectra/lso_511keV.csv: what a crystal of LSO sees of 511 keV gammas, blurred as a detector
-// of 22 % resolution would.
+// Prints scenes/spectra/lso_511keV.csv: the energy that 511 keV gammas deposit in a crystal of LSO, blurred
+// as a detector of 22 % resolution would.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -92,7 +92,8 @@ int main() {
     fmt::print(
         "# Made by ScintRay's gamma transport (tools/spectrum), not measured: 511 keV gammas straight onto "
         "a\n"
-        "# side of 2 x 20 mm2 of a crystal of LSO of 2 x 2 x 20 mm3 in empty space, the energy left in it\n"
+        "# side of 2 x 20 mm2 of a crystal of LSO of 2 x 2 x 20 mm3 in empty space, the energy deposited in "
+        "it\n"
         "# blurred to {:g} % full width at half maximum at 511 keV, the width going with the square root of\n"
         "# the energy. Counts of 1 million gammas in bins of {:g} keV, at their middles.\n"
         "energy_keV,counts\n",
