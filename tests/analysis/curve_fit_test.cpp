@@ -112,7 +112,7 @@ TEST_CASE("Errors of fitted parameters are right: pulls of 300 toys have mean 0 
   CHECK(std::abs(chi2.mean().value - 6.0) < kSigmas * std::sqrt(12.0 / kToys));
 }
 
-TEST_CASE("Errors and chi-square are right, too, where photons soon go other ways") {
+TEST_CASE("Errors and chi-square are right, too, where photon paths soon diverge") {
   // Each photon's number turns with the parameter at a speed of its own, once round in some errors: noise
   // that common random numbers hardly lessen, and that a search would follow to a curve that is too good.
   const std::vector<double> truth{0.6, 12.0};
@@ -158,7 +158,7 @@ TEST_CASE("Errors and chi-square are right, too, where photons soon go other way
   CHECK(std::abs(chi2.mean().value - 6.0) < kSigmas * std::sqrt(12.0 / kToys));
 }
 
-TEST_CASE("A free scale is fitted along, in any unit of the measured light") {
+TEST_CASE("A free scale is fitted with the parameters, in any unit of the measured light") {
   const std::vector<double> truth{0.2, 6.0};
   const std::vector<FitParameter> parameters{{"floor", 0.4, 0.0, 0.9}, {"length", 10.0, 1.0, 40.0}};
   Pulls floor, length, scale;
@@ -179,7 +179,7 @@ TEST_CASE("A free scale is fitted along, in any unit of the measured light") {
   }
 }
 
-TEST_CASE("Common random numbers lessen the noise of differences, and the fit says by how much") {
+TEST_CASE("Common random numbers reduce the noise of differences, and the fit has the factor") {
   const ToyDetector detector(kDepths, 2000, 1, falling);
   const CurveFit fit =
       fit_curve(measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 1), kFalling, detector.model());
@@ -204,7 +204,7 @@ TEST_CASE("The same fit is the same to the last bit, and starts elsewhere lead t
   }
 }
 
-TEST_CASE("A parameter whose best value lies beyond a bound stays at it, and says so") {
+TEST_CASE("A parameter whose best value lies beyond a bound stays at it, with a warning") {
   const ToyDetector detector(kDepths, 20000, 4, falling);
   const MeasuredCurve measured = measured_curve(falling, {0.6, 12.0}, 1.0, 0.005, 4);
   std::vector<FitParameter> narrow = kFalling;
@@ -221,7 +221,7 @@ TEST_CASE("A parameter whose best value lies beyond a bound stays at it, and say
   check_contains(warnings, "does not describe the measurement");
 }
 
-TEST_CASE("What the data do not determine is said") {
+TEST_CASE("A parameter that the data do not determine has a warning") {
   const auto warnings_of = [](const CurveFit& fit) {
     std::string text;
     for (const std::string& warning : fit.warnings) text += warning + "\n";
@@ -248,7 +248,7 @@ TEST_CASE("What the data do not determine is said") {
   check_contains(warnings_of(twins), "determines a combination");
 }
 
-TEST_CASE("Monte Carlo noise that dominates is said") {
+TEST_CASE("Dominant Monte Carlo noise has a warning") {
   const ToyDetector detector(kDepths, 1000, 6, falling);
   const CurveFit fit =
       fit_curve(measured_curve(falling, {0.6, 12.0}, 1.0, 0.001, 6), kFalling, detector.model());
@@ -258,7 +258,7 @@ TEST_CASE("Monte Carlo noise that dominates is said") {
   CHECK(std::abs(fit.parameters[1].value.value - 12.0) < kSigmas * fit.parameters[1].value.error);
 }
 
-TEST_CASE("One error for all points is found from the scatter") {
+TEST_CASE("One error for all points is estimated from the scatter") {
   std::vector<double> depths;
   for (int i = 0; i < 60; ++i) depths.push_back(0.5 + 0.33 * i);
   const ToyDetector detector(depths, 20000, 8, falling);
@@ -322,7 +322,7 @@ TEST_CASE("A fit that is stopped keeps the best so far") {
   CHECK(fit_curve(measured, kFalling, stopping).curve.empty());
 }
 
-TEST_CASE("A fit that cannot be made says why") {
+TEST_CASE("A fit that is impossible is refused with the reason") {
   const ToyDetector detector(kDepths, 2000, 10, falling);
   MeasuredCurve measured = measured_curve(falling, {0.6, 12.0}, 1.0, 0.01, 10);
   const auto complaint = [&](const MeasuredCurve& curve, const std::vector<FitParameter>& parameters,

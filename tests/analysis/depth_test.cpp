@@ -146,7 +146,8 @@ TEST_CASE("The share of one end, calibrated monotonously, resolves depth as well
   CHECK(std::is_sorted(share.calibration.depth_mm.rbegin(), share.calibration.depth_mm.rend()));
 }
 
-TEST_CASE("A polished crystal, whose ends see the same from everywhere, has no depth of interaction") {
+TEST_CASE(
+    "A polished crystal, whose ends detect the same light from every depth, has no depth of interaction") {
   Rng rng = toy_rng(25);
   std::vector<double> depths, ratios;
   for (int i = 0; i < 1000; ++i) {
@@ -167,7 +168,7 @@ TEST_CASE("A polished crystal, whose ends see the same from everywhere, has no d
   CHECK(std::isnan(end_ratio(EndRatio::share, 0.0, 5.0)));
 }
 
-TEST_CASE("Law: two Gaussian layers are told apart as often as Phi(distance / 2 sigma)") {
+TEST_CASE("Law: two Gaussian layers are distinguished with probability Phi(distance / 2 sigma)") {
   Rng rng = toy_rng(26);
   std::vector<std::size_t> layer;
   std::vector<double> value;

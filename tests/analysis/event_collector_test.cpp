@@ -14,7 +14,7 @@ using namespace scintray::analysis;
 using namespace scintray::test;
 using doctest::Approx;
 
-TEST_CASE("Events of a dual-ended array give every study") {
+TEST_CASE("Events of a dual-ended array have every analysis") {
   const MadeUpDetector detector;
   const EventAnalysis analysis = analyze_events(detector.events(6000, true), detector.setup());
   for (const std::string& line : analysis.left_out) MESSAGE(line);
@@ -72,7 +72,7 @@ TEST_CASE("The flood map is of one plane and the ends are two") {
   CHECK_FALSE(layout_of({}, std::nullopt));
 }
 
-TEST_CASE("Studies that do not apply say why") {
+TEST_CASE("An analysis that does not apply has the reason") {
   const MadeUpDetector detector;
   AnalysisSetup setup = detector.setup();
   std::vector<EventRecord> events = detector.events(3000, true);
@@ -103,7 +103,7 @@ TEST_CASE("Studies that do not apply say why") {
     CHECK_FALSE(analysis.light_against_depth);
     CHECK_FALSE(analysis.doi);
   }
-  SUBCASE("dark counts, which happened nowhere") {
+  SUBCASE("dark counts, which have no position") {
     for (std::size_t i = 0; i < events.size(); i += 2) events[i].part = EventRecord::kNoPart;
     const EventAnalysis analysis = analyze_events(events, setup);
     CHECK(analysis.pulses > 2980);
@@ -135,7 +135,7 @@ TEST_CASE("Studies that do not apply say why") {
   }
 }
 
-TEST_CASE("Layers are told by the ratio of the ends and by the flood map") {
+TEST_CASE("Layers are classified by the ratio of the ends and by the flood map") {
   const MadeUpDetector detector;
   AnalysisSetup setup = detector.setup();
   std::vector<EventRecord> events = detector.events(6000, true);
@@ -145,7 +145,8 @@ TEST_CASE("Layers are told by the ratio of the ends and by the flood map") {
   const EventAnalysis analysis = analyze_events(events, setup);
   REQUIRE(analysis.layers_by_ratio);
   CHECK(analysis.layers_by_ratio->confusion.share_right().value > 0.9);
-  // Layers right above each other look alike in a flood map: no better than a coin, and the study states so.
+  // Layers right above each other look alike in a flood map: no better than a coin, and the analysis states
+  // so.
   REQUIRE(analysis.layers_by_flood);
   CHECK(analysis.layers_by_flood->share_right().value < 0.6);
 }

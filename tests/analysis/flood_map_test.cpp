@@ -50,7 +50,7 @@ TEST_CASE("Anger's position is the mean of the channels") {
   CHECK_THROWS_AS(anger_position(std::vector<double>(4, 1.0), channels, {1.0, 1.0}), std::invalid_argument);
 }
 
-TEST_CASE("Basins of a small map are those one sees") {
+TEST_CASE("The basins of a small map are the expected ones") {
   const std::vector<double> height{1, 9, 2, 1, 7, 1,  //
                                    1, 3, 2, 4, 3, 1,  //
                                    0, 0, 0, 0, 0, 0};
@@ -69,7 +69,7 @@ TEST_CASE("Basins of a small map are those one sees") {
   CHECK(one.of_cell[4] == 0);
 }
 
-TEST_CASE("Well separated spots are all found and all events assigned rightly") {
+TEST_CASE("Well separated spots are all found and all events assigned correctly") {
   std::vector<Position> positions;
   std::vector<std::uint32_t> parts;
   spots(6, 0.08, 100, positions, parts, 40);
@@ -91,7 +91,7 @@ TEST_CASE("Well separated spots are all found and all events assigned rightly") 
 }
 
 TEST_CASE(
-    "Law: spots of width sigma at distance d are told apart with probability (2 Phi(d / 2 sigma) - 1)^2") {
+    "Law: spots of width sigma at distance d are resolved with probability (2 Phi(d / 2 sigma) - 1)^2") {
   std::vector<Position> positions;
   std::vector<std::uint32_t> parts;
   const double sigma = 0.3;
@@ -120,7 +120,7 @@ TEST_CASE(
   CHECK(map.worst_peak_to_valley < map.peak_to_valley);
 }
 
-TEST_CASE("12 x 12 crystals on 4 x 4 channels are told apart by their light") {
+TEST_CASE("12 x 12 crystals on 4 x 4 channels are resolved by their light") {
   Rng rng = toy_rng(42);
   std::vector<Position> channels;
   for (int k = 0; k < 16; ++k) channels.push_back({1.0 + 3.0 * (k % 4), 1.0 + 3.0 * (k / 4)});

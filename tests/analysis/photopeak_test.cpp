@@ -58,7 +58,7 @@ TEST_CASE("One far value does not stretch an automatic histogram") {
 
 // 300 toys: the mean pull is known to 0.058 and its width to 0.041; each comparison at 4 sigma raises a false
 // alarm once in 15,800.
-TEST_CASE("Pulls of a pure Gaussian peak are normal, and no shoulder is seen") {
+TEST_CASE("Pulls of a pure Gaussian peak are normal, and no shoulder is found") {
   Pulls position, sigma, resolution;
   int with_background = 0, refused = 0;
   Moments p_values;
@@ -103,7 +103,7 @@ TEST_CASE("Pulls of a Gaussian on a shoulder are normal") {
   CHECK(refused == 0);
 }
 
-TEST_CASE("A shoulder that is left out pulls the peak down: the fit knows the difference") {
+TEST_CASE("A shoulder that is left out pulls the peak down: the fit distinguishes the models") {
   Rng rng = toy_rng(5);
   const std::vector<double> values = pulses(20'000, 25.0, 20'000, 250.0, rng);
   PhotopeakOptions bare;
@@ -171,7 +171,7 @@ TEST_CASE("A window chooses among peaks") {
   CHECK(sigmas(fit_photopeak(values, options).fit.position, {202.0, 0.0}) < kSigmas);
 }
 
-TEST_CASE("What cannot be trusted says so") {
+TEST_CASE("A fit that cannot be trusted has a status") {
   Rng rng = toy_rng(9);
   SUBCASE("too few") {
     const Photopeak peak = fit_photopeak(pulses(60, 25.0, 0, 0.0, rng));
@@ -231,7 +231,7 @@ TEST_CASE("Spread: pulls of both widths and of the mean are normal") {
   CHECK(quantile.width().value == Approx(1.0).epsilon(0.3));
 }
 
-TEST_CASE("Quantiles feel no tails") {
+TEST_CASE("Quantiles do not depend on tails") {
   Rng rng = toy_rng(11);
   std::vector<double> values;
   for (int i = 0; i < 20'000; ++i) values.push_back(sample_normal(rng));

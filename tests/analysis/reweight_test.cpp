@@ -110,7 +110,7 @@ TEST_CASE("Pulls of reweighted fractions are normal") {
   CHECK(sigmas(pulls.width(), {1.0, 0.0}) < kSigmas);
 }
 
-TEST_CASE("Where the photons that would matter are rare or missing the answer is not valid") {
+TEST_CASE("Where the photons that matter are rare or missing the result is not valid") {
   const Rod dark = trace_rod(0.1, 0.5, 83);
   const Reweighted far = reweight(dark, kEmitted, constant(0.0), constant(0.99));
   CHECK_FALSE(far.valid);
@@ -138,7 +138,7 @@ TEST_CASE("Where the photons that would matter are rare or missing the answer is
   CHECK(reweight(dark, kEmitted, constant(0.3), constant(0.4)).tail_shape == 0.0);
 }
 
-TEST_CASE("What cannot be reweighted is refused or said") {
+TEST_CASE("Impossible reweighting is refused or not valid") {
   const RodPhoton straight{10.0F, 1.0F, 0, 0.0F};
   const Rod rod{0.1, 0.0, std::vector<RodPhoton>(200, straight)};
   const Reweighted mirror = reweight(rod, 1000, constant(0.1), constant(0.5));

@@ -34,7 +34,7 @@ TEST_CASE("a surface comes with the indices of its media at the wavelength, and 
   CHECK(goniometer.sources.size() == 1);
 }
 
-TEST_CASE("unknown names are answered with the nearest ones, all at once") {
+TEST_CASE("unknown names are errors with the nearest ones, all at once") {
   const std::string text = refusal({"lso_polish", "LS0", "airr", 420.0});
   CHECK(contains(text, "no surface \"lso_polish\""));
   CHECK(contains(text, "\"lso_polished\"?"));
@@ -54,7 +54,7 @@ TEST_CASE("a surface that leaves something to the user is refused with what it n
   CHECK(contains(refusal({"geant4_ground", "LSO", "air", 420.0}), "unified.sigma_alpha"));
 }
 
-TEST_CASE("of a mixture every part is followed on its map, and looked at for the wavelength") {
+TEST_CASE("of a mixture every part is traced on its map, and checked for the wavelength") {
   const auto document = parse_toml(R"(
 [half]
 mixture = [{ surface = "lso_polished", share = 0.5 }, { surface = "glued", share = 0.5 }]
@@ -94,7 +94,7 @@ none = true
   }
 }
 
-TEST_CASE("what a definition says is told of presets as well") {
+TEST_CASE("presets have the source of their definition as well") {
   const MaterialDatabase database = MaterialDatabase::shipped();
   const SurfaceOutline preset = database.outline("geant4_ground");
   CHECK(preset.model == "unified");
@@ -108,7 +108,7 @@ TEST_CASE("what a definition says is told of presets as well") {
   CHECK_THROWS_AS(database.outline("nothing_like_it"), InputError);
 }
 
-TEST_CASE("slopes met: none on a flat face, of a table as of its map, no answer where there are no facets") {
+TEST_CASE("visible slopes: none on a flat face, of a table as of its map, not available without facets") {
   CHECK(mean_visible_slope(Surface{}, Side::inside, 0.5).value == 0.0);
   Surface facets;
   facets.microsurface = UnifiedSurface{};

@@ -150,7 +150,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("The study of orders finds the best photon near where the bound has it") {
+TEST_CASE("The analysis of orders finds the best photon near that of the bound") {
   const double photons = 1000.0;
   const PhotonTime time({{40.0, 0.1}}, 0.12);
   auto events = emit(2000, photons, 40.0, 0.1, 0.12, 4);
@@ -178,7 +178,7 @@ TEST_CASE("The study of orders finds the best photon near where the bound has it
   CHECK(analyze_orders(std::vector<std::vector<double>>(20, {0.1}), 5).single.empty());
 }
 
-TEST_CASE("Pairs use each event once and leave out what has no time") {
+TEST_CASE("Pairs use each event once and leave out events without a time") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   CHECK(paired_differences(std::vector<double>{1.0, none, 4.0, 9.0, 2.0, 5.0}) ==
         std::vector<double>{-3.0, 7.0});
@@ -204,7 +204,7 @@ TEST_CASE("Timing against depth finds the speed of light in a crystal") {
   for (const TimingSlice& slice : timing.slices) CHECK(sigmas(slice.ctr_fwhm_ns, {expected, 0.0}) < kSigmas);
 }
 
-TEST_CASE("Emission that makes no sense is refused") {
+TEST_CASE("Unphysical emission is refused") {
   CHECK(contains(complaint_of([] { PhotonTime({}, 0.1); }), "sum to 0"));
   CHECK(contains(complaint_of([] { PhotonTime({{-1.0}}, 0.1); }), "not positive"));
   CHECK(contains(complaint_of([] { PhotonTime({{40.0, 0.1, 0.5}}, 0.1); }), "expected 1"));
@@ -214,7 +214,7 @@ TEST_CASE("Emission that makes no sense is refused") {
 }
 
 TEST_CASE(
-    "Orders of an event are the earliest of its channels', and means go as far as all photons are known") {
+    "Orders of an event are the earliest of its channels, and means extend as far as all photons are known") {
   const float none = std::numeric_limits<float>::quiet_NaN();
   OrderCollector collector({5, 1, 2});
   EventRecord event;
@@ -237,7 +237,7 @@ TEST_CASE(
   CHECK(std::isnan(times[0].single[0]));
 }
 
-TEST_CASE("Recorded orders give the CTR of the photons they are of, in all and by depth, above the bound") {
+TEST_CASE("Recorded orders have the CTR of their photons, overall and by depth, above the bound") {
   const double photons = 1000.0;
   const LightTiming timing{{{40.0, 0.1, 1.0}}, 0.12};
   const auto events = emit(2000, photons, 40.0, 0.1, 0.12, 4);

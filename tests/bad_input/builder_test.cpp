@@ -115,7 +115,7 @@ TEST_CASE("septa that do not fit") {
                         "one of \"dry\", \"bonded\"", "words");
 }
 
-TEST_CASE("an opaque medium between the faces of septa that let light through") {
+TEST_CASE("an opaque medium between the faces of septa that transmit light") {
   const std::string leaking =
       replaced(kScene, "reflector = \"ESR\"\n", "reflector = \"thin\"\nmedium = @@\"opaque\"\n") +
       "[reflectors.thin]\nreflectance = { value = 0.9 }\ntransmittance = { value = 0.08 "
@@ -156,7 +156,7 @@ TEST_CASE("shapes") {
                         "leave it out");
 }
 
-TEST_CASE("names that builders give, and patterns") {
+TEST_CASE("names of builders' parts, and patterns") {
   check_builder_mistake("name = \"bar\"", "name = @@\"guide[0,0]\"", "already taken", "name of its own");
   check_builder_mistake("name = \"bar\"", "name = @@\"bar*\"", "a star", "patterns");
   check_builder_mistake("[\"block[0,*]\", \"guide*\"]", "@@[\"blocks[0,*]\", \"guide*\"]", "no part matches",
@@ -166,7 +166,7 @@ TEST_CASE("names that builders give, and patterns") {
   check_builder_mistake("part = \"block[0,1,2]\"", "part = @@\"block[9*\"", "no part matches", "in all)");
 }
 
-TEST_CASE("what is wrong with every element is said once") {
+TEST_CASE("a mistake in every element is reported once") {
   const auto found = problems_when_built(replaced(
       kScene, "[array.septa]",
       "[[array.element.face]]\nselect = { normal = [1, 1, 0] }\nsurface = \"polished\"\n[array.septa]"));

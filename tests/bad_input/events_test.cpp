@@ -46,7 +46,7 @@ fraction = 1.0
 
 }  // namespace
 
-TEST_CASE("mistakes in [analysis] have their place and a way out") {
+TEST_CASE("mistakes in [analysis] have their place and a hint") {
   check_contains(said_of_scene("[analysis]\nphotopeak = [900, 500]\n"), {"two numbers", "lower first"});
   check_contains(said_of_scene("[analysis]\ndepth = { from = [\"0 mm\", \"0 mm\", \"0 mm\"] }\n"),
                  {"depth", "needs", "direction"});
@@ -56,7 +56,7 @@ TEST_CASE("mistakes in [analysis] have their place and a way out") {
   check_contains(said_of_scene("[analysis]\n[[analysis.layer]]\nparts = [\"crystal\"]\n"), "one layer");
 }
 
-TEST_CASE("mistakes in [[claim]] have their place and a way out") {
+TEST_CASE("mistakes in [[claim]] have their place and a hint") {
   const std::string start = "[[claim]]\ntext = \"t\"\ncurve = \"a\"\n";
   check_contains(said_of_scene(start + "quantity = \"fall\"\n"), {"claim", "without bounds"});
   check_contains(said_of_scene(start + "quantity = \"fall_difference\"\nat_least = 0.1\n"),
@@ -66,7 +66,7 @@ TEST_CASE("mistakes in [[claim]] have their place and a way out") {
   check_contains(said_of_scene(start + "quantity = \"fal\"\nat_least = 0.1\n"), "did you mean \"fall\"?");
 }
 
-TEST_CASE("mistakes in the light of a medium have their place and a way out") {
+TEST_CASE("mistakes in the light of a medium have their place and a hint") {
   CHECK(said_of_medium(kLight).empty());
   check_contains(said_of_medium(kLight + "[non_proportionality]\nresponse = 1.0\n"), "one value");
   check_contains(

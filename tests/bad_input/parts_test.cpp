@@ -45,18 +45,18 @@ std::string at(const std::string& x, const std::string& x_high) {
 
 }  // namespace
 
-TEST_CASE("Parts that overlap are told with the places of both") {
+TEST_CASE("Parts that overlap are reported with the places of both") {
   const std::string scene = boxes(at("0", "2") + kPolished, at("1", "3") + kPolished);
   check_scene(scene, {"'a'", "'b'", "overlap by 4 mm3"}, "move one of them");
   check_scene(scene, {"'b'", "scene.toml:7:1"}, "higher priority");
 }
 
-TEST_CASE("Bonded faces of different surfaces are told with the places of both parts") {
+TEST_CASE("Bonded faces of different surfaces are reported with the places of both parts") {
   check_scene(boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n"),
               {"interface", "one surface", "'b'", "scene.toml:7:1"}, "add [[contact]]");
 }
 
-TEST_CASE("With a contact, its place is told") {
+TEST_CASE("With a contact, its place is reported") {
   std::string scene =
       boxes(at("0", "2") + kPolished, at("2", "4") + "surface = \"roncali2013_unified_rough\"\n",
             "@@[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"bonded\"\n");
@@ -64,17 +64,17 @@ TEST_CASE("With a contact, its place is told") {
   check_scene(scene, {"interface", "one surface", "'b'", "scene.toml:7:1"}, "the joint");
 }
 
-TEST_CASE("A part thinner than the contact tolerance is told with its place") {
+TEST_CASE("A part thinner than the contact tolerance is reported with its place") {
   check_scene(boxes(at("0", "2e-4") + kPolished, at("4", "6") + kPolished), "part 'a' is about",
               "lower the contact tolerance");
 }
 
-TEST_CASE("A part that another one swallows is told with the places of both") {
+TEST_CASE("A part that another one covers entirely is reported with the places of both") {
   check_scene(boxes(at("0", "2") + kPolished, at("-0.00000001", "2") + kPolished + "priority = 1\n"),
               {"nothing", "left", "'b'", "scene.toml:7:1"}, "change the priorities");
 }
 
-TEST_CASE("A medium without an index at the wavelengths in use is told where it is named") {
+TEST_CASE("A medium without an index at the wavelengths in use is reported where it is named") {
   std::string scene =
       replaced(boxes(at("0", "2") + kPolished, at("4", "6") + kPolished), "\"420 nm\"", "\"600 nm\"");
   scene.erase(scene.find("@@"), 2);

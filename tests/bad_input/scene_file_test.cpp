@@ -60,7 +60,7 @@ TEST_CASE("missing keys are reported at their table") {
                 "part's own surface");
 }
 
-TEST_CASE("wrong types say what was found and what is expected") {
+TEST_CASE("wrong types are reported with what was found and what is expected") {
   check_mistake("photons = 1000", "photons = @@\"many\"",
                 {"\"source.photons\"", "string \"many\"", "an integer"}, "whole number");
   check_mistake("photons = 1000", "photons = @@1e3", {"number 1e3", "an integer"}, "without quotes");

@@ -59,7 +59,7 @@ std::string array_scene() {
 
 }  // namespace
 
-TEST_CASE("check says that 64 crystals touch their guide, in one line, and with --all in 64") {
+TEST_CASE("check prints that 64 crystals touch their guide, in one line, and with --all in 64") {
   const auto folder = scratch_folder("check_array");
   write(folder / "array.toml", array_scene());
   const Ended brief = run_program({"check", "array.toml"}, folder);
@@ -112,7 +112,7 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
   check_contains(other.output, {".glb", ".svg"});
 }
 
-TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
+TEST_CASE("repair mends a mesh, prints each repair and its place, and returns 0") {
   const auto folder = scratch_folder("repair_mesh");
   write_stl(folder / "open.stl", box_with_hole());
   const Ended ended = run_program(
@@ -128,7 +128,7 @@ TEST_CASE("repair mends a mesh, says what it did and where, and returns 0") {
   CHECK(import_mesh(folder / "closed.glb", 0.0).mesh.volume() == doctest::Approx(8.0));
 }
 
-TEST_CASE("repair writes what it has, says what is left, and returns 1, when it cannot mend all") {
+TEST_CASE("repair that cannot mend everything writes the mesh, prints what is left, and returns 1") {
   const auto folder = scratch_folder("repair_in_vain");
   write_stl(folder / "open.stl", box_with_hole());
   const Ended ended =
@@ -208,7 +208,7 @@ TEST_CASE("repair of a scene mends the meshes of arrays, of single bodies, and o
   CHECK(checked.exit_code == 0);
 }
 
-TEST_CASE("repair of a scene says which meshes it left, where, and how to mend them") {
+TEST_CASE("repair of a scene lists the meshes that it left, their places, and how to mend them") {
   const auto folder = scratch_folder("repair_left");
   write_stl(folder / "open.stl", box_with_hole());
   write(folder / "broken.stl", "solid nothing\nendsolid\n");
@@ -226,7 +226,7 @@ TEST_CASE("repair of a scene says which meshes it left, where, and how to mend t
   CHECK(contains(content(folder / "mended/scene.toml"), "mesh = \"../open.stl\""));
 }
 
-TEST_CASE("check tells of several bodies in a mesh and of gaps that look like mistakes") {
+TEST_CASE("check reports several bodies in a mesh and gaps that look like mistakes") {
   const auto folder = scratch_folder("check_notes");
   write_stl(folder / "two.stl", joined(make_box({0, 0, 0}, {2, 2, 2}), make_box({5, 0, 0}, {7, 2, 2})));
   write(folder / "scene.toml",

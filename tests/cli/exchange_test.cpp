@@ -39,7 +39,8 @@ TEST_CASE("a table is exported in every format, and the Davis pair imported agai
         cli::kSuccess);
 }
 
-TEST_CASE("a full disk leaves no file of a pair, and an import without its options says why") {
+TEST_CASE(
+    "a full disk leaves no file of a pair, and an import without its options is refused with the reason") {
   const auto folder = scratch_folder("cli_exchange_full");
   write_table(folder / "rough.h5", rough_table());
   const Ended full = run_program({"table", "export", "rough.h5", "--format", "davis", "-o", "Rough_LUT.dat"},

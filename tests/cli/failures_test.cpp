@@ -14,7 +14,7 @@ using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::cli;
 
-TEST_CASE("A command that returns gives success and prints nothing") {
+TEST_CASE("A command that returns is a success and prints nothing") {
   std::ostringstream err;
   CHECK(cli::run_guarded([] {}, err) == cli::kSuccess);
   CHECK(err.str().empty());
@@ -32,13 +32,13 @@ TEST_CASE("Every problem of an InputError is printed with its place and hint") {
         "scene.toml:9:1: error: no source\n2 problems\n");
 }
 
-TEST_CASE("A stop that the user asked for is no defect") {
+TEST_CASE("A stop by the user is no defect") {
   std::ostringstream err;
   CHECK(cli::run_guarded([] { throw Cancelled("a table was being built"); }, err) == cli::kInterrupted);
   CHECK(err.str() == "stopped: a table was being built\n");
 }
 
-TEST_CASE("The machine's refusals and our own defects have exit codes of their own") {
+TEST_CASE("Failures of the system and defects of the program have exit codes of their own") {
   std::ostringstream err;
   CHECK(cli::run_guarded([] { throw SystemError("disk full"); }, err) == cli::kSystemFailure);
   CHECK(err.str() == "error: disk full\n");

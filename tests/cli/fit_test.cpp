@@ -154,10 +154,10 @@ TEST_CASE("A scene that leaves a fit open is refused") {
   crystal.refuses({"not a fit", "not written over"}, "another name");
 }
 
-TEST_CASE("A fit that is interrupted keeps the best so far and says that it is partial") {
+TEST_CASE("A fit that is interrupted keeps the best so far and is marked as partial") {
   const DarkCrystal crystal("fit_interrupted");
   const Program program({"fit", "scene.toml", "--photons", "3000000", "--threads", "1"}, crystal.folder);
-  // The start is told once its curve is traced.
+  // The start is printed once its curve is traced.
   for (int i = 0; i < 600; ++i) {
     std::ostringstream text;
     text << std::ifstream(crystal.folder / "output.txt").rdbuf();

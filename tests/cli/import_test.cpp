@@ -32,7 +32,7 @@ constexpr const char* kTwoBodies =
 
 }  // namespace
 
-TEST_CASE("import makes a scene of a GDML file that check and run take") {
+TEST_CASE("import makes a scene of a GDML file that check and run accept") {
   const auto folder = scratch_folder("cli_import_gdml");
   write(folder / "detector.gdml", gdml_solid(R"(<tube name="it" rmax="5" z="10" deltaphi="twopi"/>)").text());
   check_contains(run_program({"import", "detector.gdml", "-o", "out"}, folder), 0,

@@ -40,7 +40,7 @@ std::string page_text(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("map describe prints every parameter by its name, slopes met, and warnings") {
+TEST_CASE("map describe prints every parameter by its name, mean visible slopes, and warnings") {
   const auto folder = folder_with_map("describe");
   const Ended ended = run_program({"map", "describe", "map.gsf"}, folder);
   CAPTURE(ended.output);
@@ -51,7 +51,7 @@ TEST_CASE("map describe prints every parameter by its name, slopes met, and warn
   check_contains(ended.output, {"warning:", "map", "too small"});
 }
 
-TEST_CASE("map prepare mends a map, says what became of it, and draws it before and after") {
+TEST_CASE("map prepare mends a map, prints its parameters, and draws it before and after") {
   const auto folder = folder_with_map("prepare");
   const Ended ended =
       run_program({"map", "prepare", "map.gsf", "-o", "out.gsf", "--crop", "5 um,0 um,50 um,45 um",

@@ -110,7 +110,7 @@ TEST_CASE("Memory stays under 200 MB, with a list of photons too, which streams 
   }
 }
 
-TEST_CASE("check says what a scene is, and lists every mistake with its place") {
+TEST_CASE("check describes a scene, and lists every mistake with its place") {
   const auto folder = folder_with("check", scene_text(1'000, false));
   const Ended good = run_program({"check", "scene.toml"}, folder);
   CAPTURE(good.output);
@@ -150,7 +150,7 @@ TEST_CASE("replay follows a photon to its end") {
   CHECK(contains(ended.output, "DETECTED"));
 }
 
-TEST_CASE("reweight prints light under other optics and writes a table, and says what it cannot") {
+TEST_CASE("reweight prints light under other optics and writes a table, and refuses what it cannot do") {
   std::string text = scene_text(5'000, false);
   text.replace(text.find("reflectance = 1.0"), 17, "reflectance = 0.9");
   text.replace(text.find("photon_list = false"), 19, "photon_history = true");

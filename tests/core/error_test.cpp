@@ -15,7 +15,7 @@ TEST_CASE("A place is written as far as it is known") {
   CHECK(FileLocation{}.text().empty());
 }
 
-TEST_CASE("A message says where, what and how to mend it") {
+TEST_CASE("A message has the place, the fault and the hint") {
   const Problem problem{{"a.toml", 2, 5}, "\"2\" has no unit", "add mm"};
   CHECK(problem.text() == "a.toml:2:5: error: \"2\" has no unit\n  hint: add mm");
   CHECK(Problem{{}, "no source", ""}.text() == "error: no source");

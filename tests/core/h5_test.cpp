@@ -225,7 +225,7 @@ TEST_CASE("Files that are missing, foreign or cut short are refused with the rea
   CHECK(contains(message, "truncated file"));
 }
 
-TEST_CASE("Reading what is not there or has another type says which object of which file") {
+TEST_CASE("Reading what is missing or of another type is an error that names object and file") {
   const auto path = test::scratch_folder("h5_objects") / "o.h5";
   {
     auto file = h5::File::create(path);

@@ -30,7 +30,7 @@ TEST_CASE("A file whose size is not known beforehand is read whole") {
   CHECK(status->find("Name:") == 0);
 }
 
-TEST_CASE("What is no file that can be read gives nothing") {
+TEST_CASE("A file that cannot be read is returned as nothing") {
   const auto folder = test::scratch_folder("input_file_none");
   CHECK_FALSE(read_whole_file(folder / "missing"));
   CHECK_FALSE(read_whole_file(folder));

@@ -14,7 +14,7 @@ using namespace scintray::core;
 
 TEST_CASE("The version begins with the release") { CHECK(version().rfind(release(), 0) == 0); }
 
-TEST_CASE("SCINTRAY_DATA goes before every other data folder, and must hold materials") {
+TEST_CASE("SCINTRAY_DATA comes before every other data folder, and must hold materials") {
   const auto folder = test::scratch_folder("data_folder");
   REQUIRE(setenv("SCINTRAY_DATA", folder.c_str(), 1) == 0);
   CHECK_THROWS_AS(data_folder(), InputError);

@@ -5,7 +5,7 @@
 using namespace scintray;
 using namespace scintray::core;
 
-TEST_CASE("Philox4x64-10 gives the published known answers") {
+TEST_CASE("Philox4x64-10 has the published known answers") {
   // Random123 1.14, tests/kat_vectors, lines "philox4x64 10".
   CHECK(philox4x64({0, 0, 0, 0}, {0, 0}) ==
         std::array<std::uint64_t, 4>{0x16554d9eca36314cULL, 0xdb20fe9d672d0fdcULL, 0xd7e772cee186176bULL,

@@ -77,7 +77,7 @@ TEST_CASE("Binomial fractions have an error that is never zero") {
   CHECK(binomial_estimate(0, 0).error == 1.0);
 }
 
-TEST_CASE("Moments give mean and standard error, also when merged") {
+TEST_CASE("Moments have mean and standard error, also when merged") {
   Moments a, b;
   for (const double x : {1.0, 2.0, 3.0}) a.add(x);
   for (const double x : {4.0, 5.0}) b.add(x);

@@ -56,7 +56,7 @@ TEST_CASE("Every unit that a dimension lists is understood in it") {
   }
 }
 
-TEST_CASE("A bare number where a dimension is expected says which units to add") {
+TEST_CASE("A bare number where a dimension is expected is refused with the units to add") {
   const Problem problem = problem_of("2", Dimension::length);
   CHECK(contains(problem.what, "\"2\" has no unit"));
   CHECK(contains(problem.what, "length"));

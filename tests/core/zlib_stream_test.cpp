@@ -28,7 +28,7 @@ std::string unpacked(std::string_view packed, Unpacked& end) {
 
 }  // namespace
 
-TEST_CASE("A packed stream unpacks to what was packed, and its bytes are those of zlib's compress") {
+TEST_CASE("A compressed stream decompresses to its input, and its bytes are those of zlib's compress") {
   const std::string text = long_text();
   std::string packed;
   const auto take = [&](std::string_view part) { packed += part; };
@@ -65,7 +65,7 @@ TEST_CASE("A truncated, damaged, empty or foreign stream is not complete") {
   CHECK_FALSE(unpack(packed, Packing::gzip, [](std::string_view) {}).complete);
 }
 
-TEST_CASE("An empty text is a stream too, and what the taker throws passes through") {
+TEST_CASE("An empty text is a stream too, and exceptions of the receiver pass through") {
   std::string packed;
   Packer packer;
   packer.finish([&](std::string_view part) { packed += part; });

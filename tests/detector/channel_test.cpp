@@ -39,7 +39,7 @@ std::uint64_t of(const ChannelSignal& signal, AvalancheCause cause) {
 
 }  // namespace
 
-TEST_CASE("a signal holds what was asked for, and the same stream gives the same bits") {
+TEST_CASE("a signal holds what was requested, and the same stream has the same bits") {
   const Channel channel(noisy_sipm(), digitizer(), kFace);
   Rng first = event_stream(1), second = event_stream(1), other = event_stream(2);
   const std::vector<Arrival> arrivals = flash(40);
@@ -94,7 +94,7 @@ TEST_CASE("dark counts before the window leave their tails in it: the mean wavef
   check_law("middle", middle.mean(), {0.01 * area_ns, 0.0});
 }
 
-TEST_CASE("the mean charge is the light with its crosstalk, seen by the electronics") {
+TEST_CASE("the mean charge is the light with its crosstalk, through the electronics") {
   Sensor sensor = noisy_sipm();
   sensor.dark_counts = {};
   sensor.microcells->afterpulse = 0.0;

@@ -45,7 +45,7 @@ TEST_CASE("a flash on half of the face fires half of the cells at most") {
   CHECK(response.avalanches(arrivals, 0.0, 1.0, rng).size() == 50);
 }
 
-TEST_CASE("a cell that fires again after dt gives 1 - exp(-dt / recovery)") {
+TEST_CASE("a cell that fires again after dt has a charge of 1 - exp(-dt / recovery)") {
   const SensorResponse response(quiet_sipm(1), kFace);
   for (const double dt : {0.5, 5.0, 20.0, 100.0}) {
     Rng rng = event_stream(0);
@@ -57,7 +57,8 @@ TEST_CASE("a cell that fires again after dt gives 1 - exp(-dt / recovery)") {
   }
 }
 
-TEST_CASE("Law of steady light: a cell hit at rate r gives 1 / (1 + r recovery) of a full charge") {
+TEST_CASE(
+    "Law of steady light: a cell that fires at rate r has 1 / (1 + r recovery) of a full charge on average") {
   const SensorResponse response(quiet_sipm(1), kFace);
   for (const double rate_times_recovery : {0.1, 1.0, 4.0}) {
     Rng rng = event_stream(0, 1);

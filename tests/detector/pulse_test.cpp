@@ -122,7 +122,7 @@ TEST_CASE("avalanches too early to matter are passed over") {
     CHECK(waveform[i] == doctest::Approx(pulse.value(static_cast<double>(i) - 3.0)).epsilon(1e-9));
 }
 
-TEST_CASE("a pulse without duration is refused with what to give") {
+TEST_CASE("a pulse without duration is refused with the keys to set") {
   const std::string said = complaint_of([] { PulseShape({0.0, 1e-6}, 1.0); });
   check_contains(said, "neither the sensor nor the electronics gives a pulse a duration");
   check_contains(said, "[readout] shaping");

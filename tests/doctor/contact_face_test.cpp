@@ -4,7 +4,7 @@ using namespace scintray;
 using namespace scintray::scene;
 using namespace scintray::test;
 
-// One pair of parts that meets at several faces, each in its own way.
+// One pair of parts that touches at several faces, each with its own contact.
 
 namespace {
 
@@ -47,7 +47,7 @@ kind = "bonded"
   CHECK(below->gap_medium == kNone);
 }
 
-TEST_CASE("A contact of one face goes before that of the whole part") {
+TEST_CASE("A contact of one face comes before that of the whole part") {
   const Scene scene = SceneBuilder()
                           .build(scene_spec(in_a_corner(R"(
 [[contact]]
@@ -62,7 +62,7 @@ kind = "bonded"
   CHECK(between(scene, "crystal:-z")->gap_medium == kNone);
 }
 
-TEST_CASE("A contact of many parts, by a pattern, gives way to that of one") {
+TEST_CASE("A contact of one part comes before that of many parts by a pattern") {
   std::string parts = part_text("guide", corners({0, 0, 4}, {9, 4, 5}), "n15");
   for (int i = 0; i < 3; ++i)
     parts += part_text(fmt::format("crystal[{}]", i), corners({3.0 * i, 0, 0}, {3.0 * i + 2.0, 4, 4}), "lso");
@@ -80,7 +80,7 @@ TEST_CASE("A contact of many parts, by a pattern, gives way to that of one") {
   }
 }
 
-TEST_CASE("Contacts that contradict, name no face, or never meet are refused in words") {
+TEST_CASE("Contacts that contradict, name no face, or match nothing are refused with the reason") {
   CHECK(
       refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-z\", \"corner\"]\nkind = \"dry\"\n[[contact]]\n"
                           "between = [\"crystal\", \"corner:cut:crystal\"]\nkind = \"bonded\"\n"))

@@ -92,7 +92,7 @@ TEST_CASE("A rod that sticks out of the bore on both sides") {
   CHECK(area_between(scene, "rod", "holder") == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
 }
 
-TEST_CASE("A rod that ends within the bore takes the bore's sides") {
+TEST_CASE("A rod that ends within the bore conforms to the bore's sides") {
   const Traced traced = trace(rod_in_bore(2.0, 6.0, "20 um"));
   const Scene& scene = traced.built.scene;
   CHECK(scene.parts[0].volume_mm3 == doctest::Approx(6.0 * polygon_area(64)).epsilon(1e-6));
@@ -174,7 +174,7 @@ TEST_CASE("Staggered contacts with other numbers of sides, in either order, and 
   }
 }
 
-TEST_CASE("What cannot be closed is said: tolerances too small, no faces") {
+TEST_CASE("Contacts that cannot be closed are reported: tolerances too small, no faces") {
   check_contains(refusal(rod_in_bore(0.0, 10.0, "5 um")), {"cannot be closed", "0.005 mm"});
   check_contains(refusal(rod_in_bore(20.0, 10.0, "20 um")), {"no faces", "face each other"});
 }

@@ -47,10 +47,10 @@ inline double area_between(const scene::Scene& scene, const std::string& a, cons
   return area;
 }
 
-/// Follows the first photons one by one and checks that each flight lies in the region it is stated to be in.
+/// Traces the first photons one by one and checks that each segment lies in the region of its record.
 inline void check_propagation(const scene::Scene& scene, const scene_file::SourceSpec& spec,
                               std::uint64_t photons) {
-  constexpr double kShort_mm = 0.01;  // shorter flights hold nothing about sides
+  constexpr double kShort_mm = 0.01;  // shorter segments do not determine the side
   const source::PhotonSource source(spec, scene);
   std::size_t propagations = 0, astray = 0;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {

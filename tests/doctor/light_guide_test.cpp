@@ -51,7 +51,8 @@ seed = )" +
 
 }  // namespace
 
-TEST_CASE("A light guide over 64 crystals: one unequal mesh and conforming ones give the same light") {
+TEST_CASE(
+    "A light guide over 64 crystals: the light is the same with one unequal mesh and with conforming ones") {
   const Traced whole = trace(array(false)), pieces = trace(array(true));
   std::size_t interfaces = 0;
   double area = 0.0;

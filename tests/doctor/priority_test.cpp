@@ -92,7 +92,7 @@ TEST_CASE("Glue in a gap is cut like any other part, and needs no surface") {
   CHECK(area_of(scene, "plate_fill:cut:pin") == doctest::Approx(3.0).epsilon(1e-9));
 }
 
-TEST_CASE("A cut that needs a surface, and one that grazes, are refused in words") {
+TEST_CASE("A cut that needs a surface, and one that grazes, are refused with the reason") {
   std::string bare = plate_and_rod("", "priority = 2\n");
   const std::string surface = "medium = \"n15\"\nsurface = \"flat\"\n";
   bare.replace(

@@ -35,7 +35,7 @@ TEST_CASE("Beams that graze the crystal's long faces lose nothing") {
   }
 }
 
-TEST_CASE("Every flight of the torture scene lies in the region that its photon is in") {
+TEST_CASE("Every segment in the torture scene lies in the region that its photon is in") {
   const SceneSpec spec = SceneFile::load(source_file("scenes/torture.toml")).spec(0);
   const BuiltScene built = SceneBuilder().build(spec);
   check_propagation(built.scene, spec.source, 300);

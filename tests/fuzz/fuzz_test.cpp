@@ -21,7 +21,7 @@ TEST_CASE("the seeds are sound: every one is read by its own format") {
   }
 }
 
-TEST_CASE("no reader lets anything but an input error escape, or asks for more than the file can fill") {
+TEST_CASE("readers throw only input errors, and allocate no more than the file can fill") {
   constexpr int kTrials = 10000;
   std::uint64_t stream = 0;
   for (const Entry& entry : entries()) {

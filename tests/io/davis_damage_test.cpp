@@ -57,7 +57,7 @@ struct Small {
 
 }  // namespace
 
-TEST_CASE("damaged pairs are refused by messages that say where and what") {
+TEST_CASE("damaged pairs are refused by messages with the place and the fault") {
   CHECK(Small().message().empty());
   {
     Small one_less;  // Geant4's array has one number more than two halves

@@ -183,7 +183,7 @@ TEST_CASE("the reflectance of a degree is the table's mean over it") {
   }
 }
 
-TEST_CASE("below one degree Geant4 sends light back or straight on") {
+TEST_CASE("below one degree Geant4 reflects light back or transmits it straight on") {
   Rng rng(53, StreamKind::other, 0);
   const double incidence = 0.4 * kDegree;
   const Vec3 momentum(std::sin(incidence), 0.0, std::cos(incidence));
@@ -198,7 +198,7 @@ TEST_CASE("below one degree Geant4 sends light back or straight on") {
   }
 }
 
-TEST_CASE("a pair read back gives what Geant4 samples from it, from either container") {
+TEST_CASE("a pair read back has the distributions that Geant4 samples from it, from either container") {
   const Geant4Davis& geant4 = rough().geant4;
   const auto file = rough().folder / "Rough_LUT.z";
   write_davis(file, rough_table());
@@ -214,7 +214,7 @@ TEST_CASE("a pair read back gives what Geant4 samples from it, from either conta
   }
 }
 
-TEST_CASE("from outside an imported surface is what the user says, and the table says so") {
+TEST_CASE("from outside an imported surface is what the user sets, and the table's provenance has it") {
   ImportSettings settings = lso_to_air();
   const SurfaceTable smooth = read_davis(rough().file, settings);
   CHECK(smooth.provenance().preparation.find("smooth") != std::string::npos);
@@ -230,7 +230,8 @@ TEST_CASE("from outside an imported surface is what the user says, and the table
   CHECK((ray.direction - Vec3(0.6, 0.0, 0.8)).norm() < 1e-6);
 }
 
-TEST_CASE("what a table absorbs is named when a pair is written, and can be asked for when one is read") {
+TEST_CASE(
+    "the absorption of a table is printed when a pair is written, and can be requested when one is read") {
   std::vector<TableNode> nodes = rough_table().nodes(Side::inside);
   for (TableNode& node : nodes) {
     node.absorptance = 0.25 * (1.0 - node.reflectance);
@@ -287,7 +288,7 @@ TEST_CASE(
   CHECK(std::filesystem::is_empty(folder));
 }
 
-TEST_CASE("the same seed gives the same pair, another seed another") {
+TEST_CASE("the same seed makes the same pair, another seed another") {
   const auto folder = scratch_folder("davis_seeds");
   DavisSettings settings;
   settings.layout.samples = 50;

@@ -1,4 +1,4 @@
-// The tables of events in a results file, and their studies.
+// The tables of events in a results file, and their analysis.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -158,7 +158,7 @@ TEST_CASE("Points whose waveforms differ in length are refused with the place") 
                    {"differ", "number of samples"});
 }
 
-TEST_CASE("A result without events has no studies, and says what is missing when they are read") {
+TEST_CASE("A result without events has no analysis, and reading its events is refused with what is missing") {
   const auto path = scratch_folder("events_none") / "none.h5";
   const RunResult run = made_up_run();
   ResultsWriter writer(path, run.header, false);
@@ -169,7 +169,7 @@ TEST_CASE("A result without events has no studies, and says what is missing when
   check_contains(complaint_of([&] { read_events(path, 0, 1); }), "no events");
 }
 
-TEST_CASE("Studies of a file see the events of each point, by the analysis asked for") {
+TEST_CASE("The analysis of a file uses the events of each point and the requested settings") {
   const auto path = written("study", true);
   const RunResult run = read_results(path);
   const AnalysisSpec spec = analysis_of_text("[analysis]\ndepth = { along = [1, 0, 0] }\n", "a.toml");

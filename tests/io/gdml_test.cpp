@@ -165,7 +165,7 @@ TEST_CASE(
   CHECK_NOTHROW(built(scene));
 }
 
-TEST_CASE("GDML: a material without RINDEX is opaque, unless the user gives it a medium") {
+TEST_CASE("GDML: a material without RINDEX is opaque, unless the user sets a medium") {
   GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");
   text.structure = gdml_volume("body", "it", "Lead");
   const SceneDraft opaque = draft(text);
@@ -291,7 +291,7 @@ TEST_CASE("GDML: volumes with solids that cannot be made are left out on demand,
   CHECK(written(scene).parts.size() == 1);
 }
 
-TEST_CASE("Geant4's own GDML files become scenes that are built, or say what is missing") {
+TEST_CASE("Geant4's own GDML files become scenes that are built, or that name what is missing") {
   struct Case {
     const char* name;
     gdml::GdmlImport options;

@@ -57,7 +57,7 @@ class Geant4Davis {
 
   double reflectance(int degree) const { return reflectances_[static_cast<std::size_t>(degree)]; }
 
-  /// `momentum` meets a surface whose normal `normal` points back to it, EFFICIENCY 0.
+  /// `momentum` is incident on a surface whose normal `normal` points back to it, EFFICIENCY 0.
   core::Vec3 sample(const core::Vec3& momentum, core::Vec3 normal, core::Rng& rng) const {
     const double drawn = rng.uniform();
     const double angle = std::acos(std::clamp(-momentum.dot(normal), -1.0, 1.0));

@@ -121,7 +121,7 @@ TEST_CASE("light leaves an imported LBNL table as Geant4 samples it") {
   }
 }
 
-TEST_CASE("one bright cell comes back where Geant4 sends it: theta below 0 is forward") {
+TEST_CASE("light of one bright cell leaves where Geant4 sends it: theta below 0 is forward") {
   for (const double theta : {-58.0, -2.0, 30.0}) {
     const SurfaceTable table =
         lbnl_table(made_up([&](double, double t, double p) { return t == theta && p == 0.0 ? 1.0 : 0.0; }),

@@ -61,7 +61,7 @@ std::string refusal(const Made& of, const std::filesystem::path& output) {
 
 }  // namespace
 
-TEST_CASE("With the electronics of the run its own signals come back, with others theirs") {
+TEST_CASE("The electronics of the run reproduce its own signals, others make theirs") {
   const Made traced = made("same", kElectronics + "[run]\nphoton_list = true\n");
   const auto again = traced.path.parent_path() / "again.h5";
   rerun_readout(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
@@ -100,7 +100,7 @@ TEST_CASE("With the electronics of the run its own signals come back, with other
   }
 }
 
-TEST_CASE("What cannot be read out again is refused in words") {
+TEST_CASE("What cannot be read out again is refused with the reason") {
   const Made unlisted = made("unlisted", "");
   check_contains(refusal(unlisted, unlisted.path.parent_path() / "new.h5"), "photon_list = true");
   const Made listed = made("listed", "[run]\nphoton_list = true\n");

@@ -86,7 +86,7 @@ TEST_CASE("A response map comes back from its file as it was") {
   CHECK(std::isnan(probability[2]));
 }
 
-TEST_CASE("Response maps that contradict themselves, and files that are none, are refused in words") {
+TEST_CASE("Response maps that contradict themselves, and files that are none, are refused with the reason") {
   const auto folder = scratch_folder("response_refused");
   const auto path = folder / "map.h5";
   ResponseFile file = made_up_map();
@@ -129,7 +129,7 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
                  "format version 2 (written by ScintRay 9.8.7)");
 }
 
-TEST_CASE("A map serves scenes that differ in what does not touch the light's way, and no others") {
+TEST_CASE("A response map fits scenes that differ only in what does not affect light transport") {
   ResponseFile map = made_up_map();
   map.map.unpolarised = false;
   const auto complaint = [&](const std::string& text) {
@@ -149,7 +149,7 @@ TEST_CASE("A map serves scenes that differ in what does not touch the light's wa
                  "source.polarisation says otherwise");
 }
 
-TEST_CASE("Events from a map are a result that says where it comes from") {
+TEST_CASE("Events from a response map are a result whose note names it") {
   const auto folder = scratch_folder("response_run");
   const SceneFile scene = read_text(kSmallCrystal);
   MapOptions options;
@@ -181,7 +181,7 @@ TEST_CASE("Events from a map are a result that says where it comes from") {
                  {"\"crystal\"", "another place or size"});
 }
 
-TEST_CASE("Scenes that no map can be of are refused in words") {
+TEST_CASE("Scenes without a possible response map are refused with the reason") {
   const auto complaint = [](const std::string& text) {
     return complaint_of([&] { build_map(read_text(text), {}); });
   };

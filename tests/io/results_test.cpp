@@ -157,7 +157,7 @@ TEST_CASE("A result comes back from its file bit for bit") {
   CHECK(same(tail[0], photons.back()));
 }
 
-TEST_CASE("An interrupted run keeps what was computed and says why it is partial") {
+TEST_CASE("An interrupted run keeps what was computed, with the reason why it is partial") {
   const auto path = test::scratch_folder("results_partial") / "run.h5";
   RunResult run = test::made_up_run();
   run.points.resize(2);
@@ -347,7 +347,7 @@ TEST_CASE("The Python example of docs/results.md reads a result with h5py") {
   CHECK(contains(output, "5 photons, mean time 0.002 ns"));
 }
 
-TEST_CASE("Surfaces read on the bench come back from the file") {
+TEST_CASE("Surfaces measured on the goniometer are read back from the file") {
   const auto path = test::scratch_folder("results_benches") / "run.h5";
   SurfaceAnalysis smooth = test::made_up_surface("unified", "grease");
   smooth.slope_rad.clear();

@@ -134,7 +134,7 @@ TEST_CASE("Every point is reweighted for all combinations, in its own media and 
     CHECK(reweight_results(path, read_results(path), {{reflectance, name, false, {0.4}}}).size() == 2);
 }
 
-TEST_CASE("What a result cannot be reweighted for is refused in words") {
+TEST_CASE("What a result cannot be reweighted for is refused with the reason") {
   const MadeUp made;
   const auto path = made.write("refused");
   const auto says = [&](const PropertyScan& scan, const Fragments& fragments) {

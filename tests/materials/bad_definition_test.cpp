@@ -27,7 +27,7 @@ spectrum = { wavelength = [400, 450], wavelength_unit = "nm", value = [1, 2] }
 
 }  // namespace
 
-TEST_CASE("an unknown name is reported where it was asked for, with the nearest and where was searched") {
+TEST_CASE("an unknown name is reported where it is used, with the nearest one and the folders searched") {
   const auto problems = problems_of([] {
     shipped_database().medium("LSO_roncali2103", {"scene.toml", 7, 3});
   });
@@ -44,7 +44,7 @@ TEST_CASE("an unknown name is reported where it was asked for, with the nearest 
   CHECK(reports(problems_of([] { shipped_database().reflector("PTFEE", {"s", 1, 1}); }), 1, "PTFE"));
 }
 
-TEST_CASE("a name cannot leave the library's folders") {
+TEST_CASE("a name cannot leave the folders of the database") {
   CHECK(reports(problems_of([] { shipped_database().medium("../media/LSO"); }), 0, "there is no medium"));
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("a folder that does not exist is reported") {
   CHECK(reports(problems_of([] { MaterialDatabase({"no/such/folder"}); }), 0, "no/such/folder"));
 }
 
-TEST_CASE("a library file without a source is refused, block by block; a scene's own is not") {
+TEST_CASE("a database file without a source is refused, block by block; a scene's own is not") {
   const std::string text = kPlain + "n = 1.5\n";
   const TemporaryDatabase files("sources");
   files.write("media/mine.toml", text);
@@ -68,7 +68,7 @@ TEST_CASE("a library file without a source is refused, block by block; a scene's
   CHECK(reports(problems_of([&] { MaterialDatabase({files.folder()}).surface("mine"); }), 0, "source"));
 }
 
-TEST_CASE("a medium must say its index, its absorption and its scattering") {
+TEST_CASE("a medium must have an index, an absorption and a scattering") {
   const auto problems = medium_problems("[density]\nvalue = \"2 g/cm3\"\n");
   CHECK(reports(problems, 0, "\"index\""));
   CHECK(reports(problems, 0, "\"absorption\""));
@@ -129,7 +129,7 @@ TEST_CASE("scintillation is complete or absent") {
       0, "cannot be negative"));
 }
 
-TEST_CASE("wavelength shifting is complete, absorbs, and gives back no more than it takes") {
+TEST_CASE("wavelength shifting is complete, absorbs, and re-emits no more than it absorbs") {
   const std::string start = kPlain + "n = 1.5\n[wavelength_shifting]\n";
   const std::string absorption = "absorption = { length = \"1 mm\" }\n";
   const std::string emission =
@@ -184,7 +184,7 @@ TEST_CASE("efficiencies and reflectances stay below one") {
   CHECK(reports(problems, 4, "between 0 and 1"));
 }
 
-TEST_CASE("a reflector gives back and lets through no more than it gets, and says where it was published") {
+TEST_CASE("a reflector reflects and transmits no more than is incident, and has a published source") {
   const std::string text =
       "[reflectance]\nvalue = 0.95\n[transmittance]\nvalue = \"6 %\"\n[direction]\nspecular_share = 0\n";
   const MaterialDatabase database = database_with(DefinitionKind::reflector, "mine", text);

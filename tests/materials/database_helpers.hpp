@@ -1,5 +1,5 @@
 #pragma once
-/// A library with definitions written in the test.
+/// A material database with definitions written in the test.
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ inline materials::MaterialDatabase database_with(materials::DefinitionKind kind,
   return database;
 }
 
-/// A folder of library files that goes when the test ends.
+/// A folder of database files that is removed when the test ends.
 class TemporaryDatabase {
  public:
   explicit TemporaryDatabase(const std::string& name)

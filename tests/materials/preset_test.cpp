@@ -17,7 +17,7 @@ const std::string kGround = "[unified]\nsigma_alpha = \"0.314 rad\"\nspike = 0\n
 
 }  // namespace
 
-TEST_CASE("every shipped surface loads, or says what it leaves to the user") {
+TEST_CASE("every shipped surface loads, or names the keys that the user has to set") {
   const MaterialDatabase& database = shipped_database();
   std::vector<std::string> incomplete;
   for (const std::string& name : database.names(DefinitionKind::surface)) {
@@ -62,7 +62,7 @@ TEST_CASE("Geant4's six finishes mean what they mean there") {
   }
 }
 
-TEST_CASE("a preset with a number still missing says which, at the definition that has to give it") {
+TEST_CASE("a number missing in a preset is named, at the definition that has to set it") {
   const MaterialDatabase database = database_with(
       DefinitionKind::surface, "mine", "base = \"geant4_groundbackpainted\"\ngap = 1.0\n" + kGround);
   const auto problems = problems_of([&] { database.surface("mine", {"scene.toml", 30, 1}); });

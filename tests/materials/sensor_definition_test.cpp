@@ -164,7 +164,7 @@ reference_index = 1.0
         doctest::Approx(0.3 * 0.8 * at_normal / entering).epsilon(1e-12));
 }
 
-TEST_CASE("an heir takes the tables it does not have from its base, and says its own sources") {
+TEST_CASE("a sensor with a base takes over the tables that it does not have, with the sources of its own") {
   MaterialDatabase database = shipped_database();
   database.add(
       DefinitionKind::sensor,

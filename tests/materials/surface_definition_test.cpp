@@ -41,7 +41,7 @@ TEST_CASE("a UNIFIED surface is read with its unit and its definition") {
   CHECK_FALSE(surface.reflector);
 }
 
-TEST_CASE("sigma_alpha needs its unit, its definition, and the way facets are met") {
+TEST_CASE("sigma_alpha needs its unit, its definition, and the weighting of facets") {
   const std::string head = "model = \"unified\"\n[unified]\nlobe = 1\n";
   CHECK(reports(
       surface_problems(head + "sigma_alpha = 0.3\ndefinition = \"solid_angle\"\nfacets = \"geant4\"\n"), 4,
@@ -91,7 +91,7 @@ TEST_CASE("a stack has a gap and a reflector together, and paint has no gap") {
   CHECK(reports(surface_problems("model = \"smooth\"\nspecular_share = 0.9\n"), 2, "no meaning"));
 }
 
-TEST_CASE("a reflector may let light through, its own share or one that the surface gives") {
+TEST_CASE("a reflector may transmit light, its own share or one that the surface sets") {
   const SurfaceSpec own =
       surface_of("model = \"painted\"\nreflectance = 0.9\ntransmittance = \"6 %\"\nspecular_share = 0\n");
   REQUIRE(own.reflector->transmittance);
@@ -165,7 +165,7 @@ TEST_CASE("tables of another model are refused, not ignored") {
   CHECK(reports(surface_problems("gap = \"air\"\n"), 0, "\"model\""));
 }
 
-TEST_CASE("a base gives what its heir does not say") {
+TEST_CASE("a base has the keys that the derived surface does not set") {
   const SurfaceSpec surface =
       surface_of("base = \"roncali2013_unified_rough\"\n[unified]\nsigma_alpha = \"5 deg\"\n");
   const auto& unified = std::get<UnifiedSurface>(surface.microsurface);
@@ -181,13 +181,13 @@ TEST_CASE("a base gives what its heir does not say") {
   CHECK(repainted.reflector->reflectance(420.0) == 0.5);
 }
 
-TEST_CASE("mistakes in a base and in its heir are told apart") {
+TEST_CASE("mistakes in a base and in the derived surface have their own places") {
   CHECK(reports(surface_problems("base = \"polish\"\n"), 1, "polished"));
   CHECK(reports(surface_problems("base = \"mine\"\n"), 1, "based on itself"));
   CHECK(reports(surface_problems("base = \"polished\"\nrough = true\n"), 2, "rough"));
 }
 
-TEST_CASE("height maps and recipes are traced as a table unless told otherwise") {
+TEST_CASE("height maps and recipes are traced as a table unless set otherwise") {
   const TemporaryDatabase files("maps");
   files.write("map.txt", "0 1\n1 0\n");
   MaterialDatabase database = shipped_database();
@@ -235,7 +235,7 @@ TEST_CASE("height maps and recipes are traced as a table unless told otherwise")
                 6, "no meaning"));
 }
 
-TEST_CASE("a height map is cropped, mended and filtered as its definition says") {
+TEST_CASE("a height map is cropped, mended and filtered by its definition") {
   const TemporaryDatabase files("preparation");
   files.write("map.txt", "0 1\n1 0\n");
   MaterialDatabase database = shipped_database();
@@ -270,7 +270,7 @@ TEST_CASE("a height map is cropped, mended and filtered as its definition says")
   CHECK_FALSE(problems_of([&] { database.surface("mine"); }).empty());
 }
 
-TEST_CASE("recipes of every kind are read, with what each needs and nothing that it would not obey") {
+TEST_CASE("recipes of every kind are read, with what each needs and no key without effect") {
   const auto recipe_of = [](const std::string& keys) {
     return std::get<RecipeSpec>(surface_of("model = \"recipe\"\n[recipe]\n" + keys).microsurface).recipe;
   };

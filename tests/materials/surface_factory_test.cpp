@@ -103,7 +103,7 @@ TEST_CASE("a table file of other indices is refused, and so is a stack laid on a
   CHECK(message(make).find("smooth | air | ESR") != std::string::npos);
 }
 
-TEST_CASE("mixtures are read from the library, with shares that sum to one and without themselves") {
+TEST_CASE("mixtures are read from the database, with shares that sum to one and without themselves") {
   const auto database_with = [](const std::string& text) {
     Problems problems;
     MaterialDatabase database = MaterialDatabase::shipped();

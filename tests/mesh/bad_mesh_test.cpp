@@ -32,7 +32,7 @@ std::string in_mm(const std::filesystem::path& path, double mm_per_unit = 1.0) {
 
 }  // namespace
 
-TEST_CASE("Messages about mesh files name the file, the fault and the way out") {
+TEST_CASE("Messages about mesh files name the file, the fault and the remedy") {
   check_contains(in_mm("/nowhere/crystal.stl"), "mesh file not found");
   check_contains(in_mm("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
   check_contains(in_mm("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
@@ -70,7 +70,7 @@ TEST_CASE("Counts that cannot be true are refused before anything is allocated")
   check_contains(in_mm(write("junk.3mf", "PK but not a zip")), "damaged zip archive");
 }
 
-TEST_CASE("Malformed glTF gives messages") {
+TEST_CASE("Malformed glTF is refused with messages") {
   const std::string asset = R"({"asset":{"version":"2.0"})";
   check_contains(in_mm(write("not.gltf", "not json")), {"cannot read", "glTF"});
   check_contains(in_mm(write("deep.gltf", std::string(100000, '['))), {"nested", "500 deep"});

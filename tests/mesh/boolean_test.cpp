@@ -11,7 +11,7 @@ using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::mesh;
 
-TEST_CASE("A difference has its exact volume, and every triangle says what it is a piece of") {
+TEST_CASE("A boolean difference has its exact volume, and every triangle the index of its origin") {
   const TriMesh block = make_box({0, 0, 0}, {4, 4, 4}), rod = make_box({1, 1, -1}, {2, 3, 5});
   const auto cut = boolean(block, rod, BooleanOperation::subtract, 1e-7);
   REQUIRE(cut);

@@ -35,7 +35,7 @@ std::string collada_text(const std::string& asset) {
 
 }  // namespace
 
-TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres unless it says otherwise") {
+TEST_CASE("COLLADA keeps its axes and applies node transforms; it is in metres unless it states a unit") {
   const std::filesystem::path path = mesh_file("box.dae", collada_text("<up_axis>Z_UP</up_axis>"));
   const MeshImport read = import_mesh(path, 1.0);
   check_box(read, 1.0);

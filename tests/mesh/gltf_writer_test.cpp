@@ -11,7 +11,7 @@ using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::mesh;
 
-TEST_CASE("A mesh comes back from glTF with its groups, in millimetres") {
+TEST_CASE("A mesh is read back from glTF with its groups, in millimetres") {
   const auto path = test::scratch_folder("gltf_writer") / "box.glb";
   const TriMesh box = make_box({-1, 0, 2}, {3, 4, 10});
   write_glb(path, {{"box", &box, std::nullopt}}, GltfAxes::as_they_are);
@@ -28,7 +28,7 @@ TEST_CASE("A mesh comes back from glTF with its groups, in millimetres") {
   }
 }
 
-TEST_CASE("Face tags come back from glTF as they were, also where only the tags differ") {
+TEST_CASE("Face tags are read back from glTF as they were, also where only the tags differ") {
   const auto path = test::scratch_folder("gltf_tags") / "tagged.glb";
   TriMesh box = make_box({-1, 0, 2}, {3, 4, 10});
   const std::vector<FaceTags> tags{{{"finish", "rough"}, {"layer", "3"}},

@@ -14,7 +14,7 @@ using namespace scintray::core;
 using namespace scintray::mesh;
 using namespace scintray::test;
 
-TEST_CASE("OBJ, OFF, PLY and ASCII STL give the same box in mm") {
+TEST_CASE("OBJ, OFF, PLY and ASCII STL are the same box in mm") {
   const MeshImport obj = import_mesh(mesh_file("box.obj", corner_lines("v ") + quad_lines("f ", 1)), 1.0);
   check_box(obj, 1.0);
   CHECK(obj.mesh.groups == std::vector<std::string>{"default"});

@@ -39,7 +39,7 @@ void drop(TriMesh& mesh, std::size_t triangle) {
 
 }  // namespace
 
-TEST_CASE("A sound mesh comes back as it is") {
+TEST_CASE("A sound mesh is returned as it is") {
   const TriMesh box = unit_box();
   const RepairedMesh repaired = repair_mesh(box);
   CHECK(repaired.steps.empty());
@@ -168,7 +168,7 @@ TEST_CASE("Separate bodies and cavities stay as they are") {
   CHECK(repaired.after.volume_mm3 == doctest::Approx(2.0 - 0.125));
 }
 
-TEST_CASE("What cannot be mended is said: sheets, and bodies that touch along an edge only") {
+TEST_CASE("What cannot be mended is reported: sheets, and bodies that touch along an edge only") {
   TriMesh sheet = unit_box();
   while (sheet.triangles.size() > 2) drop(sheet, 2);
   RepairSettings settings;

@@ -93,14 +93,15 @@ TEST_CASE("A frustum between rectangles has the prismatoid's volume, also when o
   CHECK_THROWS_AS(make_tapered({{1.0, 1.0}, {}}, {{1.0, 1.0}, {}}, 0.0), InputError);
 }
 
-TEST_CASE("A Winston cone is as wide and long as its etendue asks, and its edge rays reach the exit's rim") {
+TEST_CASE(
+    "A Winston cone is as wide and long as its etendue requires, and its edge rays reach the exit's rim") {
   const double theta = 25.0 * kDegree;
   CHECK(winston_length(2.0, theta) == doctest::Approx((2.0 + 2.0 / std::sin(theta)) / std::tan(theta)));
   const double length = winston_length(2.0, theta);
   CHECK(winston_radius(2.0, theta, 0.0) == doctest::Approx(2.0).epsilon(1e-9));
   CHECK(winston_radius(2.0, theta, length) == doctest::Approx(2.0 / std::sin(theta)).epsilon(1e-9));
 
-  // Edge-ray principle: a ray at the acceptance angle that meets the profile is mirrored to the far rim.
+  // Edge-ray principle: a ray at the acceptance angle that hits the profile is reflected to the far rim.
   for (const double share : {0.1, 0.5, 0.9}) {
     CAPTURE(share);
     const double z = share * length, step = 1e-5;

@@ -112,7 +112,7 @@ TEST_CASE("STEP: a colour of the whole solid is the colour of its faces, not the
   CHECK(selected(mesh, by_group("#0000ff")) == 2);
 }
 
-TEST_CASE("STEP: curved faces keep the tolerance that is asked for, and the note says what was reached") {
+TEST_CASE("STEP: curved faces keep the requested tolerance, and the note has the one reached") {
   const StepBody rod{"rod", StepSolid::cylinder, {5.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
   for (const double deviation : {0.1, 0.01, 0.001}) {
     CAPTURE(deviation);
@@ -195,7 +195,7 @@ TEST_CASE("STEP: one solid of several is chosen by name or number, and no choice
   check_contains(message(scratch("shape.step"), options), {"no body", "\"4\""});
 }
 
-TEST_CASE("STEP: what is no shape is refused with the file's name and a way out") {
+TEST_CASE("STEP: what is no shape is refused with the file's name and a hint") {
   const auto write = [](const std::string& name, const std::string& text) {
     std::ofstream(scratch(name), std::ios::binary) << text;
     return scratch(name);

@@ -190,8 +190,8 @@ sensor = "perfect"
 }
 
 TEST_CASE("Law: polished bar, sides in total reflection, absorption, sensor at one end") {
-  // Directions within 50 deg of the axis meet the sides beyond the critical angle. With a = 1/(la cos t),
-  // P = T [exp(-a z) + Rf exp(-a (2L - z))] / (2 (1 - Rd Rf exp(-2 a L))).
+  // Directions within 50 deg of the axis are incident on the sides beyond the critical angle. With a = 1/(la
+  // cos t), P = T [exp(-a z) + Rf exp(-a (2L - z))] / (2 (1 - Rd Rf exp(-2 a L))).
   constexpr double kLength = 20.0, kAbsorption = 30.0, kDepth = 8.0, kHalfAngle = 50.0 * kDegree;
   const auto detected_at = [&](double theta) {
     const double a = 1.0 / (kAbsorption * std::cos(theta));

@@ -60,7 +60,7 @@ std::string beam(double angle_deg) {
 
 }  // namespace
 
-TEST_CASE("Law: a Winston trough takes in all light up to its acceptance angle, and none beyond") {
+TEST_CASE("Law: a Winston trough accepts all light up to its acceptance angle, and none beyond") {
   const double length = winston_length(2.0, 30.0 * kDegree);
   const std::string shape =
       R"(winston = { exit_radius = "2 mm", acceptance = "30 deg", trough = "5 mm", rings = 400 })";
@@ -75,7 +75,7 @@ TEST_CASE("Law: a Winston trough takes in all light up to its acceptance angle, 
   }
 }
 
-TEST_CASE("Law: a Winston cone takes in all light along its axis and none well beyond its acceptance angle") {
+TEST_CASE("Law: a Winston cone accepts all light along its axis and none well beyond its acceptance angle") {
   const double length = winston_length(2.0, 30.0 * kDegree);
   const std::string shape =
       R"(winston = { exit_radius = "2 mm", entrance_radius = "4 mm", segments = 128, rings = 200 })";
@@ -83,7 +83,7 @@ TEST_CASE("Law: a Winston cone takes in all light along its axis and none well b
   CHECK(trace(hollow_taper(shape, length, beam(36.0), 20'000)).result.count(Fate::detected) == 0);
 }
 
-TEST_CASE("Law: etendue: of Lambert's light into a taper the share of the areas comes out, A_out / A_in") {
+TEST_CASE("Law: etendue: of Lambertian light into a taper the ratio of the areas leaves it, A_out / A_in") {
   // Light sent back from the narrow end always gets out of the wide one, for every wall turns it outwards; so
   // by reversal what gets through has the etendue of the narrow end, pi A_out (Liouville's theorem).
   const double length = winston_length(2.0, 30.0 * kDegree);

@@ -1,4 +1,4 @@
-// Traced events, analysed: what a ground crystal tells about depth and a polished one does not.
+// Traced events, analyzed: depth is resolved in a ground crystal and not in a polished one.
 #include <doctest/doctest.h>
 
 #include "physics/traced.hpp"

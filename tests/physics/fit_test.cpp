@@ -236,7 +236,7 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1 }]
   check_recovered(c);
 }
 
-TEST_CASE("Common random numbers lessen the noise of differences of curves") {
+TEST_CASE("Common random numbers reduce the noise of differences of curves") {
   const FitCase c = ground_case();
   // Curves less than an error of the fit above apart, of one seed and of two.
   const std::vector<double> low{11.8, 59.0}, high{12.2, 61.0};
@@ -267,7 +267,7 @@ TEST_CASE("Common random numbers lessen the noise of differences of curves") {
   CHECK(std::log(independent / common) > kSigmas * error);
 }
 
-TEST_CASE("The made-up measurement that is shipped is what its scene gives with the seed it names") {
+TEST_CASE("The shipped made-up measurement is the result of its scene with the seed that it names") {
   const SceneFile file = SceneFile::load(source_file("scenes/fit_depth_curve.toml"));
   SimulationOptions options;
   options.seed = 7;

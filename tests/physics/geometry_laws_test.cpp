@@ -85,7 +85,7 @@ specular_share = 0.0
     const double f = port / (port + face_area(traced.built.scene, "sphere:other"));
     CAPTURE(subdivisions);
     CHECK(f > 0.03);
-    // From the middle the port is met with probability f, and so it is from everywhere on the wall.
+    // From the middle light hits the port with probability f, and so it does from everywhere on the wall.
     check_fraction(traced.result, Fate::escaped, f / (1.0 - reflectance * (1.0 - f)));
   }
 }
@@ -135,8 +135,9 @@ photons = 1
 }
 
 TEST_CASE("Law: a square light pipe keeps 2 cos(tc) - 1 of the light made in it") {
-  // Light is guided when both walls are met beyond the critical angle: |dx|, |dy| < c = cos(tc). Each
-  // excludes 1 - c of all directions; they exclude none twice while 2 c^2 > 1 (n > sqrt 2 ... tc < 45 deg).
+  // Light is guided when it is incident on both walls beyond the critical angle: |dx|, |dy| < c = cos(tc).
+  // Each excludes 1 - c of all directions; they exclude none twice while 2 c^2 > 1 (n > sqrt 2 ... tc < 45
+  // deg).
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -162,13 +163,13 @@ region = { part = "pipe", slab_z = ["199 mm", "201 mm"] }
 wavelength = "420 nm"
 photons = 150_000
 )");
-  // Unguided light meets the walls some 50 times on its way out and is gone.
+  // Unguided light is incident on the walls some 50 times before the end and is lost.
   const double c = std::sqrt(1.0 - 1.0 / (1.5 * 1.5));
   CHECK(2.0 * c * c > 1.0);
   check_fraction(traced.result, Fate::detected, 2.0 * c - 1.0);
 }
 
-TEST_CASE("Law: a light pipe of index n takes in what comes below sin(t) = sqrt(n^2 - 1)") {
+TEST_CASE("Law: a light pipe of index n accepts light of incidence below sin(t) = sqrt(n^2 - 1)") {
   constexpr double kIndex = 1.3;
   const double acceptance = std::asin(std::sqrt(kIndex * kIndex - 1.0)) / kDegree;
   CHECK(acceptance == doctest::Approx(56.17).epsilon(1e-4));
@@ -235,7 +236,8 @@ max_interactions = 400
   check_fraction(traced.result, Fate::cut_interactions, 3.0 * std::sqrt(1.0 - 1.0 / (1.82 * 1.82)) - 2.0);
 }
 
-TEST_CASE("Law: white furnace: light at rest in a lossless array stays spread as n^2 V over all its parts") {
+TEST_CASE(
+    "Law: white furnace: light in equilibrium in a lossless array stays spread as n^2 V over all its parts") {
   // Two staggered layers of crystals, dry and glued, with septa of partial height, in a white box. Radiance
   // in equilibrium is n^2, so of the light's way, n^2 V is in each part; light that starts so, stays so.
   const SceneSpec spec = scene_spec(R"(

@@ -60,7 +60,7 @@ constexpr double kDetected = 0.2 / (1.0 - 0.7 * 0.9);
 
 }  // namespace
 
-TEST_CASE("Law: light through a film between two rooms, t / (1 - r R)") {
+TEST_CASE("Law: light through a film between two boxes, t / (1 - r R)") {
   const Traced traced = trace(rooms(R"(
 [[part]]
 name = "left"
@@ -81,7 +81,7 @@ surface = "film"
   check_fraction(traced.result, Fate::absorbed_at_surface, 1.0 - kDetected);
 }
 
-TEST_CASE("Law: septa of an array let through what their reflector says, both faces together") {
+TEST_CASE("Law: septa of an array transmit the share of their reflector, both faces together") {
   const Traced traced = trace(rooms(R"(
 [[array]]
 name = "room"

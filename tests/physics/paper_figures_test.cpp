@@ -84,7 +84,7 @@ const std::string kAir = "vacuum", kGrease = "optical_grease_roncali2013";
 }  // namespace
 
 TEST_CASE(
-    "Roncali and Cherry 2013, figure 6: rough faces show 18 deg at normal incidence and 35 deg at grazing") {
+    "Roncali and Cherry 2013, figure 6: rough faces have 18 deg at normal incidence and 35 deg at grazing") {
   check_published("ground: mean slope met at 0 deg", slope_deg("lso_ground_30um", 0.0), 18.0, 0.5);
   check_published("ground: mean slope met at 88.5 deg", slope_deg("lso_ground_30um", 88.5), 35.0, 0.5);
   Estimate before = slope_deg("lso_ground_30um", 60.0);
@@ -95,7 +95,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Roncali and Cherry 2013, figure 6: polished faces show 1.25 deg at any incidence up to 85 deg") {
+TEST_CASE("Roncali and Cherry 2013, figure 6: polished faces have 1.25 deg at any incidence up to 85 deg") {
   for (const double incidence : {0.0, 30.0, 60.0, 80.0, 85.0})
     check_published(fmt::format("polished: mean slope met at {:g} deg", incidence),
                     slope_deg("lso_polished", incidence), 1.25, 0.005);
@@ -162,7 +162,7 @@ TEST_CASE("Roncali and Cherry 2013, figure 7: polished faces reflect by Fresnel 
 }
 
 TEST_CASE(
-    "Roncali and Cherry 2013, figure 8: at 45 deg polished faces mirror the light, rough ones spread it") {
+    "Roncali and Cherry 2013, figure 8: at 45 deg polished faces reflect specularly, rough ones diffusely") {
   GoniometerSettings settings;
   settings.wavelength_nm = 420.0;
   settings.incidence_rad = 45.0 * kDegree;

@@ -65,7 +65,7 @@ std::pair<Estimate, Estimate> mean_and_spread(const std::vector<double>& values,
 
 }  // namespace
 
-TEST_CASE("Light detected at both ends against depth is the same from a map as traced") {
+TEST_CASE("Light detected at both ends against depth is the same from a response map as traced") {
   const ResponseMap map = MappedScene(two_ends(10.0, placed(1))).map({1.0, kPerCell, 64});
   // Slabs as thick as a layer of 2 x 2 cells: over each, linear interpolation gives its layer 3/4 of the
   // weight and the two beside it 1/8 each; the outermost layer has 7/8 and lends 1/8.
@@ -79,7 +79,7 @@ TEST_CASE("Light detected at both ends against depth is the same from a map as t
   }
 }
 
-TEST_CASE("Four sensors under a slab share its light alike from a map and traced") {
+TEST_CASE("Four sensors under a slab share its light alike from a response map and traced") {
   std::string text = R"(
 ambient = "vacuum"
 [[part]]
@@ -164,7 +164,7 @@ photon_list = true
   }
 }
 
-TEST_CASE("First photons and read-out signals of events are the same from a map as traced") {
+TEST_CASE("First photons and read-out signals of events are the same from a response map as traced") {
   const std::string readout = R"(
 [readout]
 sampling = "1 GHz"

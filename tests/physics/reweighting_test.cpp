@@ -192,7 +192,7 @@ TEST_CASE("Law: light per event, reweighted, is that of events retraced") {
   CHECK(same.per_event->error == doctest::Approx(same.traced_per_event->error).epsilon(1e-5));
 }
 
-TEST_CASE("Where reweighting would be wrong it says so") {
+TEST_CASE("Where reweighting would be wrong it is not valid") {
   // Traced with an absorption length below the crystal's: the long ways of a clear one are missing.
   const Setup setup{kRoughWrapped, kPhotons};
   const auto dark = setup.run({3.0, 0.9}, 9700);

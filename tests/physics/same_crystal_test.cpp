@@ -154,15 +154,15 @@ void compare_shapes(const std::string& surface, int first_seed) {
 
 }  // namespace
 
-TEST_CASE("The same polished crystal as box, STL, glTF, OBJ and STEP gives the same fates") {
+TEST_CASE("The same polished crystal as box, STL, glTF, OBJ and STEP has the same fates") {
   compare_shapes("flat", 4100);
 }
 
-TEST_CASE("The same rough crystal as box, STL, glTF, OBJ and STEP gives the same fates") {
+TEST_CASE("The same rough crystal as box, STL, glTF, OBJ and STEP has the same fates") {
   compare_shapes("rough", 4200);
 }
 
-TEST_CASE("Another crystal does not: the comparison sees a width of 2.04 mm") {
+TEST_CASE("Another crystal does not: the comparison detects a width of 2.04 mm") {
   const PointResult box = trace(scene_text("rough", kBox, 4300)).result;
   std::string wider = scene_text("rough", "box = [\"2.04 mm\", \"2.04 mm\", \"20 mm\"]", 4301);
   const PointResult other = trace(wider).result;

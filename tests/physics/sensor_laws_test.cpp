@@ -1,4 +1,4 @@
-// What a sensor converts of the light that meets it at an angle, through the tracer.
+// Share of light incident on a sensor at an angle that is converted, by tracing.
 #include <cmath>
 
 #include "physics/traced.hpp"
@@ -59,14 +59,15 @@ double factor(double angle_rad) { return 1.0 - 0.5 * angle_rad / (80.0 * kDegree
 }  // namespace
 
 TEST_CASE(
-    "Law of external efficiency: what is published at an angle is what is detected there, Fresnel once") {
+    "Law of external efficiency: the published share is detected at each angle, with one Fresnel loss") {
   for (const double angle_deg : {0.0, 30.0, 60.0, 75.0})
     check_law(fmt::format("{} deg in air", angle_deg),
               detected({angle_deg, "vacuum_n1", "external", "outside"}),
               {0.3 * factor(angle_deg * kDegree), 0.0});
 }
 
-TEST_CASE("Law of internal efficiency: what has entered, times its factor at the angle in the window") {
+TEST_CASE(
+    "Law of internal efficiency: the light that has entered, times the factor at the angle in the window") {
   for (const double angle_deg : {0.0, 60.0}) {
     const double cosine = std::cos(angle_deg * kDegree);
     const double inside = std::asin(std::sin(angle_deg * kDegree) / 1.5);

@@ -224,7 +224,7 @@ TEST_CASE("Law of every lossless surface: isotropic light stays isotropic") {
   }
 }
 
-TEST_CASE("UNIFIED does not keep isotropic light isotropic, and docs/surfaces.md says so") {
+TEST_CASE("UNIFIED does not keep isotropic light isotropic, as docs/surfaces.md states") {
   // Facets without a surface they belong to cannot: only a smooth one does. If this starts to fail, the
   // model has changed and the page must too.
   for (const Named& named : facet_models()) {

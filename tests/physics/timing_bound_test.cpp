@@ -32,7 +32,7 @@ std::string text(const Estimate& estimate) {
 }  // namespace
 
 TEST_CASE(
-    "CTR of Poisson emission with perfect collection nears the bound from above as photons become many") {
+    "CTR of Poisson emission with perfect collection approaches the bound from above with many photons") {
   // Decay 40 ns, rise 0.1 ns, jitter of single photons 0.12 ns (one sigma).
   const PhotonTime time({{40.0, 0.1}}, 0.12);
   const MostLikelyTime most_likely(time);

@@ -69,7 +69,7 @@ struct Traced {
   std::vector<tally::EventRecord> events;  ///< of a source of energy
 };
 
-/// Scene text plus the library above, with `photons` from `[source]`.
+/// Scene text plus the definitions above, with `photons` from `[source]`.
 inline scene_file::SceneSpec scene_spec(const std::string& text) {
   return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string()).spec(0);
 }

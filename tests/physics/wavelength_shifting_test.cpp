@@ -101,21 +101,21 @@ double leaves_through(double face_mm, double thickness_mm, double clear_per_mm) 
 
 }  // namespace
 
-TEST_CASE("Law: a slab with a dye, light given back leaves through both faces by E2") {
+TEST_CASE("Law: a slab with a dye, re-emitted light leaves through both faces by E2") {
   constexpr double kThickness = 3.0, kClear = 0.1;
   const Traced traced = trace(slab_scene(kThickness, dye(kClear)));
   const double passes = std::exp(-kThickness / kLength_mm);
   const ShiftCount& shifted = traced.result.shifted_in_medium[medium_number(traced.built.scene, "dye")];
   check_law("absorbed by the dye", binomial_estimate(shifted.absorbed, traced.result.photons),
             {1.0 - passes, 0.0});
-  check_law("given back", binomial_estimate(shifted.emitted, traced.result.photons),
+  check_law("re-emitted", binomial_estimate(shifted.emitted, traced.result.photons),
             {kYield * (1.0 - passes), 0.0});
   check_law("upwards", detected_in(traced, "above"),
             {passes + leaves_through(kThickness, kThickness, kClear), 0.0});
   check_law("downwards", detected_in(traced, "below"), {leaves_through(0.0, kThickness, kClear), 0.0});
 }
 
-TEST_CASE("Every photon that a shifter absorbs is given back or absorbed, and so is its energy") {
+TEST_CASE("Every photon that a shifter absorbs is re-emitted or absorbed, and so is its energy") {
   const Traced traced = trace(slab_scene(3.0, dye(0.0)));
   const PointResult& result = traced.result;
   const std::size_t number = medium_number(traced.built.scene, "dye");
@@ -135,13 +135,13 @@ TEST_CASE("Every photon that a shifter absorbs is given back or absorbed, and so
   const double inverse = (xlogx(480.0) + xlogx(560.0) - 2.0 * xlogx(520.0)) / (40.0 * 40.0);
   const double mean_eV = 1239.8419843320026 * inverse;
   // The spread of photon energy is below 0.05 eV (480 to 560 nm: 2.21 to 2.58 eV).
-  check_law("mean energy given back, eV",
+  check_law("mean energy re-emitted, eV",
             {shifted.after_eV / static_cast<double>(shifted.emitted),
              0.05 / std::sqrt(static_cast<double>(shifted.emitted))},
             {mean_eV, 0.0});
 }
 
-TEST_CASE("Law: light that a dye absorbs again and again, 1 / (1 - yield) times in all") {
+TEST_CASE("Law: light that a dye absorbs repeatedly, 1 / (1 - yield) times in all") {
   // A cube of 1 m with light in its middle, 0.1 mm of absorption at every wavelength: nothing leaves.
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"
@@ -177,7 +177,7 @@ decay = [{ time = "10 ns", rise = "0 ns", fraction = 1 }]
 }
 
 TEST_CASE(
-    "Light given back is isotropic, across its polarisation, late by its decay, and never gains energy") {
+    "Re-emitted light is isotropic, across its polarisation, late by its decay, and never gains energy") {
   for (const std::string polarisation : {"random", "unpolarised"}) {
     std::string text = slab_scene(1000.0, dye(0.0, 1.0));
     text.insert(text.find("photons ="), "polarisation = \"" + polarisation + "\"\n");
@@ -215,7 +215,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A coating on a face is in the ledger of its surface, and its light is what comes out") {
+TEST_CASE("A coating on a face is in the ledger of its surface, and its light is the light that leaves") {
   // A crystal with phosphor between one end and a mirror; light at 400 nm, the coating 3 deep.
   const std::string scene = R"(
 ambient = "vacuum_n1"
@@ -272,7 +272,7 @@ max_interactions = 1000
   CHECK(result.tallies[0].sum[1] <= static_cast<double>(phosphor.emitted));
 }
 
-TEST_CASE("A scene whose media or sensors do not know the light that is given back is refused") {
+TEST_CASE("A scene whose media or sensors do not cover the wavelengths of re-emission is refused") {
   std::string text = slab_scene(1.0, dye(0.0));
   const auto message = [&] {
     SceneBuilder builder;

@@ -168,7 +168,7 @@ TEST_CASE("Dual-ended readout: the asymmetry of both ends falls steadily with de
   }
 }
 
-TEST_CASE("Phosphor on the far half: light from deeper comes later, and more of it is shifted") {
+TEST_CASE("Phosphor on the far half: light from greater depth arrives later, and more of it is shifted") {
   const std::string text = scene_text("phosphor_coated.toml");
   const Detector detector = run("phosphor_coated.toml", text, 20'000, 20);
   Answers measured;

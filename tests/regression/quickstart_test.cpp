@@ -37,7 +37,8 @@ std::vector<std::vector<Estimate>> printed_table() {
 
 }  // namespace
 
-TEST_CASE("The quickstart gives what README prints, and the rough crystal's light falls with depth") {
+TEST_CASE(
+    "The quickstart has the results that README prints, and the rough crystal's light falls with depth") {
   const auto printed = printed_table();
   for (const auto& depths : printed) REQUIRE(depths.size() == kDepths);
 

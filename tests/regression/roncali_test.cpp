@@ -64,7 +64,7 @@ Estimate light_at(const SimulationPoint& point) {
 
 }  // namespace
 
-TEST_CASE("The paper's crystals give the light that a quick run printed, with another seed") {
+TEST_CASE("The paper's crystals have the light that a quick run printed, with another seed") {
   SimulationOptions options;
   options.quick = true;
   options.seed = 2;
@@ -81,7 +81,7 @@ TEST_CASE("The paper's crystals give the light that a quick run printed, with an
   }
 }
 
-TEST_CASE("The curves and surfaces that the paper's claims name exist") {
+TEST_CASE("The curves and surfaces that the paper's acceptance criteria name exist") {
   const SceneFile file = SceneFile::load(test::source_file("scenes/roncali2013/light_output.toml"));
   RunResult points;
   points.header.sweep_keys = file.sweep_keys();

@@ -47,7 +47,7 @@ double light(const RunResult& run, std::size_t point) {
 
 }  // namespace
 
-TEST_CASE("The quantities of claims are those of the curves") {
+TEST_CASE("The quantities of acceptance criteria are those of the curves") {
   const RunResult run = made_up_run();  // polished 0 to 4, ground table 5 to 9, UNIFIED 10 to 14
   const auto ours = [&](const CriterionSpec& spec) { return evaluated(run, spec).ours.value; };
   const double fall_polished = 1.0 - light(run, 4) / light(run, 0);
@@ -65,7 +65,7 @@ TEST_CASE("The quantities of claims are those of the curves") {
   CHECK(ours(criterion(CriterionQuantity::time_ratio, "polished", "ground, table")) == doctest::Approx(1.0));
 }
 
-TEST_CASE("A verdict says whether the number lies within the bounds, and how surely") {
+TEST_CASE("An evaluation has whether the number lies within the bounds, and how certainly") {
   const RunResult run = made_up_run();
   CriterionSpec spec = criterion(CriterionQuantity::light, "polished");
   const Estimate measured = evaluated(run, spec).ours;
@@ -84,7 +84,7 @@ TEST_CASE("A verdict says whether the number lies within the bounds, and how sur
   CHECK(evaluation(measured.value + 5.0 * measured.error).certain);
 }
 
-TEST_CASE("Claims stand on the page and in the summary; what cannot be told says why") {
+TEST_CASE("Acceptance criteria are on the page and in the summary, or why a number is not available") {
   const RunResult run = made_up_run();
   RunAnalysis analyses;
   analyses.criteria = {criterion(CriterionQuantity::fall, "polished"),
@@ -122,7 +122,7 @@ CriterionSpec surface_criterion(CriterionQuantity quantity, const std::string& s
 
 }  // namespace
 
-TEST_CASE("Claims about surfaces take their numbers from the bench") {
+TEST_CASE("Acceptance criteria about surfaces use the numbers of the goniometer") {
   const std::vector<SurfaceAnalysis> analyses{made_up_surface("polished", "grease"),
                                               made_up_surface("ground", "air")};
   const auto ours = [&](CriterionQuantity quantity, double incidence_deg) {
@@ -136,7 +136,7 @@ TEST_CASE("Claims about surfaces take their numbers from the bench") {
   CHECK(ours(CriterionQuantity::lobe_width, 45.0).value == doctest::Approx(30.0 * kDegree));
 }
 
-TEST_CASE("Claims about surfaces stand on the page with their figures") {
+TEST_CASE("Acceptance criteria about surfaces are on the page with their figures") {
   RunAnalysis analyses;
   analyses.surfaces = {made_up_surface("ground", "air")};
   analyses.criteria = {surface_criterion(CriterionQuantity::mean_slope, "ground", 0.0)};
@@ -153,7 +153,7 @@ TEST_CASE("Claims about surfaces stand on the page with their figures") {
   check_contains(page, "Directions of reflected light at 45 deg");
 }
 
-TEST_CASE("Claims about surfaces that no bench reads are refused before the run") {
+TEST_CASE("Acceptance criteria about surfaces that no goniometer measures are refused before the run") {
   GoniometerSpec goniometer;
   goniometer.surfaces = {{"ground", {}}};
   goniometer.outside = {{"air", {}}};

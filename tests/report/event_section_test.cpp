@@ -26,7 +26,7 @@ report::PointAnalysis made_up_analysis(const std::string& label, std::size_t eve
 
 }  // namespace
 
-TEST_CASE("The page of events holds the numbers of every study and loads nothing") {
+TEST_CASE("The page of events holds the numbers of every analysis and loads nothing") {
   const report::PointAnalysis point = made_up_analysis("rough", 6000, true);
   const std::string page = report::event_page("Dual-ended array", "results.h5", {point});
   const EventAnalysis& analysis = point.analysis;
@@ -41,7 +41,7 @@ TEST_CASE("The page of events holds the numbers of every study and loads nothing
   if (const char* name = std::getenv("SCINTRAY_EVENT_PAGE")) std::ofstream(name) << page;
 }
 
-TEST_CASE("Lines for the terminal say the same") {
+TEST_CASE("Lines for the terminal have the same numbers") {
   const std::string lines = report::event_lines(made_up_analysis("run", 6000, true).analysis);
   check_contains(lines, "pulses: 5");
   check_contains(lines, "spectrum: photopeak");
@@ -51,7 +51,7 @@ TEST_CASE("Lines for the terminal say the same") {
   CHECK_FALSE(contains(lines, "nan"));
 }
 
-TEST_CASE("A point of few events says what is missing, and labels are escaped") {
+TEST_CASE("For a point of few events the missing numbers have reasons, and labels are escaped") {
   const std::string page = report::event_page("t", "u", {made_up_analysis("<b>&", 40, false)});
   check_contains(page, "&lt;b&gt;&amp;");
   CHECK_FALSE(contains(page, "<b>&"));

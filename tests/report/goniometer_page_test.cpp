@@ -51,7 +51,7 @@ TEST_CASE("the goniometer's page shows a map for each side that light leaves on,
   CHECK(page.find("<script") == std::string::npos);
 }
 
-TEST_CASE("a measurement on the page says how it was normalised") {
+TEST_CASE("a measurement on the page has its normalisation") {
   const GoniometerReading at_20 = reading(20.0);
   MeasuredProfile measured;
   measured.angle_deg = {10.0, 20.5, 30.0};
@@ -83,7 +83,7 @@ TEST_CASE(
   CHECK(hemisphere_map(DirectionCounts{}, 1000, -1.0, "no light").find("nan") == std::string::npos);
 }
 
-TEST_CASE("a plot as a file stands alone; axes, dashes and loose points are drawn as asked") {
+TEST_CASE("a plot as a file stands alone; axes, dashes and loose points are drawn as requested") {
   Plot plot = incidence_plot("R", "reflectance");
   plot.series.push_back(fresnel_series("Fresnel", 1.82, 1.0));
   plot.series.push_back({"measured", {10.0, 20.0}, {0.1, 0.2}, {}});
@@ -107,7 +107,7 @@ TEST_CASE("an error bar does not pull the axis of something positive below zero"
   CHECK(svg_plot(plot).find(">-0.5<") != std::string::npos);
 }
 
-TEST_CASE("the page of surfaces says of each what it is, what it needs, or why it was not made") {
+TEST_CASE("the page of surfaces has for each its model, what it needs, or why it was not made") {
   SurfaceEntry shown, preset, failed;
   shown.name = "flat";
   shown.outline = {"smooth", {}, {}, {"Born & Wolf"}};

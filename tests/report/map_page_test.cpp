@@ -55,7 +55,7 @@ TEST_CASE("a picture differs where a point is missing, and keeps the shape of th
   CHECK(height_image(map, -1, 3, "x").find("aspect-ratio:20/10") != std::string::npos);
 }
 
-TEST_CASE("the numbers of a map say \"-\" where it does not tell, and a map without heights is refused") {
+TEST_CASE("numbers of a map that are not available are \"-\", and a map without heights is refused") {
   HeightMap flat = waves();
   std::fill(flat.heights_um.begin(), flat.heights_um.end(), 1.0);
   for (const MapNumber& number : map_numbers(flat)) {

@@ -102,14 +102,14 @@ TEST_CASE("The page holds the numbers of the run") {
   CHECK_FALSE(contains(page, "Partial result"));
 }
 
-TEST_CASE("A partial run says so, on the page and in the terminal") {
+TEST_CASE("A partial run is marked as such, on the page and in the terminal") {
   RunResult run = test::made_up_run();
   run.partial_reason = "interrupted by Ctrl-C";
   CHECK(contains(html_report(run), "<b>Partial result.</b> interrupted by Ctrl-C."));
   CHECK(contains(text_summary(run), "PARTIAL RESULT: interrupted by Ctrl-C."));
 }
 
-TEST_CASE("Numbers are written to the place their error gives") {
+TEST_CASE("Numbers are written to the decimal place of their error") {
   CHECK(report::with_error({0.33731, 0.00112}) == "0.3373 ± 0.0011");
   CHECK(report::with_error({1234.6, 53.2}) == "1235 ± 53");
   CHECK(report::with_error({12.5, 1.26}) == "12.5 ± 1.3");
@@ -191,7 +191,7 @@ TEST_CASE("The terminal summary is an aligned table") {
   CHECK(contains(text_summary(run), "LOST PHOTONS: 2"));
 }
 
-TEST_CASE("A report that cannot be written leaves nothing and says why") {
+TEST_CASE("A report that cannot be written leaves nothing and is an error with the reason") {
   const auto folder = test::scratch_folder("report_write");
   const RunResult run = test::made_up_run();
   write_report(folder / "run.html", run);

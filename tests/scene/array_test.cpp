@@ -1,4 +1,4 @@
-// Arrays: where elements, septa, glue, fillers and wraps stand, and how they meet.
+// Arrays: positions of elements, septa, glue, fillers and wraps, and their contacts.
 #include <doctest/doctest.h>
 
 #include "bad_input/marked_text.hpp"
@@ -109,8 +109,7 @@ surface = "ground"
     }
 }
 
-TEST_CASE(
-    "Septa stand in the middle of the gaps, in pieces that do not cross, as high as they are asked to") {
+TEST_CASE("Septa stand in the middle of the gaps, in pieces that do not cross, of the height that is set") {
   const std::string text = kBlock + R"(
 [array.septa]
 reflector = "white"
@@ -132,7 +131,7 @@ height = ["3 mm", "10 mm"]
   check_bounds(only_x.at("block_septum_x[0]"), Vec3(-1.08, -2.05, 0), Vec3(-1.02, 2.05, 10));
 }
 
-TEST_CASE("Septa as thick as the gap touch the crystals, dry unless asked otherwise") {
+TEST_CASE("Septa as thick as the gap touch the crystals, dry unless set otherwise") {
   for (const bool bonded : {false, true}) {
     const Scene scene = built(scene_with(kBlock + R"(
 [array.septa]
@@ -151,7 +150,7 @@ contact = ")" + (bonded ? "bonded" : "dry") + "\"\n",
   }
 }
 
-TEST_CASE("A filler wets elements and septa, also where contacts are dry by default") {
+TEST_CASE("A filler is bonded to elements and septa, also where contacts are dry by default") {
   const Scene scene = built(scene_with(replaced(kBlock, "pitch", "filler = \"glue\"\npitch") + R"(
 [array.septa]
 reflector = "white"

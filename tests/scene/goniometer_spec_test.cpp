@@ -1,4 +1,4 @@
-// [[bench]] and claims about its surfaces: what is read, and what is stated of mistakes.
+// [[bench]] and acceptance criteria about its surfaces: values read, and messages about mistakes.
 #include "scintray/scene_file/goniometer.hpp"
 
 #include <doctest/doctest.h>
@@ -40,7 +40,7 @@ CriterionSpec criterion_on_surface(const std::string& body) {
 
 }  // namespace
 
-TEST_CASE("A bench without anything optional reads from normal to grazing incidence") {
+TEST_CASE("A goniometer without optional keys measures from normal to grazing incidence") {
   const GoniometerSpec goniometer = goniometers_of(kPlainGoniometer).at(0);
   REQUIRE(goniometer.surfaces.size() == 2);
   CHECK(goniometer.surfaces[1].name == "ground");
@@ -56,7 +56,7 @@ TEST_CASE("A bench without anything optional reads from normal to grazing incide
   CHECK(goniometer.incidence_rad.back() == doctest::Approx(88.5 * kDegree));
 }
 
-TEST_CASE("Mistakes in a bench are told with their place") {
+TEST_CASE("Mistakes in a goniometer are reported with their place") {
   check_contains(problems_of_goniometer("incidence = [\"40 deg\", \"20 deg\"]\n"), "scene.toml:6:");
   check_contains(problems_of_goniometer("incidence = [\"40 deg\", \"20 deg\"]\n"),
                  "angles of incidence rise");
@@ -67,7 +67,7 @@ TEST_CASE("Mistakes in a bench are told with their place") {
   check_contains(complaint_of([] { goniometers_of("[[bench]]\nsurfaces = [\"polished\"]\n"); }), "inside");
 }
 
-TEST_CASE("Claims about surfaces have bounds in the unit of their quantity") {
+TEST_CASE("Acceptance criteria about surfaces have bounds in the unit of their quantity") {
   const CriterionSpec slope = criterion_on_surface(
       "quantity = \"mean_slope\"\nsurface = \"ground\"\noutside = \"air\"\nincidence = \"0 deg\"\n"
       "at_least = \"17 deg\"\n");

@@ -50,7 +50,7 @@ TEST_CASE("A light guide's pieces add up to the frustum less its slits") {
   CHECK(parts.at("guide_base").bounds.max().isApprox(Vec3(5, 6, 2), 1e-9));
 }
 
-TEST_CASE("The joint between segments and base is no surface to light, whatever the guide's finish") {
+TEST_CASE("The joint between segments and base has no effect on light, whatever the guide's finish") {
   const Scene scene = built(scene_with(kGuide, "guide_base", "dry")).scene;
   const Between joint = between(scene, "guide_base", "guide[1,1]");
   CHECK(joint.area_mm2 > 10.0);

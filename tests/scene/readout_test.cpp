@@ -69,7 +69,7 @@ TEST_CASE("a readout without anything optional") {
   CHECK_FALSE(read_readout(TomlTable(parse_toml("x = 1\n", "scene.toml"), none)).has_value());
 }
 
-TEST_CASE("shapers are rows of stages") {
+TEST_CASE("shapers are series of stages") {
   CHECK(readout_of(kPlainReadout + "shaping = { order = 3, time_constant = \"5 ns\" }").shaping_ns ==
         std::vector<double>(4, 5.0));
   CHECK(readout_of(kPlainReadout + "shaping = { decay = \"50 ns\", rise = \"2 ns\" }").shaping_ns ==
@@ -97,7 +97,7 @@ TEST_CASE("the documented readout and its sensor are read") {
   CHECK(database.sensor("my_sipm").microcells.has_value());
 }
 
-TEST_CASE("mistakes in a readout say what was found and what is expected") {
+TEST_CASE("mistakes in a readout are reported with what was found and what is expected") {
   check_contains(said_of("sampling = \"2 GHz\"", "sampling = \"2 ns\""),
                  {"\"ns\"", "not a unit", "frequency"});
   check_contains(said_of("sampling = \"2 GHz\"", "sampling = \"0 GHz\""), "must be above 0");
@@ -129,7 +129,7 @@ TEST_CASE("mistakes in a readout say what was found and what is expected") {
   check_contains(said_of("photn_order = [1]\n"), "photon_order");
 }
 
-TEST_CASE("all mistakes of a readout come out at once, each at its place") {
+TEST_CASE("all mistakes of a readout are reported at once, each at its place") {
   const auto problems = problems_of(
       [] { readout_of("sampling = \"1 GHz\"\nwindow = \"9 mm\"\nthreshold = -1\nnoise = -2\n"); });
   REQUIRE(problems.size() == 4);  // "before" too

@@ -174,7 +174,7 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK(scene.exit_angles[0].name == "crystal:exit");
 }
 
-TEST_CASE("a sweep gives its value to every key that it names") {
+TEST_CASE("a sweep sets every key that it names to its value") {
   const SceneFile file = SceneFile::from_text(std::string(kGoodScene) + R"(
 [[sweep]]
 key = "run.seed"

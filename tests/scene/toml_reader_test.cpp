@@ -186,7 +186,7 @@ TEST_CASE("words and the values that they stand for") {
   CHECK(word_list(kShades) == std::vector<std::string>{"dark", "light", "pale"});
 }
 
-TEST_CASE("a choice of words gives the value of the word") {
+TEST_CASE("a choice of words returns the value of the word") {
   Reading reading("a = 'pale'");
   CHECK(reading.table.choice("a", kShades) == Shade::light);
   CHECK(reading.table.choice("a", kShades, Shade::dark) == Shade::light);

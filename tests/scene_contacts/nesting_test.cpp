@@ -55,7 +55,7 @@ TEST_CASE("A nested part flush with a face of its container reaches the outside 
   }
 }
 
-TEST_CASE("A flush plug gives the face under it to the plug alone") {
+TEST_CASE("The face under a flush plug belongs to the plug alone") {
   const std::vector<PlacedPart> parts{box("block", {0, 0, 0}, {10, 10, 10}, 0),
                                       box("plug", {2, 3, 6}, {5, 7, 10}, 6)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
@@ -110,7 +110,7 @@ TEST_CASE("A cavity in a part belongs to what fills it, else to the ambient medi
   check_contains(list[0], {"'hollow'", "'rod'", "overlap by 1 mm3"});
 }
 
-TEST_CASE("The overlap of a turned pair is exact, that of fine meshes is counted and says so") {
+TEST_CASE("The overlap of a turned pair is exact, that of fine meshes is counted and marked as such") {
   std::vector<PlacedPart> turned{box("a", {0, 0, 0}, {2, 2, 2}), box("b", {1, 1, 1.5}, {4, 4, 4}, 6)};
   move(turned, skew_rotation(), Vec3(1, 2, 3));
   const auto exact = complaints(turned);
@@ -166,7 +166,7 @@ TEST_CASE("Reaching in by less than the tolerance is touching, by more is an ove
   for (const bool turned : {false, true}) {
     CAPTURE(turned);
     const auto with_depth = [&](double depth) {
-      // An edge-on prism over a box: no faces meet, only the edge reaches in.
+      // An edge-on prism over a box: no faces touch, only the edge reaches in.
       std::vector<PlacedPart> parts{box("base", {-2, -2, -2}, {2, 2, 0}, 0),
                                     prism("wedge", {{0, -depth}, {1, 1}, {-1, 1}}, -1, 1, 6)};
       for (Vec3& v : parts[1].vertices) v = Vec3(v.x(), -v.z(), v.y());

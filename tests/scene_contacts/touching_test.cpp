@@ -92,7 +92,7 @@ TEST_CASE("Crystal, grease and detector of one cross-section form a chain") {
   check_laws(parts, interfaces, {80.0, 0.4, 2.0});
 }
 
-TEST_CASE("Two parts on one face that also meet each other") {
+TEST_CASE("Two parts on one face that also touch each other") {
   const std::vector<PlacedPart> parts{box("guide", {0, 0, 0}, {4, 4, 1}, 0, 3),
                                       box("left", {0, 0, -3}, {2.2, 4, 0}, 6),
                                       box("right", {2.2, 0, -2}, {4, 4, 0}, 12, 2)};
@@ -167,7 +167,7 @@ TEST_CASE("Parts in single precision close; along common straight edges no slive
   }
 }
 
-TEST_CASE("The same parts give the same triangles in the same order") {
+TEST_CASE("The same parts make the same triangles in the same order") {
   std::vector<PlacedPart> parts{box("guide", {0, 0, 10}, {10, 10, 12}, 0, 4),
                                 box("a", {0, 0, 0}, {5, 10, 10}, 6, 3), box("b", {5, 0, 0}, {10, 4, 10}, 12)};
   move(parts, skew_rotation(), Vec3(11, -7, 9));

@@ -56,7 +56,7 @@ bool same_bits(const Moments& a, const Moments& b) {
 
 }  // namespace
 
-TEST_CASE("A scene made of structs gives the numbers of the same scene's file, to the last bit") {
+TEST_CASE("A scene made of structs has the numbers of the same scene's file, to the last bit") {
   Simulation from_file(scene_of(kCrystal + kPhotons)), in_code(crystal_in_code());
   CHECK(in_code.points() == 1);
   CHECK(in_code.parameters(0).empty());
@@ -77,7 +77,7 @@ TEST_CASE("A scene made of structs gives the numbers of the same scene's file, t
   CHECK(in_code.header().scene_text.empty());
 }
 
-TEST_CASE("What is wrong with a scene made of structs is said without a place in a file") {
+TEST_CASE("Mistakes in a scene made of structs are reported without a place in a file") {
   SceneSpec scene = crystal_in_code();
   scene.parts[0].medium = {"LSOO", {}};
   Simulation simulation(scene);
@@ -91,7 +91,7 @@ TEST_CASE("What is wrong with a scene made of structs is said without a place in
   }
 }
 
-TEST_CASE("Options are in place of what the scene says") {
+TEST_CASE("Options replace the settings of the scene") {
   SimulationOptions options;
   options.photons = 500;
   options.seed = 9;

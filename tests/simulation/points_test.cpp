@@ -31,7 +31,7 @@ TEST_CASE("Each point of a sweep is built once, whoever uses it, and released wh
   CHECK(simulation.counts().scenes_built == 4);
 }
 
-TEST_CASE("Beyond the triangles that may be kept, points are built again and give the same") {
+TEST_CASE("Beyond the triangles that may be kept, points are built again with the same result") {
   const SceneFile file = scene_of(kCrystal + kPhotons + kSurfaceSweep);
   SimulationOptions options;
   options.most_triangles_kept = 30;  // one point has 24
@@ -104,7 +104,7 @@ specular_share = 0.0
   CHECK(simulation.counts().definitions.definitions == 7);
 }
 
-TEST_CASE("A stop keeps what was traced, whole points and whole blocks, and says so") {
+TEST_CASE("A stopped run keeps whole points and whole blocks, and is marked as partial") {
   std::atomic<bool> stop = false;
   SimulationHooks hooks;
   hooks.stop = &stop;
@@ -142,7 +142,7 @@ TEST_CASE("A stop before the first photon is a cancellation: there is nothing to
   CHECK(simulation.run_all(memory).complete());
 }
 
-TEST_CASE("A point that is not there is refused") {
+TEST_CASE("A point that does not exist is refused") {
   Simulation simulation(scene_of(kCrystal + kPhotons + kSurfaceSweep));
   CHECK_THROWS_AS(simulation.point(3), InputError);
   CHECK_THROWS_AS(simulation.run(3), InputError);

@@ -101,7 +101,7 @@ TEST_CASE("A file and the memory hold the same events") {
         read_results(path).points.at(0).light_timing.has_value());
 }
 
-TEST_CASE("A point alone gives what it gives in the run of all points") {
+TEST_CASE("A point alone has the same result as in the run of all points") {
   const SceneFile scene = scene_of(kCrystal + kPhotons + kSurfaceSweep);
   Simulation all(scene), alone(scene);
   const RunResult together = all.run_all();

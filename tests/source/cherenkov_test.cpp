@@ -161,7 +161,7 @@ TEST_CASE("BGO makes more Cherenkov light of 511 keV than LSO; the numbers are p
   CHECK(in_bgo.mean_photons(511.0) > in_lso.mean_photons(511.0));
 }
 
-TEST_CASE("What Cherenkov light cannot be made of is said") {
+TEST_CASE("Media without the data for Cherenkov light are reported") {
   Medium unknown = bgo();
   unknown.composition.clear();
   CHECK(message_of(unknown, 300.0, 700.0).find("\"Bi4Ge3O12\" does not say what it is made of") !=

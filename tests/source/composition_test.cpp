@@ -32,7 +32,7 @@ scattering = { none = true }
 
 }  // namespace
 
-TEST_CASE("a formula gives mass fractions") {
+TEST_CASE("a formula is converted to mass fractions") {
   // Standard atomic weights (IUPAC 2021): Lu 174.967, Si 28.085, O 15.999; Lu2SiO5 weighs 458.01.
   const Composition lso = composition_of_formula("Lu2SiO5");
   CHECK(share_of(lso, 71) == doctest::Approx(0.76403).epsilon(1e-3));
@@ -60,7 +60,7 @@ TEST_CASE("a medium's composition is read, and faults have their place") {
   CHECK(says(medium_complaint("composition = { }"), "formula"));
 }
 
-TEST_CASE("every shipped medium says what it is made of") {
+TEST_CASE("every shipped medium has a composition") {
   const MaterialDatabase database = MaterialDatabase::shipped();
   for (const std::string& name : database.names(DefinitionKind::medium)) {
     CAPTURE(name);

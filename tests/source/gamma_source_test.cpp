@@ -60,7 +60,7 @@ TEST_CASE("an isotropic source is isotropic") {
   for (const auto& observed : bins) CHECK(chi_square_test(observed, expected).p_value > 1e-4);
 }
 
-TEST_CASE("beams, cones and planes are where and what they say") {
+TEST_CASE("beams, cones and planes have their positions and directions") {
   const Scene scene = lso_cube(5.0);
   const std::string gamma = "emission = \"gamma\"\nenergy = \"100 keV\"\n";
   for (const auto& start : starts(emitter(kHere + gamma + "direction = [0, 2, 0]", scene), scene, 10))
@@ -103,7 +103,7 @@ TEST_CASE("pairs are back to back, or nearly") {
   CHECK(angle.standard_deviation() == doctest::Approx(0.5 / 2.354820).epsilon(0.045));
 }
 
-TEST_CASE("nuclides emit what their decay data say") {
+TEST_CASE("nuclides emit by their decay data") {
   const Scene scene = lso_cube(5.0);
   constexpr int kCount = 20000;
   std::uint64_t line = 0, pairs = 0;
@@ -120,7 +120,7 @@ TEST_CASE("nuclides emit what their decay data say") {
   CHECK(std::abs(static_cast<double>(caesium) / kCount - 0.851) < 4.5 * std::sqrt(0.851 * 0.149 / kCount));
 }
 
-TEST_CASE("a decay of lutetium sets free its beta and 597 keV") {
+TEST_CASE("a decay of lutetium releases its beta and 597 keV") {
   const Scene scene = lso_cube(5.0);
   constexpr int kCount = 20000;
   Moments beta;
@@ -142,7 +142,7 @@ TEST_CASE("a decay of lutetium sets free its beta and 597 keV") {
   }
 }
 
-TEST_CASE("in a large crystal all of a lutetium decay is seen, in a small one less") {
+TEST_CASE("a large crystal absorbs all energy of a lutetium decay, a small one less") {
   const auto mean_seen = [](double edge_mm) {
     const Scene scene = lso_cube(edge_mm);
     const auto source = event_source(

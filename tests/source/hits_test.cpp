@@ -67,7 +67,7 @@ TEST_CASE("hits out of order and outside are counted and the first named") {
   CHECK(says(notes[1], "2 of 4 hits came after"));
 }
 
-TEST_CASE("columns have the names that the scene gives, and events can be limited") {
+TEST_CASE("columns have the names of the scene, and events can be limited") {
   const Scene scene = lso_cube(10.0);
   const auto source = event_source(
       source_of(

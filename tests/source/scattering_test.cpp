@@ -55,7 +55,7 @@ TEST_CASE("angles on free electrons follow Klein and Nishina") {
   }
 }
 
-TEST_CASE("bound electrons take forward angles as their scattering function says") {
+TEST_CASE("bound electrons suppress forward angles by their scattering function") {
   const ElementData lutetium(71);
   for (const double energy_keV : {30.0, 88.0, 511.0}) {
     CAPTURE(energy_keV);

@@ -74,7 +74,7 @@ TEST_CASE("The intrinsic resolution holds at its energy and falls with the squar
   }
 }
 
-TEST_CASE("A deposit gives the light of its own energy where the response is not proportional") {
+TEST_CASE("A deposit has the light of its own energy where the response is not proportional") {
   Medium medium = scintillator(25.0);
   medium.relative_yield = Curve({10.0, 100.0, 662.0}, {0.6, 0.9, 1.0});
   for (const auto& row :

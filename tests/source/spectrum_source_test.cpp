@@ -24,7 +24,7 @@ std::string with_file(const std::string& csv) {
 
 }  // namespace
 
-TEST_CASE("one energy is put where the region says") {
+TEST_CASE("one energy is deposited in the region") {
   const Scene scene = lso_cube(10.0);
   const auto source = event_source(
       "type = \"gamma_events\"\nevents = 300\nenergy = \"511 keV\"\n"
@@ -84,7 +84,7 @@ TEST_CASE("spectra that are none are refused") {
   CHECK(says(complaint([&] { gamma_spec(place + "energy = 511"); }), "keV"));
 }
 
-TEST_CASE("energy is put only where it makes light") {
+TEST_CASE("energy is deposited only in scintillators") {
   const Scene scene = scene_of(box_part("block", "glass", Vec3::Constant(5.0)));
   CHECK(says(complaint([&] {
                event_source(

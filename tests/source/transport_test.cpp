@@ -150,7 +150,7 @@ TEST_CASE("pairs are made above their threshold, and one, two or no annihilation
   CHECK(share < made);
 }
 
-TEST_CASE("a medium of unknown composition is named, unless the scene says what it is") {
+TEST_CASE("a medium of unknown composition is named, unless the scene sets it") {
   const Scene scene =
       scene_of(box_part("crystal", "LSO", Vec3::Constant(2.0)) +
                "[[part]]\nname = \"tube\"\nbox = [\"2 mm\", \"2 mm\", \"1 mm\"]\nmedium = "
@@ -166,7 +166,7 @@ TEST_CASE("a medium of unknown composition is named, unless the scene says what 
              "density must be positive"));
 }
 
-TEST_CASE("what the ambient is made of can be said") {
+TEST_CASE("the composition of the ambient medium can be set") {
   // In lead all around, nothing of 100 keV comes through to the crystal.
   const Scene scene = lso_cube(2.0);
   const auto source = event_source(

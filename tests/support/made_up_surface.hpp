@@ -1,5 +1,5 @@
 #pragma once
-/// A surface read on a bench, with numbers that no two fields share.
+/// A surface measured on a goniometer, with numbers that no two fields share.
 
 #include "scintray/analysis/goniometer/surface_analysis.hpp"
 

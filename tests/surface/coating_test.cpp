@@ -94,7 +94,7 @@ TEST_CASE("A coating of the indices around it: exp(-tau / cos) passes, and halve
   }
 }
 
-TEST_CASE("The quantum yield of a coating: what is not given back is absorbed") {
+TEST_CASE("The quantum yield of a coating: light that is not re-emitted is absorbed") {
   const Outcomes outcomes = shine(coated(Curve::constant(1.5), 0.6), 0.0, [](double) {
     return IndexPair{1.5, 1.5};
   });
@@ -102,7 +102,7 @@ TEST_CASE("The quantum yield of a coating: what is not given back is absorbed") 
   CHECK(distance(outcomes.count.emitted, outcomes.count.absorbed, 0.6) < kSigmas);
 }
 
-TEST_CASE("Light given back meets the faces of the coating with the indices of its own wavelength") {
+TEST_CASE("Re-emitted light interacts with the faces of the coating with the indices of its own wavelength") {
   // At 400 nm the coating is matched to the crystal, at 480 nm and beyond to the vacuum outside: half of
   // what is re-emitted heads for the crystal, and goes in by Fresnel or turns and leaves.
   const Curve index({400.0, 450.0, 600.0}, {1.5, 1.0, 1.0});
@@ -114,7 +114,7 @@ TEST_CASE("Light given back meets the faces of the coating with the indices of i
   CHECK(distance(outcomes.inside, back, 0.5 * isotropic_transmittance(1.0, 1.5)) < kSigmas);
 }
 
-TEST_CASE("Without knowing of other wavelengths a coating only absorbs") {
+TEST_CASE("Without optics at other wavelengths a coating only absorbs") {
   const Surface surface = coated(Curve::constant(1.5));
   std::uint64_t absorbed = 0;
   for (std::uint64_t i = 0; i < kShots; ++i) {

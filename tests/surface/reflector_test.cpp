@@ -65,7 +65,7 @@ void check_shares(const Shares& shares, double back, double through) {
 
 }  // namespace
 
-TEST_CASE("A sheet between equal indices gives back and lets through its shares, from both sides") {
+TEST_CASE("A sheet between equal indices reflects and transmits its shares, from both sides") {
   for (const double specular : {0.0, 0.4, 1.0})
     for (const Side side : {Side::inside, Side::outside}) {
       CAPTURE(specular);
@@ -73,7 +73,8 @@ TEST_CASE("A sheet between equal indices gives back and lets through its shares,
     }
 }
 
-TEST_CASE("What passes a film goes straight on with its polarisation; between two media by Snell's law") {
+TEST_CASE(
+    "Light through a film continues straight on with its polarisation; between two media by Snell's law") {
   const Surface film = painted(sheet(0.0, 1.0, 1.0));
   for (std::uint64_t i = 0; i < 100; ++i) {
     Rng rng(5, StreamKind::other, i);
@@ -97,14 +98,14 @@ TEST_CASE("What passes a film goes straight on with its polarisation; between tw
   }
 }
 
-TEST_CASE("Beyond the critical angle a film gives back what it would let through") {
+TEST_CASE("Beyond the critical angle a film reflects the light that it would transmit") {
   const Surface film = painted(sheet(0.3, 0.5, 1.0));
   const double critical = std::asin(1.0 / 1.82);
   check_shares(shares_of(film, Side::inside, critical - 0.02, {1.82, 1.0}), 0.3, 0.5);
   check_shares(shares_of(film, Side::inside, critical + 0.02, {1.82, 1.0}), 0.8, 0.0);
 }
 
-TEST_CASE("What passes a diffuser leaves by Lambert's law; from the denser side by the share n^2 less") {
+TEST_CASE("Light through a diffuser leaves by Lambert's law; from the denser side by the share n^2 less") {
   const Surface diffuser = painted(sheet(0.3, 0.5, 0.0));
   check_shares(shares_of(diffuser, Side::outside, 0.4, {1.82, 1.0}), 0.3, 0.5);
   const double out = 0.5 / (1.82 * 1.82);
@@ -149,7 +150,7 @@ TEST_CASE("A leaking mirror behind a gap: the geometric series of passes through
   CHECK(sigmas(binomial_estimate(absorbed, kSheetRays), {0.1 * arriving_share, 0.0}) < kSigmas);
 }
 
-TEST_CASE("A volume-like sheet lets light through its binder, refracted at both faces") {
+TEST_CASE("A volume-like sheet transmits light through its binder, refracted at both faces") {
   // Within, d is the diffuse transmittance of a face. Light scattered to a face leaves with d, else comes
   // back to the volume from that face: a = r d + (r u + t v)(1 - d) ... solved for the shares u, v that leave
   // in the end by the face it came from and by the other one.
@@ -168,7 +169,7 @@ TEST_CASE("A volume-like sheet lets light through its binder, refracted at both 
                  (1.0 - rf) * 0.5 * (sum - difference));
 }
 
-TEST_CASE("Two faces of a sheet reflect and let through together what the sheet does") {
+TEST_CASE("Two faces of a sheet together reflect and transmit what the sheet does") {
   for (const auto& [r, t] : {std::pair{0.95, 0.03}, std::pair{0.2, 0.8}, std::pair{0.0, 0.5}}) {
     const Reflector face = face_of_sheet(sheet(r, t, 0.0));
     const double rf = face.reflectance(420.0), tf = (*face.transmittance)(420.0);

@@ -40,7 +40,7 @@ TEST_CASE("A mirror behind a gap: the geometric series of passes through the fac
 }
 
 TEST_CASE("A Lambertian reflector behind a gap: the series with the diffuse reflectance from outside") {
-  // First meeting 1 - R; each return meets the face with the diffuse reflectance R21 = 0.136763.
+  // First interaction 1 - R; each return is incident on the face with the diffuse reflectance R21 = 0.136763.
   Surface stack;
   stack.reflector = Reflector{"paper", Curve::constant(0.9), 0.0};
   const double r = fresnel(1.0, 1.82, 1.0).unpolarised(), r21 = 0.136763;

@@ -15,7 +15,7 @@ using namespace scintray::test;
 
 namespace {
 
-/// Mean facet angle met at normal incidence, from the direction of mirror reflections at a facet that
+/// Mean visible facet angle at normal incidence, from the direction of mirror reflections at a facet that
 /// reflects all light (a huge index step makes the reflectance nearly 1 there).
 Estimate mean_facet_angle(const UnifiedSurface& surface) {
   Moments angle;
@@ -84,7 +84,7 @@ TEST_CASE("Without roughness UNIFIED is the smooth surface") {
                {fresnel(std::cos(angle), 1.82, 1.0).unpolarised(), 0.0}) < kSigmas);
 }
 
-TEST_CASE("Spike, lobe, backscatter and Lambertian shares are what is asked for") {
+TEST_CASE("Spike, lobe, backscatter and Lambertian shares are those of the settings") {
   UnifiedSurface surface;
   surface.sigma_alpha_rad = 5.0 * kDegree;
   surface.spike = 0.3;

@@ -92,7 +92,7 @@ TEST_CASE("roofs of one slope: projected-area weights, and one Fresnel reflectio
     CHECK(std::abs(static_cast<double>(reflected) / kRays - p) <= 4.0 * std::sqrt(p * (1.0 - p) / kRays));
   }
 
-  SUBCASE("oblique incidence: facets are met in the ratio of the areas the beam sees") {
+  SUBCASE("oblique incidence: facets are hit in the ratio of their areas projected along the beam") {
     const double incidence = 50.0 * kDegree;
     // Bent by a slightly denser medium: by (n2/n1 - 1) tan(angle to the facet's normal), which is
     // 40 deg on one slope and 60 deg on the other.
@@ -139,7 +139,7 @@ TEST_CASE("whatever the relief, a ray's side and its direction agree, on both si
   CHECK(without_facet == 0);
 }
 
-TEST_CASE("a vertical ray along pixel edges and a ray in the mean plane are followed too") {
+TEST_CASE("a vertical ray along pixel edges and a ray in the mean plane are traced too") {
   const HeightField field = roofs(0.2);
   for (const Side side : {Side::inside, Side::outside}) {
     Rng rng(15, StreamKind::other, 0);

@@ -62,7 +62,7 @@ TEST_CASE("reflectance is linear between nodes and exact at them") {
   CHECK(table.reflectance(Side::outside, 45 * kDegree) == doctest::Approx(0.4));
 }
 
-TEST_CASE("quantiles of the cosine law give the cosine law back, in both media") {
+TEST_CASE("quantiles of the cosine law reproduce the cosine law, in both media") {
   const SurfaceTable table = sample_table();
   const Vec3 normal = Vec3(0.3, -0.5, 0.7).normalized();
   const Frame frame = Frame::about(normal);
@@ -88,8 +88,7 @@ TEST_CASE("quantiles of the cosine law give the cosine law back, in both media")
   CHECK(chi_square_test(counts, expected).p_value > 1e-4);  // one false alarm in 10,000 seeds
 }
 
-TEST_CASE(
-    "light is sent where the quantiles say: exactly forward and back, elsewhere within 16 bits of azimuth") {
+TEST_CASE("light leaves by the quantiles: exactly forward and back, elsewhere within 16 bits of azimuth") {
   const Vec3 normal = Vec3(0.3, -0.5, 0.7).normalized();
   const Frame frame = Frame::about(normal);
   constexpr double kPolar = 0.7, kIncidence = 0.4;
@@ -169,7 +168,7 @@ TEST_CASE("tables that cannot be are refused, with every fault named") {
   CHECK_THROWS_AS(SurfaceTable({1.8, 1.0}, {mute, node(90, 1)}, {node(0, 0.1), node(90, 1)}, {}), InputError);
 }
 
-TEST_CASE("a table file gives the same table back") {
+TEST_CASE("a table is read back from its file unchanged") {
   const auto path = test::scratch_folder("table_round_trip") / "table.h5";
   const SurfaceTable table = sample_table();
   write_table(path, table);
@@ -191,7 +190,7 @@ TEST_CASE("a table file gives the same table back") {
   }
 }
 
-TEST_CASE("a table file of another version is refused by a message that names both and says rebuild") {
+TEST_CASE("a table file of another version is refused with both versions and the advice to rebuild") {
   const auto path = test::scratch_folder("table_version") / "table.h5";
   h5::File file = h5::File::create(path);
   h5::Group root = file.root();

@@ -64,7 +64,7 @@ std::vector<Problem> scene_problems(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("A beam falls into the pixel, the time, the path and the angle that geometry says") {
+TEST_CASE("A beam falls into the pixel, the time, the path and the angle of the geometry") {
   // From (-1.5, 0.5, 3) along (3, 0, -4)/5: reaches z = 0 at x = 0.75 after 3.75 mm, crossing x = 0.
   const Traced traced = trace(kTwoBlocks + beam(R"(["-1.5 mm", "0.5 mm", "3 mm"])", "[3, 0, -4]") + R"(
 [[tally]]
@@ -168,7 +168,7 @@ axes = [{ variable = "occasion" }]
   CHECK(tally_of(traced, 7).sum == std::vector<double>{detected, escaped});
 }
 
-TEST_CASE("The ledger of faces accounts for every meeting, and each first and last once a photon") {
+TEST_CASE("The ledger of faces accounts for every interaction, and each first and last once a photon") {
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -226,7 +226,7 @@ axes = [{ variable = "interactions", from = 0, to = 1100, bins = 1 }]
   CHECK(total(tally_of(traced, 3)) > total(tally_of(traced, 1)));
 }
 
-TEST_CASE("What lies beyond the axes is counted as such") {
+TEST_CASE("Scores beyond the axes are counted as such") {
   const Traced traced = trace(kTwoBlocks + beam(R"(["-1 mm", "0 mm", "1 mm"])", "[0, 0, -1]") + R"(
 [[tally]]
 type = "count"
@@ -263,7 +263,7 @@ TEST_CASE("Light of all parts that a pattern names is uniform over their volume"
   CHECK(total(tally_of(traced, 1)) == static_cast<double>(traced.result.count(Fate::detected)));
 }
 
-TEST_CASE("Tallies that cannot be are refused with what there is") {
+TEST_CASE("Impossible tallies are refused with the possible names") {
   const auto refused = [&](const std::string& tally) {
     const std::vector<Problem> found = scene_problems(kTwoBlocks + kIsotropic + "[[tally]]\n" + tally);
     std::string text;

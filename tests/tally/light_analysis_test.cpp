@@ -92,7 +92,7 @@ TEST_CASE("A cone of half the sine fills a quarter of the etendue") {
   check_law("etendue of a cone", etendue.filled_mm2_sr, {expected, 0.0});
 }
 
-TEST_CASE("A tally of another kind says so") {
+TEST_CASE("A tally of another kind is refused with its kind") {
   const Traced traced = trace(lambertian(2.0, "[[tally]]\ntype = \"ledger\"\nname = \"L\"\n"));
   CHECK_THROWS_WITH_AS(read_etendue(traced.result.tallies[0]), doctest::Contains("is no etendue"),
                        InputError);

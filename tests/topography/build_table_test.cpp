@@ -221,7 +221,7 @@ TEST_CASE("table and map traced on the spot agree in reflectance and in directio
     }
 }
 
-TEST_CASE("a table in the making can be stopped, and wrong settings are refused") {
+TEST_CASE("the build of a table can be stopped, and wrong settings are refused") {
   CHECK_THROWS_AS(build_table(ground(), kCrystalInAir, quick(), {}, [](double) { return false; }),
                   TableStopped);
   TableSettings settings = quick();

@@ -53,7 +53,7 @@ TEST_CASE("a fit finds rise, exponent and relief for two slopes and a height, fo
   }
 }
 
-TEST_CASE("a fit to the mean of several seeds shows the target on their mean") {
+TEST_CASE("a fit to the mean of several seeds has the target on their mean") {
   const SynthesisRecipe fitted = fit_recipe(small(polished_recipe()), {2.0 * kDegree, 0.0, 0.0, 3});
   double sum = 0.0;
   for (SynthesisRecipe one = fitted; one.seed < fitted.seed + 3; ++one.seed)
@@ -76,7 +76,7 @@ TEST_CASE("targets that a recipe has no part for, or cannot reach, are refused")
         std::string::npos);
   CHECK(complaint(polished_recipe(), {0.0}).find("normal incidence") != std::string::npos);
   CHECK(complaint({}, {2.0 * kDegree}).find("neither a fracture") != std::string::npos);
-  // Grazing light meets steeper facets than light from straight above.
+  // Grazing light hits steeper facets than light of normal incidence.
   CHECK(complaint(ground_recipe(), {18.0 * kDegree, 10.0 * kDegree}).find("not to the targets") !=
         std::string::npos);
 }

@@ -13,7 +13,7 @@ using namespace scintray::core;
 using namespace scintray::optics;
 using namespace scintray::topography;
 
-TEST_CASE("a transform and its inverse give the map back, at even, odd and prime sizes; Parseval holds") {
+TEST_CASE("a transform and its inverse reproduce the map, at even, odd and prime sizes; Parseval holds") {
   for (const auto& size : {std::pair{8u, 6u}, {7u, 5u}, {6u, 13u}, {1u, 4u}, {13u, 1u}}) {
     const auto& columns = size.first;
     const auto& rows = size.second;

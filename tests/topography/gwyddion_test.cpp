@@ -53,14 +53,14 @@ TEST_CASE("a format that only Gwyddion knows is read through it") {
   CHECK(map.steps[0].find("converted by Gwyddion") != std::string::npos);
 }
 
-TEST_CASE("what Gwyddion does not know either is refused with a hint that says so") {
+TEST_CASE("a file that Gwyddion does not know either is refused with a hint") {
   if (!gwyddion_is_here()) return;
   CHECK(complaint(written("junk", "\x89 no height map")).find("Gwyddion does not read it either") !=
         std::string::npos);
   CHECK(complaint(written("-h --version; echo", "\x89 no height map")).find("either") != std::string::npos);
 }
 
-TEST_CASE("without the program, the hint says that it would be asked") {
+TEST_CASE("without the program, the hint is to install it") {
   const std::string path = std::getenv("PATH") ? std::getenv("PATH") : "";
   setenv("PATH", test::scratch_folder("no_programs").c_str(), 1);
   const std::string text = complaint(written("map2.bcr", bcrstm_file()));

@@ -49,7 +49,7 @@ TEST_CASE("a simple field is read as it was written") {
     CHECK(map.heights_um[k] == doctest::Approx(ramp().heights_um[k]).epsilon(1e-6));
 }
 
-TEST_CASE("simple fields that lie about their size, or lack a pixel, are refused") {
+TEST_CASE("simple fields of a wrong size, or that lack a pixel, are refused") {
   const auto path = written("cut.gsf", "");
   write_gsf(path, ramp());
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 4);
@@ -62,7 +62,7 @@ TEST_CASE("simple fields that lie about their size, or lack a pixel, are refused
                  "XRes is missing"));
 }
 
-TEST_CASE("missing points are kept as such, counted, and refused where light is to meet the map") {
+TEST_CASE("missing points are kept as such, counted, and refused where light interacts with the map") {
   HeightMap holed = ramp();
   holed.at(3, 1) = holed.at(4, 2) = std::nan("");
   const auto path = written("nan.gsf", "");
@@ -121,7 +121,7 @@ TEST_CASE("a profiler's matrix is read with its conversion factor, also compress
   CHECK(contains(complaint(written("vast.txt", "h=1e300" + text.substr(3))), "the header says 3 x 1e+300"));
 }
 
-TEST_CASE("units are asked for, never guessed") {
+TEST_CASE("units are required, never guessed") {
   const auto path = written("bare.txt", "1 2\n3 4\n");
   try {
     read_height_map(path);
@@ -154,7 +154,7 @@ TEST_CASE("text that is no height map is refused with its place") {
   CHECK(contains(complaint("no/such/file.gsf"), "no such file"));
 }
 
-TEST_CASE("levelling takes off exactly the surface that was put on") {
+TEST_CASE("levelling subtracts exactly the surface that was added") {
   HeightMap map = ramp();
   map.columns = map.rows = 12;
   map.heights_um.clear();

@@ -53,8 +53,7 @@ TEST_CASE("a plane's slope is its angle, all over") {
   CHECK(s.slope_histogram[static_cast<std::size_t>(angle / kDegree)] == doctest::Approx(1.0));
 }
 
-TEST_CASE(
-    "a Gaussian surface has Ssk 0 and Sku 3, and loses slope over two pitches as its correlation says") {
+TEST_CASE("a Gaussian surface has Ssk 0 and Sku 3, and loses slope over two pitches by its correlation") {
   constexpr double kLength = 1.0, kPitch = 0.175;
   SynthesisRecipe recipe;
   recipe.gaussian.rms_height_um = 0.4;

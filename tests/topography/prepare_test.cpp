@@ -59,7 +59,7 @@ TEST_CASE("LOESS is the tricube-weighted local regression, at ends and gaps too"
   CHECK(map.steps.back() == "LOESS along lines, width 4.3 um");
 }
 
-TEST_CASE("LOESS keeps a slope and takes away a tip's oscillation by its transfer function") {
+TEST_CASE("LOESS keeps a slope and damps a tip's oscillation by its transfer function") {
   constexpr double kPitch = 0.175, kPeriod = 1.05, kWidth = 3.0;  // six points a period
   HeightMap map = test::map_of(
       300, 1, kPitch, [&](double x, double) { return 0.2 * x + 0.05 * std::sin(kTwoPi * x / kPeriod); });
@@ -79,7 +79,7 @@ TEST_CASE("LOESS keeps a slope and takes away a tip's oscillation by its transfe
   }
 }
 
-TEST_CASE("levelling fits the points that are there, and says when they do not settle the polynomial") {
+TEST_CASE("levelling fits the points that are there, and refuses when they do not determine the polynomial") {
   const auto curve = [](double x, double y) { return 3.0 + 0.2 * x - 0.1 * y + 0.01 * x * y - 0.03 * y * y; };
   HeightMap map = test::map_of(30, 20, 1.0, curve);
   Rng rng(8, StreamKind::other, 0);

@@ -126,7 +126,7 @@ TEST_CASE("a published scan with missing points keeps them, and is refused where
   CHECK_THROWS_AS(make_height_field(*map), InputError);
 }
 
-TEST_CASE("published files without units ask for them") {
+TEST_CASE("published files without units require them") {
   for (const char* name : {"10x10-one_channel_without_name.ibw", "gwyfile-test.gwy", "xyz-1.txt"}) {
     CAPTURE(name);
     const auto path = test::shared_file(std::string("data/topography/") + name);

@@ -79,7 +79,7 @@ TEST_CASE("a .gwy of either version is read, in metres whatever prefix its unit 
     }
 }
 
-TEST_CASE("a .gwy without units asks for them; a mask is left alone and noted") {
+TEST_CASE("a .gwy without units requires them; a mask is left alone and noted") {
   MadeUpGwy made;
   made.lateral_unit = made.channels[0].unit = "";
   CHECK(contains(complaint_about(gwy_file(made)), "--width"));
@@ -94,7 +94,7 @@ TEST_CASE("a .gwy without units asks for them; a mask is left alone and noted") 
   CHECK(map.steps.back() == "the mask in the file was not applied");
 }
 
-TEST_CASE("a .gwy that lies or is cut is refused") {
+TEST_CASE("a .gwy that contradicts itself or is cut is refused") {
   const std::string good = gwy_file();
   for (std::size_t size = 4; size < good.size(); ++size) {
     CAPTURE(size);
@@ -157,7 +157,7 @@ TEST_CASE("without a name, the sensor's height goes before the height, and forwa
   CHECK(contains(complaint_about(twice, channel("Height")), "\"Height (Retrace)\", \"Height (Trace)\""));
 }
 
-TEST_CASE("an Igor wave is read, with Asylum's channel names and what they say of units") {
+TEST_CASE("an Igor wave is read, with Asylum's channel names and the units that follow from them") {
   MadeUpIbw made;
   check_made_up(read(ibw_file(made)));
   CHECK(contains(read(ibw_file(made)).steps[0], "channel \"HeightRetrace\" of 2"));
@@ -176,7 +176,7 @@ TEST_CASE("an Igor wave is read, with Asylum's channel names and what they say o
   check_made_up(read(ibw_file(made), width));  // the ratio of the pitches is known
 }
 
-TEST_CASE("Igor waves that are no images, or lie about their size, are refused") {
+TEST_CASE("Igor waves that are no images, or of a wrong size, are refused") {
   const std::string good = ibw_file();
   const auto with = [&](std::size_t at, const std::string& bytes) {
     std::string file = good;
@@ -195,7 +195,7 @@ TEST_CASE("Igor waves that are no images, or lie about their size, are refused")
   CHECK(contains(complaint_about(with(148, bytes_of(0.0))), "distance of points"));
 }
 
-TEST_CASE("Nanoscope files are read with 16 and 32 bits, and with 32 that are said to be 16") {
+TEST_CASE("Nanoscope files are read with 16 and 32 bits, and with 32 that are declared as 16") {
   MadeUpNanoscope made;
   check_made_up(read(nanoscope_file(made)), 1e-3);
   made.bytes = 4;
@@ -284,7 +284,7 @@ TEST_CASE("ISO 25178-72 archives are read with every number type, a folder level
   CHECK(std::isnan(map.heights_um[9]));
 }
 
-TEST_CASE("ISO 25178-72 archives that lack something, lie or are damaged are refused") {
+TEST_CASE("ISO 25178-72 archives that lack something, contradict themselves or are damaged are refused") {
   const std::string good = x3p_file();
   CHECK(contains(complaint_about(good.substr(0, good.size() - 30)), "damaged zip archive"));
   std::string flipped = good;
@@ -336,7 +336,7 @@ TEST_CASE("a packed file that unpacks to far more than a height map does is refu
   CHECK_FALSE(complaint_about(zip).empty());
 }
 
-TEST_CASE("an unknown format names those known and says what helps") {
+TEST_CASE("an unknown format is refused with the known ones and a hint") {
   const std::string text = complaint_about("\x89PNG\r\n\x1A\n not a height map");
   CHECK(contains(text, "format not known"));
   CHECK(contains(text, ".x3p"));

@@ -45,7 +45,7 @@ struct Reference {
 
 }  // namespace
 
-TEST_CASE("reflectance and slopes met agree with an independent tracing of two Gaussian maps") {
+TEST_CASE("reflectance and mean visible slopes agree with an independent tracing of two Gaussian maps") {
   constexpr std::array<double, 11> kIncidence{0, 10, 20, 30, 34.5, 39, 45.75, 50.25, 57, 61.5, 70.5};
   const std::array<Reference, 2> references{
       {{"tests/reference/microsurface/gaussian_rough.gsf",

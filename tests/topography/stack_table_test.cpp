@@ -87,7 +87,7 @@ TableSettings quick() {
 
 }  // namespace
 
-TEST_CASE("The table of a whole stack gives what the stack gives: reflected, absorbed, directions") {
+TEST_CASE("The table of a whole stack agrees with the stack: reflected, absorbed, directions") {
   Surface stack;
   stack.microsurface = rough_map();
   stack.gap_thickness_um = 20.0;
@@ -133,7 +133,7 @@ TEST_CASE("Between two wavelengths a table is their mean, beyond them the neares
   }
 }
 
-TEST_CASE("A directional table knows where light comes from and where it goes") {
+TEST_CASE("A directional table depends on the azimuth of incidence") {
   TableSettings settings = quick();
   settings.directional = true;
   settings.rays = 40'000;
@@ -163,7 +163,7 @@ TEST_CASE("A directional table knows where light comes from and where it goes") 
   CHECK(sigmas(binomial_estimate(up.outcomes[0], kRays), binomial_estimate(down.outcomes[0], kRays)) > 20.0);
 }
 
-TEST_CASE("Directions of a directional table are signed: light is thrown to the side it is thrown to") {
+TEST_CASE("Directions of a directional table are signed: light leaves on the side that it is reflected to") {
   TableSettings settings = quick();
   settings.directional = true;
   settings.rays = 40'000;
@@ -190,7 +190,8 @@ TEST_CASE("Directions of a directional table are signed: light is thrown to the 
   CHECK(std::abs(a.value - b.value) < kSigmas * std::hypot(a.error, b.error, 1.6 * a.error) + 0.01);
 }
 
-TEST_CASE("Rays are added until the stated error is reached, or the table says how many nodes missed it") {
+TEST_CASE(
+    "Rays are added until the stated error is reached, or the table has the number of nodes that missed it") {
   TableSettings settings = quick();
   settings.rays = 100;
   settings.refine = false;
@@ -210,7 +211,8 @@ TEST_CASE("Rays are added until the stated error is reached, or the table says h
   CHECK_THROWS_AS(build_table(*rough_map(), kIndex, settings), InputError);
 }
 
-TEST_CASE("A table made reciprocal is so exactly, keeps equilibrium, and says how far it was") {
+TEST_CASE(
+    "A table made reciprocal is so exactly, keeps equilibrium, and has its distance from the traced one") {
   TableSettings settings = quick();
   settings.reciprocal = true;
   const SurfaceTable table = build_table(*rough_map(), kIndex, settings);

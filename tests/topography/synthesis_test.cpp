@@ -22,7 +22,7 @@ double visible_slope_deg(const HeightField& field, Side side, double degrees) {
 }  // namespace
 
 TEST_CASE(
-    "the ground recipe meets 18 deg at normal and 35 deg at grazing incidence within +-3 um, any seed") {
+    "the ground recipe: 18 deg at normal and 35 deg at grazing incidence, within +-3 um, for any seed") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SynthesisRecipe recipe = ground_recipe();
     recipe.seed = seed;
@@ -42,7 +42,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the polished recipe meets 1.25 deg at any incidence within +-0.05 um") {
+TEST_CASE("the polished recipe: 1.25 deg at any incidence, within +-0.05 um") {
   const HeightMap map = synthesize(polished_recipe());
   const MapStatistics s = map_statistics(map);
   CHECK(s.highest_um < 0.056);  // about +-0.05
@@ -74,7 +74,7 @@ TEST_CASE("a recipe makes one map, and another seed another") {
   CHECK(synthesize(recipe).heights_um != map.heights_um);
 }
 
-TEST_CASE("a synthesized map goes on over its edges as it does inside") {
+TEST_CASE("a synthesized map continues over its edges as it does inside") {
   SynthesisRecipe recipe = ground_recipe();
   recipe.columns = recipe.rows = 180;
   const HeightMap map = synthesize(recipe);
@@ -127,7 +127,7 @@ TEST_CASE("saw marks have their lengths along and across, and their direction") 
   CHECK(*texture.str < 0.3);
 }
 
-TEST_CASE("scratches are as deep, as wide and as many as asked for, across the edges of the map too") {
+TEST_CASE("scratches have the depth, width and number that are set, across the edges of the map too") {
   SynthesisRecipe recipe;
   recipe.columns = recipe.rows = 400;
   recipe.pitch_um = 0.1;

@@ -40,7 +40,7 @@ double box_exit(const Vec3& p, const Vec3& d, const Vec3& low, const Vec3& high)
 
 }  // namespace
 
-TEST_CASE("Planes and Embree give the closed-form exit of a box, also from its own walls and edges") {
+TEST_CASE("Planes and Embree find the closed-form exit of a box, also from its own walls and edges") {
   const Vec3 low(-1, -1, -10), high(1, 1, 10);
   const TriMesh box = make_box(low, high);
   const auto triangles = triangles_of(box);
@@ -69,7 +69,7 @@ TEST_CASE("Planes and Embree give the closed-form exit of a box, also from its o
   }
 }
 
-TEST_CASE("No ray leaves a closed body unseen, however fine or slender its triangles") {
+TEST_CASE("No ray leaves a closed body without a hit, however fine or slender its triangles") {
   // Photons bounce diffusely inside; each position must stay within rounding of the body.
   struct Body {
     const char* name;
@@ -103,7 +103,7 @@ TEST_CASE("No ray leaves a closed body unseen, however fine or slender its trian
   }
 }
 
-TEST_CASE("From the ambient region rays meet the outside of a body or go to infinity") {
+TEST_CASE("From the ambient region rays hit the outside of a body or go to infinity") {
   const auto triangles = triangles_of(make_box({-1, -1, -1}, {1, 1, 1}), true);
   const Accelerator ambient(triangles, numbered(triangles.size()), false, AcceleratorKind::automatic);
   CHECK_FALSE(ambient.uses_planes());
@@ -112,7 +112,7 @@ TEST_CASE("From the ambient region rays meet the outside of a body or go to infi
   REQUIRE(hit.triangle != kNoTriangle);
   CHECK(hit.distance_mm == doctest::Approx(4.0).epsilon(1e-12));
   CHECK(ambient.normal(hit.triangle).z() == doctest::Approx(-1.0));
-  // From its surface outwards: not met again.
+  // From its surface outwards: not hit again.
   CHECK(ambient.find_exit({0.2, 0.3, 1}, Vec3(0.6, 0, 0.8)).triangle == kNoTriangle);
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("Results are the same to the last bit for 1, 2 and 7 threads") {
   check_same(one, trace(kScene, 7).result);
 }
 
-TEST_CASE("A photon from the list can be followed again to the same end") {
+TEST_CASE("A photon from the list can be traced again to the same fate") {
   SceneSpec spec = scene_spec(kScene);
   spec.run.photon_list = true;
   const auto point = ready(std::move(spec));
@@ -92,7 +92,7 @@ TEST_CASE("A photon from the list can be followed again to the same end") {
   }
 }
 
-TEST_CASE("A stopped run keeps whole blocks and says that it is partial") {
+TEST_CASE("A stopped run keeps whole blocks and is marked as partial") {
   SceneSpec spec = scene_spec(kScene);
   spec.run.threads = 1;
   std::atomic<bool> stop{false};

@@ -147,7 +147,7 @@ sensor = "perfect"
   }
 }
 
-TEST_CASE("Energy where nothing makes light is refused in words") {
+TEST_CASE("Energy outside scintillators is refused with the reason") {
   const std::string glass = R"(
 ambient = "vacuum"
 [[part]]

@@ -115,7 +115,7 @@ void check_same(const Photon& a, const Photon& b) {
 
 }  // namespace
 
-TEST_CASE("A scene and a photon that were copied as bytes go on to the same bits") {
+TEST_CASE("A scene and a photon that were copied as bytes continue to the same bits") {
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
     const SceneSpec spec = scene_spec(mixed_scene(accelerator));

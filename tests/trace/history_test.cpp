@@ -190,7 +190,7 @@ fraction = 1.0
   CHECK(shifted > followed.photons.size() / 4);
 }
 
-TEST_CASE("A reflector that lets light through is named, and its reflections are not recorded") {
+TEST_CASE("A reflector that transmits light is named, and its reflections are not recorded") {
   std::string text = kWrappedPair;
   const std::string value = "reflectance = { value = 0.9 }";
   text.replace(text.find(value), value.size(), value + "\ntransmittance = { value = 0.05 }");

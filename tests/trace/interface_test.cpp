@@ -43,7 +43,7 @@ photons = 100_000
 
 }  // namespace
 
-TEST_CASE("A bonded contact of equal media lets all light through") {
+TEST_CASE("A bonded contact of equal media transmits all light") {
   CHECK(trace(slabs("bonded")).result.count(Fate::detected) == 100'000);
 }
 
@@ -77,7 +77,7 @@ photons = 20_000
   CHECK(traced.result.count(Fate::escaped) > 0);
 }
 
-TEST_CASE("An opaque part takes all light that meets it bare") {
+TEST_CASE("An opaque part absorbs all light that is incident on it bare") {
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -123,7 +123,7 @@ photons = 10
                        doctest::Contains("no light from the source can reach sensor \"eye\""), InputError);
 }
 
-TEST_CASE("A mixture, and a layer on a smooth face, are met in scenes and not taken for a bare face") {
+TEST_CASE("A mixture, and a layer on a smooth face, act in scenes and are not taken for a bare face") {
   // A beam leaves a box of vacuum through one face: what is lost is lost there.
   const auto box = [](const std::string& surface) {
     return R"(

@@ -73,7 +73,7 @@ struct TwoBodies {
 
 }  // namespace
 
-TEST_CASE("A photon that passes over total reflections goes the way of one that stops at each") {
+TEST_CASE("Propagation through total reflections has the path of one that stops at each") {
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
     const TwoBodies scene(accelerator);
@@ -102,7 +102,7 @@ TEST_CASE("A photon that passes over total reflections goes the way of one that 
   }
 }
 
-TEST_CASE("Who is told of the reflections passed is told of all, and changes nothing") {
+TEST_CASE("Recording the reflections passed records all of them, and changes nothing") {
   for (const std::string accelerator : {"auto", "embree"}) {
     CAPTURE(accelerator);
     const TwoBodies scene(accelerator);
@@ -120,7 +120,7 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
         CHECK(passed.segments == 1);
         CHECK(photon.path_mm >= path_mm);
         path_mm = photon.path_mm;
-        // It is at the boundary that it was told of, on its way back.
+        // It is at the boundary that was recorded, moving away from it.
         const Region& region = scene.built.scene.regions[photon.region];
         const Vec3 normal = scene.built.scene.normal(region, passed.triangle);
         CHECK(photon.ray.direction.dot(normal) == doctest::Approx(-passed.cos_after).epsilon(1e-9));
@@ -149,7 +149,7 @@ TEST_CASE("Who is told of the reflections passed is told of all, and changes not
   }
 }
 
-TEST_CASE("A flight ends at the reflection that reaches a limit, and no sooner") {
+TEST_CASE("Propagation ends at the reflection that reaches a limit, and no sooner") {
   const TwoBodies scene("embree");
   std::uint64_t by_count = 0, by_time = 0;
   for (std::uint64_t i = 0; i < 1'000; ++i) {

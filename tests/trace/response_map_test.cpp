@@ -58,7 +58,7 @@ double probability_at(const ResponseMap& map, const Vec3& position) {
 
 }  // namespace
 
-TEST_CASE("A map and events from it are the same to the last bit for 1, 2 and 7 threads") {
+TEST_CASE("A response map and events from it are the same to the last bit for 1, 2 and 7 threads") {
   const MappedScene scene(two_ends(6.0, placed(600)));
   const ResponseSettings fineness{2.0, 400, 16};
   const ResponseMap one = scene.map(fineness, 1);
@@ -74,7 +74,7 @@ TEST_CASE("A map and events from it are the same to the last bit for 1, 2 and 7 
   }
 }
 
-TEST_CASE("Events from a map have the deposits and emitted photons of traced ones") {
+TEST_CASE("Events from a response map have the deposits and emitted photons of traced ones") {
   const MappedScene scene(two_ends(6.0, placed(20)));
   const std::vector<EventRecord> traced = scene.traced(), mapped = scene.mapped(scene.map({2.0, 400, 16}));
   REQUIRE(traced.size() == mapped.size());
@@ -170,7 +170,7 @@ sensor = "perfect"
   CHECK(nearest_empty > 4.0 - half_diagonal);
 }
 
-TEST_CASE("Maps that cannot be are refused in words") {
+TEST_CASE("Impossible response maps are refused with the reason") {
   const MappedScene scene(two_ends(6.0, placed(1)));
   const auto refusal = [&](const ResponseSettings& fineness) {
     return complaint_of([&] { scene.map(fineness); });

@@ -1,4 +1,4 @@
-// What a program that uses the installed library looks like: a photon meets a polished crystal face.
+// A program that uses the installed library: a photon interacts with a polished crystal face.
 
 #include <cmath>
 #include <iostream>
