@@ -51,4 +51,10 @@ struct Assembly {
 /// parts that do not touch, and shared faces whose two surfaces disagree.
 Scene assemble(const Assembly& assembly);
 
+/// Fills scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i].
+/// Regions whose boundaries are equal in their parts' own frames, and lead to the same pattern of
+/// interfaces, share one accelerator.
+void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                   const std::vector<std::uint32_t>& interface_of, Scene& scene);
+
 }  // namespace scintray::scene
