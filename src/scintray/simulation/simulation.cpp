@@ -66,8 +66,8 @@ std::shared_ptr<const SimulationPoint> Simulation::point(std::size_t point) {
     built = std::make_shared<const scene::BuiltScene>(builder_.build(spec));
     ++built_;
   }
-  auto made = std::make_shared<const SimulationPoint>(std::move(spec), built,
-                                                      static_cast<std::uint32_t>(point));
+  auto made =
+      std::make_shared<const SimulationPoint>(std::move(spec), built, static_cast<std::uint32_t>(point));
   if (!shared) keep(built);
   kept_[point] = made;
   return made;

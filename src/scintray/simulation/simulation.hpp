@@ -40,8 +40,9 @@ struct SimulationHooks {
 
 /// A scene with its sweep, and all that is needed to trace it. Each point is built once (within
 /// SimulationOptions::most_triangles_kept), points that differ only in their source, run settings and tallies
-/// share one scene, each surface table is made once and each definition of the material database read once. Results depend on the scene and the options only, to the last bit: not on the number
-/// of threads, nor on which points were traced before. To be used by one thread at a time; traces with many.
+/// share one scene, each surface table is made once and each definition of the material database read once.
+/// Results depend on the scene and the options only, to the last bit: not on the number of threads, nor on
+/// which points were traced before. To be used by one thread at a time; traces with many.
 ///
 /// Indices of parts, faces, media and surfaces in results are those of header(), which names these of all
 /// points.
