@@ -13,6 +13,18 @@ using namespace scintray::tally;
 using namespace scintray::simulation;
 using namespace scintray::test;
 
+namespace {
+
+const std::string kLamp = R"(
+[source]
+type = "photons"
+position = ["0.5 mm", "0.5 mm", "2 mm"]
+wavelength = "420 nm"
+photons = 3_000
+)";
+
+}  // namespace
+
 TEST_CASE("Each point of a sweep is built once, whoever uses it, and released when it was traced") {
   Simulation simulation(scene_of(kCrystal + kPhotons + kSurfaceSweep));
   CHECK(simulation.points() == 3);
@@ -29,6 +41,38 @@ TEST_CASE("Each point of a sweep is built once, whoever uses it, and released wh
   CHECK(kept.use_count() == 1);
   simulation.point(1);
   CHECK(simulation.counts().scenes_built == 4);
+}
+
+TEST_CASE("Points that differ in their source only share one scene, with the results that each has alone") {
+  const SceneFile file = scene_of(kCrystal + kLamp + R"(
+[[sweep]]
+key = "source.position.z"
+values = ["1 mm", "2 mm", "3 mm"]
+)");
+  Simulation simulation(file);
+  simulation.build();
+  CHECK(simulation.counts().scenes_built == 1);
+  CHECK(simulation.point(0)->built() == simulation.point(2)->built());
+  const RunResult together = simulation.run_all();
+  CHECK(simulation.counts().scenes_built == 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Simulation alone(file);
+    const PointResult result = alone.run(i);
+    CHECK(result.fates == together.points[i].fates);
+    CHECK(result.segments == together.points[i].segments);
+  }
+  CHECK(together.points[0].fates != together.points[2].fates);
+}
+
+TEST_CASE("A source of light of other wavelengths has a scene of its own") {
+  Simulation simulation(scene_of(kCrystal + kLamp + R"(
+[[sweep]]
+key = "source.wavelength"
+values = ["420 nm", "430 nm", "420 nm"]
+)"));
+  simulation.build();
+  CHECK(simulation.counts().scenes_built == 2);
+  CHECK(simulation.point(0)->built() == simulation.point(2)->built());
 }
 
 TEST_CASE("Beyond the triangles that may be kept, points are built again with the same result") {

@@ -12,6 +12,7 @@ struct NameRef {
   std::string name;
   core::FileLocation where;
   bool empty() const { return name.empty(); }
+  bool operator==(const NameRef&) const = default;
 };
 
 }  // namespace scintray::config

@@ -44,6 +44,7 @@ struct TomlNode {
   TomlNode* find(const std::string& member);
   /// The value as it would be written, for headings and messages: 2 mm, ["1 mm", "2 mm"].
   std::string as_written() const;
+  bool operator==(const TomlNode&) const = default;
 };
 
 using TomlNodePtr = std::shared_ptr<const TomlNode>;

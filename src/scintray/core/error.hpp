@@ -19,6 +19,7 @@ struct FileLocation {
 
   /// "file:line:column", shortened to what is known; empty when nothing is.
   std::string text() const;
+  bool operator==(const FileLocation&) const = default;
 };
 
 /// One thing wrong with the input: where, what, and how to mend it.

@@ -40,6 +40,7 @@ struct ReadoutSpec {
   core::FileLocation where{};
 
   std::uint64_t samples() const { return static_cast<std::uint64_t>(std::llround(window_ns / period_ns)); }
+  bool operator==(const ReadoutSpec&) const = default;
 };
 
 }  // namespace scintray::detector

@@ -10,6 +10,7 @@ namespace scintray::mesh {
 struct Tessellation {
   double deviation_mm = 0.01;              ///< largest distance of a triangle from the face it stands for
   double angle_rad = 5.0 * core::kDegree;  ///< largest angle between neighbouring triangles or edges
+  bool operator==(const Tessellation&) const = default;
 };
 
 /// Segments of a circular arc that keep both limits: an arc of angle a over a chord deviates by

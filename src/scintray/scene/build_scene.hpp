@@ -42,6 +42,10 @@ class SceneBuilder {
   /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
   /// can reach.
   BuiltScene build(const scene_file::SceneSpec& spec);
+  /// True when a scene that was built from `of` is also that of `spec`: the two differ at most in their
+  /// source, run settings, tallies and analysis, and the light of both sources has the same wavelengths.
+  /// False where building `spec` would throw.
+  bool serves(const BuiltScene& built, const scene_file::SceneSpec& of, const scene_file::SceneSpec& spec);
 
   /// What makes its surfaces, and keeps them.
   materials::SurfaceFactory& surfaces() { return surface_factory_; }

@@ -1,33 +1,22 @@
 #include <algorithm>
 
 #include "scintray/scene/build_scene.hpp"
+#include "scintray/scene/detail/build_steps.hpp"
 
 namespace scintray::scene {
 
+bool same_definitions(const scene_file::InlineTables& a, const scene_file::InlineTables& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.first == other.first && (one.second == other.second || *one.second == *other.second);
+  });
+}
+
 namespace {
 
-bool same_place(const core::FileLocation& a, const core::FileLocation& b) {
-  return a.line == b.line && a.column == b.column && a.file == b.file;
-}
-
-/// The same value at the same place of the same file, so that messages are the same too.
-bool same_node(const config::TomlNode& a, const config::TomlNode& b) {
-  return a.kind == b.kind && a.key == b.key && a.text == b.text && a.number == b.number &&
-         a.integer == b.integer && a.boolean == b.boolean && same_place(a.where, b.where) &&
-         same_place(a.key_where, b.key_where) &&
-         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same_node);
-}
-
-bool same_definitions(const std::array<scene_file::InlineTables, 4>& a,
-                      const std::array<scene_file::InlineTables, 4>& b) {
+bool same_own_definitions(const std::array<scene_file::InlineTables, 4>& a,
+                          const std::array<scene_file::InlineTables, 4>& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
-                    [](const scene_file::InlineTables& one, const scene_file::InlineTables& other) {
-                      return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                                        [](const auto& x, const auto& y) {
-                                          return x.first == y.first &&
-                                                 (x.second == y.second || same_node(*x.second, *y.second));
-                                        });
-                    });
+                    [](const auto& one, const auto& other) { return same_definitions(one, other); });
 }
 
 }  // namespace
@@ -48,7 +37,7 @@ materials::MaterialDatabase database_for(const scene_file::SceneSpec& spec) {
 const materials::MaterialDatabase& SceneBuilder::database(const scene_file::SceneSpec& spec) {
   if (!shipped_) shipped_ = materials::MaterialDatabase::shipped();
   const OwnDefinitions own{spec.media, spec.surfaces, spec.sensors, spec.reflectors};
-  if (database_ && same_definitions(own, own_)) return *database_;
+  if (database_ && same_own_definitions(own, own_)) return *database_;
   database_ = shipped_;
   add_definitions(*database_, spec);
   own_ = own;

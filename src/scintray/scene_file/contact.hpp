@@ -33,6 +33,7 @@ struct ContactSpec {
   /// those within the scene's contact tolerance.
   std::optional<double> tolerance_mm;
   core::FileLocation where;
+  bool operator==(const ContactSpec&) const = default;
 };
 
 /// [[contact]] of a scene; `part_names` are those of all parts, `parts` those whose faces are known.

@@ -29,6 +29,7 @@ struct FaceSelectorSpec {
                                           ///< "-z" of a box, "side" of a cylinder
   mesh::FaceTags tags;                    ///< glTF extras, "color" of a CAD face
   core::FileLocation where;
+  bool operator==(const FaceSelectorSpec&) const = default;
 };
 
 /// What is special about some of a part's faces.
@@ -39,6 +40,7 @@ struct FaceRuleSpec {
   config::NameRef surface;  ///< empty: the part's
   config::NameRef sensor;   ///< light that crosses outwards here is detected by it
   core::FileLocation where;
+  bool operator==(const FaceRuleSpec&) const = default;
 };
 
 /// [[face]] of a part, an element or an override.

@@ -35,6 +35,7 @@ struct PartSpec {
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   core::FileLocation where;
+  bool operator==(const PartSpec&) const = default;
 };
 
 /// What a builder ([[array]], [[light_guide]]) made: parts that are placed as one body. The placement of
@@ -44,6 +45,7 @@ struct GroupSpec {
   std::size_t first = 0;  ///< index of its first part in SceneSpec::parts; the others follow
   std::size_t count = 0;
   PlacementSpec placement;
+  bool operator==(const GroupSpec&) const = default;
 };
 
 /// A definition written in the scene file, in the form of a file of the database, which parses it.

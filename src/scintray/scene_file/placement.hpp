@@ -17,6 +17,7 @@ struct RotationSpec {
   core::Vec3 axis = core::Vec3::UnitZ();  ///< unit vector
   double angle_rad = 0.0;                 ///< counter-clockwise seen against the axis
   core::FileLocation where;
+  bool operator==(const RotationSpec&) const = default;
 };
 
 /// A side of a bounding box.
@@ -36,6 +37,7 @@ struct TouchSpec {
   config::NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
                          ///< both bounding boxes, as thick as the gap. Empty: the gap is ambient
   core::FileLocation where;
+  bool operator==(const TouchSpec&) const = default;
 };
 
 /// Where a part goes: rotated (in order), then moved against another part, then translated.
@@ -43,6 +45,7 @@ struct PlacementSpec {
   std::vector<RotationSpec> rotate;
   std::optional<TouchSpec> touch;
   core::Vec3 translate = core::Vec3::Zero();  ///< mm
+  bool operator==(const PlacementSpec&) const = default;
 };
 
 /// rotate, place and translate; `earlier` are the names that may be touched.

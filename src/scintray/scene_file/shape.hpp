@@ -22,6 +22,7 @@ struct BoxSpec {
   core::Vec3 high = core::Vec3::Zero();
   double chamfer_mm = 0.0;  ///< of all edges, where the box is the shape of a part
   core::FileLocation where;
+  bool operator==(const BoxSpec&) const = default;
 };
 
 /// A mesh file, CAD or triangles.
@@ -32,6 +33,7 @@ struct MeshFileSpec {
   std::string body;                 ///< name or number of the one body of the file; empty: all together
   mesh::Tessellation tessellation;  ///< of a CAD file's curved faces
   core::FileLocation where;
+  bool operator==(const MeshFileSpec&) const = default;
 };
 
 /// A closed prism about the z axis, from z = 0 up.
@@ -40,6 +42,7 @@ struct CylinderSpec {
   double height_mm = 0.0;
   int segments = 64;  ///< flat sides
   core::FileLocation where;
+  bool operator==(const CylinderSpec&) const = default;
 };
 
 /// Regular prism about the z axis, from z = 0 up, first corner on +x.
@@ -49,6 +52,7 @@ struct PrismSpec {
   double height_mm = 0.0;
   double chamfer_mm = 0.0;
   core::FileLocation where;
+  bool operator==(const PrismSpec&) const = default;
 };
 
 /// Frustum between two rectangles, from z = 0 up.
@@ -56,12 +60,14 @@ struct TaperedSpec {
   mesh::Rectangle bottom, top;
   double height_mm = 0.0;
   core::FileLocation where;
+  bool operator==(const TaperedSpec&) const = default;
 };
 
 /// Compound parabolic concentrator, exit on z = 0.
 struct WinstonSpec {
   mesh::WinstonShape shape;
   core::FileLocation where;
+  bool operator==(const WinstonSpec&) const = default;
 };
 
 /// Geodesic sphere about the origin.
@@ -69,6 +75,7 @@ struct SphereSpec {
   double radius_mm = 0.0;  ///< of the sphere through the vertices
   int subdivisions = 16;   ///< 20 subdivisions^2 triangles
   core::FileLocation where;
+  bool operator==(const SphereSpec&) const = default;
 };
 
 using ShapeSpec =

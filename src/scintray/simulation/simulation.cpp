@@ -58,32 +58,52 @@ scene_file::SceneSpec Simulation::spec(std::size_t point) const {
 }
 
 std::shared_ptr<const SimulationPoint> Simulation::point(std::size_t point) {
-  if (point < points() && kept_[point].point) return kept_[point].point;
-  auto built =
-      std::make_shared<const SimulationPoint>(spec(point), builder_, static_cast<std::uint32_t>(point));
-  ++built_;
-  keep(point, built);
-  return built;
+  if (point < points() && kept_[point]) return kept_[point];
+  scene_file::SceneSpec spec = this->spec(point);
+  std::shared_ptr<const scene::BuiltScene> built = shared_scene(spec);
+  const bool shared = built != nullptr;
+  if (!shared) {
+    built = std::make_shared<const scene::BuiltScene>(builder_.build(spec));
+    ++built_;
+  }
+  auto made =
+      std::make_shared<const SimulationPoint>(std::move(spec), built, static_cast<std::uint32_t>(point));
+  if (!shared) keep(built);
+  kept_[point] = made;
+  return made;
 }
 
-void Simulation::keep(std::size_t number, std::shared_ptr<const SimulationPoint> point) {
-  const std::size_t triangles = triangles_of(*point->built());
-  const bool fits = triangles_ + triangles <= options_.most_triangles_kept;
-  if (!fits && beyond_) release(*beyond_);
-  kept_[number] = {std::move(point), triangles};
-  if (fits)
+std::shared_ptr<const scene::BuiltScene> Simulation::shared_scene(const scene_file::SceneSpec& spec) {
+  const scene::BuiltScene* tried = nullptr;
+  for (auto kept = kept_.rbegin(); kept != kept_.rend(); ++kept) {
+    if (!*kept || (*kept)->built().get() == tried) continue;
+    tried = (*kept)->built().get();
+    if (builder_.serves(*tried, (*kept)->spec(), spec)) return (*kept)->built();
+  }
+  return nullptr;
+}
+
+void Simulation::keep(const std::shared_ptr<const scene::BuiltScene>& built) {
+  const std::size_t triangles = triangles_of(*built);
+  if (triangles_ + triangles <= options_.most_triangles_kept) {
     triangles_ += triangles;
-  else
-    beyond_ = number;
+    return;
+  }
+  for (std::size_t i = 0; beyond_ && i < points(); ++i)
+    if (kept_[i] && kept_[i]->built() == beyond_) kept_[i].reset();
+  beyond_ = built;
 }
 
 void Simulation::release(std::size_t point) {
-  if (point >= points() || !kept_[point].point) return;
-  if (beyond_ == point)
+  if (point >= points() || !kept_[point]) return;
+  const std::shared_ptr<const scene::BuiltScene> built = kept_[point]->built();
+  kept_[point].reset();
+  const auto keeps_it = [&](const auto& kept) { return kept && kept->built() == built; };
+  if (std::any_of(kept_.begin(), kept_.end(), keeps_it)) return;
+  if (built == beyond_)
     beyond_.reset();
   else
-    triangles_ -= kept_[point].triangles;
-  kept_[point] = {};
+    triangles_ -= triangles_of(*built);
 }
 
 void Simulation::build(const SimulationHooks& hooks) {

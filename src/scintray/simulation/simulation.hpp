@@ -39,9 +39,10 @@ struct SimulationHooks {
 };
 
 /// A scene with its sweep, and all that is needed to trace it. Each point is built once (within
-/// SimulationOptions::most_triangles_kept), each surface table made once and each definition of the material
-/// database read once. Results depend on the scene and the options only, to the last bit: not on the number
-/// of threads, nor on which points were traced before. To be used by one thread at a time; traces with many.
+/// SimulationOptions::most_triangles_kept), points that differ only in their source, run settings and tallies
+/// share one scene, each surface table is made once and each definition of the material database read once.
+/// Results depend on the scene and the options only, to the last bit: not on the number of threads, nor on
+/// which points were traced before. To be used by one thread at a time; traces with many.
 ///
 /// Indices of parts, faces, media and surfaces in results are those of header(), which names these of all
 /// points.
@@ -103,14 +104,12 @@ class Simulation {
   Counts counts() const;
 
  private:
-  struct Kept {
-    std::shared_ptr<const SimulationPoint> point;
-    std::size_t triangles = 0;
-  };
   using Tracer = std::function<tally::PointResult(const SimulationPoint&, const RunHooks&)>;
 
   void expect_point(std::size_t point) const;
-  void keep(std::size_t number, std::shared_ptr<const SimulationPoint> point);
+  /// The scene of a kept point, where it is the same as that of `spec`; else nothing.
+  std::shared_ptr<const scene::BuiltScene> shared_scene(const scene_file::SceneSpec& spec);
+  void keep(const std::shared_ptr<const scene::BuiltScene>& built);
   void add_to_outline(const SimulationPoint& point);
   tally::PointResult trace(std::size_t number, const Tracer& tracer, ResultSink& sink,
                            const SimulationHooks& hooks);
@@ -120,9 +119,9 @@ class Simulation {
   scene_file::SceneSpec scene_;  ///< when there is no file
   SimulationOptions options_;
   scene::SceneBuilder builder_;
-  std::vector<Kept> kept_;
-  std::optional<std::size_t> beyond_;  ///< the one kept point that is beyond the limit
-  std::size_t triangles_ = 0;          ///< of the others
+  std::vector<std::shared_ptr<const SimulationPoint>> kept_;
+  std::shared_ptr<const scene::BuiltScene> beyond_;  ///< the one kept scene that is beyond the limit
+  std::size_t triangles_ = 0;                        ///< of the other scenes that are kept, each once
   std::size_t built_ = 0;
 
   bool all_built_ = false;

@@ -24,9 +24,10 @@ struct SimulationOptions {
   /// That mesh files of parts may have; outlives the simulation. Elements of arrays are of built-in formats:
   /// their size is needed when the scene file is read.
   const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();
-  /// Points of a sweep are kept from when they are built until they have been traced, as long as their parts
-  /// have no more triangles than this: a block of 12 x 12 crystals takes 3 MB. Of the points beyond only the
-  /// latest is kept, and the others are built again when they are traced.
+  /// Points of a sweep are kept from when they are built until they have been traced, as long as the parts of
+  /// their scenes, each scene counted once, have no more triangles than this: a block of 12 x 12 crystals
+  /// takes 3 MB. Of the scenes beyond only the latest is kept, and the others are built again when they are
+  /// traced.
   std::size_t most_triangles_kept = 2'000'000;
 };
 

@@ -26,6 +26,7 @@ TriMesh make_chamfered_box(const core::Vec3& low, const core::Vec3& high, double
 struct Rectangle {
   std::array<double, 2> size{};    ///< along x, y
   std::array<double, 2> centre{};  ///< x, y
+  bool operator==(const Rectangle&) const = default;
 };
 
 /// Frustum between a rectangle at z = 0 and one at `height`, also oblique. Groups as of make_box.
@@ -41,6 +42,7 @@ struct WinstonShape {
   double trough_width = 0.0;    ///< above 0: a two-dimensional trough of this width along y
   int segments = 64;            ///< flat sides about the axis of a cone
   int rings = 32;               ///< straight segments of the profile
+  bool operator==(const WinstonShape&) const = default;
 };
 
 /// Full length of a concentrator, (a + a') cot(theta) with a = a' / sin(theta), a' the exit's radius.

@@ -15,7 +15,12 @@ namespace scintray::scene {
 /// Wavelengths that photons of a scene can have, and the one tables are made for.
 struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
+  bool operator==(const WavelengthRange&) const = default;
 };
+
+/// True for the same names with the same values at the same places of the same file, so that messages are the
+/// same too.
+bool same_definitions(const scene_file::InlineTables& a, const scene_file::InlineTables& b);
 
 /// The wavelengths of the source, and above them those that wavelength shifters of the scene re-emit: in
 /// media, or in the gaps of surfaces, that its parts, faces or contacts name. Names that are not in the
