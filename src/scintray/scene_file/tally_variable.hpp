@@ -57,7 +57,7 @@ struct TallyVariable {
   std::string name;
   VariableKind kind = VariableKind::number;
   core::Dimension dimension = core::Dimension::dimensionless;  ///< of a number, which is in its internal unit
-  std::optional<double> low = {}, high = {};  ///< bounds that an axis has where the scene gives none
+  std::optional<double> low = {}, high = {};  ///< what it cannot lie beyond; ends of an axis by default
   bool along = false;       ///< measured along a direction of unit length, which the scene has to give
   bool spans_face = false;  ///< at a face, an axis without bounds has the face's extent
   bool at_face = false;     ///< there is none away from faces

@@ -108,8 +108,8 @@ std::uint32_t CountScorer::bin_of(const CountRequest& count, bool& named) const 
       continue;
     }
     double position = (axis.variable->number(view_, axis.along) - axis.low) * axis.per_bin;
-    if (axis.to_the_edge || axis.variable->at_face)  // ends that nothing can lie beyond
-      position = std::clamp(position, 0.0, std::nextafter(static_cast<double>(axis.bins), 0.0));
+    if (axis.ends_low) position = std::max(position, 0.0);
+    if (axis.ends_high) position = std::min(position, std::nextafter(static_cast<double>(axis.bins), 0.0));
     if (position >= 0.0 && position < axis.bins)
       bin += static_cast<std::uint32_t>(position);
     else

@@ -24,7 +24,9 @@ struct CountAxis {
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
-  bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
+  /// Nothing lies below or above: the end is the variable's own bound, or a face's, and what rounding carries
+  /// beyond it counts within.
+  bool ends_low = false, ends_high = false;
   /// Of names: bin of each place (TallyVariable::place), kNone where it has none.
   std::vector<std::int32_t> bin_of;
 };

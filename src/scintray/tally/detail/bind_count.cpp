@@ -163,11 +163,14 @@ class CountBinder {
     bound.along = axis.across_face ? core::face_axes(plane_normal())[static_cast<std::size_t>(axis.across)]
                                    : axis.along;
     double low = axis.low.value_or(0.0), high = axis.high.value_or(0.0);
+    bound.ends_low = axis.variable->low && axis.variable->low == axis.low;
+    bound.ends_high = axis.variable->high && axis.variable->high == axis.high;
     if (!axis.low || !axis.high) {
       const auto [least, most] = extent(bound.along);
       low = axis.low.value_or(least);
       high = axis.high.value_or(most);
-      bound.to_the_edge = true;
+      bound.ends_low = !axis.low;
+      bound.ends_high = !axis.high;
     }
     bound.bins = static_cast<std::uint32_t>(axis.bins);
     if (axis.pixel_mm) {
