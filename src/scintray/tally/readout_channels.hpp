@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/transport/step_record.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 

@@ -6,15 +6,13 @@ namespace scintray::tally {
 
 namespace {
 
-std::uint32_t find_face(const scene_file::ExitAngleTallySpec& spec, const scene::Scene& scene) {
-  const std::string wanted = spec.part.name + ":" + spec.face.name;
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
-    if (scene.faces[i].name == wanted) return i;
-    names.push_back(scene.faces[i].name);
-  }
-  throw core::unknown_name(spec.face.where.file.empty() ? spec.where : spec.face.where, "face", wanted,
-                           names);
+/// Total reflections count themselves, or something is measured that they change.
+bool needs_reflections(const scene_file::TallySpec& tally) {
+  const auto needs = [](const auto& measured) { return measured.variable->direction_before; };
+  return std::find(tally.at.begin(), tally.at.end(), core::StepEvent::reflected) != tally.at.end() ||
+         std::any_of(tally.axes.begin(), tally.axes.end(), needs) ||
+         std::any_of(tally.ranges.begin(), tally.ranges.end(), needs) ||
+         (tally.score && tally.score->direction_before);
 }
 
 /// Parts in which light is stated to start; empty: not stated by part.
@@ -33,8 +31,6 @@ std::vector<config::NameRef> source_parts(const scene_file::SceneSpec& spec) {
 TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec)
     : channels(scene), photon_list(spec.run.photon_list) {
   if (spec.run.photon_history) history.emplace(scene);
-  for (const scene_file::ExitAngleTallySpec& tally : spec.exit_angles)
-    exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
   bind_ways(scene);
   bind_readout(spec, scene);
   if (spec.tallies.empty()) return;
@@ -51,6 +47,7 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     events_of.push_back(events);
     for (const std::uint32_t face : faces_of(tally, scene))
       counts_of_face[face].emplace_back(number, tally.way);
+    follows_reflections = follows_reflections || needs_reflections(tally);
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
   }
   counts_at.resize(2 * scene.interfaces.size());
@@ -90,17 +87,12 @@ void TallyPlan::bind_readout(const scene_file::SceneSpec& spec, const scene::Sce
 
 void TallyPlan::bind_ways(const scene::Scene& scene) {
   const std::size_t ways = 2 * scene.interfaces.size();
-  exit_angles_at.resize(ways);
   sensor_faces.assign(ways, kNoSensor);
   for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
     const scene::Interface& interface = scene.interfaces[i];
     for (const bool from_back : {false, true}) {
       const std::size_t way = 2 * i + (from_back ? 1 : 0);
       const std::int32_t left_face = from_back ? interface.back_face : interface.front_face;
-      for (std::uint32_t tally = 0; tally < exit_angles.size(); ++tally)
-        if (left_face == static_cast<std::int32_t>(exit_angles[tally].face))
-          exit_angles_at[way].push_back(tally);
-
       const std::int32_t sensor = from_back ? interface.front_sensor : interface.back_sensor;
       if (sensor == scene::kNone) continue;
       const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;

@@ -18,29 +18,22 @@
 
 namespace scintray::tally {
 
-/// A histogram of crossing angles requested of a run.
-struct ExitAngleRequest {
-  std::string name;
-  std::uint32_t face = 0;  ///< scene-wide face id
-  bool detected_only = false;
-  int bins = 18;
-};
-
 /// An axis of a count, bound to the scene.
 struct CountAxis {
-  scene_file::TallyVariable variable = scene_file::TallyVariable::part;
+  scene_file::TallyVariablePtr variable;
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
-  bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
-  /// Of names: bin of each part, face or event, kNone where it has none. Parts are shifted by one:
-  /// the first is the ambient space.
+  /// Nothing lies below or above: the end is the variable's own bound, or a face's, and what rounding carries
+  /// beyond it counts within.
+  bool ends_low = false, ends_high = false;
+  /// Of names: bin of each place (TallyVariable::place), kNone where it has none.
   std::vector<std::int32_t> bin_of;
 };
 
 /// A condition on a number.
 struct CountRange {
-  scene_file::TallyVariable variable = scene_file::TallyVariable::wavelength;
+  scene_file::TallyVariablePtr variable;
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, high = 0.0;
 };
@@ -54,7 +47,7 @@ struct CountRequest {
   std::vector<bool> visited, not_visited;  ///< per region; empty: no condition
   std::uint32_t fates = 0;                 ///< bits of StepEvent; 0: any
   scene_file::TallyEach each = scene_file::TallyEach::time;
-  std::optional<scene_file::TallyVariable> score;
+  scene_file::TallyVariablePtr score;  ///< null: photons
 };
 
 struct TallyPlan {
@@ -62,11 +55,8 @@ struct TallyPlan {
   /// be: a grid on a face that is not flat, more bins than can be kept.
   TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
 
-  std::vector<ExitAngleRequest> exit_angles;
-  /// Per interface and way across it (index 2 * interface + from_back): tallies to fill, most have
-  /// none.
-  std::vector<std::vector<std::uint32_t>> exit_angles_at;
-  std::vector<std::uint32_t> sensor_faces;  ///< per interface and way: index into the result, or kNoSensor
+  /// Per interface and way across it (index 2 * interface + from_back): index into the result, or kNoSensor.
+  std::vector<std::uint32_t> sensor_faces;
   std::vector<SensorFaceCount> sensor_face_names;
   ReadoutChannels channels;
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
@@ -82,7 +72,8 @@ struct TallyPlan {
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
   /// Per event: counts that are bound to no face.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
-  bool follows_regions = false;  ///< some count needs which regions a photon visited
+  bool follows_regions = false;      ///< some count needs which regions a photon visited
+  bool follows_reflections = false;  ///< some count needs every total reflection that is passed
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested
