@@ -161,9 +161,10 @@ class AssemblyMaker {
     detector::Sensor sensor;
     try {
       sensor = database_.sensor(ref.name, ref.where);
-      materials::check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm,
-                             wavelengths_.high_nm, "sensor \"" + sensor.name + "\"", "an efficiency",
-                             "extend its efficiency table, with zeros where it does not respond");
+      materials::check_cover(problems_, ref.where,
+                             {sensor.efficiency, "sensor \"" + sensor.name + "\"", "an efficiency",
+                              "extend its efficiency table, with zeros where it does not respond"},
+                             wavelengths_.low_nm, wavelengths_.high_nm);
       check_pulse(sensor);
     } catch (const core::InputError& error) {
       problems_.add(error);
@@ -237,7 +238,6 @@ class AssemblyMaker {
   void find_surface(const config::NameRef& ref) {
     if (surfaces_.contains(ref.name)) return;
     materials::SurfaceSpec& spec = surfaces_[ref.name];
-    spec.microsurface = materials::SmoothSpec{};
     try {
       spec = database_.surface(ref.name, ref.where);
     } catch (const core::InputError& error) {
@@ -262,8 +262,7 @@ class AssemblyMaker {
 
   optics::Surface make_surface(const std::string& name, std::uint32_t inside, std::uint32_t outside,
                                std::vector<std::string>& warnings) {
-    materials::SurfaceSpec smooth;
-    smooth.microsurface = materials::SmoothSpec{};
+    const materials::SurfaceSpec smooth;
     const materials::SurfaceSpec& spec = name.empty() ? smooth : surfaces_.at(name);
     // An opaque part has no index: where light enters it the indices match.
     const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
@@ -380,10 +379,11 @@ bool same_definitions(const std::array<scene_file::InlineTables, 4>& a,
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks) : surface_factory_(std::move(hooks)) {}
+SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks, materials::DefinitionModels models)
+    : surface_factory_(std::move(hooks)), models_(std::move(models)) {}
 
 const materials::MaterialDatabase& SceneBuilder::database(const scene_file::SceneSpec& spec) {
-  if (!shipped_) shipped_ = materials::MaterialDatabase::shipped();
+  if (!shipped_) shipped_ = materials::MaterialDatabase::shipped(models_);
   const OwnDefinitions own{spec.media, spec.surfaces, spec.sensors, spec.reflectors};
   if (database_ && same_definitions(own, own_)) return *database_;
   database_ = shipped_;

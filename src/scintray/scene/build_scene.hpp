@@ -34,7 +34,8 @@ struct BuiltScene {
 /// of the material database are read once (Library).
 class SceneBuilder {
  public:
-  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {});
+  /// @param models  surface and sensor models that definitions may name
+  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {}, materials::DefinitionModels models = {});
 
   /// Throws InputError with every problem: unsound meshes, faces without or with two surfaces,
   /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
@@ -52,6 +53,7 @@ class SceneBuilder {
   using OwnDefinitions = std::array<scene_file::InlineTables, 4>;  ///< media, surfaces, sensors, reflectors
 
   materials::SurfaceFactory surface_factory_;
+  materials::DefinitionModels models_;
   std::optional<materials::MaterialDatabase> shipped_, database_;
   OwnDefinitions own_;  ///< of `database_`
 };

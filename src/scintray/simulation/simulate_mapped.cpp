@@ -89,6 +89,7 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
   run.threads = options.threads;
   run.seed = options.seed;
   run.surface_hooks = options.surface_hooks;
+  run.models = options.models;
   run.change = leave_photons_out;
   Simulation simulation(file, run);
   const auto point = simulation.point(0);

@@ -12,6 +12,7 @@ struct MapOptions {
   std::optional<std::uint64_t> seed;
   ResponseHooks hooks;
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
+  materials::DefinitionModels models;              ///< surface and sensor models that the scene may name
 };
 
 /// Builds the map of all parts that scintillate. The scene's [source] states whether light is polarised and,

@@ -143,8 +143,10 @@ InterfaceOutcome interact_at_interface(const scene::Scene& scene, const scene::I
     const optics::SurfaceOutcome outcome =
         surface.shifts()
             ? interact_with_shift(scene, interface, at_back, side, outward, index, photon, rng, records)
-            : surface.interact(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
-                               records ? records->reflection_log() : nullptr);
+            : surface.interact(photon.ray,
+                               {side, outward, index.around(at_back), photon.wavelength_nm,
+                                records ? records->reflection_log() : nullptr},
+                               rng);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
     if (outcome == optics::SurfaceOutcome::inside) return {!at_back, scene::kNone};
     if (!index.dry) return {at_back, scene::kNone};
