@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include "scintray/core/error.hpp"
+#include "scintray/optics/unified.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;

@@ -4,6 +4,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/optics/height_field.hpp"
+#include "scintray/optics/table.hpp"
+#include "scintray/optics/unified.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -83,8 +86,7 @@ none = true
   const SampleSurface goniometer =
       make_sample_surface(database, factory, {"half", "LSO", "air", 420.0}, true);
   REQUIRE(goniometer.surface.mixture.size() == 2);
-  using Map = std::shared_ptr<const HeightField>;
-  CHECK(std::holds_alternative<Map>(goniometer.surface.mixture.front().surface->microsurface));
+  CHECK(goniometer.surface.mixture.front().surface->microsurface.get_if<HeightField>() != nullptr);
   CHECK_THROWS_AS(mean_visible_slope(goniometer.surface, Side::inside, 0.5), InputError);
   try {
     make_sample_surface(database, factory, {"half", "LSO", "air", 500.0}, true);

@@ -16,9 +16,9 @@ Sensor noisy_sipm() {
   Sensor sensor = quiet_sipm(3600);
   sensor.time_spread_ns = 0.1;
   sensor.single_electron = {0.05, 0.5, 15.0};
-  sensor.microcells->crosstalk = 0.1;
-  sensor.microcells->afterpulse = 0.05;
-  sensor.microcells->afterpulse_time_ns = 30.0;
+  set_cells(sensor, &Microcells::crosstalk, 0.1);
+  set_cells(sensor, &Microcells::afterpulse, 0.05);
+  set_cells(sensor, &Microcells::afterpulse_time_ns, 30.0);
   sensor.dark_counts.per_ns = 0.01;
   return sensor;
 }
@@ -76,7 +76,7 @@ TEST_CASE("without light there are dark counts, in the window only, and no photo
 
 TEST_CASE("dark counts before the window leave their tails in it: the mean waveform is flat from its start") {
   Sensor sensor = noisy_sipm();
-  sensor.microcells.reset();
+  sensor.avalanches = ProportionalModel();
   sensor.single_electron.charge_spread = 0.0;
   ReadoutSpec readout = digitizer();
   readout.noise = 0.0;
@@ -97,7 +97,7 @@ TEST_CASE("dark counts before the window leave their tails in it: the mean wavef
 TEST_CASE("the mean charge is the light with its crosstalk, through the electronics") {
   Sensor sensor = noisy_sipm();
   sensor.dark_counts = {};
-  sensor.microcells->afterpulse = 0.0;
+  set_cells(sensor, &Microcells::afterpulse, 0.0);
   const Channel channel(sensor, digitizer(), kFace);
   Moments charge, causes;
   for (std::uint64_t event = 0; event < 2000; ++event) {
@@ -120,6 +120,6 @@ TEST_CASE("a channel without a pulse shape or without a face is refused") {
   Sensor noisy = quiet_sipm(10);
   noisy.dark_counts.per_ns = 1.0;
   CHECK(complaint_of([&] { Channel(noisy, readout, kFace); }).empty());
-  noisy.microcells->recovery_ns = 1e6;
+  set_cells(noisy, &Microcells::recovery_ns, 1e6);
   check_contains(complaint_of([&] { Channel(noisy, readout, kFace); }), "dark counts in every event");
 }

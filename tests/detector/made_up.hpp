@@ -5,6 +5,7 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/detector/channel.hpp"
+#include "scintray/detector/microcells.hpp"
 #include "support/laws.hpp"
 
 namespace scintray::test {
@@ -15,8 +16,15 @@ inline constexpr double kLongAfter_ns = 1e6;
 /// A silicon photomultiplier whose cells fire and recover, and nothing else.
 inline detector::Sensor quiet_sipm(std::uint32_t cells) {
   detector::Sensor sensor;
-  sensor.microcells = detector::Microcells{0.0, cells, 20.0, 0.0, 0.0, 0.0};
+  sensor.avalanches = detector::MicrocellModel({0.0, cells, 20.0, 0.0, 0.0, 0.0});
   return sensor;
+}
+
+/// Gives a silicon photomultiplier another number for its cells.
+inline void set_cells(detector::Sensor& sensor, double detector::Microcells::*number, double value) {
+  detector::MicrocellModel model = *sensor.avalanches.get_if<detector::MicrocellModel>();
+  model.cells.*number = value;
+  sensor.avalanches = model;
 }
 
 /// So many carriers at one time, anywhere on the face.

@@ -36,7 +36,7 @@ TEST_CASE("Law of saturation: a flash of n photoelectrons fires N (1 - exp(-n/N)
 
 TEST_CASE("a flash on half of the face fires half of the cells at most") {
   Sensor sensor = quiet_sipm(0);
-  sensor.microcells->pitch_mm = 0.3;  // 10 by 10
+  set_cells(sensor, &Microcells::pitch_mm, 0.3);  // 10 by 10
   const SensorResponse response(sensor, kFace);
   Rng rng = event_stream(0);
   std::vector<Arrival> arrivals;
@@ -117,8 +117,8 @@ TEST_CASE("dark counts before the window leave cells that are not recovered") {
 TEST_CASE("Law of crosstalk: by causes and by charges, the probability of one neighbour and of exactly one") {
   for (const double probability : {0.03, 0.2, 0.5}) {
     Sensor sensor = quiet_sipm(0);
-    sensor.microcells->pitch_mm = 0.05;
-    sensor.microcells->crosstalk = probability;
+    set_cells(sensor, &Microcells::pitch_mm, 0.05);
+    set_cells(sensor, &Microcells::crosstalk, probability);
     const SensorResponse response(sensor, kFace);
     constexpr std::uint64_t kEvents = 40'000;
     std::uint64_t by_cause = 0, by_charge = 0, exactly_two = 0;
@@ -141,8 +141,8 @@ TEST_CASE("Law of crosstalk: by causes and by charges, the probability of one ne
 
 TEST_CASE("Law of crosstalk of a cell that is not recovered: 1 - (1 - p) to the power of its charge") {
   Sensor sensor = quiet_sipm(0);
-  sensor.microcells->pitch_mm = 0.05;
-  sensor.microcells->crosstalk = 0.5;
+  set_cells(sensor, &Microcells::pitch_mm, 0.05);
+  set_cells(sensor, &Microcells::crosstalk, 0.5);
   const SensorResponse response(sensor, kFace);
   constexpr double kGap_ns = 5.0;
   const std::vector<Arrival> twice{kOneInTheMiddle[0], {kGap_ns, 0.001, 0.001}};
@@ -160,8 +160,8 @@ TEST_CASE("Law of crosstalk of a cell that is not recovered: 1 - (1 - p) to the 
 
 TEST_CASE("Law of afterpulses: probability, delay, and charge tau / (tau + recovery)") {
   Sensor sensor = quiet_sipm(100);
-  sensor.microcells->afterpulse = 0.3;
-  sensor.microcells->afterpulse_time_ns = 30.0;
+  set_cells(sensor, &Microcells::afterpulse, 0.3);
+  set_cells(sensor, &Microcells::afterpulse_time_ns, 30.0);
   const SensorResponse response(sensor, kFace);
   constexpr std::uint64_t kEvents = 40'000;
   std::uint64_t with = 0;
@@ -182,8 +182,8 @@ TEST_CASE("Law of afterpulses: probability, delay, and charge tau / (tau + recov
 
 TEST_CASE("an avalanche of a cell that is not recovered has as many fewer afterpulses") {
   Sensor sensor = quiet_sipm(1);
-  sensor.microcells->afterpulse = 0.5;
-  sensor.microcells->afterpulse_time_ns = 1e5;  // long after both
+  set_cells(sensor, &Microcells::afterpulse, 0.5);
+  set_cells(sensor, &Microcells::afterpulse_time_ns, 1e5);  // long after both
   const SensorResponse response(sensor, kFace);
   constexpr double kGap_ns = 10.0;
   const std::vector<Arrival> twice{{0.0}, {kGap_ns}};
@@ -230,6 +230,6 @@ TEST_CASE("the neighbours of cells are mutual, and the eight around a cell") {
 TEST_CASE("a face without area and a pitch that is a mistake of unit are refused") {
   check_contains(complaint_of([] { SensorResponse(quiet_sipm(10), {0.0, 3.0}); }), "no area");
   Sensor sensor = quiet_sipm(0);
-  sensor.microcells->pitch_mm = 1e-5;
+  set_cells(sensor, &Microcells::pitch_mm, 1e-5);
   check_contains(complaint_of([&] { SensorResponse(sensor, kFace); }), "more than 10^8 cells");
 }

@@ -37,7 +37,7 @@ TEST_CASE("Law of single-electron charges: mean 1, the stated spread, and a gamm
 TEST_CASE("Law of transit times: mean 0 and the stated standard deviation, with and without microcells") {
   for (const bool cells : {false, true}) {
     Sensor sensor = cells ? quiet_sipm(0) : Sensor{};
-    if (cells) sensor.microcells->pitch_mm = 0.0005;
+    if (cells) set_cells(sensor, &Microcells::pitch_mm, 0.0005);
     sensor.time_spread_ns = 0.35;
     const SensorResponse response(sensor, kFace);
     Rng rng = event_stream(0, 2);

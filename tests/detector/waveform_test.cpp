@@ -1,5 +1,5 @@
 // Digitised waveforms and what is measured on them.
-#include "scintray/detector/detail/waveform.hpp"
+#include "scintray/detector/pulse.hpp"
 
 #include <cmath>
 

@@ -5,9 +5,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <type_traits>
 
+#include "scintray/detector/microcells.hpp"
 #include "scintray/materials/database.hpp"
+#include "scintray/materials/microsurface_specs.hpp"
+#include "scintray/optics/unified.hpp"
 #include "support/shared.hpp"
 
 namespace scintray {
@@ -23,6 +28,34 @@ inline materials::MaterialDatabase database_with(materials::DefinitionKind kind,
   materials::MaterialDatabase database = shipped_database();
   database.add(kind, {{name, config::parse_toml(text, "scene.toml")}});
   return database;
+}
+
+/// The microsurface of a definition as one of a class: of optics, or a definition of materials. Nullptr when
+/// it is of another.
+template <typename Model>
+const Model* microsurface_if(const materials::SurfaceSpec& surface) {
+  if constexpr (std::is_base_of_v<optics::MicrosurfaceModel, Model>) {
+    const auto* fixed = surface.microsurface.get_if<materials::FixedMicrosurface>();
+    return fixed ? fixed->microsurface().template get_if<Model>() : nullptr;
+  } else {
+    return surface.microsurface.get_if<Model>();
+  }
+}
+template <typename Model>
+bool holds_microsurface(const materials::SurfaceSpec& surface) {
+  return microsurface_if<Model>(surface) != nullptr;
+}
+template <typename Model>
+Model microsurface_of(const materials::SurfaceSpec& surface) {
+  const Model* model = microsurface_if<Model>(surface);
+  REQUIRE(model != nullptr);
+  return *model;
+}
+
+/// The cells of a sensor that has them.
+inline std::optional<detector::Microcells> microcells_of(const detector::Sensor& sensor) {
+  const auto* model = sensor.avalanches.get_if<detector::MicrocellModel>();
+  return model ? std::optional(model->cells) : std::nullopt;
 }
 
 /// A folder of database files that is removed when the test ends.

@@ -39,9 +39,9 @@ TEST_CASE("every shipped surface loads, or names the keys that the user has to s
 }
 
 TEST_CASE("Geant4's six finishes mean what they mean there") {
-  CHECK(std::holds_alternative<SmoothSpec>(shipped_database().surface("geant4_polished").microsurface));
+  CHECK(holds_microsurface<SmoothSurface>(shipped_database().surface("geant4_polished")));
 
-  const auto ground = std::get<UnifiedSurface>(with_base("geant4_ground", kGround).microsurface);
+  const auto ground = microsurface_of<UnifiedSurface>(with_base("geant4_ground", kGround));
   CHECK(ground.sigma_alpha_rad == doctest::Approx(0.314));
   CHECK(ground.definition == SigmaAlphaDefinition::solid_angle);
   CHECK(ground.sampling == FacetSampling::geant4);
@@ -49,14 +49,14 @@ TEST_CASE("Geant4's six finishes mean what they mean there") {
   for (const auto& [name, share] :
        {std::pair{"geant4_polishedfrontpainted", 1.0}, std::pair{"geant4_groundfrontpainted", 0.0}}) {
     const SurfaceSpec surface = with_base(name, "reflectance = 0.9\n");
-    CHECK(std::holds_alternative<PaintedSpec>(surface.microsurface));
+    CHECK(holds_microsurface<PaintedSurface>(surface));
     CHECK(surface.reflector->specular_share == share);
     CHECK(surface.reflector->reflectance(420.0) == 0.9);
   }
   for (const auto& [name, share] :
        {std::pair{"geant4_polishedbackpainted", 1.0}, std::pair{"geant4_groundbackpainted", 0.0}}) {
     const SurfaceSpec surface = with_base(name, "gap = 1.0\nreflectance = 0.97\n" + kGround);
-    CHECK(std::holds_alternative<UnifiedSurface>(surface.microsurface));
+    CHECK(holds_microsurface<UnifiedSurface>(surface));
     CHECK(surface.reflector->specular_share == share);
     CHECK(surface.gap_index(420.0) == 1.0);
   }
@@ -75,9 +75,9 @@ TEST_CASE("a number missing in a preset is named, at the definition that has to 
 
 TEST_CASE("DETECT's five finishes exist") {
   const MaterialDatabase& database = shipped_database();
-  CHECK(std::holds_alternative<SmoothSpec>(database.surface("detect_polish").microsurface));
-  CHECK(std::holds_alternative<SmoothSpec>(database.surface("detect_detect").microsurface));
-  const auto ground = std::get<UnifiedSurface>(database.surface("detect_ground").microsurface);
+  CHECK(holds_microsurface<SmoothSurface>(database.surface("detect_polish")));
+  CHECK(holds_microsurface<SmoothSurface>(database.surface("detect_detect")));
+  const auto ground = microsurface_of<UnifiedSurface>(database.surface("detect_ground"));
   CHECK(ground.lobe + ground.spike + ground.backscatter == 0.0);  // Lambertian only
   CHECK(with_base("detect_paint", "reflectance = 0.98\n").reflector->specular_share == 0.0);
   CHECK(with_base("detect_metal", "reflector = \"PTFE\"\n").reflector->specular_share == 1.0);
@@ -88,9 +88,9 @@ TEST_CASE("the paper's surfaces are the paper's") {
   const MaterialDatabase& database = shipped_database();
   for (const auto& [name, degrees] :
        {std::pair{"roncali2013_unified_rough", 18.0}, std::pair{"roncali2013_unified_polished", 1.2}}) {
-    const auto by_solid_angle = std::get<UnifiedSurface>(database.surface(name).microsurface);
+    const auto by_solid_angle = microsurface_of<UnifiedSurface>(database.surface(name));
     const auto by_polar_angle =
-        std::get<UnifiedSurface>(database.surface(std::string(name) + "_polar").microsurface);
+        microsurface_of<UnifiedSurface>(database.surface(std::string(name) + "_polar"));
     CHECK(by_solid_angle.sigma_alpha_rad == doctest::Approx(degrees * kDegree));
     CHECK(by_polar_angle.sigma_alpha_rad == by_solid_angle.sigma_alpha_rad);
     CHECK(by_solid_angle.lobe == 1.0);
@@ -99,7 +99,7 @@ TEST_CASE("the paper's surfaces are the paper's") {
   }
   for (const char* name : {"lso_ground_30um_lambertian_097", "lso_polished_lambertian_097"}) {
     const SurfaceSpec surface = database.surface(name);
-    CHECK(std::holds_alternative<RecipeSpec>(surface.microsurface));
+    CHECK(holds_microsurface<RecipeSpec>(surface));
     CHECK(surface.gap == "air");
     CHECK(surface.reflector->name == "lambertian_097");
     CHECK(surface.reflector->reflectance(420.0) == 0.97);

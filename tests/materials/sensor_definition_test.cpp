@@ -83,17 +83,18 @@ TEST_CASE("every table of a sensor is read in internal units") {
   CHECK(sensor.single_electron.charge_spread == doctest::Approx(0.4));
   CHECK(sensor.single_electron.rise_ns == 0.7);
   CHECK(sensor.single_electron.decay_ns == 3.0);
-  REQUIRE(sensor.microcells.has_value());
-  CHECK(sensor.microcells->pitch_mm == doctest::Approx(0.05));
-  CHECK(sensor.microcells->recovery_ns == 20.0);
-  CHECK(sensor.microcells->crosstalk == doctest::Approx(0.03));
-  CHECK(sensor.microcells->afterpulse == 0.01);
-  CHECK(sensor.microcells->afterpulse_time_ns == 30.0);
+  const auto cells = microcells_of(sensor);
+  REQUIRE(cells.has_value());
+  CHECK(cells->pitch_mm == doctest::Approx(0.05));
+  CHECK(cells->recovery_ns == 20.0);
+  CHECK(cells->crosstalk == doctest::Approx(0.03));
+  CHECK(cells->afterpulse == 0.01);
+  CHECK(cells->afterpulse_time_ns == 30.0);
   CHECK(sensor.dark_counts.per_ns_mm2 == doctest::Approx(5e-5));
   CHECK(sensor_of(with_table("dark_counts", "rate = \"2 MHz\"\n").text).dark_counts.per_ns ==
         doctest::Approx(2e-3));
-  CHECK(sensor_of(with_table("microcells", "count = 14331\nrecovery = \"20 ns\"\n").text).microcells->count ==
-        14331);
+  CHECK(microcells_of(sensor_of(with_table("microcells", "count = 14331\nrecovery = \"20 ns\"\n").text))
+            ->count == 14331);
   CHECK(sensor_of(with_table("transit_time", "sigma = \"70 ps\"\n").text).time_spread_ns ==
         doctest::Approx(0.07));
 }
@@ -101,7 +102,7 @@ TEST_CASE("every table of a sensor is read in internal units") {
 TEST_CASE("a sensor without these tables has none of it") {
   const Sensor sensor = sensor_of(kConverter);
   CHECK_FALSE(sensor.angle.has_value());
-  CHECK_FALSE(sensor.microcells.has_value());
+  CHECK_FALSE(microcells_of(sensor).has_value());
   CHECK(sensor.time_spread_ns == 0.0);
   CHECK(sensor.dark_counts.per_ns + sensor.dark_counts.per_ns_mm2 == 0.0);
   CHECK(sensor.conversion_probability(420.0, 1.4) == 0.3);
@@ -178,8 +179,9 @@ TEST_CASE("a sensor with a base takes over the tables that it does not have, wit
   const Sensor base = database.sensor("S13360_6050VE"), heir = database.sensor("mine");
   CHECK(heir.efficiency.y() == base.efficiency.y());
   CHECK(heir.window_index == base.window_index);
-  REQUIRE(heir.microcells.has_value());
-  CHECK(heir.microcells->count == 10);
+  const auto cells = microcells_of(heir);
+  REQUIRE(cells.has_value());
+  CHECK(cells->count == 10);
   CHECK(heir.dark_counts.per_ns == doctest::Approx(3e-3));
   CHECK(heir.dark_counts.per_ns_mm2 == 0.0);
   CHECK(reports(problems_of([&] { database.sensor("circle"); }), 1,

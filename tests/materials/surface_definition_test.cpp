@@ -31,7 +31,7 @@ spike = 0.2
 
 TEST_CASE("a UNIFIED surface is read with its unit and its definition") {
   const SurfaceSpec surface = surface_of(kUnified);
-  const auto& unified = std::get<UnifiedSurface>(surface.microsurface);
+  const auto unified = microsurface_of<UnifiedSurface>(surface);
   CHECK(unified.sigma_alpha_rad == doctest::Approx(18.0 * kDegree));
   CHECK(unified.definition == SigmaAlphaDefinition::polar_angle);
   CHECK(unified.sampling == FacetSampling::projected_area);
@@ -168,14 +168,14 @@ TEST_CASE("tables of another model are refused, not ignored") {
 TEST_CASE("a base has the keys that the derived surface does not set") {
   const SurfaceSpec surface =
       surface_of("base = \"roncali2013_unified_rough\"\n[unified]\nsigma_alpha = \"5 deg\"\n");
-  const auto& unified = std::get<UnifiedSurface>(surface.microsurface);
+  const auto unified = microsurface_of<UnifiedSurface>(surface);
   CHECK(unified.sigma_alpha_rad == doctest::Approx(5.0 * kDegree));
   CHECK(unified.lobe == 1.0);
   CHECK(surface.name == "mine");
   CHECK(surface.sources.size() == 1);  // the base's
 
   const SurfaceSpec other = surface_of("base = \"roncali2013_unified_rough\"\nmodel = \"smooth\"\n");
-  CHECK(std::holds_alternative<SmoothSpec>(other.microsurface));
+  CHECK(holds_microsurface<SmoothSurface>(other));
   const SurfaceSpec repainted =
       surface_of("base = \"polished_lambertian_097\"\nreflectance = 0.5\nspecular_share = 0\n");
   CHECK(repainted.reflector->reflectance(420.0) == 0.5);
@@ -201,7 +201,7 @@ TEST_CASE("height maps and recipes are traced as a table unless set otherwise") 
       "level = \"polynomial\"\ndegree = 2\ntiling = \"mirror\"\n[tracing]\nrays = 100\nincidence_step = \"5 "
       "deg\"\n");
   const SurfaceSpec surface = database.surface("mine");
-  const auto& map = std::get<HeightMapSpec>(surface.microsurface);
+  const auto map = microsurface_of<HeightMapSpec>(surface);
   CHECK(map.path.filename() == "map.txt");
   CHECK(map.options.channel == "Height");
   CHECK(*map.options.pitch_um == doctest::Approx(0.175));
@@ -222,7 +222,7 @@ TEST_CASE("height maps and recipes are traced as a table unless set otherwise") 
       "model = \"recipe\"\n[recipe]\nkind = \"gaussian\"\nrms_height = \"0.9 um\"\ncorrelation_length = "
       "\"4.8 um\"\n"
       "seed = 7\n[tracing]\nmode = \"on_the_spot\"\n");
-  const auto& recipe = std::get<RecipeSpec>(made.microsurface);
+  const auto recipe = microsurface_of<RecipeSpec>(made);
   CHECK(recipe.recipe.gaussian.rms_height_um == doctest::Approx(0.9));
   CHECK(recipe.recipe.gaussian.correlation_length_um == doctest::Approx(4.8));
   CHECK(recipe.recipe.seed == 7);
@@ -250,7 +250,7 @@ TEST_CASE("a height map is cropped, mended and filtered by its definition") {
   add("crop = [\"1 um\", \"0 um\", \"40 um\", \"30 um\"]\noutliers = 6\noutlier_radius = 3\nfill_missing = "
       "true\n"
       "median_radius = 2\nloess_width = \"2 um\"\ngaussian_width = \"0.3 um\"\n");
-  const auto made = std::get<HeightMapSpec>(database.surface("mine").microsurface);
+  const auto made = microsurface_of<HeightMapSpec>(database.surface("mine"));
   const Preparation& p = made.preparation;
   const auto& crop = std::get<CropLengths>(p.crop);
   CHECK(crop.x_um == doctest::Approx(1.0));
@@ -272,7 +272,7 @@ TEST_CASE("a height map is cropped, mended and filtered by its definition") {
 
 TEST_CASE("recipes of every kind are read, with what each needs and no key without effect") {
   const auto recipe_of = [](const std::string& keys) {
-    return std::get<RecipeSpec>(surface_of("model = \"recipe\"\n[recipe]\n" + keys).microsurface).recipe;
+    return microsurface_of<RecipeSpec>(surface_of("model = \"recipe\"\n[recipe]\n" + keys)).recipe;
   };
   const SynthesisRecipe saw = recipe_of(
       "kind = \"saw_cut\"\nrms_height = \"0.8 um\"\ncorrelation_length = \"2 um\"\nlay_length = \"12 um\"\n"
@@ -306,7 +306,7 @@ TEST_CASE("recipes of every kind are read, with what each needs and no key witho
                                       (files.folder() / "scene.toml").string())}});
   };
   add("psd.csv");
-  const auto made = std::get<RecipeSpec>(database.surface("mine").microsurface).recipe;
+  const auto made = microsurface_of<RecipeSpec>(database.surface("mine")).recipe;
   REQUIRE(made.spectrum.density_um4.size() == 2);
   CHECK(made.spectrum.density_um4[0] == doctest::Approx(1e-3));
   CHECK(made.spectrum.frequency_per_um[1] == doctest::Approx(1.0));

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "database_helpers.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/topography/build_table.hpp"
@@ -84,7 +85,7 @@ TEST_CASE("a table used beyond its wavelengths warns") {
 
 TEST_CASE("a table file of other indices is refused, and so is a stack laid on a stack") {
   const auto folder = test::scratch_folder("surface_maker");
-  TableSettings settings = std::get<RecipeSpec>(small_relief({}).microsurface).table->settings;
+  TableSettings settings = microsurface_of<RecipeSpec>(small_relief({})).table->settings;
   Surface lossy;
   lossy.reflector = Reflector{"ESR", Curve::constant(0.9), 1.0};
   TableProvenance provenance;

@@ -5,6 +5,7 @@
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/surface.hpp"
+#include "scintray/optics/unified.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"

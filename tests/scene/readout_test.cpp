@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "scintray/detector/microcells.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
@@ -94,7 +95,7 @@ TEST_CASE("the documented readout and its sensor are read") {
   MaterialDatabase database({source_file("materials")});
   database.add(DefinitionKind::sensor,
                {{"my_sipm", std::make_shared<const TomlNode>(*sensors->find("my_sipm"))}});
-  CHECK(database.sensor("my_sipm").microcells.has_value());
+  CHECK(database.sensor("my_sipm").avalanches.get_if<MicrocellModel>() != nullptr);
 }
 
 TEST_CASE("mistakes in a readout are reported with what was found and what is expected") {

@@ -163,8 +163,8 @@ TEST_CASE("Law: weighted by their logged reflections, survivors of one reflectan
       Rng rng(4, StreamKind::other, i);
       Ray ray{Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()};
       ReflectionLog log;
-      const bool absorbed = surface.interact(ray, Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 420.0, rng,
-                                             &log) == SurfaceOutcome::absorbed;
+      const Incidence incidence{Side::inside, Vec3::UnitZ(), {1.82, 1.0}, 420.0, &log};
+      const bool absorbed = surface.interact(ray, incidence, rng) == SurfaceOutcome::absorbed;
       double weight = absorbed ? 0.0 : 1.0;
       for (const ReflectionLog::Entry& entry : log.entries()) {
         CHECK(entry.depth == doctest::Approx(entry.count * -std::log(traced)));

@@ -16,6 +16,9 @@ struct Arrival {
 enum class AvalancheCause : std::uint8_t { photon, dark, crosstalk, afterpulse };
 inline constexpr std::size_t kAvalancheCauses = 4;
 
+/// Time constants, or standard deviations, after which nothing is left: exp(-10) is 5e-5.
+inline constexpr double kTimesToForget = 10.0;
+
 /// Charge that reaches the electronics.
 struct Avalanche {
   double time_ns = 0.0;

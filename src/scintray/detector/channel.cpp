@@ -3,7 +3,6 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
-#include "scintray/detector/detail/waveform.hpp"
 
 namespace scintray::detector {
 

@@ -1,32 +1,24 @@
 #pragma once
 /// What a sensor makes of converted photons: avalanches, each with its charge, time and cause.
 
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "scintray/core/philox.hpp"
 #include "scintray/detector/avalanche.hpp"
-#include "scintray/detector/microcell_grid.hpp"
 #include "scintray/detector/sensor.hpp"
 
 namespace scintray::detector {
 
-/// Photomultipliers: every photoelectron gives a charge of mean 1 and relative spread
-/// SingleElectron::charge_spread, gamma distributed (the Polya limit: J. R. Prescott 1966, Nucl. Instrum.
-/// Methods 39, 173), after a normal transit time.
+/// Carriers fire avalanches as the sensor's model has it. Each then has a charge of the model's mean and of
+/// relative spread SingleElectron::charge_spread, gamma distributed (the Polya limit: J. R. Prescott 1966,
+/// Nucl. Instrum. Methods 39, 173), after a normal transit time.
 ///
-/// Silicon photomultipliers: every carrier fires its cell. The charge is 1 - exp(-dt / recovery), dt since
-/// the cell fired last, times the same spread. Each neighbour of eight fires at once with the probability q
-/// that makes 1 - (1 - q)^8 the crosstalk (L. Gallego et al. 2013, JINST 8, P05013), neighbours of
-/// neighbours too; cells at the edge have fewer. The cell fires once more after an exponential delay with
-/// the probability of afterpulses. In a cell that is not recovered both are reduced as its charge is: 1 - q
-/// to the power of the charge, and the probability of afterpulses times it.
-///
-/// Immutable: an event begins with a rested sensor, except for dark counts of the time before.
+/// Immutable: no event leaves anything behind for the next one.
 class SensorResponse {
  public:
-  /// Throws InputError when the face has no area or more cells than 10^8.
+  /// Throws InputError (without a place) when the face does not suit the sensor's model.
   SensorResponse(const Sensor& sensor, const SensorFace& face);
 
   /// Avalanches sorted by time. Work grows as n log n with their number.
@@ -38,9 +30,9 @@ class SensorResponse {
   double dark_counts(double start_ns, double end_ns) const;
 
  private:
-  double time_spread_ns_, charge_spread_, dark_per_ns_, memory_ns_;
-  std::optional<Microcells> microcells_;
-  std::optional<MicrocellGrid> grid_;
+  double time_spread_ns_, charge_spread_, dark_per_ns_;
+  std::shared_ptr<const AvalancheProcess> process_;
+  double memory_ns_;
 };
 
 }  // namespace scintray::detector

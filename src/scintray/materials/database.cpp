@@ -9,7 +9,7 @@
 
 #include "scintray/core/data_folder.hpp"
 #include "scintray/core/text.hpp"
-#include "scintray/materials/detail/surface_form.hpp"
+#include "scintray/materials/detail/forms.hpp"
 #include "scintray/materials/material_forms.hpp"
 
 namespace scintray::materials {
@@ -69,8 +69,11 @@ struct MaterialDatabase::Files {
   }
 };
 
-MaterialDatabase::MaterialDatabase(const std::vector<std::filesystem::path>& folders)
-    : folders_(folders), read_(std::make_shared<Files>()), with_own_(std::make_shared<Known>()) {
+MaterialDatabase::MaterialDatabase(const std::vector<std::filesystem::path>& folders, DefinitionModels models)
+    : models_(std::make_shared<const DefinitionModels>(std::move(models))),
+      folders_(folders),
+      read_(std::make_shared<Files>()),
+      with_own_(std::make_shared<Known>()) {
   core::Problems problems;
   for (const std::filesystem::path& folder : folders) {
     std::error_code status;
@@ -90,7 +93,9 @@ MaterialDatabase::MaterialDatabase(const std::vector<std::filesystem::path>& fol
   problems.throw_if_any();
 }
 
-MaterialDatabase MaterialDatabase::shipped() { return MaterialDatabase({core::data_folder() / "materials"}); }
+MaterialDatabase MaterialDatabase::shipped(DefinitionModels models) {
+  return MaterialDatabase({core::data_folder() / "materials"}, std::move(models));
+}
 
 void MaterialDatabase::add(DefinitionKind kind,
                            const std::map<std::string, config::TomlNodePtr>& definitions) {
@@ -174,19 +179,26 @@ const detector::Sensor& MaterialDatabase::sensor(const std::string& name,
   });
 }
 
+config::TomlNode MaterialDatabase::merged_sensor(const std::vector<Ancestor>& ancestors) const {
+  config::TomlNode merged = *ancestors.front().definition.node;
+  for (const Ancestor& ancestor : ancestors) {
+    const std::string model = models_->sensors.stated_by(merged);
+    for (const config::TomlNode& item : ancestor.definition.node->items)
+      if (!merged.find(item.key) && models_->sensors.belongs_to(item, model)) merged.items.push_back(item);
+  }
+  return merged;
+}
+
 detector::Sensor MaterialDatabase::read_sensor_of(const std::string& name,
                                                   const core::FileLocation& where) const {
   const std::vector<Ancestor> ancestors = lineage(DefinitionKind::sensor, name, where);
   const Definition& own = ancestors.front().definition;
-  config::TomlNode merged = *own.node;
-  for (const Ancestor& ancestor : ancestors)
-    for (const config::TomlNode& table : ancestor.definition.node->items)
-      if (!merged.find(table.key)) merged.items.push_back(table);
+  config::TomlNode merged = merged_sensor(ancestors);
   core::Problems problems;
   const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(merged)), problems);
   table.optional_string("base");  // followed above
   detector::Sensor sensor =
-      read_sensor(table, name, own.from_file ? SourceRule::required : SourceRule::optional);
+      read_sensor(table, name, own.from_file ? SourceRule::required : SourceRule::optional, models_->sensors);
   table.finish();
   problems.throw_if_any();
   ++read_->definitions_read;
@@ -249,7 +261,7 @@ MaterialDatabase::Chain MaterialDatabase::chain(const std::string& surface, cons
   problems.throw_if_any();
   chain.merged = *ancestors.back().definition.node;
   for (std::size_t i = ancestors.size() - 1; i-- > 0;)
-    chain.merged = merge_over_base(chain.merged, *ancestors[i].definition.node);
+    chain.merged = merge_over_base(chain.merged, *ancestors[i].definition.node, models_->surfaces);
   return chain;
 }
 
@@ -306,7 +318,8 @@ SurfaceSpec MaterialDatabase::read_surface_of(const std::string& name, const cor
                              },
                              [this](const std::string& reflector_name, const core::FileLocation& at) {
                                return reflector(reflector_name, at);
-                             }};
+                             },
+                             models_->surfaces};
   const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(chain.merged)), problems);
   SurfaceSpec surface = read_surface(table, name, lookup, problems);
   table.finish();

@@ -10,19 +10,30 @@
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/detector/sensor.hpp"
+#include "scintray/materials/sensor_models.hpp"
+#include "scintray/materials/surface_models.hpp"
 #include "scintray/materials/surface_spec.hpp"
 #include "scintray/optics/medium.hpp"
-#include "scintray/optics/surface.hpp"
 
 namespace scintray::materials {
+
+/// The models that definitions may name. Code adds its own to these:
+///
+///     DefinitionModels models;
+///     models.surfaces.add({.word = "mine", .table = "mine", .read = read_mine});
+///     const MaterialDatabase database = MaterialDatabase::shipped(models);
+struct DefinitionModels {
+  SurfaceModels surfaces;
+  SensorModels sensors;
+};
 
 enum class DefinitionKind { medium, surface, sensor, reflector };
 
 /// What a surface's definition states before it is made into a surface.
 struct SurfaceOutline {
-  std::string model;  ///< "smooth", "unified", "recipe", ..., "mixture"; empty when none is given
+  std::string model;                 ///< a word of SurfaceModels, or "mixture"; empty when none is given
   std::vector<std::string> bases;    ///< what it is based on, nearest first
-  std::vector<std::string> needs;    ///< what it leaves to the user, as "unified.sigma_alpha"
+  std::vector<std::string> needs;    ///< dotted keys that it leaves to the user
   std::vector<std::string> sources;  ///< published sources, each once, its own first, then its bases'
 };
 
@@ -40,9 +51,9 @@ struct SurfaceOutline {
 class MaterialDatabase {
  public:
   /// Throws InputError when a folder does not exist.
-  explicit MaterialDatabase(const std::vector<std::filesystem::path>& folders);
+  explicit MaterialDatabase(const std::vector<std::filesystem::path>& folders, DefinitionModels models = {});
   /// The database that comes with ScintRay: data_folder()/materials.
-  static MaterialDatabase shipped();
+  static MaterialDatabase shipped(DefinitionModels models = {});
 
   /// Adds definitions of a scene ([media.NAME], ...), which need not name sources and win over files.
   void add(DefinitionKind kind, const std::map<std::string, config::TomlNodePtr>& definitions);
@@ -89,6 +100,9 @@ class MaterialDatabase {
   };
   std::vector<Ancestor> lineage(DefinitionKind kind, const std::string& name,
                                 const core::FileLocation& where) const;
+  /// A sensor's definition with the keys that it does not have from those that it is based on, but for those
+  /// of another sensor model.
+  config::TomlNode merged_sensor(const std::vector<Ancestor>& ancestors) const;
   /// A surface's definition laid over those that it is based on.
   struct Chain {
     config::TomlNode merged;
@@ -97,6 +111,7 @@ class MaterialDatabase {
   };
   Chain chain(const std::string& surface, const core::FileLocation& where, core::Problems& problems) const;
 
+  std::shared_ptr<const DefinitionModels> models_;
   std::vector<std::filesystem::path> folders_;
   std::array<std::map<std::string, std::filesystem::path>, 4> files_;
   std::array<std::map<std::string, config::TomlNodePtr>, 4> own_;

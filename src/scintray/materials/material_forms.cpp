@@ -4,15 +4,16 @@
 
 #include <cmath>
 
-#include "scintray/materials/detail/light_response_form.hpp"
-#include "scintray/materials/detail/sensor_form.hpp"
+#include "scintray/materials/detail/forms.hpp"
 
 namespace scintray::materials {
 
 namespace {
 
-constexpr double kGreatestIndex = 5.0;
 constexpr double kFractionTolerance = 1e-6;
+
+constexpr core::Word<optics::ScatteringKind> kScatteringKinds[] = {
+    {"rayleigh", optics::ScatteringKind::rayleigh}, {"isotropic", optics::ScatteringKind::isotropic}};
 
 /// Reports unless every wavelength of a table is positive.
 void expect_wavelengths(const config::TomlTable& block, const std::string& key, const core::Curve& curve) {
@@ -76,36 +77,31 @@ core::Curve read_cauchy(const config::TomlTable& formula) {
   });
 }
 
+using CurveReader = core::Curve (*)(const config::TomlTable& block);
+
+core::Curve read_index_table(const config::TomlTable& block) {
+  return block.curve("n", core::Dimension::dimensionless);
+}
+
+/// The forms of [index]; a formula has a table of its own.
+constexpr core::Word<CurveReader> kIndexForms[] = {
+    {"n", read_index_table},
+    {"sellmeier", [](const config::TomlTable& block) { return read_sellmeier(block.table("sellmeier")); }},
+    {"cauchy", [](const config::TomlTable& block) { return read_cauchy(block.table("cauchy")); }}};
+
 core::Curve read_index(const config::TomlTable& block) {
-  const std::optional<std::string> form = block.one_of({"n", "sellmeier", "cauchy"}, true);
+  const core::Word<CurveReader>* form = block.one_of(kIndexForms, true);
   if (!form) return core::Curve::constant(1.0);
-  const core::Curve index = *form == "n"           ? block.curve("n", core::Dimension::dimensionless)
-                            : *form == "sellmeier" ? read_sellmeier(block.table("sellmeier"))
-                                                   : read_cauchy(block.table("cauchy"));
-  block.expect(*form, index.min_y() >= 1.0 && index.max_y() <= kGreatestIndex,
+  const core::Curve index = form->value(block);
+  block.expect(form->word, index.min_y() >= 1.0 && index.max_y() <= kGreatestIndex,
                "a refractive index lies between 1 and 5, but this one runs from " +
                    std::to_string(index.min_y()) + " to " + std::to_string(index.max_y()),
                "check the table or the formula's coefficients (wavelength in um)");
-  expect_wavelengths(block, *form, index);
+  expect_wavelengths(block, form->word, index);
   return index;
 }
 
-/// A coefficient per mm from `length`, `coefficient`, or `none = true`.
-core::Curve read_extinction(const config::TomlTable& block) {
-  const std::optional<std::string> form = block.one_of({"length", "coefficient", "none"}, true);
-  if (!form) return core::Curve::constant(0.0);
-  if (*form == "none") {
-    const bool none = block.boolean("none");
-    block.expect("none", none, "\"none\" can only be true",
-                 "write none = true, or give a length or a coefficient");
-    return core::Curve::constant(0.0);
-  }
-  if (*form == "coefficient") {
-    const core::Curve coefficient = block.curve("coefficient", core::Dimension::inverse_length);
-    block.expect("coefficient", coefficient.min_y() >= 0.0, "a coefficient cannot be negative");
-    expect_wavelengths(block, "coefficient", coefficient);
-    return coefficient;
-  }
+core::Curve read_extinction_length(const config::TomlTable& block) {
   const core::Curve length = block.curve("length", core::Dimension::length);
   block.expect("length", length.min_y() > 0.0, "a length must be positive",
                "for no absorption or scattering write none = true");
@@ -114,6 +110,30 @@ core::Curve read_extinction(const config::TomlTable& block) {
   std::vector<double> coefficients;
   for (const double mm : length.y()) coefficients.push_back(1.0 / mm);
   return {length.x(), std::move(coefficients)};
+}
+
+core::Curve read_extinction_coefficient(const config::TomlTable& block) {
+  const core::Curve coefficient = block.curve("coefficient", core::Dimension::inverse_length);
+  block.expect("coefficient", coefficient.min_y() >= 0.0, "a coefficient cannot be negative");
+  expect_wavelengths(block, "coefficient", coefficient);
+  return coefficient;
+}
+
+core::Curve read_no_extinction(const config::TomlTable& block) {
+  const bool none = block.boolean("none");
+  block.expect("none", none, "\"none\" can only be true",
+               "write none = true, or give a length or a coefficient");
+  return core::Curve::constant(0.0);
+}
+
+constexpr core::Word<CurveReader> kExtinctionForms[] = {{"length", read_extinction_length},
+                                                        {"coefficient", read_extinction_coefficient},
+                                                        {"none", read_no_extinction}};
+
+/// A coefficient per mm from `length`, `coefficient`, or `none = true`.
+core::Curve read_extinction(const config::TomlTable& block) {
+  const core::Word<CurveReader>* form = block.one_of(kExtinctionForms, true);
+  return form ? form->value(block) : core::Curve::constant(0.0);
 }
 
 core::Curve read_emission(const config::TomlTable& block) {
@@ -175,40 +195,6 @@ void read_scintillation(const config::TomlTable& table, SourceRule rule, optics:
   read_light_response(table, rule, medium);
 }
 
-/// Reports unless a curve stays within 0 and 1.
-void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,
-                  const std::string& what) {
-  block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
-               what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
-                   " to " + std::to_string(curve.max_y()),
-               "percent are written with value_unit = \"%\", or as \"97 %\"");
-  expect_wavelengths(block, key, curve);
-}
-
-/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
-void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
-                     detector::Sensor& sensor) {
-  read_source(efficiency, rule, sensor.sources);
-  sensor.efficiency = efficiency.curve("value", core::Dimension::dimensionless);
-  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
-  const bool external = efficiency.choice("definition", {"internal", "external"}) == "external";
-  sensor.definition =
-      external ? detector::EfficiencyDefinition::external : detector::EfficiencyDefinition::internal;
-  if (external) {
-    sensor.reference_index = efficiency.number("reference_index");
-    efficiency.expect("reference_index",
-                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
-                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
-    if (!efficiency.good("reference_index") || !window.good("index")) return;
-    const double r =
-        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
-    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
-                      "this external efficiency is above what the window lets in (" +
-                          std::to_string(1.0 - r * r) + " at normal incidence)",
-                      "check the efficiency and the two indices, or write definition = \"internal\"");
-  }
-}
-
 /// [wavelength_shifting], in which every block states its own source.
 std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::TomlTable& table, SourceRule rule,
                                                               std::vector<std::string>& sources) {
@@ -238,34 +224,44 @@ std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::Toml
   return std::make_shared<const optics::WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
 }
 
+using CompositionReader = optics::Composition (*)(const config::TomlTable& block);
+
+optics::Composition read_formula(const config::TomlTable& block) {
+  return optics::composition_of_formula(block.string("formula"));
+}
+
+optics::Composition read_mass_fractions(const config::TomlTable& block) {
+  std::vector<std::pair<std::string, double>> shares;
+  const config::TomlTable table = block.table("mass_fractions");
+  for (const std::string& symbol : table.keys())
+    shares.emplace_back(symbol, table.quantity(symbol, core::Dimension::dimensionless));
+  for (const auto& [symbol, share] : shares)
+    if (!table.good(symbol)) return {};
+  return optics::composition_of_mass_fractions(shares);
+}
+
+constexpr core::Word<CompositionReader> kCompositionForms[] = {{"formula", read_formula},
+                                                               {"mass_fractions", read_mass_fractions}};
+
 }  // namespace
 
-void read_source(const config::TomlTable& block, SourceRule rule, std::vector<std::string>& sources) {
-  const std::string prefix = block.path().empty() ? "" : block.path() + ": ";
-  if (const std::optional<std::string> source = block.optional_string("source")) {
-    sources.push_back(prefix + *source);
-  } else if (rule == SourceRule::required && !block.has("source")) {
-    block.report("source",
-                 (block.path().empty() ? "the file" : "[" + block.path() + "]") +
-                     " does not say where its numbers were published",
-                 "add source = \"author or maker, year, table or figure, DOI\", or \"assumed: why\"");
-  }
+void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,
+                  const std::string& what) {
+  block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
+               what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
+                   " to " + std::to_string(curve.max_y()),
+               "percent are written with value_unit = \"%\", or as \"97 %\"");
+  expect_wavelengths(block, key, curve);
 }
 
 optics::Composition read_composition(const config::TomlTable& block) {
-  const std::optional<std::string> form = block.one_of({"formula", "mass_fractions"}, true);
+  const core::Word<CompositionReader>* form = block.one_of(kCompositionForms, true);
   if (!form) return {};
   try {
-    if (*form == "formula") return optics::composition_of_formula(block.string("formula"));
-    std::vector<std::pair<std::string, double>> shares;
-    const config::TomlTable table = block.table("mass_fractions");
-    for (const std::string& symbol : table.keys())
-      shares.emplace_back(symbol, table.quantity(symbol, core::Dimension::dimensionless));
-    for (const auto& [symbol, share] : shares)
-      if (!table.good(symbol)) return {};
-    return optics::composition_of_mass_fractions(shares);
+    return form->value(block);
   } catch (const core::InputError& error) {
-    for (const core::Problem& problem : error.problems()) block.report(*form, problem.what, problem.hint);
+    for (const core::Problem& problem : error.problems())
+      block.report(form->word, problem.what, problem.hint);
     return {};
   }
 }
@@ -287,10 +283,7 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
   if (table.has("scattering")) {
     read_source(scattering, rule, medium.sources);
     medium.scattering_per_mm = read_extinction(scattering);
-    if (!scattering.has("none"))
-      medium.scattering = scattering.choice("kind", {"rayleigh", "isotropic"}) == "rayleigh"
-                              ? optics::ScatteringKind::rayleigh
-                              : optics::ScatteringKind::isotropic;
+    if (!scattering.has("none")) medium.scattering = scattering.choice("kind", kScatteringKinds);
   }
   if (const std::optional<config::TomlTable> density = table.optional_table("density")) {
     read_source(*density, rule, medium.sources);
@@ -311,22 +304,6 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
   if (const std::optional<config::TomlTable> shifting = table.optional_table("wavelength_shifting"))
     medium.shifter = read_shifter(*shifting, rule, medium.sources);
   return medium;
-}
-
-detector::Sensor read_sensor(const config::TomlTable& table, const std::string& name, SourceRule rule) {
-  detector::Sensor sensor;
-  sensor.name = name;
-  const config::TomlTable window = table.table("window");
-  if (table.has("window")) {
-    read_source(window, rule, sensor.sources);
-    sensor.window_index = window.number("index");
-    window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
-                  "a refractive index lies between 1 and 5");
-  }
-  const config::TomlTable efficiency = table.table("efficiency");
-  if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
-  read_sensor_response(table, rule, sensor);
-  return sensor;
 }
 
 void expect_sheet(const config::TomlTable& table, const std::string& key,

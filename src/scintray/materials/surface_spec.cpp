@@ -3,8 +3,7 @@
 namespace scintray::materials {
 
 SurfaceSpec traced_on_the_spot(SurfaceSpec spec) {
-  if (auto* map = std::get_if<HeightMapSpec>(&spec.microsurface)) map->table.reset();
-  if (auto* recipe = std::get_if<RecipeSpec>(&spec.microsurface)) recipe->table.reset();
+  if (const auto traced = spec.microsurface->traced_on_the_spot()) spec.microsurface = *traced;
   for (ShareSpec& part : spec.mixture)
     part.surface = std::make_shared<const SurfaceSpec>(traced_on_the_spot(*part.surface));
   return spec;

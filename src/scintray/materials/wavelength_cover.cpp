@@ -4,9 +4,9 @@
 
 namespace scintray::materials {
 
-void check_cover(core::Problems& problems, const core::FileLocation& where, const core::Curve& curve,
-                 double low_nm, double high_nm, const std::string& whose, const std::string& what,
-                 const std::string& hint) {
+void check_cover(core::Problems& problems, const core::FileLocation& where, const TabulatedCurve& tabulated,
+                 double low_nm, double high_nm) {
+  const auto& [curve, whose, what, hint] = tabulated;
   if (curve.covers(low_nm, high_nm)) return;
   const std::string light =
       low_nm == high_nm ? fmt::format("{:g}", low_nm) : fmt::format("{:g} to {:g}", low_nm, high_nm);
@@ -23,9 +23,9 @@ void check_cover_of_shifter(core::Problems& problems, const core::FileLocation& 
                             const std::string& whose) {
   if (!shifter) return;
   const std::string hint = "extend the table, with zeros where nothing is absorbed or given back";
-  check_cover(problems, where, shifter->absorption_per_mm(), low_nm, high_nm, whose, "a shifter's absorption",
-              hint);
-  check_cover(problems, where, shifter->quantum_yield(), low_nm, high_nm, whose, "quantum yields", hint);
+  check_cover(problems, where, {shifter->absorption_per_mm(), whose, "a shifter's absorption", hint}, low_nm,
+              high_nm);
+  check_cover(problems, where, {shifter->quantum_yield(), whose, "quantum yields", hint}, low_nm, high_nm);
 }
 
 }  // namespace
@@ -33,24 +33,28 @@ void check_cover_of_shifter(core::Problems& problems, const core::FileLocation& 
 void check_cover(core::Problems& problems, const core::FileLocation& where, const optics::Medium& medium,
                  double low_nm, double high_nm) {
   const std::string whose = "medium \"" + medium.name + "\"";
-  check_cover(problems, where, medium.index, low_nm, high_nm, whose, "refractive indices",
-              "extend its index table, or choose other wavelengths");
+  check_cover(
+      problems, where,
+      {medium.index, whose, "refractive indices", "extend its index table, or choose other wavelengths"},
+      low_nm, high_nm);
   check_cover_of_shifter(problems, where, medium.shifter.get(), low_nm, high_nm, whose);
 }
 
 void check_cover(core::Problems& problems, const SurfaceSpec& surface, double low_nm, double high_nm) {
   const std::string hint = "extend the table in its definition, or choose other wavelengths";
   const std::string gap = "the gap of surface \"" + surface.name + "\"";
-  check_cover(problems, surface.where, surface.gap_index, low_nm, high_nm, gap, "refractive indices", hint);
-  check_cover(problems, surface.where, surface.gap_absorption_per_mm, low_nm, high_nm, gap, "an absorption",
-              hint);
+  const auto check = [&](const core::Curve& curve, const std::string& whose, const std::string& what) {
+    check_cover(problems, surface.where, {curve, whose, what, hint}, low_nm, high_nm);
+  };
+  check(surface.gap_index, gap, "refractive indices");
+  check(surface.gap_absorption_per_mm, gap, "an absorption");
   check_cover_of_shifter(problems, surface.where, surface.gap_shifter.get(), low_nm, high_nm, gap);
-  if (surface.reflector)
-    check_cover(problems, surface.where, surface.reflector->reflectance, low_nm, high_nm,
-                "reflector \"" + surface.reflector->name + "\"", "reflectances", hint);
-  if (surface.reflector && surface.reflector->transmittance)
-    check_cover(problems, surface.where, *surface.reflector->transmittance, low_nm, high_nm,
-                "reflector \"" + surface.reflector->name + "\"", "transmittances", hint);
+  if (surface.reflector) {
+    const std::string reflector = "reflector \"" + surface.reflector->name + "\"";
+    check(surface.reflector->reflectance, reflector, "reflectances");
+    if (surface.reflector->transmittance)
+      check(*surface.reflector->transmittance, reflector, "transmittances");
+  }
   for (const ShareSpec& part : surface.mixture) check_cover(problems, *part.surface, low_nm, high_nm);
 }
 

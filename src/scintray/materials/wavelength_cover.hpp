@@ -9,11 +9,16 @@
 
 namespace scintray::materials {
 
-/// Adds a problem at `where` unless the curve covers [low_nm, high_nm]: "WHOSE has WHAT from ... to ... nm,
-/// but light of ... nm is in use".
-void check_cover(core::Problems& problems, const core::FileLocation& where, const core::Curve& curve,
-                 double low_nm, double high_nm, const std::string& whose, const std::string& what,
-                 const std::string& hint);
+/// A curve against wavelength, and how to speak of it: "WHOSE has WHAT from ... to ... nm, but light of ...
+/// nm is in use".
+struct TabulatedCurve {
+  const core::Curve& curve;
+  std::string whose, what, hint;
+};
+
+/// Adds a problem at `where` unless the curve covers [low_nm, high_nm].
+void check_cover(core::Problems& problems, const core::FileLocation& where, const TabulatedCurve& tabulated,
+                 double low_nm, double high_nm);
 
 /// The medium's refractive index, and what its wavelength shifter absorbs and re-emits.
 void check_cover(core::Problems& problems, const core::FileLocation& where, const optics::Medium& medium,

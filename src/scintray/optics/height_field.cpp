@@ -339,6 +339,13 @@ Side HeightField::scatter(Ray& ray, Side side, const core::Vec3& normal, const I
   return scatter(ray, side, place, index, rng);
 }
 
+SurfaceOutcome HeightField::scatter(Ray& ray, Side side, const IndexPair& index,
+                                    SurfaceInteraction& interaction) const {
+  std::optional<MapPlace>& place = interaction.place;
+  if (!place) place = random_place(interaction.normal, interaction.direction, interaction.rng);
+  return outcome_on(scatter(ray, side, *place, index, interaction.rng));
+}
+
 Side HeightField::scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index,
                           core::Rng& rng) const {
   const core::Frame& map = place.map;

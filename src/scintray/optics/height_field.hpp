@@ -18,19 +18,6 @@ struct HeightFieldExit {
   bool cut = false;            ///< followed for longer than the step limit and released as it was
 };
 
-/// How a map lies on a face, and where on it a ray is: kept while the ray goes to and fro between the map
-/// and what lies close behind it.
-struct MapPlace {
-  core::Frame map;  ///< the map's x and y, and the mean normal
-  double x_um = 0, y_um = 0;
-
-  /// Moves along the unit vector `direction` (world) by `distance_um`, sideways only.
-  void shift(const core::Vec3& direction, double distance_um) {
-    x_um += distance_um * direction.dot(map.x);
-    y_um += distance_um * direction.dot(map.y);
-  }
-};
-
 /// Heights on a periodic rectangular lattice; each cell is split along the diagonal from
 /// (i, j+1) to (i+1, j) into two triangles. Units are um, but only ratios matter.
 ///
@@ -38,7 +25,7 @@ struct MapPlace {
 /// and its sign states in which medium the ray is; a crossing is a change of sign. So direction and
 /// medium cannot disagree, and no ray is ever unclassified. Empty space is skipped through a pyramid
 /// of the extreme heights of blocks of 4, 16, 64, ... cells.
-class HeightField {
+class HeightField : public MicrosurfaceModel {
  public:
   HeightField() = default;
   /// @param heights row-major, heights[j * columns + i] at (i * pitch_x, j * pitch_y), one period
@@ -55,10 +42,13 @@ class HeightField {
   HeightFieldExit follow(Ray& ray, Side side, double x_um, double y_um, const IndexPair& index,
                          core::Rng& rng) const;
 
-  /// As every microsurface: random position and, about `normal`, random azimuth of the map.
+  /// The side on which the ray leaves, at a random position and, about `normal`, azimuth of the map.
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
   /// The same at a place, which moves to where the ray leaves.
   Side scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index, core::Rng& rng) const;
+  /// The same at the place of the interaction, drawn when it has none yet.
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
+                         SurfaceInteraction& interaction) const override;
   /// A place anywhere on the map, its x along `along` (see map_frame).
   MapPlace random_place(const core::Vec3& normal, const core::Vec3& along, core::Rng& rng) const;
 

@@ -22,28 +22,33 @@ bool is_specular(const Reflector& reflector, core::Rng& rng) {
 }
 
 /// Light that the sheet lets pass: through, or back where there is no way out beyond.
-SheetOutcome pass(const Reflector& reflector, Ray& ray, const core::Vec3& normal, double index_here,
-                  double index_beyond, core::Rng& rng) {
+SheetOutcome pass(const Reflector& reflector, Ray& ray, const SheetSide& side, core::Rng& rng) {
   if (is_specular(reflector, rng))
-    return refract_only(ray, normal, index_here, index_beyond) ? SheetOutcome::through : SheetOutcome::back;
-  const double ratio = index_beyond / index_here;
+    return refract_only(ray, side.normal, side.index_here, side.index_beyond) ? SheetOutcome::through
+                                                                              : SheetOutcome::back;
+  const double ratio = side.index_beyond / side.index_here;
   const bool back = ratio < 1.0 && rng.uniform() >= ratio * ratio;
-  scatter_lambertian(ray, back ? normal : core::Vec3(-normal), rng);
+  scatter_lambertian(ray, back ? side.normal : core::Vec3(-side.normal), rng);
   return back ? SheetOutcome::back : SheetOutcome::through;
 }
 
+/// What a sheet does with light of one wavelength.
+struct SheetShares {
+  double reflectance, transmittance;
+};
+
 /// Light that has been refracted into a volume-like reflector, until it is out again.
-SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
-                               double index_here, double index_beyond, double reflectance,
-                               double transmittance, core::Rng& rng, ReflectionLog* log) {
+SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const SheetSide& side,
+                               const SheetShares& shares, core::Rng& rng, ReflectionLog* log) {
   for (bool from_here = true;;) {
     const double u = rng.uniform();
-    if (u >= reflectance + transmittance) return SheetOutcome::absorbed;
-    if (log && u < reflectance) log->add(reflector, reflectance);
-    const bool to_here = (u < reflectance) == from_here;
-    const core::Vec3 out = to_here ? normal : core::Vec3(-normal);
+    if (u >= shares.reflectance + shares.transmittance) return SheetOutcome::absorbed;
+    if (log && u < shares.reflectance) log->add(reflector, shares.reflectance);
+    const bool to_here = (u < shares.reflectance) == from_here;
+    const core::Vec3 out = to_here ? side.normal : core::Vec3(-side.normal);
     scatter_lambertian(ray, out, rng);
-    if (interact_at_facet(ray, -out, reflector.volume_index, to_here ? index_here : index_beyond, rng))
+    if (interact_at_facet(ray, -out, reflector.volume_index, to_here ? side.index_here : side.index_beyond,
+                          rng))
       return to_here ? SheetOutcome::back : SheetOutcome::through;
     from_here = to_here;
   }
@@ -63,25 +68,24 @@ std::set<double> wavelengths_of(const Reflector& reflector) {
 
 }  // namespace
 
-SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
-                                   double index_here, double index_beyond, double wavelength_nm,
-                                   core::Rng& rng, ReflectionLog* log) {
-  const double reflectance = reflector.reflectance(wavelength_nm);
-  const double transmittance = reflector.transmittance ? (*reflector.transmittance)(wavelength_nm) : 0.0;
+SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const SheetSide& side,
+                                   double wavelength_nm, core::Rng& rng, ReflectionLog* log) {
+  const SheetShares shares{reflector.reflectance(wavelength_nm),
+                           reflector.transmittance ? (*reflector.transmittance)(wavelength_nm) : 0.0};
   if (reflector.volume_index > 0.0) {
-    if (!interact_at_facet(ray, normal, index_here, reflector.volume_index, rng)) return SheetOutcome::back;
-    return scatter_in_volume(reflector, ray, normal, index_here, index_beyond, reflectance, transmittance,
-                             rng, log);
+    if (!interact_at_facet(ray, side.normal, side.index_here, reflector.volume_index, rng))
+      return SheetOutcome::back;
+    return scatter_in_volume(reflector, ray, side, shares, rng, log);
   }
   const double u = rng.uniform();
-  if (u >= reflectance)
-    return u < reflectance + transmittance ? pass(reflector, ray, normal, index_here, index_beyond, rng)
-                                           : SheetOutcome::absorbed;
-  if (log) log->add(reflector, reflectance);
+  if (u >= shares.reflectance)
+    return u < shares.reflectance + shares.transmittance ? pass(reflector, ray, side, rng)
+                                                         : SheetOutcome::absorbed;
+  if (log) log->add(reflector, shares.reflectance);
   if (is_specular(reflector, rng))
-    reflect(ray, normal);
+    reflect(ray, side.normal);
   else
-    scatter_lambertian(ray, normal, rng);
+    scatter_lambertian(ray, side.normal, rng);
   return SheetOutcome::back;
 }
 

@@ -26,8 +26,15 @@ struct Reflector {
   std::optional<core::Curve> transmittance = std::nullopt;
 };
 
-/// Where light is after it met a reflector.
+/// Where light is after it reached a reflector.
 enum class SheetOutcome { back, through, absorbed };
+
+/// The side of a sheet that light reaches.
+struct SheetSide {
+  core::Vec3 normal;    ///< unit normal of the sheet, against the ray
+  double index_here;    ///< of the medium the ray is in
+  double index_beyond;  ///< of that behind the sheet
+};
 
 /// Sends `ray` back from a reflector, or through it.
 ///
@@ -40,13 +47,10 @@ enum class SheetOutcome { back, through, absorbed };
 /// thinner side, and the sheet is reciprocal between any two media. A volume-like reflector passes light
 /// through its binder instead, and both faces refract.
 ///
-/// @param normal        unit normal of the sheet, against the ray
-/// @param index_here    of the medium the ray is in; @param index_beyond  of that behind the sheet
-/// @param log           told of what was sent back by a draw against the reflectance, not of what a volume's
-///                      face mirrored or what passed; may be null
-SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const core::Vec3& normal,
-                                   double index_here, double index_beyond, double wavelength_nm,
-                                   core::Rng& rng, ReflectionLog* log = nullptr);
+/// @param log  takes what was sent back by a draw against the reflectance, not what a volume's face mirrored
+///             or what passed; may be null
+SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const SheetSide& side,
+                                   double wavelength_nm, core::Rng& rng, ReflectionLog* log = nullptr);
 
 /// Largest share of the light that is not absorbed, reflectance and transmittance together, over all
 /// wavelengths. At most 1 for a sheet that can be.

@@ -8,47 +8,34 @@ namespace scintray::optics {
 
 namespace {
 
-/// The microsurface during one interaction: a height map keeps its place while light goes to and fro.
+/// The microsurface and the gap during one interaction.
 class Interaction {
  public:
-  Interaction(const Surface& surface, const core::Vec3& normal, double wavelength_nm, ShiftingLight* light,
-              core::Rng& rng)
-      : surface_(surface), normal_(normal), wavelength_nm_(wavelength_nm), light_(light), rng_(rng) {}
+  Interaction(const Surface& surface, const Incidence& incidence, ShiftingLight* light, core::Rng& rng)
+      : surface_(surface),
+        at_{incidence.normal, surface.direction, incidence.wavelength_nm, rng},
+        light_(light) {}
 
-  double wavelength_nm() const { return wavelength_nm_; }
+  double wavelength_nm() const { return at_.wavelength_nm; }
 
   /// The ray arrives at the microsurface on `side` and leaves on the returned one.
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index) {
-    return std::visit(
-        [&](const auto& model) -> SurfaceOutcome {
-          using Model = std::decay_t<decltype(model)>;
-          if constexpr (std::is_same_v<Model, PaintedSurface>) {
-            return outcome_on(other(side));  // nothing between the light and the reflector
-          } else if constexpr (std::is_same_v<Model, std::shared_ptr<const SurfaceTable>>) {
-            return model->interact(ray, side, normal_, surface_.direction, wavelength_nm_, rng_);
-          } else if constexpr (std::is_same_v<Model, std::shared_ptr<const HeightField>>) {
-            if (!place_) place_ = model->random_place(normal_, surface_.direction, rng_);
-            return outcome_on(model->scatter(ray, side, *place_, index, rng_));
-          } else {
-            return outcome_on(model.scatter(ray, side, normal_, index, rng_));
-          }
-        },
-        surface_.microsurface);
+    return surface_.microsurface->scatter(ray, side, index, at_);
   }
 
   /// Takes the ray through the gap from one of its faces; states whether it comes out at the far one, or
   /// nothing when it is absorbed on the way.
   std::optional<bool> cross_gap(Ray& ray, bool from_far) {
     if (!surface_.gap_thickness_um) {
-      place_.reset();
+      at_.place.reset();
       return !from_far;
     }
     if (surface_.gap_shifter) return cross_coating(ray, from_far);
-    const double path_um = *surface_.gap_thickness_um / std::abs(ray.direction.dot(normal_));
-    const double absorption_per_mm = surface_.gap_absorption_per_mm(wavelength_nm_);
-    if (absorption_per_mm > 0.0 && core::sample_exponential(rng_) < absorption_per_mm * path_um * kMmPerUm)
+    const double path_um = *surface_.gap_thickness_um / std::abs(ray.direction.dot(at_.normal));
+    const double absorption_per_mm = surface_.gap_absorption_per_mm(at_.wavelength_nm);
+    if (absorption_per_mm > 0.0 && core::sample_exponential(at_.rng) < absorption_per_mm * path_um * kMmPerUm)
       return std::nullopt;
-    if (place_) place_->shift(ray.direction, path_um);
+    if (at_.place) at_.place->shift(ray.direction, path_um);
     return !from_far;
   }
 
@@ -59,37 +46,34 @@ class Interaction {
     const double thickness_um = *surface_.gap_thickness_um;
     double depth_um = from_far ? thickness_um : 0.0;  // from the microsurface
     for (;;) {
-      const double shifting_per_mm = surface_.gap_shifter->absorption_per_mm()(wavelength_nm_);
-      const double total_per_mm = shifting_per_mm + surface_.gap_absorption_per_mm(wavelength_nm_);
-      const double along = ray.direction.dot(normal_);
+      const double shifting_per_mm = surface_.gap_shifter->absorption_per_mm()(at_.wavelength_nm);
+      const double total_per_mm = shifting_per_mm + surface_.gap_absorption_per_mm(at_.wavelength_nm);
+      const double along = ray.direction.dot(at_.normal);
       const double to_face_um = (along > 0.0 ? thickness_um - depth_um : depth_um) / std::abs(along);
-      const double depth = core::sample_exponential(rng_);
+      const double depth = core::sample_exponential(at_.rng);
       const bool absorbed = depth < total_per_mm * to_face_um * kMmPerUm;
       const double path_um = absorbed ? depth / (total_per_mm * kMmPerUm) : to_face_um;
-      if (place_) place_->shift(ray.direction, path_um);
+      if (at_.place) at_.place->shift(ray.direction, path_um);
       if (!absorbed) return along > 0.0;
       depth_um += path_um * along;
-      if (rng_.uniform() * total_per_mm >= shifting_per_mm || !shift(ray)) return std::nullopt;
+      if (at_.rng.uniform() * total_per_mm >= shifting_per_mm || !shift(ray)) return std::nullopt;
     }
   }
 
-  /// Lets the gap's shifter absorb the photon; false when it does not give it back.
+  /// Lets the gap's shifter absorb the photon; false when it is not re-emitted.
   bool shift(Ray& ray) {
     if (!light_) return false;
-    const auto back = surface_.gap_shifter->absorb(wavelength_nm_, rng_, light_->count);
+    const auto back = surface_.gap_shifter->absorb(at_.wavelength_nm, at_.rng, light_->count);
     if (!back) return false;
-    wavelength_nm_ = light_->wavelength_nm = back->wavelength_nm;
+    at_.wavelength_nm = light_->wavelength_nm = back->wavelength_nm;
     light_->delay_ns += back->delay_ns;
-    scatter_isotropic(ray, rng_);
+    scatter_isotropic(ray, at_.rng);
     return true;
   }
 
   const Surface& surface_;
-  const core::Vec3& normal_;
-  double wavelength_nm_;
+  SurfaceInteraction at_;
   ShiftingLight* light_;
-  core::Rng& rng_;
-  std::optional<MapPlace> place_;
 };
 
 const Surface& pick(const std::vector<SurfaceShare>& mixture, core::Rng& rng) {
@@ -101,7 +85,7 @@ const Surface& pick(const std::vector<SurfaceShare>& mixture, core::Rng& rng) {
   return *mixture.back().surface;
 }
 
-/// Light that meets the far face of a gap from within it, or from beyond it.
+/// Light that reaches the far face of a gap from within it, or from beyond it.
 struct FarFace {
   const std::optional<Reflector>& reflector;
   const core::Vec3& normal;
@@ -113,7 +97,7 @@ struct FarFace {
   After from_gap(Ray& ray) const {
     if (reflector) {
       const SheetOutcome outcome =
-          interact_at_reflector(*reflector, ray, -normal, gap_index, beyond_index, wavelength_nm, rng, log);
+          interact_at_reflector(*reflector, ray, {-normal, gap_index, beyond_index}, wavelength_nm, rng, log);
       return after(outcome, After::in_gap, After::beyond);
     }
     return interact_at_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
@@ -121,7 +105,7 @@ struct FarFace {
   After from_beyond(Ray& ray) const {
     if (reflector) {  // the back of the sheet
       const SheetOutcome outcome =
-          interact_at_reflector(*reflector, ray, normal, beyond_index, gap_index, wavelength_nm, rng, log);
+          interact_at_reflector(*reflector, ray, {normal, beyond_index, gap_index}, wavelength_nm, rng, log);
       return after(outcome, After::beyond, After::in_gap);
     }
     return interact_at_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
@@ -135,21 +119,21 @@ struct FarFace {
 
 }  // namespace
 
-SurfaceOutcome Surface::interact(Ray& ray, Side side, const core::Vec3& normal, IndexPair index,
-                                 double wavelength_nm, ShiftingLight* light, core::Rng& rng,
-                                 ReflectionLog* log) const {
-  if (!mixture.empty())
-    return pick(mixture, rng).interact(ray, side, normal, index, wavelength_nm, light, rng, log);
-  Interaction interaction(*this, normal, wavelength_nm, light, rng);
-  if (!reflector && !gap_thickness_um) return interaction.scatter(ray, side, index);
+SurfaceOutcome Surface::interact(Ray& ray, const Incidence& incidence, ShiftingLight* light,
+                                 core::Rng& rng) const {
+  if (!mixture.empty()) return pick(mixture, rng).interact(ray, incidence, light, rng);
+  Interaction interaction(*this, incidence, light, rng);
+  if (!reflector && !gap_thickness_um) return interaction.scatter(ray, incidence.side, incidence.index);
 
   // Paint lies on the face itself: its light is still in the inside medium.
-  const bool painted = std::holds_alternative<PaintedSurface>(microsurface);
-  IndexPair under{index.inside, painted ? index.inside : gap_index(wavelength_nm)};
+  const bool painted = microsurface->kind() == MicrosurfaceKind::painted;
+  IndexPair index = incidence.index;
+  IndexPair under{index.inside, painted ? index.inside : gap_index(incidence.wavelength_nm)};
   const auto far = [&] {
-    return FarFace{reflector, normal, under.outside, index.outside, interaction.wavelength_nm(), rng, log};
+    return FarFace{reflector, incidence.normal, under.outside, index.outside, interaction.wavelength_nm(),
+                   rng,       incidence.log};
   };
-  bool at_far_face = side == Side::outside;
+  bool at_far_face = incidence.side == Side::outside;
   if (at_far_face) {
     switch (far().from_beyond(ray)) {
       case FarFace::After::beyond:
@@ -159,7 +143,7 @@ SurfaceOutcome Surface::interact(Ray& ray, Side side, const core::Vec3& normal, 
       case FarFace::After::in_gap:
         break;
     }
-  } else if (const SurfaceOutcome first = interaction.scatter(ray, side, under);
+  } else if (const SurfaceOutcome first = interaction.scatter(ray, incidence.side, under);
              first != SurfaceOutcome::outside) {
     return first;
   }
@@ -193,8 +177,7 @@ bool Surface::opaque() const {
   if (!mixture.empty())
     return std::all_of(mixture.begin(), mixture.end(),
                        [](const SurfaceShare& part) { return part.surface->opaque(); });
-  const auto* table = std::get_if<std::shared_ptr<const SurfaceTable>>(&microsurface);
-  return (reflector && !reflector->transmittance) || (table && (*table)->opaque());
+  return (reflector && !reflector->transmittance) || microsurface->opaque();
 }
 
 }  // namespace scintray::optics

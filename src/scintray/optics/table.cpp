@@ -243,6 +243,12 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
                std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth), cos_azimuth);
 }
 
+SurfaceOutcome SurfaceTable::scatter(Ray& ray, Side side, const IndexPair&,
+                                     SurfaceInteraction& interaction) const {
+  return interact(ray, side, interaction.normal, interaction.direction, interaction.wavelength_nm,
+                  interaction.rng);
+}
+
 Side SurfaceTable::scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair&,
                            core::Rng& rng) const {
   return interact(ray, side, normal, core::Vec3::Zero(), wavelengths_nm_.front(), rng) ==

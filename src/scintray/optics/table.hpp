@@ -51,7 +51,7 @@ struct TableProvenance {
 /// Between wavelengths, and between azimuths of incidence, one of the two neighbouring slices is drawn for
 /// each photon in proportion to nearness, which interpolates every distribution linearly. Beyond the first
 /// and the last wavelength the nearest slice holds.
-class SurfaceTable {
+class SurfaceTable : public MicrosurfaceModel {
  public:
   SurfaceTable() = default;
   /// One slice for all wavelengths and azimuths.
@@ -72,7 +72,9 @@ class SurfaceTable {
   SurfaceOutcome interact(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
                           double wavelength_nm, core::Rng& rng) const;
 
-  /// As every microsurface, for tables without absorption: the first wavelength, the map at any azimuth.
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
+                         SurfaceInteraction& interaction) const override;
+  /// The side on which the ray leaves a table without absorption: the first wavelength, any azimuth.
   /// `index` is not used: `index_pair()` states what the table is for.
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
 
@@ -91,8 +93,8 @@ class SurfaceTable {
     return slices_[slice].nodes(side);
   }
   const TableProvenance& provenance() const { return provenance_; }
-  bool absorbs() const { return absorbs_; }  ///< some node does
-  bool opaque() const { return opaque_; }    ///< nothing that comes from inside is transmitted
+  bool absorbs() const { return absorbs_; }         ///< some node does
+  bool opaque() const override { return opaque_; }  ///< nothing that comes from inside is transmitted
 
  private:
   /// Wavelengths and azimuths of the slices; InputError when they are no grid.

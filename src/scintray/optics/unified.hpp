@@ -5,6 +5,10 @@
 /// scintillation counters and its implementation into DETECT", IEEE NSS; S. K. Nayar et al. 1991,
 /// IEEE PAMI 13(7), for the lobes.
 
+#include <algorithm>
+#include <cmath>
+
+#include "scintray/core/sampling.hpp"
 #include "scintray/optics/microsurface.hpp"
 
 namespace scintray::optics {
@@ -16,13 +20,16 @@ enum class SigmaAlphaDefinition {
   polar_angle,  ///< alpha itself is normal with standard deviation sigma (its absolute value)
 };
 
-/// How facets are met.
+/// With which probability light hits a facet.
 enum class FacetSampling {
   projected_area,  ///< facets weighted by the area that the incoming light sees
   geant4,          ///< any facet turned towards the light, with equal weight
 };
 
-struct UnifiedSurface {
+/// Facets whose angles to the mean normal are normally distributed. All of it stands in this header, so that
+/// what draws facets can be compiled into the loop that scatters many photons.
+class UnifiedSurface : public MicrosurfaceModel {
+ public:
   double sigma_alpha_rad = 0.0;
   SigmaAlphaDefinition definition = SigmaAlphaDefinition::solid_angle;
   FacetSampling sampling = FacetSampling::projected_area;
@@ -31,9 +38,114 @@ struct UnifiedSurface {
   double lobe = 1.0;
   double backscatter = 0.0;
 
-  /// As every microsurface. A ray whose outcome at a facet still heads into the surface meets
+  /// The side on which the ray leaves. A ray whose outcome at a facet still heads into the surface hits
   /// another facet from there (as in Geant4's boundary process).
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
+                         SurfaceInteraction& interaction) const override;
+
+ private:
+  enum class Lobe { spike, facet, backscatter, lambertian };
+  /// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
+  /// bounds the area that a facet can show.
+  static constexpr double kWidestFacet_sigma = 6.0;
+
+  /// Facet angle to the mean normal, below 90 deg.
+  double sample_facet_angle(core::Rng& rng) const;
+  /// Largest cosine between the reversed direction of a ray and any facet normal.
+  double greatest_facing(double cos_incidence) const;
+  /// Facet normal, within 90 deg of `frame.z`, that faces a ray of direction k.
+  core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
+  Lobe sample_lobe(core::Rng& rng) const;
+  /// Replaces a mirror reflection at a facet by the chosen lobe. `before` is the ray as it came.
+  static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
 };
+
+inline double UnifiedSurface::sample_facet_angle(core::Rng& rng) const {
+  const double sigma = sigma_alpha_rad;
+  for (;;) {
+    if (definition == SigmaAlphaDefinition::polar_angle) {
+      const double alpha = std::abs(sigma * core::sample_normal(rng));
+      if (alpha < 0.5 * core::kPi) return alpha;
+      continue;
+    }
+    // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
+    const double alpha = sigma * std::sqrt(2.0 * core::sample_exponential(rng));
+    if (alpha < 0.5 * core::kPi && rng.uniform() * alpha <= std::sin(alpha)) return alpha;
+  }
+}
+
+inline double UnifiedSurface::greatest_facing(double cos_incidence) const {
+  const double widest = kWidestFacet_sigma * sigma_alpha_rad;
+  const double incidence = std::acos(std::clamp(cos_incidence, 0.0, 1.0));
+  return incidence <= widest ? 1.0 : std::cos(incidence - widest);
+}
+
+inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
+                                               core::Rng& rng) const {
+  if (sigma_alpha_rad == 0.0) return frame.z;
+  const bool weighted = sampling == FacetSampling::projected_area;
+  const double bound = weighted ? greatest_facing(-k.dot(frame.z)) : 1.0;
+  for (;;) {
+    const double alpha = sample_facet_angle(rng);
+    if (weighted && alpha > kWidestFacet_sigma * sigma_alpha_rad) continue;
+    const double azimuth = core::kTwoPi * rng.uniform();
+    const double sine = std::sin(alpha);
+    const core::Vec3 m =
+        sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y + std::cos(alpha) * frame.z;
+    const double facing = -k.dot(m);
+    if (facing <= 0.0) continue;
+    if (weighted && rng.uniform() * bound > facing) continue;
+    return m;
+  }
+}
+
+inline UnifiedSurface::Lobe UnifiedSurface::sample_lobe(core::Rng& rng) const {
+  if (lobe == 1.0) return Lobe::facet;
+  const double u = rng.uniform();
+  if (u < spike) return Lobe::spike;
+  if (u < spike + lobe) return Lobe::facet;
+  if (u < spike + lobe + backscatter) return Lobe::backscatter;
+  return Lobe::lambertian;
+}
+
+inline void UnifiedSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against,
+                                       core::Rng& rng) {
+  switch (chosen) {
+    case Lobe::facet:
+      return;
+    case Lobe::spike:
+      ray = before;
+      reflect(ray, against);
+      return;
+    case Lobe::backscatter:
+      ray = {-before.direction, before.polarisation};
+      return;
+    case Lobe::lambertian:
+      ray.direction = core::sample_lambertian(against, rng);
+      if (!before.polarisation.isZero(0.0)) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+      return;
+  }
+}
+
+inline Side UnifiedSurface::scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index,
+                                    core::Rng& rng) const {
+  for (;;) {
+    const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
+    const core::Vec3 facet = sample_facet(ray.direction, core::Frame::about(against), rng);
+    const Ray before = ray;
+    if (interact_at_facet(ray, facet, index.on(side), index.on(other(side)), rng))
+      side = other(side);
+    else
+      apply_lobe(sample_lobe(rng), ray, before, against, rng);
+    const double outward = ray.direction.dot(normal);
+    if (side == Side::inside ? outward < 0.0 : outward > 0.0) return side;
+  }
+}
+
+inline SurfaceOutcome UnifiedSurface::scatter(Ray& ray, Side side, const IndexPair& index,
+                                              SurfaceInteraction& interaction) const {
+  return outcome_on(scatter(ray, side, interaction.normal, index, interaction.rng));
+}
 
 }  // namespace scintray::optics

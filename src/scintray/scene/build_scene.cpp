@@ -74,9 +74,10 @@ class AssemblyMaker {
     detector::Sensor sensor;
     try {
       sensor = database_.sensor(ref.name, ref.where);
-      materials::check_cover(problems_, ref.where, sensor.efficiency, wavelengths_.low_nm,
-                             wavelengths_.high_nm, "sensor \"" + sensor.name + "\"", "an efficiency",
-                             "extend its efficiency table, with zeros where it does not respond");
+      materials::check_cover(problems_, ref.where,
+                             {sensor.efficiency, "sensor \"" + sensor.name + "\"", "an efficiency",
+                              "extend its efficiency table, with zeros where it does not respond"},
+                             wavelengths_.low_nm, wavelengths_.high_nm);
       check_pulse(sensor);
     } catch (const core::InputError& error) {
       problems_.add(error);
@@ -150,7 +151,6 @@ class AssemblyMaker {
   void find_surface(const config::NameRef& ref) {
     if (surfaces_.contains(ref.name)) return;
     materials::SurfaceSpec& spec = surfaces_[ref.name];
-    spec.microsurface = materials::SmoothSpec{};
     try {
       spec = database_.surface(ref.name, ref.where);
     } catch (const core::InputError& error) {
@@ -175,8 +175,7 @@ class AssemblyMaker {
 
   optics::Surface make_surface(const std::string& name, std::uint32_t inside, std::uint32_t outside,
                                std::vector<std::string>& warnings) {
-    materials::SurfaceSpec smooth;
-    smooth.microsurface = materials::SmoothSpec{};
+    const materials::SurfaceSpec smooth;
     const materials::SurfaceSpec& spec = name.empty() ? smooth : surfaces_.at(name);
     // An opaque part has no index: where light enters it the indices match.
     const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
@@ -212,8 +211,9 @@ std::vector<contact::ConformingContact> conforming_contacts(const scene_file::Sc
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks, const mesh::MeshFormats& formats)
-    : surface_factory_(std::move(hooks)), formats_(&formats) {}
+SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks, materials::DefinitionModels models,
+                           const mesh::MeshFormats& formats)
+    : surface_factory_(std::move(hooks)), models_(std::move(models)), formats_(&formats) {}
 
 BuiltScene SceneBuilder::build(const scene_file::SceneSpec& spec) {
   core::Problems problems;

@@ -34,8 +34,9 @@ struct BuiltScene {
 /// of the material database are read once (Library).
 class SceneBuilder {
  public:
+  /// @param models   surface and sensor models that definitions may name
   /// @param formats  that mesh files of parts may have; must outlive the builder
-  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {},
+  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {}, materials::DefinitionModels models = {},
                         const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
   /// Throws InputError with every problem: unsound meshes, faces without or with two surfaces,
@@ -58,6 +59,7 @@ class SceneBuilder {
   using OwnDefinitions = std::array<scene_file::InlineTables, 4>;  ///< media, surfaces, sensors, reflectors
 
   materials::SurfaceFactory surface_factory_;
+  materials::DefinitionModels models_;
   const mesh::MeshFormats* formats_;
   std::optional<materials::MaterialDatabase> shipped_, database_;
   OwnDefinitions own_;  ///< of `database_`

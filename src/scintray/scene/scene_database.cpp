@@ -35,7 +35,7 @@ materials::MaterialDatabase database_for(const scene_file::SceneSpec& spec) {
 }
 
 const materials::MaterialDatabase& SceneBuilder::database(const scene_file::SceneSpec& spec) {
-  if (!shipped_) shipped_ = materials::MaterialDatabase::shipped();
+  if (!shipped_) shipped_ = materials::MaterialDatabase::shipped(models_);
   const OwnDefinitions own{spec.media, spec.surfaces, spec.sensors, spec.reflectors};
   if (database_ && same_own_definitions(own, own_)) return *database_;
   database_ = shipped_;

@@ -84,7 +84,7 @@ KeyPath read_path(const config::TomlTable& table, const std::string& key, const 
   path.role = role;
   table.expect(key, may_be_set(path.key),
                "\"" + path.key + "\" says nothing of the scene and cannot be set here",
-               "name a key of the scene, as surfaces.ground.unified.sigma_alpha");
+               "name a key of the scene, as surfaces.wrapped.reflectance");
   return path;
 }
 

@@ -70,7 +70,7 @@ class SceneCurve : public FitModel {
         fit_(fit),
         measured_(measured),
         settings_(settings),
-        builder_(settings.run.surface_hooks, *settings.run.mesh_formats) {
+        builder_(settings.run.surface_hooks, settings.run.models, *settings.run.mesh_formats) {
     check();
   }
 
@@ -218,7 +218,7 @@ class ReflectanceCurve : public FitModel {
         measured_(measured),
         settings_(settings),
         factory_(settings.run.surface_hooks),
-        shipped_(materials::MaterialDatabase::shipped()),
+        shipped_(materials::MaterialDatabase::shipped(settings.run.models)),
         rays_(settings.run.photons.value_or(fit.goniometer->rays)) {
     check();
   }

@@ -38,6 +38,7 @@ struct MapOptions {
   ResponseHooks hooks;
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
   const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();  ///< as SimulationOptions has them
+  materials::DefinitionModels models;  ///< surface and sensor models that the scene may name
 };
 
 /// Builds the map of all parts that scintillate. The scene's [source] states whether light is polarised and,

@@ -88,6 +88,7 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
   run.seed = options.seed;
   run.surface_hooks = options.surface_hooks;
   run.mesh_formats = options.mesh_formats;
+  run.models = options.models;
   run.change = leave_photons_out;
   Simulation simulation(file, run);
   const auto point = simulation.point(0);

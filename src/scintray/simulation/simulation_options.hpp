@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/scene_file/spec.hpp"
@@ -21,6 +22,7 @@ struct SimulationOptions {
   std::function<void(scene_file::SceneSpec&)>
       change;                                      ///< applied to the scene of every point, after all others
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
+  materials::DefinitionModels models;              ///< surface and sensor models that the scene may name
   /// That mesh files of parts may have; outlives the simulation. Elements of arrays are of built-in formats:
   /// their size is needed when the scene file is read.
   const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();

@@ -53,8 +53,7 @@ void HistoryPlan::add_media(const scene::Scene& scene) {
 void HistoryPlan::add_surface(const scene::Scene& scene, const optics::Surface& surface,
                               const std::string& within) {
   for (const optics::SurfaceShare& share : surface.mixture) add_surface(scene, *share.surface, within);
-  if (surface.gap_thickness_um && !surface.gap_medium.empty())
-    add_once(subjects_.gap_media, surface.gap_medium);
+  if (surface.gap_thickness_um && !surface.gap.empty()) add_once(subjects_.gap_media, surface.gap);
   if (!surface.reflector) return;
   if (surface.reflector->transmittance) {
     for (const std::string& name : {within, surface.definition, surface.reflector->name})

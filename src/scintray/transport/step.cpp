@@ -265,8 +265,10 @@ InterfaceOutcome interact_at_interface(InterfaceApproach& at, source::Photon& ph
     const optics::SurfaceOutcome outcome =
         surface.shifts()
             ? interact_with_shift(at, to, photon, rng, records)
-            : surface.interact(photon.ray, to.side, to.outward, at.index.around(to.at_back),
-                               photon.wavelength_nm, rng, records ? records->reflection_log() : nullptr);
+            : surface.interact(photon.ray,
+                               {to.side, to.outward, at.index.around(to.at_back), photon.wavelength_nm,
+                                records ? records->reflection_log() : nullptr},
+                               rng);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
     if (outcome == optics::SurfaceOutcome::inside) return {!to.at_back, scene::kNone};
     if (!at.index.dry) return {to.at_back, scene::kNone};

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "scintray/materials/wavelength_cover.hpp"
+#include "scintray/optics/height_field.hpp"
+#include "scintray/optics/table.hpp"
 #include "scintray/topography/map_statistics.hpp"
 
 namespace scintray::analysis {
@@ -64,10 +66,10 @@ SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
 
 bool has_facets(const optics::Surface& surface) {
   if (!surface.mixture.empty()) return false;
-  if (const auto* table = std::get_if<std::shared_ptr<const optics::SurfaceTable>>(&surface.microsurface))
-    return (*table)->provenance().stack.empty();  // a table of a stack does not know
-  return std::holds_alternative<optics::SmoothSurface>(surface.microsurface) ||
-         std::holds_alternative<std::shared_ptr<const optics::HeightField>>(surface.microsurface);
+  if (const auto* table = surface.microsurface.get_if<optics::SurfaceTable>())
+    return table->provenance().stack.empty();  // a table of a stack does not know
+  return surface.microsurface->kind() == optics::MicrosurfaceKind::smooth ||
+         surface.microsurface.get_if<optics::HeightField>();
 }
 
 core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side side, double incidence_rad) {
@@ -75,11 +77,11 @@ core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side s
     throw core::InputError({{},
                             "surface \"" + surface.name + "\" has no facets whose slopes could be visible",
                             "slopes are those of a height map, a recipe, a table of one, or a smooth face"});
-  if (std::holds_alternative<optics::SmoothSurface>(surface.microsurface)) return {};
-  if (const auto* map = std::get_if<std::shared_ptr<const optics::HeightField>>(&surface.microsurface))
-    return topography::mean_visible_slope(**map, side, incidence_rad, kSlopeRays);
-  const auto& table = std::get<std::shared_ptr<const optics::SurfaceTable>>(surface.microsurface);
-  return {slope_in_table(*table, side, incidence_rad), 0.0};
+  if (const auto* map = surface.microsurface.get_if<optics::HeightField>())
+    return topography::mean_visible_slope(*map, side, incidence_rad, kSlopeRays);
+  if (const auto* table = surface.microsurface.get_if<optics::SurfaceTable>())
+    return {slope_in_table(*table, side, incidence_rad), 0.0};
+  return {};
 }
 
 }  // namespace scintray::analysis

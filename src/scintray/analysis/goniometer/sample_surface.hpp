@@ -38,7 +38,7 @@ bool has_facets(const optics::Surface& surface);
 /// Mean angle (rad) between the mean normal and the first facet hit, by light from `side` at an incidence
 /// angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's nodes (then
 /// without an error), 0 for a smooth surface.
-/// InputError for surfaces without facets of their own (UNIFIED, painted, mixtures, tables of stacks).
+/// InputError for surfaces without known facets (statistical models, painted, mixtures, tables of stacks).
 core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side side, double incidence_rad);
 
 }  // namespace scintray::analysis

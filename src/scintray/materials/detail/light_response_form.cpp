@@ -1,4 +1,4 @@
-#include "scintray/materials/detail/light_response_form.hpp"
+#include "scintray/materials/detail/forms.hpp"
 
 namespace scintray::materials {
 

@@ -1,28 +1,24 @@
-#include "scintray/materials/detail/sensor_form.hpp"
+#include "scintray/materials/detail/forms.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/materials/material_forms.hpp"
 
 namespace scintray::materials {
 
 namespace {
 
-constexpr double kHighestIndex = 5.0;
-/// More than this, and every avalanche fires another one for ever (1 - exp(-1) is 63 %).
-constexpr double kMostSecondaries = 0.6;
-constexpr double kMostSpread = 3.0;
-constexpr std::int64_t kMostMicrocells = 100'000'000;
+constexpr core::Word<detector::AngleMedium> kAngleMedia[] = {{"window", detector::AngleMedium::window},
+                                                             {"outside", detector::AngleMedium::outside}};
+/// Widths of a normal distribution over its standard deviation.
+constexpr core::Word<double> kWidthsPerSigma[] = {{"fwhm", core::kFwhmPerSigma}, {"sigma", 1.0}};
+constexpr core::Word<double detector::DarkCounts::*> kDarkRates[] = {
+    {"rate", &detector::DarkCounts::per_ns}, {"rate_per_mm2", &detector::DarkCounts::per_ns_mm2}};
 
-/// A probability up to a limit; 0 when absent.
-double read_chance(const config::TomlTable& table, const std::string& key) {
-  const double chance = table.quantity(key, core::Dimension::dimensionless, 0.0);
-  table.expect(key, chance >= 0.0 && chance <= kMostSecondaries, "this probability lies between 0 and 60 %",
-               "give the probability of one avalanche, as \"3 %\"");
-  return chance;
-}
+constexpr double kMostSpread = 3.0;
 
 void expect_positive(const config::TomlTable& table, const std::string& key, double value) {
   table.expect(key, value > 0.0, "\"" + key + "\" must be above 0");
@@ -67,14 +63,12 @@ void read_angle(const config::TomlTable& table, SourceRule rule, detector::Senso
   read_source(table, rule, sensor.sources);
   detector::AngularEfficiency angle;
   angle.factor = table.curve("factor", core::Dimension::dimensionless, core::Dimension::angle);
-  const bool outside = table.choice("measured_in", {"window", "outside"}) == "outside";
-  const bool external = table.choice("definition", {"internal", "external"}) == "external";
-  angle.measured_in = outside ? detector::AngleMedium::outside : detector::AngleMedium::window;
-  angle.definition =
-      external ? detector::EfficiencyDefinition::external : detector::EfficiencyDefinition::internal;
-  if (outside || external || table.has("reference_index")) {
+  angle.measured_in = table.choice("measured_in", kAngleMedia);
+  angle.definition = table.choice("definition", kEfficiencyDefinitions);
+  if (angle.measured_in == detector::AngleMedium::outside ||
+      angle.definition == detector::EfficiencyDefinition::external || table.has("reference_index")) {
     angle.reference_index = table.number("reference_index");
-    table.expect("reference_index", angle.reference_index >= 1.0 && angle.reference_index <= kHighestIndex,
+    table.expect("reference_index", angle.reference_index >= 1.0 && angle.reference_index <= kGreatestIndex,
                  "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
   }
   sensor.angle = std::move(angle);
@@ -82,11 +76,11 @@ void read_angle(const config::TomlTable& table, SourceRule rule, detector::Senso
 }
 
 double read_time_spread(const config::TomlTable& table) {
-  const std::optional<std::string> form = table.one_of({"fwhm", "sigma"}, true);
+  const core::Word<double>* form = table.one_of(kWidthsPerSigma, true);
   if (!form) return 0.0;
-  const double width_ns = table.quantity(*form, core::Dimension::time);
-  expect_positive(table, *form, width_ns);
-  return form == "fwhm" ? width_ns / core::kFwhmPerSigma : width_ns;
+  const double width_ns = table.quantity(form->word, core::Dimension::time);
+  expect_positive(table, form->word, width_ns);
+  return width_ns / form->value;
 }
 
 detector::SingleElectron read_single_electron(const config::TomlTable& table) {
@@ -102,45 +96,70 @@ detector::SingleElectron read_single_electron(const config::TomlTable& table) {
   return electron;
 }
 
-detector::Microcells read_microcells(const config::TomlTable& table) {
-  detector::Microcells cells;
-  const std::optional<std::string> form = table.one_of({"pitch", "count"}, true);
-  if (form == "pitch") {
-    cells.pitch_mm = table.quantity("pitch", core::Dimension::length);
-    expect_positive(table, "pitch", cells.pitch_mm);
-  } else if (form == "count") {
-    const std::int64_t count = table.integer("count");
-    table.expect("count", count >= 1 && count <= kMostMicrocells, "a sensor has 1 to 10^8 cells");
-    cells.count = static_cast<std::uint32_t>(std::clamp<std::int64_t>(count, 1, kMostMicrocells));
-  }
-  cells.recovery_ns = table.quantity("recovery", core::Dimension::time);
-  expect_positive(table, "recovery", cells.recovery_ns);
-  cells.crosstalk = read_chance(table, "crosstalk");
-  cells.afterpulse = read_chance(table, "afterpulse");
-  if (cells.afterpulse > 0.0 || table.has("afterpulse_time")) {
-    cells.afterpulse_time_ns = table.quantity("afterpulse_time", core::Dimension::time);
-    expect_positive(table, "afterpulse_time", cells.afterpulse_time_ns);
-  }
-  return cells;
-}
-
 /// Higher rates than this are mistakes of unit: an avalanche a ns.
 constexpr double kMostDarkCounts_per_ns = 1.0;
 
 detector::DarkCounts read_dark_counts(const config::TomlTable& table) {
   detector::DarkCounts dark;
-  const std::optional<std::string> form = table.one_of({"rate", "rate_per_mm2"}, true);
+  const core::Word<double detector::DarkCounts::*>* form = table.one_of(kDarkRates, true);
   if (!form) return dark;
-  const double rate = table.quantity(*form, core::Dimension::frequency);
-  table.expect(*form, rate >= 0.0 && rate <= kMostDarkCounts_per_ns,
+  const double rate = table.quantity(form->word, core::Dimension::frequency);
+  table.expect(form->word, rate >= 0.0 && rate <= kMostDarkCounts_per_ns,
                "a dark count rate lies between 0 and 1 GHz", "give counts a second, as \"2 MHz\"");
-  (form == "rate" ? dark.per_ns : dark.per_ns_mm2) = rate;
+  dark.*(form->value) = rate;
   return dark;
+}
+
+/// The model of `model`; without that key the one whose own table is given, or else the first. Nullptr when
+/// the word is wrong.
+const SensorModel* read_model(const config::TomlTable& table, const SensorModels& models) {
+  for (const SensorModel& model : models.all())
+    if (!model.table.empty()) table.has(model.table);
+  if (!table.has("model")) {
+    const std::string word = models.stated_by(*table.node());
+    return word.empty() ? &models.all().front() : models.find(word);
+  }
+  const std::string word = table.choice("model", models.words());
+  return table.good("model") ? models.find(word) : nullptr;
+}
+
+/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
+void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
+                     detector::Sensor& sensor) {
+  read_source(efficiency, rule, sensor.sources);
+  sensor.efficiency = efficiency.curve("value", core::Dimension::dimensionless);
+  expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
+  sensor.definition = efficiency.choice("definition", kEfficiencyDefinitions);
+  if (sensor.definition == detector::EfficiencyDefinition::external) {
+    sensor.reference_index = efficiency.number("reference_index");
+    efficiency.expect("reference_index",
+                      sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
+                      "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
+    if (!efficiency.good("reference_index") || !window.good("index")) return;
+    const double r =
+        (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
+    efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
+                      "this external efficiency is above what the window lets in (" +
+                          std::to_string(1.0 - r * r) + " at normal incidence)",
+                      "check the efficiency and the two indices, or write definition = \"internal\"");
+  }
 }
 
 }  // namespace
 
-void read_sensor_response(const config::TomlTable& table, SourceRule rule, detector::Sensor& sensor) {
+detector::Sensor read_sensor(const config::TomlTable& table, const std::string& name, SourceRule rule,
+                             const SensorModels& models) {
+  detector::Sensor sensor;
+  sensor.name = name;
+  const config::TomlTable window = table.table("window");
+  if (table.has("window")) {
+    read_source(window, rule, sensor.sources);
+    sensor.window_index = window.number("index");
+    window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
+                  "a refractive index lies between 1 and 5");
+  }
+  const config::TomlTable efficiency = table.table("efficiency");
+  if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
   if (const auto angle = table.optional_table("angle")) read_angle(*angle, rule, sensor);
   const auto block = [&](const std::string& key) {
     std::optional<config::TomlTable> found = table.optional_table(key);
@@ -150,8 +169,10 @@ void read_sensor_response(const config::TomlTable& table, SourceRule rule, detec
   if (const auto time = block("transit_time")) sensor.time_spread_ns = read_time_spread(*time);
   if (const auto electron = block("single_electron"))
     sensor.single_electron = read_single_electron(*electron);
-  if (const auto cells = block("microcells")) sensor.microcells = read_microcells(*cells);
+  if (const SensorModel* model = read_model(table, models))
+    sensor.avalanches = model->read(table, rule, sensor.sources);
   if (const auto dark = block("dark_counts")) sensor.dark_counts = read_dark_counts(*dark);
+  return sensor;
 }
 
 }  // namespace scintray::materials

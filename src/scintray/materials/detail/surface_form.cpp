@@ -1,11 +1,9 @@
-#include "scintray/materials/detail/surface_form.hpp"
+#include "scintray/materials/detail/forms.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 
-#include "scintray/materials/detail/map_forms.hpp"
+#include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/material_forms.hpp"
 
 namespace scintray::materials {
@@ -13,14 +11,6 @@ namespace scintray::materials {
 namespace {
 
 using Kind = config::TomlNode::Kind;
-
-/// The models and the table that each reads beside [tracing].
-constexpr std::array<std::pair<const char*, const char*>, 6> kModels{{{"smooth", ""},
-                                                                      {"painted", ""},
-                                                                      {"unified", "unified"},
-                                                                      {"table", "table"},
-                                                                      {"height_map", "height_map"},
-                                                                      {"recipe", "recipe"}}};
 
 void drop(config::TomlNode& table, const std::string& key) {
   std::erase_if(table.items, [&](const config::TomlNode& member) { return member.key == key; });
@@ -35,84 +25,6 @@ const config::TomlNode* find_path(const config::TomlNode& table, const std::stri
     start = end + 1;
   }
   return node;
-}
-
-double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback) {
-  const double share = fallback ? table.quantity(key, core::Dimension::dimensionless, *fallback)
-                                : table.quantity(key, core::Dimension::dimensionless);
-  table.expect(key, share >= 0.0 && share <= 1.0, "\"" + key + "\" is a share and lies between 0 and 1");
-  return share;
-}
-
-optics::UnifiedSurface read_unified(const config::TomlTable& table) {
-  optics::UnifiedSurface surface;
-  surface.sigma_alpha_rad = table.quantity("sigma_alpha", core::Dimension::angle);
-  table.expect("sigma_alpha",
-               surface.sigma_alpha_rad >= 0.0 && surface.sigma_alpha_rad < 90.0 * core::kDegree,
-               "\"sigma_alpha\" lies between 0 and 90 deg");
-  surface.definition = table.choice("definition", {"solid_angle", "polar_angle"}) == "solid_angle"
-                           ? optics::SigmaAlphaDefinition::solid_angle
-                           : optics::SigmaAlphaDefinition::polar_angle;
-  surface.sampling = table.choice("facets", {"projected_area", "geant4"}) == "projected_area"
-                         ? optics::FacetSampling::projected_area
-                         : optics::FacetSampling::geant4;
-  surface.lobe = read_share(table, "lobe", std::nullopt);
-  surface.spike = read_share(table, "spike", 0.0);
-  surface.backscatter = read_share(table, "backscatter", 0.0);
-  const double sum = surface.lobe + surface.spike + surface.backscatter;
-  table.expect("lobe", sum <= 1.0 + 1e-12,
-               "spike, lobe and backscatter sum to " + std::to_string(sum) + ", above 1",
-               "they are shares of the reflected light; what is left of 1 is Lambertian");
-  return surface;
-}
-
-double read_positive(const config::TomlTable& table, const std::string& key, core::Dimension dimension,
-                     double fallback) {
-  const double value = table.quantity(key, dimension, fallback);
-  table.expect(key, value > 0.0, "\"" + key + "\" must be positive");
-  return value;
-}
-
-std::uint64_t read_count(const config::TomlTable& table, const std::string& key, std::uint64_t fallback,
-                         std::int64_t least) {
-  const std::int64_t value = table.integer(key, static_cast<std::int64_t>(fallback));
-  table.expect(key, value >= least, "\"" + key + "\" must be at least " + std::to_string(least));
-  return value < least ? fallback : static_cast<std::uint64_t>(value);
-}
-
-/// [tracing]: nothing for rays traced on the spot, else how the table is made.
-std::optional<TracingSpec> read_tracing(const config::TomlTable& surface) {
-  TracingSpec tracing;
-  topography::TableSettings& settings = tracing.settings;
-  const std::optional<config::TomlTable> table = surface.optional_table("tracing");
-  if (!table) return tracing;
-  const bool on_the_spot = table->choice("mode", {"table", "on_the_spot"}, "table") == "on_the_spot";
-  if (on_the_spot) {
-    for (const char* key : {"incidence_step", "azimuth_step", "rays", "seed", "refine", "wavelengths",
-                            "directional", "target_error", "reciprocal"})
-      table->has(key);
-    return std::nullopt;
-  }
-  settings.incidence_step_rad =
-      read_positive(*table, "incidence_step", core::Dimension::angle, settings.incidence_step_rad);
-  settings.azimuth_step_rad =
-      read_positive(*table, "azimuth_step", core::Dimension::angle, settings.azimuth_step_rad);
-  settings.rays = read_count(*table, "rays", settings.rays, 1);
-  settings.seed = read_count(*table, "seed", settings.seed, 0);
-  settings.refine = table->boolean("refine", settings.refine);
-  settings.directional = table->boolean("directional", settings.directional);
-  settings.reciprocal = table->boolean("reciprocal", settings.reciprocal);
-  table->expect("reciprocal", !(settings.reciprocal && settings.directional),
-                "a table with direction cannot be made reciprocal", "keep one of the two keys");
-  settings.target_error = table->number("target_error", settings.target_error);
-  table->expect("target_error", settings.target_error >= 0.0 && settings.target_error < 1.0,
-                "\"target_error\" is an error of the reflectance, between 0 (none) and 1");
-  tracing.wavelengths_nm = table->quantities("wavelengths", core::Dimension::wavelength, 0, false);
-  table->expect("wavelengths",
-                std::adjacent_find(tracing.wavelengths_nm.begin(), tracing.wavelengths_nm.end(),
-                                   std::greater_equal<>()) == tracing.wavelengths_nm.end(),
-                "the wavelengths of a table rise, without repeats");
-  return tracing;
 }
 
 /// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take what is left.
@@ -152,52 +64,17 @@ std::vector<ShareSpec> read_mixture(const config::TomlTable& table, const Surfac
   return mixture;
 }
 
-HeightMapSpec read_height_map_spec(const config::TomlTable& surface) {
-  const config::TomlTable table = surface.table("height_map");
-  HeightMapSpec spec;
-  spec.where = table.where();
-  spec.path = table.existing_file("file");
-  spec.options.channel = table.optional_string("channel");
-  spec.options.pitch_um = read_optional_um(table, "pitch");
-  spec.options.width_um = read_optional_um(table, "width");
-  spec.options.height_unit_um = read_optional_um(table, "height_unit");
-  spec.options.periodic = table.boolean("periodic", false);
-  table.expect("width", !spec.options.pitch_um || !spec.options.width_um,
-               "\"pitch\" and \"width\" are both given, but each follows from the other", "keep one of them");
-  if (surface.has("height_map")) spec.preparation = read_preparation(table);
-  const std::string tiling = table.choice("tiling", {"automatic", "mirror", "periodic"}, "automatic");
-  spec.tiling = tiling == "mirror"     ? topography::Tiling::mirror
-                : tiling == "periodic" ? topography::Tiling::periodic
-                                       : topography::Tiling::automatic;
-  spec.table = read_tracing(surface);
-  return spec;
-}
-
-RecipeSpec read_recipe(const config::TomlTable& surface) {
-  const config::TomlTable table = surface.table("recipe");
-  RecipeSpec spec;
-  spec.where = table.where();
-  if (!surface.has("recipe")) return spec;
-  spec.recipe = read_synthesis(table);
-  spec.table = read_tracing(surface);
-  return spec;
-}
-
-MicrosurfaceSpec read_microsurface(const config::TomlTable& table) {
-  std::vector<std::string> models;
-  for (const auto& [model, own] : kModels) {
-    models.emplace_back(model);
-    if (*own) table.has(own);
-  }
+MicrosurfaceSpec read_microsurface(const config::TomlTable& table, const SurfaceModels& models) {
+  for (const SurfaceModel& model : models.all())
+    if (!model.table.empty()) table.has(model.table);
   table.has("tracing");
-  const std::string model = table.choice("model", models);
-  if (!table.good("model") || model == "smooth") return SmoothSpec{};
-  if (model == "painted") return PaintedSpec{};
-  if (model == "unified") return read_unified(table.table("unified"));
-  if (model == "height_map") return read_height_map_spec(table);
-  if (model == "recipe") return read_recipe(table);
-  const config::TomlTable file = table.table("table");
-  return TableFileSpec{file.existing_file("file"), file.where()};
+  const std::string word = table.choice("model", models.words());
+  const SurfaceModel* model = table.good("model") ? models.find(word) : nullptr;
+  return model ? model->read(table) : FixedMicrosurface(optics::SmoothSurface());
+}
+
+bool is_painted(const SurfaceSpec& surface) {
+  return surface.microsurface->kind() == optics::MicrosurfaceKind::painted;
 }
 
 void read_gap(const config::TomlTable& table, const SurfaceLookup& lookup, core::Problems& problems,
@@ -227,7 +104,7 @@ void read_gap(const config::TomlTable& table, const SurfaceLookup& lookup, core:
 /// A face of a sheet is a painted one, and its light is not followed through a binder.
 void check_face_of_sheet(const config::TomlTable& table, const SurfaceSpec& surface,
                          const optics::Reflector& reflector) {
-  table.expect("face_of_sheet", std::holds_alternative<PaintedSpec>(surface.microsurface),
+  table.expect("face_of_sheet", is_painted(surface),
                "only a painted surface is a face of a sheet: there is nothing else between the two faces",
                "use model = \"painted\", or remove face_of_sheet and give this face's own reflectance and "
                "transmittance");
@@ -238,29 +115,47 @@ void check_face_of_sheet(const config::TomlTable& table, const SurfaceSpec& surf
                "use a reflector without [volume], or paint one face only with it");
 }
 
+/// reflector = "NAME", with the surface's own specular share where that is given.
+std::optional<optics::Reflector> read_named_reflector(const config::TomlTable& table, const SurfaceSpec&,
+                                                      const SurfaceLookup& lookup, core::Problems& problems) {
+  const std::string name = table.string("reflector");
+  if (name.empty()) return std::nullopt;
+  optics::Reflector reflector;
+  try {
+    reflector = lookup.reflector(name, table.where("reflector"));
+  } catch (const core::InputError& error) {
+    problems.add(error);
+  }
+  if (table.has("specular_share"))
+    reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  return reflector;
+}
+
+/// reflectance = CURVE, and the specular share.
+std::optional<optics::Reflector> read_own_reflector(const config::TomlTable& table,
+                                                    const SurfaceSpec& surface, const SurfaceLookup&,
+                                                    core::Problems&) {
+  optics::Reflector reflector;
+  reflector.name = surface.name;
+  reflector.reflectance = table.curve("reflectance", core::Dimension::dimensionless);
+  table.expect("reflectance", reflector.reflectance.min_y() >= 0.0 && reflector.reflectance.max_y() <= 1.0,
+               "a reflectance lies between 0 and 1");
+  reflector.specular_share = read_share(table, "specular_share", std::nullopt);
+  return reflector;
+}
+
+using ReflectorReader = decltype(&read_named_reflector);
+constexpr core::Word<ReflectorReader> kReflectorForms[] = {{"reflector", read_named_reflector},
+                                                           {"reflectance", read_own_reflector}};
+
 void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup& lookup,
                             core::Problems& problems, SurfaceSpec& surface) {
-  const std::optional<std::string> form = table.one_of({"reflector", "reflectance"}, false);
+  const core::Word<ReflectorReader>* form = table.one_of(kReflectorForms, false);
   for (const char* key : {"specular_share", "transmittance", "face_of_sheet"}) table.has(key);
   if (!form) return;
-  optics::Reflector reflector;
-  if (*form == "reflector") {
-    const std::string name = table.string("reflector");
-    if (name.empty()) return;
-    try {
-      reflector = lookup.reflector(name, table.where("reflector"));
-    } catch (const core::InputError& error) {
-      problems.add(error);
-    }
-    if (table.has("specular_share"))
-      reflector.specular_share = read_share(table, "specular_share", std::nullopt);
-  } else {
-    reflector.name = surface.name;
-    reflector.reflectance = table.curve("reflectance", core::Dimension::dimensionless);
-    table.expect("reflectance", reflector.reflectance.min_y() >= 0.0 && reflector.reflectance.max_y() <= 1.0,
-                 "a reflectance lies between 0 and 1");
-    reflector.specular_share = read_share(table, "specular_share", std::nullopt);
-  }
+  std::optional<optics::Reflector> read = form->value(table, surface, lookup, problems);
+  if (!read) return;
+  optics::Reflector& reflector = *read;
   if (table.has("transmittance")) {
     reflector.transmittance = table.curve("transmittance", core::Dimension::dimensionless);
     table.expect("transmittance",
@@ -276,7 +171,7 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
 
 /// The parts of a stack that request or exclude each other.
 void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
-  const bool painted = std::holds_alternative<PaintedSpec>(surface.microsurface);
+  const bool painted = is_painted(surface);
   const bool reflector = table.has("reflector") || table.has("reflectance");
   if (painted && !reflector)
     table.report("reflector", "a painted surface has no reflector",
@@ -306,14 +201,15 @@ void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
 
 }  // namespace
 
-config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over) {
+config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over,
+                                 const SurfaceModels& models) {
   config::TomlNode merged = base;
   merged.key = over.key;
   merged.where = over.where;
   merged.key_where = over.key_where;
   const config::TomlNode* model = over.find("model");
-  for (const auto& [name, own] : kModels)
-    if (model && *own && model->text != name) drop(merged, own);
+  for (const SurfaceModel& known : models.all())
+    if (model && !known.table.empty() && model->text != known.word) drop(merged, known.table);
   // What a base states of its sheet's light goes with that sheet.
   if (over.find("reflector") || (over.find("reflectance") && base.find("reflector")))
     drop(merged, "transmittance");
@@ -324,7 +220,7 @@ config::TomlNode merge_over_base(const config::TomlNode& base, const config::Tom
     if (!old) {
       merged.items.push_back(member);
     } else if (old->kind == Kind::table && member.kind == Kind::table) {
-      const config::TomlNode inner = merge_over_base(*old, member);
+      const config::TomlNode inner = merge_over_base(*old, member, models);
       *old = inner;
     } else {
       *old = member;
@@ -369,7 +265,7 @@ SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name
     return surface;
   }
   surface.gap_thickness_um = read_optional_um(table, "gap_thickness");
-  surface.microsurface = read_microsurface(table);
+  surface.microsurface = read_microsurface(table, lookup.models);
   read_gap(table, lookup, problems, surface);
   read_surface_reflector(table, lookup, problems, surface);
   check_stack(table, surface);

@@ -1,4 +1,4 @@
-#include "scintray/detector/detail/waveform.hpp"
+#include "scintray/detector/pulse.hpp"
 
 #include <algorithm>
 #include <cmath>

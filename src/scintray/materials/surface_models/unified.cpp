@@ -1,0 +1,43 @@
+#include "scintray/optics/unified.hpp"
+
+#include "scintray/materials/detail/surface_values.hpp"
+#include "scintray/materials/surface_models.hpp"
+
+namespace scintray::materials {
+
+namespace {
+
+constexpr core::Word<optics::SigmaAlphaDefinition> kDefinitions[] = {
+    {"solid_angle", optics::SigmaAlphaDefinition::solid_angle},
+    {"polar_angle", optics::SigmaAlphaDefinition::polar_angle}};
+constexpr core::Word<optics::FacetSampling> kFacets[] = {
+    {"projected_area", optics::FacetSampling::projected_area}, {"geant4", optics::FacetSampling::geant4}};
+
+optics::UnifiedSurface read_unified(const config::TomlTable& table) {
+  optics::UnifiedSurface surface;
+  surface.sigma_alpha_rad = table.quantity("sigma_alpha", core::Dimension::angle);
+  table.expect("sigma_alpha",
+               surface.sigma_alpha_rad >= 0.0 && surface.sigma_alpha_rad < 90.0 * core::kDegree,
+               "\"sigma_alpha\" lies between 0 and 90 deg");
+  surface.definition = table.choice("definition", kDefinitions);
+  surface.sampling = table.choice("facets", kFacets);
+  surface.lobe = read_share(table, "lobe", std::nullopt);
+  surface.spike = read_share(table, "spike", 0.0);
+  surface.backscatter = read_share(table, "backscatter", 0.0);
+  const double sum = surface.lobe + surface.spike + surface.backscatter;
+  table.expect("lobe", sum <= 1.0 + 1e-12,
+               "spike, lobe and backscatter sum to " + std::to_string(sum) + ", above 1",
+               "they are shares of the reflected light; what is left of 1 is Lambertian");
+  return surface;
+}
+
+}  // namespace
+
+SurfaceModel unified_model() {
+  const auto read = [](const config::TomlTable& surface) {
+    return FixedMicrosurface(read_unified(surface.table("unified")));
+  };
+  return {.word = "unified", .table = "unified", .read = read};
+}
+
+}  // namespace scintray::materials
