@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSlopeRays = 40'000;
 
-/// Of the first wavelength, over all azimuths: facets do not change with the light's colour.
+/// Mean visible slope at the first wavelength, over all azimuths: facets do not depend on wavelength.
 double slope_in_table(const optics::SurfaceTable& table, optics::Side side, double incidence_rad) {
   double sum = 0.0;
   for (std::size_t slice = 0; slice < table.azimuths(); ++slice)
@@ -65,7 +65,7 @@ SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
 bool has_facets(const optics::Surface& surface) {
   if (!surface.mixture.empty()) return false;
   if (const auto* table = std::get_if<std::shared_ptr<const optics::SurfaceTable>>(&surface.microsurface))
-    return (*table)->provenance().stack.empty();  // a table of a stack does not know
+    return (*table)->provenance().stack.empty();  // not available in a table of a stack
   return std::holds_alternative<optics::SmoothSurface>(surface.microsurface) ||
          std::holds_alternative<std::shared_ptr<const optics::HeightField>>(surface.microsurface);
 }
