@@ -343,7 +343,7 @@ TEST_CASE("A fit that is impossible is refused with the reason") {
   const CurveModel dark = [](const std::vector<double>&, std::uint64_t) {
     return ModelCurve(kDepths.size(), ModelPoint{{0.0, 0.01}, {}});
   };
-  check_contains(complaint_of([&] { fit_curve(measured, kFalling, dark); }), "no light arrives");
+  check_contains(complaint_of([&] { fit_curve(measured, kFalling, dark); }), "there is no light");
   const CurveModel short_model = [](const std::vector<double>&, std::uint64_t) { return ModelCurve(3); };
   CHECK_THROWS_AS(fit_curve(measured, kFalling, short_model), std::invalid_argument);
 }

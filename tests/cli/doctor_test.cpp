@@ -89,7 +89,7 @@ TEST_CASE("check marks the places of problems in a picture, also when the scene 
     const Ended ended = run_program({"check", "bad.toml", "--picture", picture}, folder);
     CHECK(ended.exit_code == 1);
     check_contains(ended.output, {"\"crystal\"", "3 open edges"});
-    check_contains(ended.output, {"medium", "cannot be known"});
+    check_contains(ended.output, {"medium", "is not defined"});
     check_contains(ended.output, {"\"bare\"", "without a surface"});
     check_contains(ended.output, {"\"+z\"", "\"top\"", "\"bare\"", "triangle at"});
     CHECK(contains(ended.output, "parts: 2, marked problems: 3"));
@@ -136,7 +136,8 @@ TEST_CASE("repair that cannot mend everything writes the mesh, prints what is le
   check_contains(ended.output, {"not done:", "1 hole", "limit of 1 mm"});
   check_contains(ended.output, {"left:", "\"open.stl\"", "3 open edges"});
   CHECK(std::filesystem::exists(folder / "same.stl"));
-  check_contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output, {"not", "which unit"});
+  check_contains(run_program({"repair", "open.stl", "-o", "x.stl"}, folder).output,
+                 {"does not state the unit"});
   check_contains(run_program({"repair", "open.stl", "--unit", "mm", "-o", "x.obj"}, folder).output,
                  {".stl", ".ply", "groups", ".glb"});
 }

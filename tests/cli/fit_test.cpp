@@ -143,7 +143,7 @@ TEST_CASE("A scene that leaves a fit open is refused") {
   crystal.write(changed(kDarkFit, "detected_fraction", "light_per_keV"), kRows);
   crystal.refuses({"light_per_keV", "[source]", "photons"}, "detected_fraction");
   crystal.write("[[sweep]]\nkey = \"source.photons\"\nvalues = [100, 200]\n" + kDarkFit, kRows);
-  crystal.refuses({"sweep", "\"source.photons\"", "makes 2"}, "leave it one value");
+  crystal.refuses({"sweep", "\"source.photons\"", "has 2 values"}, "reduce it to one value");
   crystal.write(changed(kDarkFit, "low = \"2 mm\"", "low = \"-2 mm\""), kRows);
   crystal.refuses({"length", "positive"}, "");
   crystal.write(changed(kDarkFit, "media.dark.absorption.length", "media.dark.absorption.lenght"), kRows);

@@ -60,7 +60,7 @@ TEST_CASE("map prepare mends a map, prints its parameters, and draws it before a
   CAPTURE(ended.output);
   REQUIRE(ended.exit_code == cli::kSuccess);
   for (const std::string part :
-       {"before", "after", "cropped to 100 x 90", "1 outliers taken away", "1 missing points filled",
+       {"before", "after", "cropped to 100 x 90", "1 outliers removed", "1 missing points filled",
         "LOESS along lines, width 3 um", "plane subtracted", "out.gsf", "page.html"})
     CHECK(contains(ended.output, part));
   const HeightMap map = read_height_map(folder / "out.gsf");

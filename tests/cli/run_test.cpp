@@ -171,7 +171,7 @@ TEST_CASE("reweight prints light under other optics and writes a table, and refu
   did({"--reflectance", "white"}, cli::kBadUsage, "no name before");
   did({"--reflectance", "white=x0.9,0.8"}, cli::kBadUsage, "mixed");
   did({"--absorption-length", "glass=100"}, cli::kBadUsage, "has no unit");
-  did({}, cli::kBadUsage, "nothing is wanted otherwise");
+  did({}, cli::kBadUsage, "no property to change");
   std::ifstream table(folder / "table.csv");
   std::string line;
   int lines = 0;

@@ -226,7 +226,7 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   text.structure += R"(<skinsurface name="s5" surfaceproperty="davis"><volumeref ref="d"/></skinsurface>)";
   const SceneDraft table = draft(text);
   REQUIRE(table.missing.size() == 1);
-  check_contains(table.missing[0], "--surface davis=LIBRARY_SURFACE");
+  check_contains(table.missing[0], "--surface davis=DATABASE_SURFACE");
   gdml::GdmlImport options;
   options.surfaces["davis"] = "polished";
   CHECK(written(draft(text, options)).parts[3].surface.name == "polished");
@@ -241,7 +241,7 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   check_contains(of(R"(<box name="it" x="LENGTH" y="3" z="3"/>)"), "cannot evaluate \"LENGTH\"");
   check_contains(of(R"(<box name="it" lunit="ell" x="3" y="3" z="3"/>)"), "cannot evaluate \"ell\"");
   check_contains(of(R"(<union name="it"><first ref="it"/><second ref="world_box"/></union>)"),
-                 "made of itself");
+                 "contains itself");
   check_contains(of(R"(<union name="it"><first ref="gone"/><second ref="world_box"/></union>)"),
                  {"no solid", "\"gone\""});
   check_contains(of(R"(<tube name="it" rmin="5" rmax="4" z="1" deltaphi="6"/>)"),

@@ -84,7 +84,7 @@ TEST_CASE("The electronics of the run reproduce its own signals, others make the
     for (std::size_t k = 0; k < a.waveform.size(); ++k)
       CHECK(std::abs(a.waveform[k] - b.waveform[k]) < 0.02F);
   }
-  check_contains(read_results(again).header.note, "electronics made again by same.toml");
+  check_contains(read_results(again).header.note, "electronics applied again by same.toml");
 
   // Half the gate, of a run without electronics: less charge of the same photons.
   const Made bare = made("bare", "[run]\nphoton_list = true\n");

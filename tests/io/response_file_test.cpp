@@ -90,13 +90,13 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
   const auto path = folder / "map.h5";
   ResponseFile file = made_up_map();
   file.map.grids[0].delays_ns.pop_back();
-  check_contains(refusal(path, file), {"delay_ns", "another length", "counts"});
+  check_contains(refusal(path, file), {"delay_ns", "the length", "counts"});
   file = made_up_map();
   file.map.grids[0].detected[0] = 49;
   check_contains(refusal(path, file), {"more photons", "detected", "emitted"});
   file = made_up_map();
   file.map.grids[0].pitch.z() = 0.0;
-  check_contains(refusal(path, file), {"place of the grid", "\"crystal\""});
+  check_contains(refusal(path, file), {"corner or the pitch of the grid", "\"crystal\""});
   file = made_up_map();
   file.map.grids[0].delays_ns[1] = -1.0f;
   check_contains(refusal(path, file), {"time", "not one"});
@@ -145,7 +145,7 @@ TEST_CASE("A response map fits scenes that differ only in what does not affect l
                                 "scattering = { none = true }\n"),
       "\"media\" differs");
   check_contains(complaint(with(kSmallCrystal, "[source]", "[source]\npolarisation = \"unpolarised\"")),
-                 "source.polarisation says otherwise");
+                 "in contradiction to source.polarisation");
 }
 
 TEST_CASE("Events from a response map are a result whose note names it") {

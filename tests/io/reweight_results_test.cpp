@@ -146,13 +146,13 @@ TEST_CASE("What a result cannot be reweighted for is refused with the reason") {
   says({absorption_length, "LSO", true, {-1.0}}, {"factor", "above 0"});
   says({absorption_length, "LSO", false, {}}, "no value");
   says({reflectance, "PTFF", false, {0.9}}, "did you mean \"PTFE\"");
-  says({reflectance, "leaky", false, {0.9}}, "lets light through");
+  says({reflectance, "leaky", false, {0.9}}, "transmits light");
   says({reflectance, "bare", false, {0.9}}, "no reflectance");
   says({reflectance, "PTFE", false, {1.2}}, {"reflectance", "0 to 1"});
   says({reflectance, "PTFE", true, {1.2}}, {"0.9 times 1.2", "above 1"});
-  check_contains(refusal(path, {}), "nothing is wanted");
+  check_contains(refusal(path, {}), "no absorption length or reflectance to change");
   check_contains(refusal(path, {{reflectance, "PTFE", false, {0.9}}, {reflectance, "rough", false, {0.8}}}),
-                 {"reflectance", "same thing"});
+                 {"reflectance", "same item"});
   check_contains(refusal(path, {{absorption_length, "LSO", true, std::vector<double>(101, 1.0)},
                                 {reflectance, "PTFE", true, std::vector<double>(100, 1.0)}}),
                  "more than 10000 combinations");

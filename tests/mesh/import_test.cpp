@@ -130,7 +130,7 @@ TEST_CASE("A triangle without area is kept out and its neighbour cut, so that th
   CHECK(read.mesh.volume() == doctest::Approx(6.0).epsilon(1e-6));
   CHECK(diagnose(read.mesh).sound());
   REQUIRE(read.notes.size() == 1);
-  CHECK(read.notes[0].find("without area kept out") != std::string::npos);
+  CHECK(read.notes[0].find("without area left out") != std::string::npos);
 }
 
 TEST_CASE("Vertices two single-precision steps apart are one, four steps apart are two") {

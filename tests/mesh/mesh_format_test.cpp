@@ -20,7 +20,7 @@ TEST_CASE("A mesh format from outside is read as the built-in ones are") {
   options.mm_per_unit = 1.0;
   check_box(import_mesh(obj, options), 1.0);
   check_contains(complaint_of([&] { import_mesh(mesh_file("box.toy", kToyBox), options); }),
-                 {"the file says that it is in cm"});
+                 {"the file states the unit cm"});
 }
 
 TEST_CASE("Body and scale of the options hold for a mesh format from outside") {

@@ -124,7 +124,7 @@ TEST_CASE("STEP: curved faces keep the requested tolerance, and the note has the
     CHECK(reached > 0.0);
     CHECK(reached < deviation);
     REQUIRE(read.notes.size() == 1);
-    check_contains(read.notes[0], {"curved CAD faces", "triangles within"});
+    check_contains(read.notes[0], {"curved CAD faces", "tessellated within"});
     check_contains(read.notes[0], "20 deg");
     double noted = 0.0;
     std::istringstream(read.notes[0].substr(read.notes[0].find("within ") + 7)) >> noted;

@@ -78,7 +78,7 @@ TEST_CASE("3MF: components are placed, base materials are groups, and what leads
   check_refused(model(objects, "<item objectid=\"3\"/>"), 0.0, {"object \"3\"", "not exist"});
   check_refused(model("<object id=\"1\"><components><component objectid=\"1\"/></components></object>",
                       "<item objectid=\"1\"/>"),
-                0.0, "made of themselves");
+                0.0, "contain themselves");
   std::string doubling = "<object id=\"0\"><mesh>" + tetrahedron + "</mesh></object>";
   for (int level = 1; level <= 60; ++level)
     doubling += "<object id=\"" + std::to_string(level) + "\"><components><component objectid=\"" +

@@ -56,7 +56,7 @@ TEST_CASE("Unit, scale and body of a part hold for a mesh format from outside") 
   CHECK(lid.point(0)->built()->parts.at(0).diagnosis.volume_mm3 == doctest::Approx(125.0));
   check_contains(
       complaint_of([&] { Simulation(crystal_of(two, "unit = \"mm\""), with_formats(formats)).build(); }),
-      {"pair.toy", "the file says that it is in cm"});
+      {"pair.toy", "the file states the unit cm"});
 }
 
 TEST_CASE("Without the list, a scene with a mesh of a format from outside is refused, and the file named") {

@@ -94,8 +94,8 @@ TEST_CASE("A cone of half the sine fills a quarter of the etendue") {
 
 TEST_CASE("A tally of another kind is refused with its kind") {
   const Traced traced = trace(lambertian(2.0, "[[tally]]\ntype = \"ledger\"\nname = \"L\"\n"));
-  CHECK_THROWS_WITH_AS(read_etendue(traced.result.tallies[0]), doctest::Contains("is no etendue"),
+  CHECK_THROWS_WITH_AS(read_etendue(traced.result.tallies[0]), doctest::Contains("is not an etendue"),
                        InputError);
-  CHECK_THROWS_WITH_AS(light_spread(traced.result.tallies[0]), doctest::Contains("no grid"), InputError);
+  CHECK_THROWS_WITH_AS(light_spread(traced.result.tallies[0]), doctest::Contains("not a grid"), InputError);
   CHECK(contains(complaint_of([&] { find_tally(traced.result, "K"); }), "there are: L"));
 }

@@ -117,8 +117,8 @@ TEST_CASE("a profiler's matrix is read with its conversion factor, also compress
   }
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 9);
   CHECK(contains(complaint(path), "gzip"));
-  CHECK(contains(complaint(written("short.txt", text.substr(0, text.size() - 7))), "the header says"));
-  CHECK(contains(complaint(written("vast.txt", "h=1e300" + text.substr(3))), "the header says 3 x 1e+300"));
+  CHECK(contains(complaint(written("short.txt", text.substr(0, text.size() - 7))), "the header states"));
+  CHECK(contains(complaint(written("vast.txt", "h=1e300" + text.substr(3))), "the header states 3 x 1e+300"));
 }
 
 TEST_CASE("units are required, never guessed") {

@@ -96,7 +96,7 @@ TEST_CASE("levelling fits the points that are there, and refuses when they do no
   for (std::uint32_t j = 0; j < 20; ++j)
     for (std::uint32_t i = 0; i < 30; ++i)
       if (j != 4) line.at(i, j) = kNothing;
-  CHECK(contains(complaint_of([&] { level_plane(line); }), "do not settle"));
+  CHECK(contains(complaint_of([&] { level_plane(line); }), "do not determine"));
   HeightMap three = test::map_of(3, 3, 1.0, curve);
   CHECK(contains(complaint_of([&] { level_polynomial(three, 3); }), "too small for degree 3"));
   HeightMap none = test::map_of(3, 3, 1.0, [](double, double) { return kNothing; });

@@ -139,7 +139,7 @@ TEST_CASE("published files without units require them") {
     const HeightMap map = read_height_map(*path, options);
     CHECK(map.pitch_x_um == doctest::Approx(10.0 / map.columns));
     CHECK(map.pitch_y_um == doctest::Approx(map.pitch_x_um));
-    CHECK(contains(map.steps[0], "heights in units of 1 um as told"));
+    CHECK(contains(map.steps[0], "heights in units of 1 um as given"));
   }
 }
 

@@ -185,10 +185,10 @@ TEST_CASE("Igor waves that are no images, or of a wrong size, are refused") {
   CHECK(contains(complaint_about(with(0, bytes_of(std::int16_t{2}))), "format not known"));
   CHECK(contains(complaint_about(with(4, bytes_of(std::int32_t{319}))), "format not known"));
   CHECK(contains(complaint_about(with(80, bytes_of(std::int16_t{3}))), "number type 3"));
-  CHECK(contains(complaint_about(with(136, bytes_of(std::int32_t{0}))), "curves are no height maps"));
+  CHECK(contains(complaint_about(with(136, bytes_of(std::int32_t{0}))), "curves are not height maps"));
   CHECK(contains(complaint_about(with(132, bytes_of(std::int32_t{1000000}))), "truncated"));
   CHECK(contains(complaint_about(with(140, bytes_of(std::int32_t{2000000000}))), "channels in"));
-  CHECK(contains(complaint_about(with(140, bytes_of(std::int32_t{1}))), "the header says"));
+  CHECK(contains(complaint_about(with(140, bytes_of(std::int32_t{1}))), "the header states"));
   CHECK(contains(complaint_about(with(12, bytes_of(std::int32_t{-1}))), "negative size"));
   CHECK(contains(complaint_about(good.substr(0, good.size() - 1)), "truncated"));
   CHECK(contains(complaint_about(good.substr(0, 450)), "truncated"));
@@ -292,7 +292,7 @@ TEST_CASE("ISO 25178-72 archives that lack something, contradict themselves or a
   CHECK(contains(complaint_about(flipped), "checksum"));
   CHECK(contains(complaint_about(zipped({{"readme.txt", "hello"}})), "format not known"));
   CHECK(contains(complaint_about(zipped({{"__MACOSX/main.xml", "hello"}})), "without main.xml"));
-  CHECK(contains(complaint_about(zipped({{"main.xml", "no xml <"}})), "no XML"));
+  CHECK(contains(complaint_about(zipped({{"main.xml", "no xml <"}})), "not XML"));
   const auto with = [](const std::string& from, const std::string& to, const MadeUpX3p& base = {}) {
     const std::string plain = x3p_file(base);
     const std::size_t begin = plain.find("<?xml"), end = plain.find("</p:ISO5436_2>") + 14;

@@ -22,7 +22,7 @@ core::Vec3 to_vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 double earliest(double a, double b) { return std::isnan(a) ? b : std::isnan(b) ? a : std::min(a, b); }
 
-/// Runs an analysis; where the events do not allow it, states why.
+/// Runs an analysis; where the events do not allow it, records the reason.
 void attempt(const std::string& name, EventAnalysis& analysis, const std::function<void()>& action) {
   try {
     action();
@@ -43,7 +43,7 @@ std::vector<double> column(const std::vector<const Row*>& rows, Member member) {
 
 EventCollector::EventCollector(AnalysisSetup setup) : setup_(std::move(setup)), orders_(setup_.photon_order) {
   if (setup_.depth && std::abs(setup_.depth->direction.norm() - 1.0) > 1e-6)
-    throw std::invalid_argument("the direction of depth has no unit length");
+    throw std::invalid_argument("the direction of depth does not have unit length");
   layout_ = layout_of(setup_.channels_mm, setup_.depth);
   if (!layout_) return;
   plane_channels_ = layout_->far.size() > layout_->near.size() ? layout_->far : layout_->near;
@@ -127,7 +127,7 @@ void EventCollector::analyze_light(EventAnalysis& analysis) const {
 
 void EventCollector::analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,
                                    EventAnalysis& analysis) const {
-  // Without an axis there are none, and dark counts happened nowhere.
+  // Without an axis there are none, and dark counts have no position.
   const std::vector<double> known = sorted_finite(depths);
   if (known.empty()) return;
   analysis.mean_depth_mm = mean_of(known);
@@ -139,7 +139,8 @@ void EventCollector::analyze_depth(const std::vector<double>& depths, const std:
   else if (points.size() < 2)
     analysis.left_out.emplace_back("light against depth: too few events for two slices of depth");
   else if (!spread)
-    analysis.left_out.emplace_back("light against depth: the light does not fluctuate, so it has no errors");
+    analysis.left_out.emplace_back(
+        "light against depth: the light does not fluctuate, so that it has no errors");
   else
     analysis.light_against_depth = depth_curve(points, 0.5 * (known.front() + known.back()));
 }
@@ -240,7 +241,7 @@ void EventCollector::analyze_photon_orders(const std::vector<const Row*>& rows,
   const std::vector<OrderTimes> times = orders_.times(events);
   OrderAnalysis orders = analyze_orders(times);
   if (orders.single.empty()) {
-    analysis.left_out.emplace_back("timing by order of photons: too few events have so many photons");
+    analysis.left_out.emplace_back("timing by order of photons: too few events have that many photons");
     return;
   }
   const std::vector<double> detected = column(rows, &Row::detected);
@@ -265,7 +266,7 @@ EventAnalysis EventCollector::finish() const {
   analyze_light(analysis);
   if (!layout_ && !setup_.channels_mm.empty())
     analysis.left_out.emplace_back(
-        "flood map, depth of interaction: the channels lie neither in one plane nor at two ends");
+        "flood map, depth of interaction: the channels are neither in one plane nor at two ends");
   const std::vector<const Row*> rows = select(analysis);
   analyze_flood(rows, analysis);
   analyze_ends(rows, analysis);

@@ -1,5 +1,5 @@
 #pragma once
-/// All analyses that the events of one point allow.
+/// All analyses of the events of one point.
 
 #include <array>
 #include <cstdint>
@@ -24,19 +24,19 @@
 
 namespace scintray::analysis {
 
-/// What the events do not state themselves, and how to look at them.
+/// Setup of the analyses: quantities that are not in the events, and options.
 struct AnalysisSetup {
   std::vector<core::Vec3> channels_mm;                 ///< position of each readout channel, in order
-  std::optional<DepthAxis> depth;                      ///< without: no depth, no depth of interaction
+  std::optional<DepthAxis> depth;                      ///< empty: no depth, no depth of interaction
   std::map<std::uint32_t, std::size_t> layer_of_part;  ///< for parts in layers: 0, 1, ...; else empty
   PhotopeakOptions photopeak;
   AngerOptions anger;
-  FloodOptions flood;  ///< without `expected`: as many as parts were hit
+  FloodOptions flood;  ///< without `expected`: the number of parts with interactions
   EndRatio ratio = EndRatio::share;
   DoiCalibrationKind calibration = DoiCalibrationKind::monotone;
   std::size_t slices = 10;                         ///< of depth
   std::vector<std::uint64_t> photon_order;         ///< n of the n-th photon times of the events; empty: none
-  std::optional<tally::LightTiming> light_timing;  ///< with it, bounds on timing
+  std::optional<tally::LightTiming> light_timing;  ///< when set, bounds on timing are computed
   bool photopeak_only =
       true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
 };
@@ -44,14 +44,14 @@ struct AnalysisSetup {
 struct EventAnalysis {
   std::uint64_t events = 0;    ///< of the point
   std::uint64_t pulses = 0;    ///< events with light in a channel
-  std::uint64_t selected = 0;  ///< pulses that flood map, depth of interaction and timing saw
+  std::uint64_t selected = 0;  ///< pulses in flood map, depth of interaction and timing
   bool has_readout = false;    ///< light is charge in photoelectrons and times are picked off; else photons
-  std::string selection;       ///< which pulses those are, in words
+  std::string selection;       ///< description of those pulses
 
   std::optional<Histogram> spectrum;  ///< of the light of all channels together
   Photopeak peak;
   core::Estimate mean_light;     ///< of pulses
-  core::Estimate light_per_keV;  ///< light of the events over the energy that they left in scintillators
+  core::Estimate light_per_keV;  ///< light of the events over the energy deposited in scintillators
   std::optional<core::Estimate> mean_depth_mm;
   std::optional<DepthCurve> light_against_depth;  ///< the reference is the middle of the depths
   std::optional<DoiAnalysis> doi;
@@ -62,19 +62,19 @@ struct EventAnalysis {
   std::optional<Spread> first_photon_difference_ns;  ///< the same by the first photon
   std::optional<Spread> end_difference_ns;           ///< near end minus far end of one event
   std::optional<TimingDepth> timing_against_depth;
-  std::optional<OrderAnalysis> orders;  ///< CTR by the n-th photon, behind a readout that keeps their times
+  std::optional<OrderAnalysis> orders;  ///< CTR by the n-th photon, with a readout that records their times
   std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
   std::vector<OrderSlice> orders_against_depth;
   std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
   std::vector<std::string> left_out;                     ///< "flood map: why not"
 };
 
-/// Takes events one after the other and keeps 64 bytes of each, and 8 for each n-th photon.
+/// Accumulator of events, which keeps 64 bytes of each, and 8 for each n-th photon.
 class EventCollector {
  public:
   /// @throws std::invalid_argument when a direction has no unit length
   explicit EventCollector(AnalysisSetup setup);
-  /// @throws InputError when the event has another number of channels than the setup
+  /// @throws InputError when the number of channels of the event differs from that of the setup
   void add(const tally::EventRecord& event);
   EventAnalysis finish() const;
 
@@ -98,7 +98,7 @@ class EventCollector {
 
   AnalysisSetup setup_;
   std::optional<ChannelLayout> layout_;
-  std::vector<std::array<double, 2>> plane_mm_;  ///< across positions of the channels that make the flood map
+  std::vector<std::array<double, 2>> plane_mm_;  ///< transverse positions of the channels of the flood map
   std::vector<std::size_t> plane_channels_;
   std::vector<Row> rows_;
   OrderCollector orders_;  ///< of the same events as `rows_`
@@ -107,11 +107,11 @@ class EventCollector {
   bool has_readout_ = false;
 };
 
-/// The same for events at hand.
+/// The same for events in memory.
 EventAnalysis analyze_events(std::span<const tally::EventRecord> events, const AnalysisSetup& setup);
 
 /// The point of a sweep in a depth curve: mean depth, and the photopeak where a fit locates it, else the
-/// mean light. Nothing without a depth or without light.
+/// mean light. Empty without a depth or without light.
 std::optional<DepthPoint> depth_point(const EventAnalysis& analysis);
 
 }  // namespace scintray::analysis

@@ -84,7 +84,7 @@ const tally::TallyResult& find_tally(const tally::PointResult& point, const std:
 
 Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& name) {
   const tally::TallyResult& matrix = find_tally(point, name);
-  if (matrix.type != "crosstalk") throw wrong_tally(matrix, "is no crosstalk matrix");
+  if (matrix.type != "crosstalk") throw wrong_tally(matrix, "is not a crosstalk matrix");
   const tally::TallyResult& emitted = find_tally(point, name + ": emitted");
   Crosstalk crosstalk;
   crosstalk.sources = matrix.axes[0].names;
@@ -163,7 +163,7 @@ Divergence divergence(const std::vector<std::uint64_t>& counts) {
 LightSpread light_spread(const tally::TallyResult& tally) {
   const auto is_position = [](const tally::TallyAxis& axis) { return axis.variable == "position"; };
   if (tally.axes.size() != 2 || !std::all_of(tally.axes.begin(), tally.axes.end(), is_position))
-    throw wrong_tally(tally, "is no grid of positions");
+    throw wrong_tally(tally, "is not a grid of positions");
   LightSpread spread;
   spread.photons = std::accumulate(tally.sum.begin(), tally.sum.end(), 0.0);
   if (spread.photons <= 0.0) return spread;
@@ -186,7 +186,7 @@ LightSpread light_spread(const tally::TallyResult& tally) {
 }
 
 Etendue read_etendue(const tally::TallyResult& tally) {
-  if (tally.type != "etendue") throw wrong_tally(tally, "is no etendue");
+  if (tally.type != "etendue") throw wrong_tally(tally, "is not an etendue");
   if (tally.index <= 0.0)
     throw wrong_tally(tally, "has directions in media of several indices, or in an opaque part");
   Etendue result;
@@ -204,9 +204,10 @@ Etendue read_etendue(const tally::TallyResult& tally) {
     triples += count * (count - 1.0) * (count - 2.0);
   }
   if (pairs <= 0.0)
-    throw core::InputError(core::Problem{{},
-                                         "the tally \"" + tally.name + "\" has no two photons in one bin",
-                                         "trace more photons, or use fewer bins"});
+    throw core::InputError(
+        core::Problem{{},
+                      "the tally \"" + tally.name + "\" does not have two photons in any bin",
+                      "trace more photons, or use fewer bins"});
   const double square = pairs / (n * (n - 1.0));              // sum of p^2
   const double cube = triples / (n * (n - 1.0) * (n - 2.0));  // sum of p^3
   const double variance = 4.0 * (n - 2.0) / (n * (n - 1.0)) * std::max(0.0, cube - square * square) +

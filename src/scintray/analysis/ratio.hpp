@@ -8,7 +8,7 @@
 
 namespace scintray::analysis {
 
-/// Sum of y over sum of x, with the error of their common fluctuation: the ratio estimator (W. G. Cochran
+/// Sum of y over sum of x, with the error that includes their correlation: the ratio estimator (W. G. Cochran
 /// 1977, Sampling Techniques, 3rd edition, section 6.4).
 class RatioOfSums {
  public:
@@ -21,7 +21,7 @@ class RatioOfSums {
     yy_ += y * y;
   }
   std::uint64_t count() const { return count_; }
-  /// Zeros without an x; no error from fewer than two pairs.
+  /// The ratio; zeros without an x, no error from fewer than two pairs.
   core::Estimate ratio() const {
     if (!(x_ > 0.0)) return {0.0, 0.0};
     const double r = y_ / x_;

@@ -15,13 +15,13 @@ namespace {
 using As = WantedProperty::As;
 
 constexpr double kLeastEffective = 100.0, kLeastShare = 0.1, kLargestShare = 0.02, kHeaviestTail = 0.5;
-/// Fewer weights hold nothing of a tail.
+/// Minimum number of weights that define a tail.
 constexpr std::size_t kLeastTail = 10;
 
 void check_change(const OpticalChange& change) {
   if (change.traced_absorption_per_mm.size() != change.absorption_per_mm.size() ||
       change.traced_reflectance.size() != change.reflectance.size())
-    throw std::invalid_argument("traced and wanted optics differ in number");
+    throw std::invalid_argument("traced and target optics differ in number");
   for (const WantedProperty& wanted : change.absorption_per_mm)
     if (!(wanted.value >= 0.0 && std::isfinite(wanted.value)))
       throw std::invalid_argument("an absorption is 0 or more and finite");
@@ -34,13 +34,13 @@ void check_change(const OpticalChange& change) {
   }
 }
 
-/// Whether some of what was lost when traced is not lost with the wanted absorption.
+/// True when the target absorption is below the traced one at some wavelength.
 bool less_absorption(const WantedProperty& wanted, const tally::TracedRange& traced) {
   return (wanted.as == As::constant && wanted.value < traced.most) ||
          (wanted.as == As::times && wanted.value < 1.0 && traced.most > 0.0);
 }
 
-/// Greatest ratio of the wanted reflectance to the traced one.
+/// Greatest ratio of the target reflectance to the traced one.
 double greatest_ratio(const WantedProperty& wanted, const tally::TracedRange& traced) {
   if (wanted.as == As::traced) return 1.0;
   if (wanted.as == As::times) return wanted.value;
@@ -128,7 +128,7 @@ std::string Reweighting::objection(const Reweighted& result, double cut_share) c
     const WantedProperty& wanted = change_.reflectance[i];
     if (wanted.as == As::constant && wanted.value > 0.0 && change_.traced_reflectance[i].least == 0.0)
       return fmt::format(
-          "{} reflected nothing when traced, at some wavelength in use: no photon knows what comes after it",
+          "{} reflected nothing when traced, at some wavelength in use: no photon continues after it",
           i < change_.reflector_names.size() ? change_.reflector_names[i] : fmt::format("reflector {}", i));
   }
   if (result.effective_photons < kLeastEffective)
@@ -144,17 +144,17 @@ std::string Reweighting::objection(const Reweighted& result, double cut_share) c
   const double next = largest_ * greatest_step_, next_share = next / (sum_ + next);
   if (next_share > kLargestShare)
     return fmt::format(
-        "one more reflection would give the heaviest photon {:.1f} % of the weight; {:.0f} % are allowed",
+        "one more reflection would raise the largest weight to {:.1f} % of the sum; {:.0f} % are allowed",
         100.0 * next_share, 100.0 * kLargestShare);
   if (result.tail_shape >= kHeaviestTail)
     return fmt::format(
-        "the photons that matter most are too rare among those traced: the weights have a tail of shape "
+        "the photons of largest weight are too rare among those traced: the weights have a tail of shape "
         "{:.2f}; below {:.1f} is needed",
         result.tail_shape, kHeaviestTail);
   if (cut_share > result.detected_fraction.error)
     return fmt::format(
-        "{:.2g} % of the photons were cut at the limits of the run, more than the error: what they would "
-        "have become is not known",
+        "{:.2g} % of the photons were cut at the limits of the run, more than the error: their fates "
+        "are not known",
         100.0 * cut_share);
   return {};
 }

@@ -22,11 +22,11 @@ struct AnalyzeOptions {
   std::filesystem::path results, settings, page, readout, output;
 };
 
-/// Reruns the electronics where that is wanted; the result to analyze.
+/// The result to analyze, with the electronics applied again where requested.
 std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
   if (options.readout.empty() != options.output.empty())
     throw CLI::ValidationError("--readout",
-                               "other electronics make another result: give --readout FILE and "
+                               "other electronics write another result: use --readout FILE and "
                                "--output RESULT together");
   if (options.readout.empty()) return options.results;
   const detector::ReadoutSpec readout =
@@ -47,7 +47,7 @@ void analyze(const AnalyzeOptions& options) {
     throw core::InputError(
         core::Problem{{results.string()},
                       "this result has no events to analyse",
-                      "run a scene whose [source] is one of energy (docs/gamma_sources.md)"});
+                      "run a scene whose [source] is an event source (docs/gamma_sources.md)"});
   std::vector<report::PointAnalysis> points;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     points.push_back({report::point_label(run.points[i]), analyses[i]});
@@ -71,7 +71,7 @@ void add_analyze_command(CLI::App& app) {
   command->add_option("--settings", options->settings,
                       "a file with [analysis] (default: that of the scene in the result)");
   command->add_option("--readout", options->readout,
-                      "a file with [readout]: make these electronics of the listed photons (photon_list), "
+                      "a file with [readout]: apply these electronics to the listed photons (photon_list), "
                       "without tracing");
   command->add_option("-o,--output", options->output, "the result with these electronics (HDF5)");
   command->add_option("--page", options->page, "write an HTML page with the plots");

@@ -20,7 +20,7 @@ struct CheckOptions {
   bool all = false;
 };
 
-/// What a person should look at although the scene can run.
+/// Warnings of a scene that can run.
 std::vector<core::Problem> gap_warnings(const std::vector<contact::PlacedMesh>& parts, double tolerance_mm) {
   std::vector<core::Problem> warnings;
   for (const contact::SmallGap& gap : contact::find_small_gaps(parts, tolerance_mm))
@@ -98,15 +98,13 @@ void check_scene(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      app.add_subcommand("check", "Describe a scene, or list everything that is wrong with it");
+  CLI::App* command = app.add_subcommand("check", "Describe a scene, or list all its errors");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_flag("--every-point", options->every_point,
                     "print every point of a sweep, not only the first");
-  command->add_flag("--all", options->all,
-                    "print every part and interface, alike or not, on a line of its own");
+  command->add_flag("--all", options->all, "print every part and interface on a line of its own");
   command->add_option("--picture", options->picture,
-                      "draw the parts and mark the places of problems: .glb, or .svg with three views");
+                      "draw the parts and mark the positions of problems: .glb, or .svg with three views");
   command->callback([options] {
     const InterruptGuard guard;
     check_scene(*options);

@@ -12,8 +12,8 @@
 namespace scintray::cli {
 namespace {
 
-/// The name with what is in square brackets, else with the number at its end, made a star: "crystal[*]"
-/// for crystal[3,4], "pad*" for pad12, "crystal[*]:exit" for crystal[3,4]:exit.
+/// Pattern of a name, with the content of square brackets, else the number at its end, replaced by a star:
+/// "crystal[*]" for crystal[3,4], "pad*" for pad12, "crystal[*]:exit" for crystal[3,4]:exit.
 std::string pattern_of(const std::string& name) {
   std::string pattern;
   bool bracketed = false;
@@ -36,7 +36,7 @@ std::string pattern_of(const std::string& name) {
   return name.substr(0, begin) + "*" + name.substr(end);
 }
 
-/// Things that share a line, in order of first appearance.
+/// Items that share a line, in order of first appearance.
 template <typename Thing>
 class Alike {
  public:
@@ -45,7 +45,7 @@ class Alike {
     Thing first;
   };
 
-  /// The line of `key`, made with `first` when it is new, and counted.
+  /// The line of `key`, created with `first` when it is new, and counted.
   Line& add(const std::string& key, const Thing& first) {
     const auto [known, is_new] = index_.try_emplace(key, lines_.size());
     if (is_new) lines_.push_back({0, first});
@@ -62,7 +62,7 @@ class Alike {
 
 std::string yes_no(bool value) { return value ? "yes" : "NO"; }
 
-/// Prints one scene; alike things on one line, or every one on its own.
+/// Prints one scene; similar items on one line, or each on its own.
 class Printer {
  public:
   Printer(const scene::BuiltScene& built, bool every_one)
@@ -197,7 +197,7 @@ class Printer {
     double area = 0.0;
   };
 
-  /// Which parts touch, nested ones included, whatever their faces.
+  /// Pairs of parts in contact, nested ones included.
   void print_contacts() const {
     Alike<Pair> pairs;
     for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
@@ -226,7 +226,7 @@ class Printer {
   bool every_one_;
 };
 
-/// The text with every number made a star, and quoted names made patterns.
+/// The text with every number replaced by a star, and quoted names by patterns.
 std::string without_numbers(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -8,7 +8,7 @@
 
 namespace scintray::cli {
 
-// The subcommands, a line each, in the order of the help: NAME stands for the function add_NAME_command that
+// The subcommands, a line each, in the order of the help: NAME is the function add_NAME_command that
 // NAME_command.cpp defines.
 #define SCINTRAY_COMMANDS(ADD) \
   ADD(run)                     \
@@ -25,13 +25,13 @@ namespace scintray::cli {
   ADD(reweight)                \
   ADD(fit)
 
-// Those of `scintray map`.
+// Subcommands of `scintray map`.
 #define SCINTRAY_MAP_COMMANDS(ADD) \
   ADD(map_describe)                \
   ADD(map_prepare)                 \
   ADD(map_synthesize)
 
-// Those of `scintray table`.
+// Subcommands of `scintray table`.
 #define SCINTRAY_TABLE_COMMANDS(ADD) \
   ADD(table_list)                    \
   ADD(table_compare)                 \
@@ -48,7 +48,7 @@ SCINTRAY_TABLE_COMMANDS(SCINTRAY_DECLARE)
 
 namespace {
 
-/// Exit code for a command line that was not run, after explaining it: 0 for --help and --version,
+/// Exit code for a command line that was not run, after its message: 0 for --help and --version,
 /// the code a command set with CLI::RuntimeError, else bad usage.
 int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out, std::ostream& err) {
   const int code = app.exit(error, out, err);
@@ -60,7 +60,7 @@ int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out
 constexpr AddCommand kCommands[] = {SCINTRAY_COMMANDS(SCINTRAY_ENTRY)};
 constexpr AddCommand kMapCommands[] = {SCINTRAY_MAP_COMMANDS(SCINTRAY_ENTRY)};
 constexpr AddCommand kTableCommands[] = {
-    SCINTRAY_TABLE_COMMANDS(SCINTRAY_ENTRY) add_map_synthesize_command  // as under `map`: from no measurement
+    SCINTRAY_TABLE_COMMANDS(SCINTRAY_ENTRY) add_map_synthesize_command  // as under `map`: no measurement
 };
 
 }  // namespace

@@ -21,16 +21,16 @@ std::span<const AddCommand> table_commands();
 /// Exit code (exit_codes.hpp) of a command line of `scintray`, whose first word is the program's name.
 ///
 /// @param available  the subcommands: commands(), or those and others
-/// @param out, err   of help, and of everything that explains a failure
+/// @param out, err   streams of the help, and of the messages of a failure
 int run_program(std::span<const AddCommand> available, int argc, const char* const* argv, std::ostream& out,
                 std::ostream& err);
 
-/// The one place where exceptions become messages and exit codes: runs `command`; whatever it throws is
-/// explained on `err`. Returns an exit code (exit_codes.hpp).
+/// Runs `command` and converts its exceptions, here only, to messages on `err`. Returns an exit code
+/// (exit_codes.hpp).
 ///
-/// InputError: every problem with its place and hint. SystemError and failures of the standard
-/// library: their text. InternalError and anything unknown: the text and a request to report it.
-/// CLI::ParseError is passed on: the caller has the application that explains it.
+/// InputError: every problem with its place and hint. SystemError and failures of the standard library: their
+/// text. InternalError and unknown exceptions: the text and a request to report it. CLI::ParseError is
+/// rethrown: the caller has the application that prints it.
 int run_guarded(const std::function<void()>& command, std::ostream& err);
 
 }  // namespace scintray::cli

@@ -77,7 +77,7 @@ void run_fit(const FitOptions& options) {
 void add_fit_command(CLI::App& app) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* command =
-      app.add_subcommand("fit", "Find parameters of a scene from a measured curve, as its [fit] states");
+      app.add_subcommand("fit", "Fit parameters of a scene to a measured curve, as its [fit] defines");
   command->add_option("SCENE", options->scene, "scene file (TOML) with [fit]")->required();
   command->add_option("-o,--output", options->output,
                       "results file (default: SCENE's name with _fit.h5, here)");
@@ -91,7 +91,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->check(CLI::PositiveNumber);
-  command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps that lead to it");
+  command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps of the search");
   command->callback([options] {
     const InterruptGuard guard;
     run_fit(*options);

@@ -56,7 +56,7 @@ void print_readings(const std::vector<analysis::GoniometerReading>& readings) {
   }
 }
 
-/// In-plane profiles of all readings. Lines that start with # are passed over by our own reader.
+/// In-plane profiles of all readings. ScintRay's reader skips lines that start with #.
 std::string profile_csv(const analysis::SampleSurface& sample,
                         const std::vector<analysis::GoniometerReading>& readings) {
   const analysis::GoniometerSettings& s = readings.front().settings;
@@ -152,7 +152,8 @@ void run_goniometer(const GoniometerOptions& options) {
 void add_goniometer_command(CLI::App& app) {
   auto options = std::make_shared<GoniometerOptions>();
   CLI::App* command = app.add_subcommand(
-      "goniometer", "Shoot a beam at a surface of the material database and show where its light goes");
+      "goniometer",
+      "Measure the directions of light from a surface of the material database with a parallel beam");
   command->add_option("SURFACE", options->surface, "Surface of the material database, or of the scene")
       ->required();
   command->add_option("--angle", options->angles, "Angle of incidence, as \"45 deg\"; several are allowed")
@@ -160,16 +161,16 @@ void add_goniometer_command(CLI::App& app) {
       ->allow_extra_args(false);
   add_sample_options(*command, options->sample, kRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
-  add_word_option(*command, "--side", options->side, kSideWords, "Side that the light comes from")
+  add_word_option(*command, "--side", options->side, kSideWords, "Side of the incident light")
       ->default_str(core::word_of(kSideWords, options->side));
   command
       ->add_option("--half-width", options->half_width,
                    "Half-width of the in-plane profile, out of the plane of incidence")
       ->capture_default_str();
   command->add_flag("--on-the-spot", options->on_the_spot,
-                    "Follow rays on the height map itself instead of its table");
+                    "Trace rays on the height map itself instead of its table");
   command->add_option("--measured", options->measured,
-                      "CSV file with a measured in-plane profile: angle_deg, value and perhaps error");
+                      "CSV file with a measured in-plane profile: angle_deg, value and optionally error");
   command->add_option("-o,--output", options->page, "HTML page to write");
   command->add_option("--csv", options->csv, "CSV file for the in-plane profiles");
   command->add_option("--cells", options->cells, "CSV file for the counts over the hemisphere");

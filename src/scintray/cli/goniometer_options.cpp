@@ -11,9 +11,9 @@ namespace scintray::cli {
 
 void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t rays) {
   options.rays = rays;
-  app.add_option("--inside", options.inside, "Medium of the part whose face it is")->capture_default_str();
+  app.add_option("--inside", options.inside, "Medium of the part with the face")->capture_default_str();
   app.add_option("--wavelength", options.wavelength, "Wavelength of the light")->capture_default_str();
-  app.add_option("--scene", options.scene, "Scene file whose own surfaces and media are known as well");
+  app.add_option("--scene", options.scene, "Scene file whose own surfaces and media are used as well");
   app.add_option("--rays", options.rays, "Rays at each angle")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

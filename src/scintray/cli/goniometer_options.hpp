@@ -1,5 +1,5 @@
 #pragma once
-/// Options of every command that puts surfaces of the database on the goniometer.
+/// Options of every command that measures surfaces of the database on the goniometer.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct SampleOptions {
   std::uint64_t rays = 0;  ///< 0: the command's own number
   std::uint64_t seed = 1;
 };
-/// `rays` is what the command shoots unless given.
+/// `rays` is the command's default number.
 void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t rays);
 
 /// The shipped database, with the definitions of the scene file where one is named.
@@ -29,7 +29,7 @@ double angle_rad(const std::string& text);
 /// A factory that shows its progress on the line, and stops at the user's request.
 materials::SurfaceFactory watched_factory(ProgressLine& line);
 
-/// "0.12345 +- 0.00050".
+/// Text of an estimate: "0.12345 +- 0.00050".
 std::string share_text(const core::Estimate& share);
 
 }  // namespace scintray::cli

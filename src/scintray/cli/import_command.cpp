@@ -77,15 +77,15 @@ void import_scene(const SceneImportArguments& arguments) {
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
   std::cout << "\n";
   for (const std::string& missing : draft.missing) std::cout << "to be filled in: " << missing << "\n";
-  if (draft.missing.empty()) std::cout << "look at it with: scintray check " << scene.string() << "\n";
+  if (draft.missing.empty()) std::cout << "inspect it with: scintray check " << scene.string() << "\n";
 }
 
 }  // namespace
 
 void add_import_command(CLI::App& app) {
   auto arguments = std::make_shared<SceneImportArguments>();
-  CLI::App* command =
-      app.add_subcommand("import", "Make a scene of a GDML file, or of the bodies of a CAD or mesh file");
+  CLI::App* command = app.add_subcommand(
+      "import", "Write a scene from a GDML file, or from the bodies of a CAD or mesh file");
   command->add_option("FILE", arguments->file, "GDML, STEP, glTF, 3MF, COLLADA, OBJ, STL, PLY or OFF file")
       ->required();
   command
@@ -98,11 +98,11 @@ void add_import_command(CLI::App& app) {
   command->add_option("--angle", arguments->angle,
                       "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
   command->add_option("--medium", arguments->media,
-                      "GDML: take this medium of the database for a material, as Air=air; may be repeated");
+                      "GDML: use this medium of the database for a material, as Air=air; may be repeated");
   command->add_option("--surface", arguments->surfaces,
-                      "GDML: take this surface of the database for an optical surface; may be repeated");
+                      "GDML: use this surface of the database for an optical surface; may be repeated");
   command->add_flag("--skip-unsupported", arguments->skip_unsupported,
-                    "GDML: leave out volumes whose solid cannot be made, instead of stopping");
+                    "GDML: leave out volumes whose solid is not supported, instead of stopping");
   command->callback([arguments] { import_scene(*arguments); });
 }
 

@@ -6,7 +6,7 @@ namespace scintray::cli {
 
 namespace {
 
-// A signal handler can reach nothing but static storage.
+// A signal handler can only use static storage.
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "needed in a signal handler");
 

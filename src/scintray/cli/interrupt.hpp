@@ -1,12 +1,12 @@
 #pragma once
-/// Ctrl-C as a request to stop and keep what was computed.
+/// Ctrl-C as a request to stop and to keep the result so far.
 
 #include <atomic>
 
 namespace scintray::cli {
 
-/// While it lives, SIGINT and SIGTERM set `requested()`; a second SIGINT ends the program at once.
-/// Only one may live at a time.
+/// During its lifetime SIGINT and SIGTERM set `requested()`; a second SIGINT ends the program at once.
+/// Only one may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -99,10 +99,11 @@ void add_preparation_options(CLI::App& app, PreparationOptions& options) {
   app.add_option("--crop", options.crop,
                  "Part of the map, X,Y,WIDTH,HEIGHT: points, as 10,0,256,256, or lengths, as \"2 um,0 um,45 "
                  "um,45 um\"");
-  app.add_option("--outliers", options.outliers,
-                 "Take away heights so many robust standard deviations from the median around them, as 6")
+  app.add_option(
+         "--outliers", options.outliers,
+         "Remove heights farther than this many robust standard deviations from the median around them, as 6")
       ->check(CLI::Range(1.0, 1e6));
-  app.add_option("--outlier-radius", options.outlier_radius, "Pixels around a point that its median is of")
+  app.add_option("--outlier-radius", options.outlier_radius, "Pixels around a point in its median")
       ->check(CLI::Range(1, 50))
       ->capture_default_str();
   app.add_flag("--fill", options.fill, "Fill missing points by Laplace interpolation");

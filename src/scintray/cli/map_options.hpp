@@ -9,10 +9,10 @@
 
 namespace scintray::cli {
 
-/// A length as "0.175 um", in um. InputError when it is none.
+/// A length such as "0.175 um", in um. InputError when it is not a length.
 double length_um(const std::string& text);
 
-/// What the reader is given beyond what the file states.
+/// Options of the reader, which complete the file.
 struct MapOptions {
   std::string map, channel, pitch, width, unit;
   bool periodic = false;
@@ -20,16 +20,16 @@ struct MapOptions {
 void add_map_options(CLI::App& app, MapOptions& options);
 topography::HeightMap read_map(const MapOptions& options);
 
-/// How the map is prepared.
+/// Options of the preparation.
 struct PreparationOptions {
   std::string level = "plane", crop, loess, gaussian;
-  double outliers = 0.0;  ///< 0: none are looked for
+  double outliers = 0.0;  ///< 0: none are removed
   int outlier_radius = 2;
   int median = 0;  ///< 0: no median filter
   bool fill = false;
 };
 void add_preparation_options(CLI::App& app, PreparationOptions& options);
-/// InputError on words that are no preparation.
+/// The preparation. InputError on words that are not one.
 topography::Preparation preparation_of(const PreparationOptions& options);
 
 }  // namespace scintray::cli

@@ -28,7 +28,7 @@ void print_before_and_after(const topography::HeightMap& before, const topograph
 }
 
 void prepare_map(const PrepareArguments& arguments) {
-  // What comes before is the part that is kept, as it was measured: both show the same surface.
+  // "before" is the part that is kept, as measured: both show the same surface.
   topography::Preparation cropping, preparation = preparation_of(arguments.preparation);
   std::swap(cropping.crop, preparation.crop);
   cropping.leveling.kind = topography::Leveling::Kind::none;
@@ -53,7 +53,7 @@ void prepare_map(const PrepareArguments& arguments) {
 void add_map_prepare_command(CLI::App& map) {
   auto arguments = std::make_shared<PrepareArguments>();
   CLI::App* app = map.add_subcommand(
-      "prepare", "Crop, mend, filter and level a map, in that order, and print what became of it");
+      "prepare", "Crop, mend, filter and level a map, in that order, and print the result");
   add_map_options(*app, arguments->map);
   app->add_option("-o,--output", arguments->output, "Height map to write (.gsf)")->required();
   add_preparation_options(*app, arguments->preparation);

@@ -39,12 +39,12 @@ struct SynthesisArguments {
   std::uint64_t seed = 1;
 };
 
-/// Sets a length where one is given.
+/// Sets a length when the option is set.
 void set(double& value_um, const std::string& text) {
   if (!text.empty()) value_um = length_um(text);
 }
 
-/// What a kind needs because no default gives it: the options and what they were given.
+/// Options that a kind requires because they have no default, with their values.
 using Given = std::vector<std::pair<const char*, bool>>;
 void need(ReliefKind kind, const Given& given) {
   core::Problems problems;
@@ -79,7 +79,7 @@ void check_needs(const SynthesisArguments& a) {
   need(a.kind, needs);
 }
 
-/// Options that a kind would not obey are errors.
+/// Options that a kind does not have are errors.
 void check_meaning(const SynthesisArguments& a) {
   const bool fractured = a.kind == ReliefKind::ground || a.kind == ReliefKind::fracture,
              spectral = a.kind == ReliefKind::spectrum, k_correlation = a.kind == ReliefKind::k_correlation;
@@ -155,7 +155,7 @@ topography::SlopeTarget target_of(const SynthesisArguments& a) {
   return target;
 }
 
-/// What each seed shows: a recipe is a class of surfaces, and a fit is for their mean.
+/// Slopes of each seed: a recipe is a class of surfaces, and a fit is for their mean.
 void print_seeds(topography::SynthesisRecipe recipe, std::uint32_t seeds) {
   std::cout << fmt::format("\n{:>6}{:>10}{:>12}{:>12}{:>22}{:>22}\n", "seed", "Sq um", "lowest um",
                            "highest um", "visible slope, normal deg", "grazing deg");
@@ -215,7 +215,7 @@ void add_map_synthesize_command(CLI::App& map) {
   auto arguments = std::make_shared<SynthesisArguments>();
   SynthesisArguments& a = *arguments;
   CLI::App* app =
-      map.add_subcommand("synthesize", "Make a height map from a recipe and print its visible slopes");
+      map.add_subcommand("synthesize", "Synthesise a height map from a recipe and print its visible slopes");
   add_word_option(*app, "kind", a.kind, kReliefKinds,
                   "ground, polished, gaussian, fracture, saw_cut, k_correlation or spectrum")
       ->required();
@@ -224,14 +224,14 @@ void add_map_synthesize_command(CLI::App& map) {
   app->add_option("--points", a.points, "Columns and rows, 514 unless given")->check(CLI::Range(2, 16384));
   app->add_option("--pitch", a.pitch, "Distance of points, \"0.175 um\" unless given");
   add_relief_options(*app, a);
-  CLI::Option* normal = app->add_option("--fit-normal", a.fit_normal,
-                                        "Search the recipe for this mean slope at normal incidence");
-  app->add_option("--fit-grazing", a.fit_grazing, "and, of a fracture, for this one at 88.5 deg")
+  CLI::Option* normal =
+      app->add_option("--fit-normal", a.fit_normal, "Fit the recipe to this mean slope at normal incidence");
+  app->add_option("--fit-grazing", a.fit_grazing, "and, of a fracture, to this one at 88.5 deg")
       ->needs(normal);
   app->add_option("--fit-rms-height", a.fit_rms_height,
-                  "and, of a fracture with a Gaussian relief, for this Sq")
+                  "and, of a fracture with a Gaussian relief, to this Sq")
       ->needs(normal);
-  app->add_option("--seeds", a.seeds, "Fit the mean of so many seeds, from --seed upwards, and print each")
+  app->add_option("--seeds", a.seeds, "Fit the mean of this many seeds, from --seed upwards, and print each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app->callback([arguments] { synthesize_map(*arguments); });

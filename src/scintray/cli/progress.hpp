@@ -1,5 +1,5 @@
 #pragma once
-/// Progress on a terminal; nothing in a pipe or a file.
+/// Progress on a terminal; silent in a pipe or a file.
 
 #include <chrono>
 #include <iosfwd>
@@ -7,7 +7,7 @@
 
 namespace scintray::cli {
 
-/// One line on standard error that is written over as work goes on, with rate and time left.
+/// One line on standard error that is updated during the work, with rate and time left.
 class ProgressLine {
  public:
   /// Silent unless standard error is a terminal and `wanted`.
@@ -16,11 +16,11 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows `done` of `total` things, at most ten times a second. `what` goes first, as "point 3/15".
+  /// Shows `done` of `total` items, at most ten times a second. `what` comes first, such as "point 3/15".
   void show(const std::string& what, double done, double total, const std::string& thing);
   /// Removes the line.
   void clear();
-  /// Starts rate and time left anew.
+  /// Restarts rate and time left.
   void restart();
 
  private:
@@ -29,7 +29,7 @@ class ProgressLine {
   std::chrono::steady_clock::time_point start_, last_;
 };
 
-/// "42 s", "3 min 10 s", "2 h 05 min".
+/// Text of a duration: "42 s", "3 min 10 s", "2 h 05 min".
 std::string duration_text(double seconds);
 
 }  // namespace scintray::cli

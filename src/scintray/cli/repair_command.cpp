@@ -15,7 +15,7 @@ void add_repair_command(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command =
-      app.add_subcommand("repair", "Mend a mesh, or all meshes of a scene, and print what was done");
+      app.add_subcommand("repair", "Repair a mesh, or all meshes of a scene, and print the changes");
   command->add_option("FILE", options->in, "mesh file, or scene file (.toml)")->required();
   command
       ->add_option(
@@ -24,9 +24,9 @@ void add_repair_command(CLI::App& app) {
           "a folder")
       ->required();
   command->add_option("--unit", options->unit, "unit of the numbers in a mesh file, as mm (glTF: metres)");
-  command->add_option("--body", options->body, "the one body of a mesh file to take, by name or number");
+  command->add_option("--body", options->body, "the one body of a mesh file to repair, by name or number");
   command->add_option("--weld", options->weld,
-                      "make vertices this near to each other one (default: single-precision rounding)");
+                      "merge vertices this near to each other (default: single-precision rounding)");
   command->add_option("--largest-hole", options->largest_hole,
                       "leave larger holes open (default: a quarter of the mesh's diagonal)");
   command->callback([options] {

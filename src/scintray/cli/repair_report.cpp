@@ -64,7 +64,7 @@ bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& opt
   const std::string ending = mesh::lower_extension(out);
   if (ending != ".stl" && ending != ".ply" && ending != ".glb")
     throw core::InputError({{},
-                            "a mended mesh cannot be written as \"" + out.string() + "\"",
+                            "a repaired mesh cannot be written as \"" + out.string() + "\"",
                             "choose a name that ends in .stl or .ply or, to keep groups, in .glb"});
   mesh::MeshImport imported = mesh::import_mesh(in, options);
   std::cout << in.string() << (options.body.empty() ? "" : ", body \"" + options.body + "\"") << "\n";
@@ -82,7 +82,7 @@ bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& opt
   print_state("written to " + out.string(), written);
   if (written.bodies > 1)
     std::cout << fmt::format(
-        "  note: {} bodies in one file make one part; save them apart to give them media of their own\n",
+        "  note: {} bodies in one file make one part; save them separately to assign different media\n",
         written.bodies);
   for (const core::Problem& problem : mesh::mesh_problems(written, in.filename().string()))
     std::cout << "  left: " << problem.what << "\n        hint: " << problem.hint << "\n";

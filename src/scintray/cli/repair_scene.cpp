@@ -19,12 +19,12 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
-/// A table that states of which mesh a part, or the elements of an array, are.
+/// A table that names the mesh of a part, or of the elements of an array.
 struct MeshUse {
   const config::TomlNode* table = nullptr;
-  std::string path;                            ///< as sweeps call it; empty where they cannot
-  std::vector<const config::TomlNode*> swept;  ///< meshes that take the place of its own
-  std::string why_not;                         ///< why it cannot be mended; empty: it can
+  std::string path;                            ///< path in sweeps; empty where there is none
+  std::vector<const config::TomlNode*> swept;  ///< meshes that replace its own
+  std::string why_not;                         ///< reason why it cannot be repaired; empty: it can
 
   const config::TomlNode* find(const char* key, Kind kind) const {
     const config::TomlNode* node = table->find(key);
@@ -43,7 +43,7 @@ std::string text_of(const config::TomlNode& table, const char* key) {
   return node != nullptr ? node->text : "";
 }
 
-/// Notes what a sweep puts in the place of a mesh, or of what belongs to it.
+/// Records the values of a sweep that replace a mesh, or its options.
 void apply_sweep(const config::TomlNode& sweep, MeshUse& use) {
   if (use.path.empty()) return;
   std::vector<std::string> keys{text_of(sweep, "key")};
@@ -76,7 +76,7 @@ std::vector<MeshUse> meshes_of(const config::TomlNode& scene) {
   return uses;
 }
 
-/// How a use reads its file; what is wrong with that is reported where the scene is read.
+/// Options with which a use reads its file; their errors are reported where the scene is read.
 mesh::ImportOptions options_of(const MeshUse& use) {
   mesh::ImportOptions options;
   if (const config::TomlNode* unit = use.find("unit", Kind::string))
@@ -88,7 +88,7 @@ mesh::ImportOptions options_of(const MeshUse& use) {
     if (const config::TomlNode* angle = tessellation->find("angle"))
       options.tessellation.angle_rad = core::parse_quantity(angle->text, core::Dimension::angle);
   }
-  // The scene's scale comes on top of the mended mesh; the deviation counts after it.
+  // The scene's scale applies to the repaired mesh; the deviation counts after it.
   if (const config::TomlNode* scale = use.table->find("scale"); scale != nullptr && scale->number > 0.0)
     options.tessellation.deviation_mm /= scale->number;
   return options;
@@ -119,10 +119,11 @@ class SceneRepairer {
   }
 
  private:
-  /// A file as it was read: its name, unit (mm), body, tessellation, and the ending it gets.
+  /// A file as it was read: its name, unit (mm), body, tessellation, and the new extension.
   using Reading = std::tuple<std::string, double, std::string, double, double, std::string>;
 
-  /// Mends the meshes of one table and makes the text name them; leaves all of them where one cannot be.
+  /// Repairs the meshes of one table and names them in the text; leaves all of them where one cannot be
+  /// repaired.
   void mend(const MeshUse& use, SceneText& text) {
     std::vector<const config::TomlNode*> files{use.find("mesh", Kind::string)};
     files.insert(files.end(), use.swept.begin(), use.swept.end());
@@ -137,7 +138,7 @@ class SceneRepairer {
     std::vector<std::string> names;
     try {
       const mesh::ImportOptions options = options_of(use);
-      // What shares one unit and one body in the scene shares a format.
+      // Meshes that share one unit and one body in the scene share a format.
       const bool one_format = files.size() > 1 || !options.body.empty();
       for (const config::TomlNode* file : files)
         names.push_back(mended_name(file->text, options, one_format));
@@ -154,7 +155,7 @@ class SceneRepairer {
     if (tessellation != nullptr) text.comment_out(*tessellation);
   }
 
-  /// Mends a file once for each way of reading it; the name of what was written.
+  /// Repairs a file once for each set of options; returns the name of the written file.
   std::string mended_name(const std::string& file, const mesh::ImportOptions& options, bool as_gltf) {
     const std::filesystem::path in = folder_ / file;
     const std::string ending = as_gltf ? ".glb" : lossless_ending(in, options);
@@ -182,8 +183,8 @@ class SceneRepairer {
                          "bodies), and name MENDED.glb here"});
   }
 
-  /// Other files that the scene names by relative paths are found from the new folder too; meshes among them
-  /// were not mended.
+  /// Rewrites relative paths of other files, so that they are found from the new folder, too; meshes among
+  /// them were not repaired.
   void move_paths(const config::TomlNode& node, SceneText& text) {
     for (const config::TomlNode& item : node.items) move_paths(item, text);
     if (node.kind != Kind::string || handled_.contains(&node)) return;
@@ -203,7 +204,7 @@ class SceneRepairer {
   std::filesystem::path scene_, out_;
   mesh::RepairSettings settings_;
   std::filesystem::path folder_;
-  std::map<Reading, std::string> mended_;  ///< and the name of what was written
+  std::map<Reading, std::string> mended_;  ///< with the names of the written files
   std::set<std::string> names_;
   std::set<const config::TomlNode*> handled_;
   std::vector<core::Problem> left_;

@@ -24,7 +24,7 @@ std::string describe(const scene::Scene& scene, const transport::Step& step) {
     case core::StepEvent::re_emitted:
       return "shifted to another wavelength";
     case core::StepEvent::reflected:
-      return "turned back at " + scene.region_names[scene.interfaces[step.interface].back] + " | " +
+      return "reflected at " + scene.region_names[scene.interfaces[step.interface].back] + " | " +
              scene.region_names[scene.interfaces[step.interface].front];
     case core::StepEvent::transmitted: {
       const scene::Interface& i = scene.interfaces[step.interface];
@@ -33,7 +33,7 @@ std::string describe(const scene::Scene& scene, const transport::Step& step) {
     case core::StepEvent::detected:
       return "DETECTED by " + scene.parts[step.where].name;
     case core::StepEvent::not_detected:
-      return "NOT CONVERTED by " + scene.parts[step.where].name;
+      return "NOT DETECTED by " + scene.parts[step.where].name;
     case core::StepEvent::absorbed_in_medium:
       return "ABSORBED in " + scene.media[step.where].medium().name;
     case core::StepEvent::absorbed_at_surface:
@@ -71,7 +71,7 @@ void replay_photon(const ReplayOptions& options) {
 
 void add_replay_command(CLI::App& app) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = app.add_subcommand("replay", "Follow one photon of a run again, step by step");
+  CLI::App* command = app.add_subcommand("replay", "Trace one photon of a run again, step by step");
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("--event", options->event, "event number, as in the photon list")->required();
   command->add_option("--photon", options->photon, "photon number within the event")->required();

@@ -19,7 +19,7 @@ struct ReportOptions {
   bool text = false;
 };
 
-/// Beside the results file unless stated otherwise; never over the results file itself.
+/// Path of the page: beside the results file unless set otherwise, never the results file itself.
 std::filesystem::path page_path(const ReportOptions& options) {
   auto page = options.output;
   if (page.empty()) page = std::filesystem::path(options.results).replace_extension(".html");

@@ -76,7 +76,7 @@ void build(const BuildOptions& options) {
   const simulation::ResponseFile file = simulation::build_map(scene, map_options);
   line.clear();
   if (file.map.grids.empty()) {
-    std::cerr << "stopped: a map needs all its cells, so there is none\n";
+    std::cerr << "stopped: a map requires all its cells, so none was written\n";
     throw CLI::RuntimeError(kInterrupted);
   }
   simulation::write_response(options.output, file);
@@ -127,12 +127,14 @@ void add_build(CLI::App& response) {
   command->add_option("--pitch", options->pitch, "largest edge of a cell (default: \"1 mm\")");
   command->add_option("--photons", options->photons, "photons from each cell (default: 10000)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--delays", options->delays, "most times kept of each cell and channel (default: 64)")
+  command
+      ->add_option("--delays", options->delays,
+                   "limit of the delays kept of each cell and channel (default: 64)")
       ->check(CLI::PositiveNumber);
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
-  command->add_flag("-q,--quiet", options->quiet, "print only where the map is");
+  command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
   command->callback([options] {
     const InterruptGuard guard;
     build(*options);
@@ -142,7 +144,7 @@ void add_build(CLI::App& response) {
 void add_run(CLI::App& response) {
   auto options = std::make_shared<MappedRunOptions>();
   CLI::App* command =
-      response.add_subcommand("run", "Make events from a map; write results as `scintray run` does");
+      response.add_subcommand("run", "Simulate events from a map; write results as `scintray run` does");
   command
       ->add_option("SCENE", options->scene,
                    "scene file (TOML): the map's, but for its [source], [run] and [readout]")
@@ -154,7 +156,7 @@ void add_run(CLI::App& response) {
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->check(CLI::PositiveNumber);
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
-  command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
+  command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
   command->callback([options] {
     const InterruptGuard guard;
     run(*options);
@@ -164,7 +166,7 @@ void add_run(CLI::App& response) {
 }  // namespace
 
 void add_response_command(CLI::App& app) {
-  CLI::App* response = app.add_subcommand("response", "Response maps: trace once, make events often");
+  CLI::App* response = app.add_subcommand("response", "Response maps: trace once, simulate events often");
   response->require_subcommand(1);
   add_build(*response);
   add_run(*response);

@@ -36,10 +36,10 @@ std::vector<std::string> items_of(const std::string& list) {
   return items;
 }
 
-/// In place of an absorption length.
+/// Word for no absorption, in place of a length.
 constexpr const char* kNoAbsorption = "none";
 
-/// What follows the number that `item` begins with.
+/// The text after the number at the start of `item`.
 std::string unit_of(const std::string& item) {
   char* end = nullptr;
   std::strtod(item.c_str(), &end);
@@ -49,7 +49,7 @@ std::string unit_of(const std::string& item) {
 /// "LSO=200 mm", "LSO=100,200,400 mm", "LSO=100 mm,none", "LSO=x0.5,x2"; "PTFE=0.95", "PTFE=90,95 %",
 /// "PTFE=x0.98".
 /// @param option  for messages: "--reflectance"
-/// @throws CLI::ValidationError for what is not of this form; values are not yet checked for their range
+/// @throws CLI::ValidationError for other forms; the range of values is not yet checked
 simulation::PropertyScan parse_scan(const std::string& option, simulation::OpticalProperty property,
                                     const std::string& text) {
   const bool length = property == simulation::OpticalProperty::absorption_length;
@@ -65,7 +65,7 @@ simulation::PropertyScan parse_scan(const std::string& option, simulation::Optic
   if (equals == std::string::npos || scan.name.empty()) throw refuse("no name before a \"=\"");
   const std::vector<std::string> items = items_of(text.substr(equals + 1));
   scan.times = items.front().starts_with("x");
-  std::string unit;  // of those that have none of their own: the last one given
+  std::string unit;  // for items without a unit: the last one given
   for (const std::string& item : items)
     if (item != kNoAbsorption && !unit_of(item).empty()) unit = unit_of(item);
   for (std::string item : items) {
@@ -100,7 +100,7 @@ std::vector<simulation::PropertyScan> scans_of(const ReweightOptions& options) {
     scans.push_back(parse_scan("--reflectance", simulation::OpticalProperty::reflectance, text));
   if (scans.empty())
     throw CLI::ValidationError("reweight",
-                               "nothing is wanted otherwise; give --absorption-length \"LSO=200 mm\" or "
+                               "no property to change; use --absorption-length \"LSO=200 mm\" or "
                                "--reflectance \"PTFE=0.95\"");
   return scans;
 }
@@ -130,7 +130,7 @@ void print(const tally::RunResult& run, const std::vector<simulation::PropertySc
     std::cout << setting_text(scans, point) << ": detected "
               << report::percent_with_error(light.detected_fraction);
     if (point.per_event) std::cout << ", " << report::with_error(*point.per_event) << " per event";
-    std::cout << ", " << report::with_error(light.relative) << " of what was traced; "
+    std::cout << ", " << report::with_error(light.relative) << " of the traced light; "
               << fmt::format("{:.0f} effective photons ({:.0f} %)", light.effective_photons,
                              100.0 * light.effective_share)
               << "; " << (light.valid ? "valid" : "NOT VALID: " + light.reason) << "\n";
@@ -201,19 +201,19 @@ void reweight(const ReweightOptions& options) {
 void add_reweight_command(CLI::App& app) {
   auto options = std::make_shared<ReweightOptions>();
   CLI::App* command = app.add_subcommand(
-      "reweight", "A result under other absorption lengths and reflectances, without tracing again");
+      "reweight", "A result with other absorption lengths and reflectances, without tracing again");
   command
       ->add_option("RESULT", options->results,
                    "results file (HDF5) of a scene with photon_history = true in [run]")
       ->required();
   command
       ->add_option("--absorption-length", options->lengths,
-                   "\"MEDIUM=200 mm\", several \"MEDIUM=100,200 mm,none\", or times what was traced "
+                   "\"MEDIUM=200 mm\", several \"MEDIUM=100,200 mm,none\", or factors on the traced length "
                    "\"MEDIUM=x0.5,x2\"")
       ->allow_extra_args(false);
   command
       ->add_option("--reflectance", options->reflectances,
-                   "\"REFLECTOR=0.95\" (or the surface it is behind), \"REFLECTOR=0.9,0.95\", "
+                   "\"REFLECTOR=0.95\" (or its surface), \"REFLECTOR=0.9,0.95\", "
                    "\"REFLECTOR=x0.98\"")
       ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "write a table (CSV)");

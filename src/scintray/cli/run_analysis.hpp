@@ -1,5 +1,5 @@
 #pragma once
-/// What commands show of the events of a results file.
+/// Analyses of the events of a results file, for commands.
 
 #include <filesystem>
 
@@ -9,7 +9,7 @@
 
 namespace scintray::cli {
 
-/// Finds before a run what its page would find too late: curves that the scene does not have.
+/// Throws InputError before a run for acceptance criteria about curves that the scene does not have.
 void check_criteria(const scene_file::SceneFile& scene);
 
 /// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene that the run

@@ -29,8 +29,8 @@ struct RunOptions {
   bool quick = false;
 };
 
-/// Results go where the command line states, then where the scene states, then beside the working folder
-/// under the scene's name.
+/// Path of the results: that of the command line, else that of the scene, else the scene's name in the
+/// working folder.
 std::filesystem::path output_path(const RunOptions& options, const std::filesystem::path& scene,
                                   const scene_file::SceneFile& file) {
   if (!options.output.empty()) return options.output;
@@ -99,9 +99,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--events", options->events, "events per point, in place of the scene's")
       ->check(CLI::PositiveNumber);
   command->add_flag("--quick", options->quick,
-                    "take the scene's quick_events or quick_photons: fewer, to try it");
+                    "take the scene's quick_events or quick_photons: fewer, for a test");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
-  command->add_flag("-q,--quiet", options->quiet, "print only where the results are");
+  command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
   command->callback([options] {
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");

@@ -31,7 +31,7 @@ void SceneText::replace(const config::TomlNode& string, const std::string& conte
   std::string& line = line_of(string);
   for (const char quote : {'"', '\''}) {
     const std::string old = quote + string.text + quote;
-    // Columns count characters, and an edit before this one may have moved it.
+    // Columns count characters, and an earlier edit may have moved this one.
     const std::size_t at = line.find(old);
     if (at == std::string::npos) continue;
     line.replace(at, old.size(), "\"" + content + "\"");

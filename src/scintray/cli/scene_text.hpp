@@ -1,5 +1,5 @@
 #pragma once
-/// A scene file's text, changed in places and otherwise left as its author wrote it.
+/// Edits of a scene file's text that leave the rest of it unchanged.
 
 #include <string>
 #include <vector>
@@ -12,13 +12,13 @@ class SceneText {
  public:
   explicit SceneText(const std::string& text);
 
-  /// Gives a string another content. Throws InputError for a string with escapes in it, which is not found
-  /// as it is written.
+  /// Replaces the content of a string. Throws InputError for a string with escapes, which is not found as it
+  /// is written.
   void replace(const config::TomlNode& string, const std::string& content);
 
-  /// Whether a member of a table, with all that is in it, stands on lines of its own.
+  /// True when a member of a table, with all that is in it, is on lines of its own.
   bool on_lines_of_its_own(const config::TomlNode& member) const;
-  /// Turns the lines of such a member into comments.
+  /// Comments out the lines of such a member.
   void comment_out(const config::TomlNode& member);
 
   std::string whole() const;

@@ -49,7 +49,7 @@ void add_table_build_command(CLI::App& table) {
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   add_tracing_options(*app, arguments->tracing);
   add_preparation_options(*app, arguments->preparation);
-  add_word_option(*app, "--tiling", arguments->tiling, kTilings, "How the map goes on beyond its edges")
+  add_word_option(*app, "--tiling", arguments->tiling, kTilings, "Continuation of the map beyond its edges")
       ->default_str(core::word_of(kTilings, arguments->tiling));
   app->callback([arguments] { build(*arguments); });
 }

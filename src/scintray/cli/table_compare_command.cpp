@@ -17,7 +17,7 @@ namespace scintray::cli {
 namespace {
 
 constexpr std::uint64_t kComparedRays = 200'000;
-/// Of the directions: their bins hold a few in ten thousand of the rays.
+/// Rays for the directions, whose bins contain a few in ten thousand of the rays.
 constexpr std::uint64_t kDirectionFactor = 10;
 
 struct CompareOptions {
@@ -27,7 +27,7 @@ struct CompareOptions {
   bool on_the_spot = false;
 };
 
-/// Steps of 2.5 deg, and 88.5 deg, at which grazing slopes of recipes are stated.
+/// Steps of 2.5 deg, and 88.5 deg, the incidence of the grazing slopes of recipes.
 std::vector<double> incidences() {
   std::vector<double> angles;
   for (double angle = 0.0; angle < 88.0; angle += 2.5) angles.push_back(angle * core::kDegree);
@@ -197,7 +197,7 @@ void add_table_compare_command(CLI::App& table) {
   command->add_option("--angle", options->angle, "Angle of incidence of the directions")
       ->capture_default_str();
   command->add_flag("--on-the-spot", options->on_the_spot,
-                    "Follow rays on the height maps themselves instead of their tables");
+                    "Trace rays on the height maps themselves instead of their tables");
   auto* slope_file =
       command->add_option("--slopes", options->slopes,
                           "SVG file for the mean visible slope, always on the height maps themselves");

@@ -15,7 +15,7 @@ namespace scintray::cli {
 
 namespace {
 
-/// Whose file is written.
+/// Format of the written file.
 enum class ExportFormat { davis, bsdf, csv };
 constexpr core::Word<ExportFormat> kExportFormats[] = {
     {"davis", ExportFormat::davis}, {"bsdf", ExportFormat::bsdf}, {"csv", ExportFormat::csv}};
@@ -97,10 +97,10 @@ void add_table_export_command(CLI::App& table) {
          "Name to write: X_LUT.z or X_LUT.dat (with X_LUTR beside it), NAME.bsdf (NAME_brdf.bsdf and "
          "NAME_btdf.bsdf), or a CSV file")
       ->required();
-  add_word_option(*app, "--side", arguments->side, kSideWords, "Where the light comes from (davis, bsdf)")
+  add_word_option(*app, "--side", arguments->side, kSideWords, "Side of the incident light (davis, bsdf)")
       ->default_str(core::word_of(kSideWords, arguments->side));
   app->add_option("--wavelength", arguments->wavelength,
-                  "Which wavelength of a table of several, as \"420 nm\" (davis, bsdf)");
+                  "Wavelength, for a table of several, as \"420 nm\" (davis, bsdf)");
   app->add_option("--rays", arguments->rays, "Points of the distribution per angle (bsdf)")
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{100'000'000}))
       ->capture_default_str();

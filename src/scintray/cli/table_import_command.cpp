@@ -13,7 +13,7 @@ namespace scintray::cli {
 
 namespace {
 
-/// Whose file is read.
+/// Format of the file.
 enum class ImportFormat { davis, lbnl };
 constexpr core::Word<ImportFormat> kImportFormats[] = {{"davis", ImportFormat::davis},
                                                        {"lbnl", ImportFormat::lbnl}};
@@ -29,7 +29,8 @@ struct ImportArguments {
 void require_options_of_format(const ImportArguments& arguments) {
   const bool davis = arguments.format == ImportFormat::davis;
   if (davis && arguments.reflectance)
-    throw core::InputError({{}, "--reflectance with --format davis", "the pair holds its own reflectances"});
+    throw core::InputError(
+        {{}, "--reflectance with --format davis", "the pair contains its own reflectances"});
   if (!davis && arguments.unreflected)
     throw core::InputError(
         {{}, "--unreflected with --format lbnl", "light that it does not reflect is absorbed"});
@@ -37,12 +38,12 @@ void require_options_of_format(const ImportArguments& arguments) {
     throw core::InputError(
         {{},
          "a Davis pair without --unreflected",
-         "the pair does not say whether light that is not reflected passes (transmitted: Geant4 "
-         "with EFFICIENCY 0) or ends at the surface (absorbed: with EFFICIENCY above 0)"});
+         "the pair does not state whether light that is not reflected is transmitted (transmitted: Geant4 "
+         "with EFFICIENCY 0) or absorbed at the surface (absorbed: with EFFICIENCY above 0)"});
   if (!davis && !arguments.reflectance)
     throw core::InputError({{},
                             "an LBNL table without --reflectance",
-                            "the file holds none: give the REFLECTIVITY that the surface has in Geant4"});
+                            "the file contains none: use the REFLECTIVITY that the surface has in Geant4"});
 }
 
 void import_table(ImportArguments arguments) {
@@ -62,7 +63,7 @@ void import_table(ImportArguments arguments) {
 
 void add_table_import_command(CLI::App& table) {
   auto arguments = std::make_shared<ImportArguments>();
-  CLI::App* app = table.add_subcommand("import", "Make a surface table of another program's");
+  CLI::App* app = table.add_subcommand("import", "Convert another program's surface table");
   app->add_option("file", arguments->file,
                   "davis: X_LUT.z or X_LUT.dat, with X_LUTR beside it; lbnl: one of the 21 finishes' files")
       ->required();
@@ -71,16 +72,16 @@ void add_table_import_command(CLI::App& table) {
       ->required();
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   app->add_option("--inside-index", arguments->settings.index.inside,
-                  "Refractive index of the crystal that the table was made for: the files do not state it")
+                  "Refractive index of the crystal of the table, which the files do not state")
       ->required();
   app->add_option("--outside-index", arguments->settings.index.outside, "Refractive index outside")
       ->required();
   add_word_option(*app, "--from-outside", arguments->settings.from_outside, exchange::kFromOutsideWords,
-                  "What becomes of light incident from outside, of which the files state nothing: "
+                  "Treatment of light incident from outside, which the files do not describe: "
                   "smooth (Fresnel), mirror or absorb")
       ->required();
   add_word_option(*app, "--unreflected", arguments->unreflected, exchange::kUnreflectedWords,
-                  "davis: what becomes of light that is not reflected");
+                  "davis: treatment of light that is not reflected");
   app->add_option("--reflectance", arguments->reflectance, "lbnl: Geant4's REFLECTIVITY of the surface");
   app->callback([arguments] { import_table(*arguments); });
 }

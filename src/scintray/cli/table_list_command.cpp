@@ -17,7 +17,7 @@ namespace scintray::cli {
 namespace {
 
 constexpr std::uint64_t kListedRays = 50'000;
-/// The profile needs more: its bins hold a few in ten thousand of the rays.
+/// The profile requires more: its bins contain a few in ten thousand of the rays.
 constexpr std::uint64_t kProfileFactor = 10;
 constexpr double kStep_deg = 2.5, kProfile_deg = 45.0;
 constexpr double kStated_deg[] = {0.0, 45.0, 80.0};
@@ -104,7 +104,7 @@ void run_list(const ListOptions& options) {
   materials::SurfaceFactory factory = watched_factory(line);
   const materials::MaterialDatabase database = database_of(options.sample);
   const analysis::SamplePlace place = place_of(options.sample, "", options.outside);
-  database.medium(place.inside);  // a mistake here is one mistake, not one for each surface
+  database.medium(place.inside);  // an error here is reported once, not for each surface
   database.medium(place.outside);
   const std::string under =
       fmt::format("{} to {}, {:g} nm, light from inside", place.inside, place.outside, place.wavelength_nm);

@@ -31,26 +31,26 @@ optics::Medium side_medium(const std::string& name, double index, const std::str
 }  // namespace
 
 void add_tracing_options(CLI::App& app, TracingOptions& options) {
-  app.add_option("--inside", options.inside, "Medium of the part whose face it is, as LSO");
+  app.add_option("--inside", options.inside, "Medium of the part with the face, as LSO");
   app.add_option("--inside-index", options.inside_index, "... or its refractive index")
       ->check(CLI::PositiveNumber);
   app.add_option("--outside", options.outside, "Medium outside, as air");
   app.add_option("--outside-index", options.outside_index, "... or its refractive index")
       ->check(CLI::PositiveNumber);
   app.add_option("--wavelength", options.wavelengths,
-                 "Wavelengths to tabulate, as \"420 nm\"; needed with media")
+                 "Wavelengths to tabulate, as \"420 nm\"; required with media")
       ->delimiter(',');
   app.add_option("--rays", options.settings.rays, "Rays per incidence angle and azimuth")
       ->capture_default_str();
   app.add_option("--target-error", options.settings.target_error,
-                 "Add rays until the reflectance of every node is known to this standard error")
+                 "Add rays until the reflectance of every node has this standard error")
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--most-rays", options.settings.most_rays, "... at most this many times --rays")
       ->capture_default_str();
   app.add_flag("--directional", options.settings.directional,
-               "For surfaces with direction: a slice of the table for every azimuth of incidence");
+               "For anisotropic surfaces: a slice of the table for every azimuth of incidence");
   app.add_flag("--reciprocal", options.settings.reciprocal,
-               "Make the table of a lossless surface exactly reciprocal, and print how far it was");
+               "Make the table of a lossless surface exactly reciprocal, and print its deviation before");
   app.add_option("--seed", options.settings.seed, "Seed of the random numbers")->capture_default_str();
   app.add_option("--incidence-step", options.incidence_step, "Step of incidence, \"2.25 deg\" unless given");
   app.add_option("--azimuth-step", options.azimuth_step, "Step of azimuth, \"9 deg\" unless given");

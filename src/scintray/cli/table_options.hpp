@@ -10,10 +10,10 @@
 
 namespace scintray::cli {
 
-/// How a table is traced, and between what.
+/// Options of the tracing of a table: media, wavelengths, rays.
 struct TracingOptions {
   std::string inside, outside;                     ///< media of the database
-  double inside_index = 0.0, outside_index = 0.0;  ///< in place of media; 0: not given
+  double inside_index = 0.0, outside_index = 0.0;  ///< in place of media; 0: not set
   std::vector<std::string> wavelengths;
   std::string incidence_step, azimuth_step;
   bool no_refine = false;
@@ -21,22 +21,22 @@ struct TracingOptions {
 };
 void add_tracing_options(CLI::App& app, TracingOptions& options);
 
-/// What light goes between, at which wavelengths.
+/// Media on both sides, and the wavelengths.
 struct Between {
   optics::Medium inside, outside;
-  std::vector<double> wavelengths_nm;  ///< empty where only indices were given
+  std::vector<double> wavelengths_nm;  ///< empty where only indices are set
   std::vector<topography::SpectralPoint> spectrum() const;
 };
-/// InputError when neither an index nor a medium is given for a side, for media without wavelengths, and
-/// for wavelengths beyond their indices.
+/// Media and wavelengths of the options. InputError when a side has neither an index nor a medium, for media
+/// without wavelengths, and for wavelengths beyond their indices.
 Between between(const TracingOptions& options);
 topography::TableSettings settings_of(const TracingOptions& options);
 
-/// Traces with a progress line, stops at Ctrl-C.
+/// Table traced with a progress line; stops at Ctrl-C.
 using BuildTable = std::function<optics::SurfaceTable(const topography::TableProgress&)>;
 optics::SurfaceTable build_with_progress(const BuildTable& build);
 
-/// Writes the table and states what it holds; a warning when a stated error was not reached.
+/// Writes the table and prints its content, with a warning when the target error was not reached.
 void write_and_report(const std::string& path, const optics::SurfaceTable& table);
 
 }  // namespace scintray::cli

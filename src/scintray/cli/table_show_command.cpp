@@ -81,8 +81,8 @@ void print_provenance(const optics::SurfaceTable& table) {
   std::cout << fmt::format("rays         {} per azimuth, {} azimuths, seed {}; {} unclassified, {} cut\n",
                            p.rays_per_azimuth, p.azimuths, p.seed, p.unclassified, p.cut);
   if (p.target_error > 0.0)
-    std::cout << fmt::format("error        rays added down to {:g}; {} nodes missed it\n", p.target_error,
-                             p.unconverged);
+    std::cout << fmt::format("error        rays added down to {:g}; not reached at {} nodes\n",
+                             p.target_error, p.unconverged);
   if (!p.reciprocity.empty()) std::cout << fmt::format("reciprocal   {}\n", p.reciprocity);
   std::cout << "built by     ScintRay " << p.version << "\n";
 }
@@ -114,7 +114,7 @@ void print_slice(const optics::SurfaceTable& table, std::size_t number) {
 void add_table_show_command(CLI::App& table) {
   auto file = std::make_shared<std::string>();
   auto plot = std::make_shared<std::string>();
-  CLI::App* app = table.add_subcommand("show", "Print what is in a surface table");
+  CLI::App* app = table.add_subcommand("show", "Print the content of a surface table");
   app->add_option("file", *file, "Table file (HDF5)")->required();
   app->add_option("--plot", *plot, "SVG file for reflectance and slopes against incidence");
   app->callback([file, plot] {

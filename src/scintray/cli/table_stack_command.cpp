@@ -50,12 +50,12 @@ void build(const StackArguments& arguments) {
   if (surface.shifts())
     throw core::InputError(core::Problem{
         spec.where,
-        "surface \"" + spec.name + "\" gives light back at other wavelengths, which a table cannot hold",
+        "surface \"" + spec.name + "\" re-emits light at other wavelengths, which a table cannot represent",
         "use the surface itself in a scene"});
   provenance.map = spec.name;
   provenance.stack = describe(spec);
-  provenance.preparation = "as the surface's definition says";
-  provenance.tiling = "as the surface's definition says";
+  provenance.preparation = "as in the surface's definition";
+  provenance.tiling = "as in the surface's definition";
   write_and_report(arguments.output, build_with_progress([&](const topography::TableProgress& progress) {
                      return topography::build_stack_table(
                          surface, media.spectrum(), settings_of(arguments.tracing), provenance, progress);
@@ -66,10 +66,11 @@ void build(const StackArguments& arguments) {
 
 void add_table_stack_command(CLI::App& table) {
   auto arguments = std::make_shared<StackArguments>();
-  CLI::App* app = table.add_subcommand(
-      "stack", "Trace a whole surface of the library, with its gap, reflector and shares, into one table");
+  CLI::App* app = table.add_subcommand("stack",
+                                       "Trace a complete surface of the material database, with its gap, "
+                                       "reflector and shares, into one table");
   app->add_option("surface", arguments->surface, "Name of the surface")->required();
-  app->add_option("--scene", arguments->scene, "Scene file whose own definitions are known, too");
+  app->add_option("--scene", arguments->scene, "Scene file whose own definitions are used, too");
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   add_tracing_options(*app, arguments->tracing);
   app->callback([arguments] { build(*arguments); });

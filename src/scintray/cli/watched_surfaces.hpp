@@ -1,12 +1,12 @@
 #pragma once
-/// Surface tables built while someone waits.
+/// Progress of the building of surface tables.
 
 #include "scintray/cli/progress.hpp"
 #include "scintray/materials/surface_factory.hpp"
 
 namespace scintray::cli {
 
-/// Shows on the line how far a table is, and gives up on Ctrl-C. The line must live longer.
+/// Hooks that show the progress of a table on the line and stop on Ctrl-C. The line must outlive them.
 materials::SurfaceFactory::Hooks watched_surfaces(ProgressLine& line);
 
 }  // namespace scintray::cli

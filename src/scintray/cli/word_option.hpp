@@ -1,5 +1,5 @@
 #pragma once
-/// Options whose value is one of a few words.
+/// Command-line options whose value is one of a few words.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace scintray::cli {
 
-/// The side that light comes from.
+/// Words of the side of the incident light.
 inline constexpr core::Word<optics::Side> kSideWords[] = {{"inside", optics::Side::inside},
                                                           {"outside", optics::Side::outside}};
 
-/// An option whose words stand for values; help lists them, and another one is a wrong command line.
-/// @param target  takes the value, lives as long as the command line is read: a T, or an optional one
+/// An option whose words stand for values; help lists them, and another word is a usage error.
+/// @param target  receives the value, must outlive the parsing: a T or an optional T
 template <typename T, std::size_t N, typename Target>
 CLI::Option* add_word_option(CLI::App& app, const std::string& name, Target& target,
                              const core::Word<T> (&words)[N], const std::string& description) {

@@ -9,7 +9,7 @@
 
 namespace scintray::config {
 
-/// Rows of numbers, and the names of the columns if the file has a heading.
+/// A table of numbers: its rows, and the names of its columns if the file has a heading.
 struct CsvTable {
   struct Row {
     long line = 0;
@@ -24,8 +24,8 @@ struct CsvTable {
   std::size_t column(const std::string& name, std::size_t standard, const core::FileLocation& where) const;
 };
 
-/// Reads numbers separated by commas, a row a line. The first row may be a heading; empty lines and
-/// lines that start with # are passed over. Throws InputError with every row that is wrong.
+/// Table of the comma-separated numbers in a file, a row a line. The first row may be a heading; empty lines
+/// and lines that start with # are skipped. Throws InputError with every row that is wrong.
 CsvTable read_csv(const std::filesystem::path& path);
 
 }  // namespace scintray::config

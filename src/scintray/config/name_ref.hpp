@@ -1,5 +1,5 @@
 #pragma once
-/// A name in a file that refers to something else.
+/// References by name within a file.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace scintray::config {
 
-/// A name that refers to something, and where it was written. Empty: not given.
+/// A name that refers to another item, with its place in the file. Empty when not given.
 struct NameRef {
   std::string name;
   core::FileLocation where;

@@ -11,7 +11,7 @@ std::string joined(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-/// How sweeps name an element of an array, too: by its name, else by its number from 1.
+/// Name of an element of an array, as in sweeps: its name, else its number from 1.
 std::string name_of(const TomlNode& element, std::size_t index) {
   const TomlNode* name = element.kind == TomlNode::Kind::table ? element.find("name") : nullptr;
   return name && name->kind == TomlNode::Kind::string ? name->text : std::to_string(index + 1);
@@ -20,7 +20,7 @@ std::string name_of(const TomlNode& element, std::size_t index) {
 std::optional<std::string> difference(const TomlNode& a, const TomlNode& b, const std::string& path,
                                       const std::vector<std::string>& besides = {});
 
-/// A member of `a` that `b` has not, or, when `both`, of which it has another.
+/// A member of `a` that `b` lacks or, when `both`, whose value in `b` differs.
 std::optional<std::string> member_difference(const TomlNode& a, const TomlNode& b, bool both,
                                              const std::string& path,
                                              const std::vector<std::string>& besides) {

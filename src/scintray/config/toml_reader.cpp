@@ -14,12 +14,12 @@ using Kind = TomlNode::Kind;
 
 }  // namespace
 
-/// What is shared by the tables opened from one outermost table.
+/// State shared by the tables opened from one outermost table.
 struct TomlTable::Session {
   struct Marks {
     TomlNodePtr node;
     std::string path;
-    bool absent = false;  ///< stands for a table that is missing: nothing more is stated about it
+    bool absent = false;  ///< stands for a missing table, for which no further problem is reported
     std::set<std::string> known, read, bad;
   };
   core::Problems* problems = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-/// Reading TOML so that every mistake is reported, with its place, at once.
+/// Reading TOML: every mistake of a document is reported, with its place, at once.
 ///
 ///     Problems problems;
 ///     TomlTable table(parse_toml_file("materials/media/LSO.toml"), problems);
@@ -25,7 +25,7 @@
 
 namespace scintray::config {
 
-/// A value of a TOML document, with where it stands. A plain tree, so that a sweep can edit it.
+/// A value of a TOML document with its place. A plain tree, so that a sweep can edit it.
 struct TomlNode {
   enum class Kind { string, integer, number, boolean, date, array, table };
 
@@ -39,36 +39,35 @@ struct TomlNode {
   bool boolean = false;
   std::vector<TomlNode> items;  ///< elements of an array, or members of a table in file order
 
-  /// Member of a table, or nullptr.
+  /// Member of a table; nullptr when there is none.
   const TomlNode* find(const std::string& member) const;
   TomlNode* find(const std::string& member);
-  /// The value as it would be written, for headings and messages: 2 mm, ["1 mm", "2 mm"].
+  /// The value as TOML text, for headings and messages: 2 mm, ["1 mm", "2 mm"].
   std::string as_written() const;
   bool operator==(const TomlNode&) const = default;
 };
 
 using TomlNodePtr = std::shared_ptr<const TomlNode>;
 
-/// Parses a document. `file` is used in messages, and relative paths in the document count from its
-/// folder. Throws InputError with the place and nature of a syntax error.
+/// Root of a parsed document. `file` appears in messages, and relative paths in the document are relative to
+/// its folder. Throws InputError with the place and nature of a syntax error.
 TomlNodePtr parse_toml(const std::string& text, const std::string& file);
 
-/// Reads and parses a file. Throws InputError when it is missing, is not text, or is malformed.
+/// Root of a parsed file. Throws InputError when it is missing, is not text, or is malformed.
 TomlNodePtr parse_toml_file(const std::filesystem::path& path);
 
-/// The content of a text file. Throws InputError at `where`, or without a place, when it cannot be
-/// read.
+/// The content of a text file. Throws InputError, at `where` if that is given, when it cannot be read.
 std::string read_text_file(const std::filesystem::path& path, const core::FileLocation& where = {});
 
-/// A table being read. What is wrong is added to a collector, and a harmless default returned, so
-/// that reading goes on and all problems come out together.
+/// A table being read. Problems are added to a collector and a harmless default is returned, so that reading
+/// continues and all problems are reported together.
 ///
 /// Of each kind of getter there are three: `x(key)` requires the key, `x(key, fallback)` returns the
 /// fallback when it is absent, `optional_x(key)` returns nothing when it is absent or wrong. Copies
 /// share their state. The collector must outlive the table.
 class TomlTable {
  public:
-  /// The outermost table of a document, or a table taken from one. A value of another kind is a problem.
+  /// The outermost table of a document, or a table within one. A value of another kind is a problem.
   TomlTable(TomlNodePtr table, core::Problems& problems);
 
   /// Place of the table, of a key's value (the table's place when absent), and name as in
@@ -76,27 +75,27 @@ class TomlTable {
   const core::FileLocation& where() const { return node_->where; }
   core::FileLocation where(const std::string& key) const;
   const std::string& path() const { return path_; }
-  /// The key under which the table stands in its parent; empty in arrays and at the root.
+  /// The key of the table in its parent; empty in arrays and at the root.
   const std::string& name() const { return node_->key; }
   const TomlNodePtr& node() const { return node_; }
 
-  /// True when the key is there. Makes it known, but not read.
+  /// True when the key is present. Marks it as known, not as read.
   bool has(const std::string& key) const;
-  /// True when the key's value is written as an array. Neither makes it known nor reads it.
+  /// True when the key's value is an array. Marks it neither as known nor as read.
   bool is_array(const std::string& key) const;
   /// Names of all keys, in file order.
   std::vector<std::string> keys() const;
-  /// True when the key is there, was read, and nothing was wrong with it so far.
+  /// True when the key is present and was read, without a problem so far.
   bool good(const std::string& key) const;
   /// Adds a problem at the key's value (at the table when absent); marks the key as bad.
   void report(const std::string& key, std::string what, std::string hint = {}) const;
-  /// Problems found so far, in the whole document and whatever else shares the collector.
+  /// Number of problems so far, in the whole document and in all that shares the collector.
   std::size_t problem_count() const;
-  /// Reports unless `ok`. Does nothing when the key is absent or was already found wrong.
+  /// Adds a problem unless `ok`. Does nothing when the key is absent or already has a problem.
   void expect(const std::string& key, bool ok, const std::string& what, const std::string& hint = {}) const;
-  /// Which one of `choices` is present. Reports none (when required) and more than one.
+  /// The one of `choices` that is present. None (when required) and more than one are problems.
   std::optional<std::string> one_of(const std::vector<std::string>& choices, bool required) const;
-  /// The same for keys that stand for values; nullptr when none is present.
+  /// The value of the key that is present; nullptr when none is.
   template <typename T, std::size_t N>
   const core::Word<T>* one_of(const core::Word<T> (&choices)[N], bool required) const {
     const std::optional<std::string> key = one_of(core::word_list(choices), required);
@@ -126,11 +125,11 @@ class TomlTable {
   double quantity(const std::string& key, core::Dimension dimension, double fallback) const;
   std::optional<double> optional_quantity(const std::string& key, core::Dimension dimension) const;
 
-  /// One of the words; returns allowed.front() when wrong.
+  /// One of the words; allowed.front() when wrong.
   std::string choice(const std::string& key, const std::vector<std::string>& allowed) const;
   std::string choice(const std::string& key, const std::vector<std::string>& allowed,
                      const std::string& fallback) const;
-  /// The value of one of the words; that of the first when wrong.
+  /// The value that one of the words stands for; that of the first when wrong.
   template <typename T, std::size_t N>
   T choice(const std::string& key, const core::Word<T> (&words)[N]) const {
     return core::find_word(words, choice(key, core::word_list(words))).value_or(words[0].value);
@@ -140,8 +139,8 @@ class TomlTable {
     return core::find_word(words, choice(key, core::word_list(words), "")).value_or(fallback);
   }
 
-  /// Arrays. `count` 0 means any length, and one at least unless stated otherwise. Empty when wrong
-  /// or absent.
+  /// Arrays of `count` elements; `count` 0 means any length, and at least one unless stated otherwise. Empty
+  /// when wrong or absent.
   std::vector<std::string> strings(const std::string& key, std::size_t count = 0, bool required = true) const;
   std::vector<double> numbers(const std::string& key, std::size_t count = 0, bool required = true) const;
   std::vector<double> quantities(const std::string& key, core::Dimension dimension, std::size_t count = 0,
@@ -149,11 +148,11 @@ class TomlTable {
   /// Three quantities ("1 mm", ...) or three plain numbers.
   std::optional<core::Vec3> optional_quantity3(const std::string& key, core::Dimension dimension) const;
   std::optional<core::Vec3> optional_number3(const std::string& key) const;
-  /// Three plain numbers scaled to unit length; reports zero.
+  /// Three plain numbers normalised to unit length; a zero vector is a problem.
   std::optional<core::Vec3> optional_direction(const std::string& key) const;
 
-  /// A file named by the key: relative paths count from the folder of the document. Reports a file
-  /// that does not exist. Empty when wrong or absent.
+  /// Path of a file named by the key: relative paths are relative to the folder of the document. A file that
+  /// does not exist is a problem. Empty when wrong or absent.
   std::filesystem::path existing_file(const std::string& key, bool required = true) const;
 
   /// A curve y(x): a single quantity (a constant), or a table in one of two forms
@@ -168,7 +167,7 @@ class TomlTable {
   std::optional<core::Curve> optional_curve(const std::string& key, core::Dimension y,
                                             core::Dimension x = core::Dimension::wavelength) const;
 
-  /// Sub-tables, [a.b] or inline. `table` reports an absent one and then returns an empty table.
+  /// Sub-tables, [a.b] or inline. For an absent one `table` adds a problem and returns an empty table.
   TomlTable table(const std::string& key) const;
   std::optional<TomlTable> optional_table(const std::string& key) const;
   /// Every element of [[key]] or key = [{...}]; empty when absent.
@@ -176,13 +175,13 @@ class TomlTable {
   /// The tables in a table of tables, [key.NAME]: their names are TomlTable::name(). Empty when
   /// absent.
   std::vector<TomlTable> named_tables(const std::string& key) const;
-  /// The raw value, taken as read together with everything in it; nullptr when absent.
+  /// The raw value, marked as read together with everything in it; nullptr when absent.
   TomlNodePtr take(const std::string& key) const;
-  /// Takes every key here as read: for a table given up on, so that one mistake is reported once.
+  /// Marks every key here as read: for an abandoned table, so that one mistake is reported once.
   void skip() const;
 
-  /// Reports keys that nobody read, here and in every sub-table that was opened, with the nearest
-  /// known key. Call once, on the outermost table, when everything has been read.
+  /// Reports keys that were not read, here and in every sub-table that was opened, with the nearest known
+  /// key. Call once, on the outermost table, when everything has been read.
   void finish() const;
 
   /// Every key read so far from this document, as "part.face.select", sorted. For tests that
@@ -210,9 +209,9 @@ class TomlTable {
   std::shared_ptr<Session> session_;
 };
 
-/// Path of the first key that only one document has or whose values differ as written, like
-/// "part.crystal.surface"; empty when there is none. The order of keys does not matter, that of arrays does.
-/// @param besides  keys of the outermost table that do not count, with all in them
+/// Path of the first key that only one document has or whose values differ as written, such as
+/// "part.crystal.surface"; empty when there is none. The order of keys does not count, that of arrays does.
+/// @param besides  keys of the outermost table that are left out, with all in them
 [[nodiscard]] std::string first_difference(const TomlNode& a, const TomlNode& b,
                                            const std::vector<std::string>& besides);
 

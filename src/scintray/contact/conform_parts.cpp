@@ -13,7 +13,7 @@ namespace scintray::contact {
 
 namespace {
 
-/// One contact: `reference` keeps its shape and `conforming` takes it over.
+/// One contact: `reference` keeps its shape and `conforming` adopts it.
 class Conformer {
  public:
   Conformer(const PlacedMesh& reference, PlacedMesh& conforming, double tolerance, double flat_mm)
@@ -33,15 +33,15 @@ class Conformer {
     return mesh::centre_of(conforming_.mesh, static_cast<std::size_t>(found - facing_.begin()));
   }
 
-  /// Changes the conforming side. Returns why it cannot, or nothing.
+  /// Changes the conforming side. Returns the reason of a failure, empty on success.
   std::string conform(const Eigen::Matrix3d& axes) {
-    constexpr double kPush = 2.0;  // in tolerances: past the deepest sliver, with room
+    constexpr double kPush = 2.0;  // in tolerances: beyond the deepest sliver, with a margin
     std::vector<char> contact;
     for (const Facing f : facing_) contact.push_back(f == Facing::covered);
     const mesh::TriMesh grown = pushed(conforming_.mesh, conforming_body_, contact, kPush * tolerance_);
     const mesh::TriMesh tool = pushed(reference_.mesh, reference_body_, flush_ends(), kPush * tolerance_);
     const auto cut = difference_on_grid(grown, tool, axes, flat_);
-    if (!cut) return "the result would be no proper solid";
+    if (!cut) return "the result would not be a proper solid";
     std::vector<std::uint32_t> face_of;
     double moved = 0.0;
     for (std::uint32_t t = 0; t < cut->origin.size(); ++t) {
@@ -86,7 +86,7 @@ class Conformer {
     return flush;
   }
 
-  /// The conforming side's own triangle that a new one stands for, and how far the new one strays from the
+  /// The conforming side's own triangle that a new one replaces, and the distance of the new one from the
   /// conforming side's surface.
   Nearest replaced_by(const mesh::TriMesh& mesh, std::uint32_t t) const {
     const core::Vec3 normal = mesh.area_vector(t).normalized();

@@ -83,7 +83,7 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
   problems.throw_if_any();
 }
 
-/// Gives every cell of every surface the regions on its two sides.
+/// Assigns to every cell of every surface the regions on its two sides.
 class Resolver {
  public:
   Resolver(const std::vector<Body>& bodies, const Nesting& nesting, const Clusters& clusters,
@@ -132,7 +132,7 @@ class Resolver {
     for (auto& [first, group] : by_root) groups_.push_back(std::move(group));
   }
 
-  /// A triangle that nothing lies on borders what surrounds its body.
+  /// A triangle that nothing lies on borders the region around its body.
   void pass(const TriangleOf& t) {
     const Body& body = bodies_[t.body];
     if (body.normal[t.triangle].isZero()) return;
@@ -143,7 +143,7 @@ class Resolver {
                        kNoFace});
   }
 
-  /// What a label of the overlay stands for: a face of a body, seen from one side.
+  /// Meaning of a label of the overlay: a face of a body, seen from one side.
   struct Label {
     std::uint32_t body;
     std::uint32_t face;
@@ -178,7 +178,7 @@ class Resolver {
       }
     }
     int index(std::size_t corner) const { return index_[corner]; }
-    /// The place of a point of the overlay in space.
+    /// Position in space of a point of the overlay, mm.
     core::Vec3 lift(const Overlay& plane, int point) const {
       if (point < static_cast<int>(lifted_.size())) return lifted_[static_cast<std::size_t>(point)];
       const Vec2& p = plane.points[static_cast<std::size_t>(point)];
@@ -311,7 +311,7 @@ class Resolver {
     const core::Vec3 e1 = triangle.vertex[1] - triangle.vertex[0],
                      e2 = triangle.vertex[2] - triangle.vertex[0];
     const double longest = std::max({e1.norm(), e2.norm(), (e1 - e2).norm()});
-    // Where three edges meet in one point but for rounding; it has neither area nor a normal.
+    // Three edges that intersect in one point but for rounding: neither area nor a normal.
     if (e1.cross(e2).norm() <= 0.1 * rounding_ * longest) return;
     // The back is the side that ends here; of two, the earlier part.
     const bool flip = below.face == kNoFace || (above.face != kNoFace && above.region < below.region);

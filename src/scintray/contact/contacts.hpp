@@ -19,8 +19,8 @@ struct PlacedPart {
   core::FileLocation where = {};    ///< in the scene file
 };
 
-/// For a message about two parts whose place is that of the first, `reported`: "; 'NAME' is at
-/// FILE:LINE:COLUMN" for the other one, or nothing when that is no other place.
+/// The place of the part `name` as an addition to a message whose own place is `reported`:
+/// "; 'NAME' is at FILE:LINE:COLUMN"; empty when the places are the same.
 std::string also_at(const std::string& name, const core::FileLocation& where,
                     const core::FileLocation& reported);
 
@@ -38,11 +38,11 @@ struct InterfaceTriangle {
   std::int32_t front_face = kNoFace;
 };
 
-/// Resolves touching and nested parts.
+/// Interfaces between the regions of touching and nested parts.
 ///
 /// Coplanar faces of different parts closer than `tolerance_mm` (and parallel within it over their
 /// extent) are overlaid exactly: where they overlap, one set of triangles separates the two parts;
-/// elsewhere each borders whatever surrounds it. Nested parts border the innermost part around them;
+/// elsewhere each borders the region around it. Nested parts border the innermost part around them;
 /// flush nested faces are handled. The triangles of every region together form its closed boundary.
 ///
 /// @throws InputError naming both parts, the overlap volume and a point inside it, for parts that

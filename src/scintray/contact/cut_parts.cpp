@@ -17,7 +17,7 @@ struct Cut {
   std::uint32_t part, by;
 };
 
-/// All cuts to make; parts of higher priority come first, so that they have their own shape when they cut.
+/// All cuts; parts of higher priority come first, so that they have their final shape when they cut.
 std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Matrix3d& axes,
                            double tolerance_mm) {
   std::vector<Body> bodies;
@@ -34,7 +34,7 @@ std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Ma
   return cuts;
 }
 
-/// The face of the part that stands for what `by` cut.
+/// The face of the part that `by` made by cutting.
 std::uint32_t cut_face(PlacedMesh& part, const PlacedMesh& by) {
   part.faces.push_back({kCutFaces + by.name, part.surface, {}});
   return static_cast<std::uint32_t>(part.faces.size() - 1);
@@ -51,11 +51,11 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
         hint, {{at.x(), at.y(), at.z()}});
   };
   const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
-  if (!cut) return refuse("the result would be no proper solid", "move one of them a little");
+  if (!cut) return refuse("the result would not be a proper solid", "move one of them a little");
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");
   if (part.surface.empty() && part.needs_surface)
-    return refuse("the faces born in the cut have no surface", "give the part a surface = \"...\"");
+    return refuse("the faces made by the cut have no surface", "give the part a surface = \"...\"");
   const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
   const auto unsound = mesh::mesh_problems(diagnosis, part.name);
   if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, "move one of them a little");

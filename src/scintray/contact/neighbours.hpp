@@ -1,5 +1,5 @@
 #pragma once
-/// Placed parts beside each other: curved contacts closed, overlaps that are meant cut, small gaps found.
+/// Adjacent placed parts: closing curved contacts, cutting intended overlaps, finding small gaps.
 
 #include <string>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace scintray::contact {
 
-/// Two parts, by name, whose faces are made one where they lie within a tolerance of each other.
+/// Two parts, by name, whose faces become one where they lie within a tolerance of each other.
 struct ConformingContact {
   std::string first, second;
   double tolerance_mm = 0.0;
   core::FileLocation where;
 };
 
-/// For every contact, gives one of its parts the other's faces where both lie
-/// within that tolerance of each other, facing each other.
+/// Closes curved contacts: of every contact, one part gets the faces of the other where both lie within that
+/// tolerance of each other, facing each other.
 ///
 /// Two tessellations of one curved surface leave slivers, now gap, now overlap. One part takes all of
 /// them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
@@ -30,18 +30,19 @@ struct ConformingContact {
 /// ends within the other's: then both are stitched together there (detail/stitch.hpp), the first one keeping
 /// its shape.
 ///
-/// What was done is in the notes of the part that changed. Adds to `problems`: contacts without facing
-/// triangles, and parts whose change CGAL refuses or leaves unsound. Faces flat on each other within
-/// `flat_mm` need none of this, and are left to the resolving of contacts.
+/// The changes are in the notes of the part that changed. Adds to `problems`: contacts without facing
+/// triangles, and parts for which CGAL fails or which the change leaves unsound. Flat faces within `flat_mm`
+/// of each other do not need this and are left to resolve_contacts.
 void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
                       double flat_mm, core::Problems& problems);
 
-/// Cuts every part by the parts of higher priority that it overlaps with. Faces born in a cut are named
-/// "cut:NAME" after the part that cut, and have the finish of the cut part itself. Parts that lie wholly
-/// one inside the other, or merely touch within `tolerance_mm`, are left alone, as are overlaps of equal
-/// priority, which resolving contacts refuses. What was done is added to the notes of the cut part.
+/// Cuts every part by the parts of higher priority that it overlaps with. Faces made by a cut are named
+/// "cut:NAME" after the part that cut, and have the finish of the part that was cut. Parts that lie one
+/// entirely inside the other, or merely touch within `tolerance_mm`, are left unchanged, as are overlaps of
+/// equal priority, which are errors when contacts are resolved. The changes are added to the notes of the
+/// part that was cut.
 ///
-/// Adds to `problems`: cuts that CGAL refuses or that leave an unsound part, parts of which nothing is
+/// Adds to `problems`: cuts in which CGAL fails or that leave an unsound part, parts of which nothing is
 /// left, and cut faces without a surface.
 void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Problems& problems);
 
@@ -57,7 +58,7 @@ inline constexpr double kSmallGapShare = 1e-3;
 
 /// Pairs of parts with nearly parallel faces that overlap, seen along their normals, across a gap wider
 /// than `tolerance_mm` (nearer ones touch) and narrower than `share` of the diagonal of the smaller part.
-/// Gaps that a third part fills are none.
+/// Gaps filled by a third part are left out.
 [[nodiscard]] std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
                                                     double share = kSmallGapShare);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts in world coordinates, with a surface on each face: what contacts are found between.
+/// Parts in world coordinates, with a surface on each face: the input of contact finding.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace scintray::contact {
 
-/// What stands before the name of a part in the name of the faces that it leaves where it cuts another.
+/// Prefix of the names of faces made by a cut; the name of the part that cut follows.
 inline constexpr const char* kCutFaces = "cut:";
 
 /// One face of a placed part.
@@ -28,13 +28,13 @@ struct PlacedMesh {
   std::vector<PlacedFace> faces;
   std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
   config::NameRef surface;             ///< of faces that no rule matches; may be empty
-  bool needs_surface = true;           ///< not so for sensors, opaque parts, glue and fillers
+  bool needs_surface = true;           ///< false for sensors, opaque parts, glue and fillers
   int priority = 0;                    ///< see PartSpec
   config::NameRef medium;              ///< empty only where the part is a sensor
   config::NameRef sensor;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   mesh::MeshDiagnosis diagnosis;
-  std::vector<std::string> notes;  ///< what importing left out or turned round
+  std::vector<std::string> notes;  ///< what the import left out or reversed, and later changes
 };
 
 }  // namespace scintray::contact

@@ -9,7 +9,7 @@ namespace scintray::contact {
 
 namespace {
 
-/// A point that most likely lies between the triangles: over the middle of the smaller one, half way.
+/// A point that most likely lies between the triangles: over the middle of the smaller one, halfway.
 core::Vec3 place_between(const Body& a, std::uint32_t ta, const Body& b, std::uint32_t tb, double gap) {
   const bool a_is_smaller = a.area_vector(ta).norm() < b.area_vector(tb).norm();
   const Body& body = a_is_smaller ? a : b;

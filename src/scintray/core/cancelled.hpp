@@ -1,11 +1,11 @@
 #pragma once
-/// A stop that was requested.
+/// Cancellation of work.
 
 #include "scintray/core/error.hpp"
 
 namespace scintray::core {
 
-/// Work was cancelled before it had a result. Neither the input nor the program is at fault.
+/// Thrown when work was cancelled before it had a result. Neither the input nor the program is at fault.
 class Cancelled : public Error {
  public:
   using Error::Error;

@@ -16,7 +16,7 @@
 namespace scintray::core {
 namespace {
 
-/// Bytes of data that the process has mapped now: the sixth number of /proc/self/statm, in pages.
+/// Mapped data of the process in bytes: the sixth number of /proc/self/statm, in pages.
 std::size_t data_bytes() {
   std::ifstream file("/proc/self/statm");
   std::size_t pages = 0;
@@ -31,7 +31,7 @@ void lower_limit(__rlimit_resource resource, rlim_t value) {
   setrlimit(resource, &limit);
 }
 
-/// Waits through interruptions by signals.
+/// Waits for the child, also after interruptions by signals.
 template <typename Call>
 auto uninterrupted(Call call) {
   auto result = call();
@@ -41,7 +41,7 @@ auto uninterrupted(Call call) {
 
 [[noreturn]] void answer(int pipe_end, const std::function<std::string()>& work, std::size_t most_bytes,
                          unsigned most_seconds) {
-  // What the parent does about signals is none of the copy's business.
+  // The parent's signal handlers must not run in the copy.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM})
     std::signal(signal, SIG_DFL);
   lower_limit(RLIMIT_CORE, 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Doing in a child process what may crash.
+/// Work that may crash, done in a child process.
 
 #include <cstddef>
 #include <functional>
@@ -7,17 +7,17 @@
 
 namespace scintray::core {
 
-/// What became of the work.
+/// Result of work in a child process.
 struct ChildAnswer {
-  std::string bytes;    ///< what the work returned; incomplete unless `trouble` is empty
-  std::string trouble;  ///< how the child ended when it did not end well, in words
+  std::string bytes;    ///< the bytes that the work returned; incomplete unless `trouble` is empty
+  std::string trouble;  ///< why the child failed, in words; empty when it succeeded
 };
 
-/// Runs `work` in a copy of this process and returns what it returns. A crash, a million-fold allocation or
-/// an endless loop ends the copy only: it may take `most_bytes` more of memory than this process has now, and
-/// `most_seconds` of processor time. `work` must not throw, must not use threads that run already or locks
-/// that they may hold, and leaves nothing behind but its answer. Throws SystemError when no process can be
-/// made.
+/// The bytes that `work` returns when it runs in a copy (fork) of this process. A crash, an excessive
+/// allocation or an endless loop ends the copy only: it may allocate `most_bytes` more than this process has
+/// now, and use `most_seconds` of processor time. `work` must not throw, must not use threads that run
+/// already or locks that they may hold; nothing of it remains but its result. Throws SystemError when no
+/// process can be created.
 [[nodiscard]] ChildAnswer run_in_child(const std::function<std::string()>& work, std::size_t most_bytes,
                                        unsigned most_seconds);
 

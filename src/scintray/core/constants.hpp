@@ -1,5 +1,5 @@
 #pragma once
-/// Constants of nature that several modules need.
+/// Physical constants that several modules use.
 
 namespace scintray::core {
 

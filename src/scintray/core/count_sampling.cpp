@@ -8,7 +8,7 @@ namespace scintray::core {
 
 namespace {
 
-/// A stream of ours as Boost's distributions want it.
+/// A Random stream as the generator that Boost's distributions require.
 struct Bits {
   using result_type = std::uint64_t;
   static constexpr result_type min() { return 0; }

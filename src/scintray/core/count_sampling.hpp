@@ -1,7 +1,7 @@
 #pragma once
-/// Sampling of numbers of things, by Boost.Random: the same numbers from the same stream on every platform,
-/// and by transformed rejection (W. Hormann 1993, J. Stat. Comput. Simul. 46, 101, and Insur. Math. Econ. 12,
-/// 39), cheap to begin when every number has another mean.
+/// Sampling of counts, by Boost.Random: the same counts from the same stream on every platform, by
+/// transformed rejection (W. Hormann 1993, J. Stat. Comput. Simul. 46, 101, and Insur. Math. Econ. 12, 39),
+/// whose setup is cheap when every count has another mean.
 
 #include <cstdint>
 

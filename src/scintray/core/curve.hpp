@@ -8,8 +8,8 @@ namespace scintray::core {
 
 /// y(x) by linear interpolation between tabulated points; a single point is a constant.
 ///
-/// Evaluation outside the table returns the nearest end value: whoever builds a scene checks the
-/// range first (`covers`), so that nothing is extrapolated silently.
+/// Evaluation outside the table returns the nearest end value: the builder of a scene checks the range first
+/// (`covers`), so that nothing is extrapolated silently.
 class Curve {
  public:
   Curve() = default;
@@ -34,7 +34,7 @@ class Curve {
   std::vector<double> y_{0.0};
 };
 
-/// Draws x with density proportional to a non-negative curve (inverse of its exact integral).
+/// Samples x with density proportional to a non-negative curve (inverse of its exact integral).
 class CurveSampler {
  public:
   CurveSampler() = default;
@@ -42,7 +42,7 @@ class CurveSampler {
   explicit CurveSampler(const Curve& density);
   /// x for a uniform number u in [0, 1).
   double sample(double u) const;
-  /// Share of the integral that lies below x, in [0, 1]: the inverse of `sample`.
+  /// Cumulative distribution at x, in [0, 1]: the inverse of `sample`.
   double share_below(double x) const;
   double mean() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the data that comes with ScintRay lies: materials/, scenes/, geometry/.
+/// Location of the data installed with ScintRay: materials/, scenes/, geometry/.
 
 #include <filesystem>
 

@@ -22,25 +22,25 @@ struct FileLocation {
   bool operator==(const FileLocation&) const = default;
 };
 
-/// One thing wrong with the input: where, what, and how to mend it.
+/// One error of the input: its place, what is wrong, and how to mend it.
 struct Problem {
   FileLocation where;
   std::string what;  ///< what was found and what was expected
   std::string hint;  ///< what to do about it; may be empty
-  /// Where in space, x, y and z in mm: a few examples, for pictures. Empty when it is nowhere.
+  /// Positions (x, y, z in mm) of a few examples, for pictures. Empty for a problem without a position.
   std::vector<std::array<double, 3>> places_mm = {};
 
-  /// "file:line:column: error: what\n  hint: hint"
+  /// Text "file:line:column: error: what\n  hint: hint".
   std::string text() const;
 };
 
-/// Base of everything ScintRay throws on purpose.
+/// Base of all exceptions that ScintRay throws.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The input is wrong. Carries every problem found, not only the first.
+/// Error of the input. Holds every problem found, not only the first.
 class InputError : public Error {
  public:
   explicit InputError(Problem problem);
@@ -51,13 +51,13 @@ class InputError : public Error {
   std::vector<Problem> problems_;
 };
 
-/// The machine refused: a file cannot be opened, a disk is full.
+/// Error of the operating system: a file cannot be opened, a disk is full.
 class SystemError : public Error {
  public:
   using Error::Error;
 };
 
-/// A defect in ScintRay itself: something that cannot happen did.
+/// A defect in ScintRay itself: a condition that must hold does not.
 class InternalError : public Error {
  public:
   using Error::Error;
@@ -69,11 +69,11 @@ class Problems {
   void add(FileLocation where, std::string what, std::string hint = {},
            std::vector<std::array<double, 3>> places_mm = {});
   void add(Problem problem);
-  /// Takes over the problems of an InputError thrown further down.
+  /// Adds the problems of a caught InputError.
   void add(const InputError& error);
   bool empty() const { return list_.empty(); }
   const std::vector<Problem>& list() const { return list_; }
-  /// Throws InputError with everything collected; does nothing when there is nothing.
+  /// Throws InputError with all problems collected; does nothing when there are none.
   void throw_if_any();
 
  private:
@@ -84,8 +84,8 @@ class Problems {
 /// (distance above a third of the word's length, at least 2). For "did you mean" hints.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "no face is called "x"" with the nearest name there is, and the first of them.
-/// @param kind what the names are of: "face", "part"
+/// The error "no face is called "x"", with the nearest name there is and the first of the names.
+/// @param kind kind of thing that is named: "face", "part"
 InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
                         const std::vector<std::string>& names);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A reference to something that can be called.
+/// A reference to a callable.
 
 #include <concepts>
 #include <memory>
@@ -11,8 +11,8 @@ namespace scintray::core {
 template <typename Signature>
 class FunctionRef;
 
-/// A function pointer with what it is called on: two words, copied as bytes, nothing owned. What it refers to
-/// must outlive it. Empty by default, and then not to be called.
+/// A function pointer with the address of the callable: two words, copied as bytes, without ownership. The
+/// callable must outlive it. Empty by default, and then it must not be called.
 template <typename Result, typename... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -1,8 +1,8 @@
 #pragma once
 /// A thin, exception-safe layer over the HDF5 C library.
 ///
-/// Files are written under a temporary name beside the target and renamed when committed, so a
-/// half-written file is never taken for a whole one.
+/// Files are written under a temporary name beside the target and renamed when committed, so that a partly
+/// written file is never taken for a complete one.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace scintray::core::h5 {
 /// Shape of a dataset, slowest dimension first; empty for a scalar.
 using Shape = std::vector<std::uint64_t>;
 
-/// A group of a file, usable while the File it came from lives.
+/// A group of a file, usable during the lifetime of its File.
 /// T below is one of: double, float, std::int32_t, std::uint32_t, std::int64_t, std::uint64_t,
 /// std::uint8_t. Every member throws SystemError with file, object and reason.
 class Group {
@@ -42,13 +42,13 @@ class Group {
   std::vector<T> read(const std::string& name, Shape* shape = nullptr) const;
   std::vector<std::string> read_strings(const std::string& name) const;
   /// At most `count` values of a one-dimensional dataset from `offset` on; fewer at its end. Of a
-  /// two-dimensional dataset: rows, one after the other.
+  /// two-dimensional dataset: `count` rows, one after the other.
   template <typename T>
   std::vector<T> read_part(const std::string& name, std::uint64_t offset, std::uint64_t count) const;
   /// Shape of a dataset.
   Shape shape(const std::string& name) const;
 
-  /// Attributes on a member ("" for the group itself).
+  /// Attributes of a member ("" for the group itself).
   void set_attribute(const std::string& member, const std::string& name, const std::string& value);
   void set_attribute(const std::string& member, const std::string& name, double value);
   void set_attribute(const std::string& member, const std::string& name, std::int64_t value);
@@ -74,8 +74,8 @@ class Group {
 
 class File {
  public:
-  /// Starts a new file under a temporary name; `commit` puts it in place. Left uncommitted, the
-  /// temporary is removed.
+  /// Creates a file under a temporary name; `commit` renames it. Without a commit the temporary file is
+  /// removed.
   static File create(const std::filesystem::path& path);
   /// Opens for reading. Throws InputError when the file is missing or is not HDF5.
   static File open(const std::filesystem::path& path);

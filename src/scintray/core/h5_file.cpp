@@ -12,8 +12,8 @@ namespace scintray::core::h5 {
 
 namespace {
 
-/// Makes a new file with disk space for HDF5's first write, so that a folder without permission or a
-/// full disk is found before HDF5 starts.
+/// Creates a file with disk space for HDF5's first write, so that a folder without permission or a
+/// full disk is detected before HDF5 starts.
 void take_space(const std::filesystem::path& path, const std::filesystem::path& name) {
   constexpr off_t kFirstBytes = 1 << 16;
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -22,7 +22,7 @@ void take_space(const std::filesystem::path& path, const std::filesystem::path& 
   if (cause != 0) throw SystemError(name.string() + ": cannot write: " + std::strerror(cause));
 }
 
-/// Delayed writing errors (quotas, network file systems) show only here. `name` is for the message.
+/// Delayed writing errors (quotas, network file systems) appear only here. `name` is for the message.
 void sync_to_disk(const std::filesystem::path& path, const std::filesystem::path& name) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   const int status = descriptor < 0 ? -1 : ::fsync(descriptor);
@@ -35,12 +35,12 @@ void sync_to_disk(const std::filesystem::path& path, const std::filesystem::path
 Handle access_properties() {
   Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(properties.id(), H5F_CLOSE_STRONG);
-  // Some cluster file systems have no locks; a result there is as readable as anywhere.
+  // Some cluster file systems have no locks; a results file is readable there, too.
   H5Pset_file_locking(properties.id(), true, true);
   return properties;
 }
 
-/// Cuts off the disk space taken in advance; that HDF5 opens the file shows that it is whole.
+/// Releases the disk space allocated in advance; that HDF5 opens the file shows that it is complete.
 void drop_unused_end(const std::filesystem::path& path, const std::filesystem::path& name) {
   const Handle access = access_properties();
   haddr_t end = 0;

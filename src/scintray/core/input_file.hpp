@@ -1,5 +1,5 @@
 #pragma once
-/// Files read in one go.
+/// Whole files in memory.
 
 #include <filesystem>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace scintray::core {
 
-/// All bytes of a file as they are; nothing when it cannot be opened or read, as a folder cannot.
-[[nodiscard]] [[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
+/// All bytes of a file; empty (nullopt) when it cannot be opened or read, for example a folder.
+[[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
 
 }  // namespace scintray::core

@@ -1,6 +1,6 @@
 #pragma once
-/// Three coordinates and a fourth number in the compiler's own vectors (GCC and Clang), for the few places
-/// where photons spend their time: they stay in registers, where Eigen's types go through memory.
+/// Three coordinates and a fourth number in vector registers (GCC's and Clang's vector types), for the few
+/// hot kernels of photon transport, where Eigen's types would go through memory.
 
 #include "scintray/core/vec.hpp"
 
@@ -14,7 +14,7 @@ struct Lanes {
 
   Lanes(TwoDoubles first, TwoDoubles last) : xy(first), zw(last) {}
   Lanes(const Vec3& v, double fourth) : xy{v.x(), v.y()}, zw{v.z(), fourth} {}
-  /// Four numbers in a row.
+  /// Four numbers.
   static Lanes at(const double* numbers) {
     using Anywhere [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
     return {*reinterpret_cast<const Anywhere*>(numbers), *reinterpret_cast<const Anywhere*>(numbers + 2)};
@@ -32,7 +32,7 @@ struct Lanes {
   friend Lanes operator+(const Lanes& a, const Lanes& b) { return {a.xy + b.xy, a.zw + b.zw}; }
   friend Lanes operator-(const Lanes& a, const Lanes& b) { return {a.xy - b.xy, a.zw - b.zw}; }
   friend Lanes operator*(double factor, const Lanes& a) { return {factor * a.xy, factor * a.zw}; }
-  /// Sum of the products of all four.
+  /// Scalar product over all four numbers.
   friend double dot(const Lanes& a, const Lanes& b) {
     const TwoDoubles sums = a.xy * b.xy + a.zw * b.zw;
     return sums[0] + sums[1];

@@ -19,7 +19,7 @@ struct OutputFile::State {
   std::string what;  ///< "" or " the report"
   int descriptor = -1;
   bool finished = false, committed = false;
-  std::optional<Packer> packer;  ///< none: the text is written as it is
+  std::optional<Packer> packer;  ///< empty for plain text
 
   ~State() {
     if (descriptor >= 0) ::close(descriptor);

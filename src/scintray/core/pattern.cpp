@@ -14,7 +14,7 @@ bool matches_pattern(std::string_view pattern, std::string_view name) {
     } else if (p < pattern.size() && pattern[p] == name[n]) {
       ++p;
       ++n;
-    } else if (star != std::string_view::npos) {  // let the last star take one character more
+    } else if (star != std::string_view::npos) {  // the last star matches one character more
       p = star + 1;
       n = ++resume;
     } else {

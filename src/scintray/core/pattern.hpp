@@ -1,5 +1,5 @@
 #pragma once
-/// Names with wildcards.
+/// Patterns of names with wildcards.
 
 #include <string>
 #include <string_view>
@@ -7,15 +7,15 @@
 
 namespace scintray::core {
 
-/// True when `name` is what `pattern` states, where every * stands for any run of characters, also none.
+/// True when `name` matches `pattern`, where each * matches any number of characters, also none.
 bool matches_pattern(std::string_view pattern, std::string_view name);
 
 inline bool is_pattern(std::string_view text) { return text.find('*') != std::string_view::npos; }
 
-/// Characters of a pattern that are spelt out: of two that match, the one with more states more.
+/// Number of literal characters of a pattern: of two that match, the one with more is the more specific.
 std::size_t literal_length(std::string_view pattern);
 
-/// The names that match, in their order.
+/// The matching names, in their order.
 std::vector<std::string> matching(std::string_view pattern, const std::vector<std::string>& names);
 
 }  // namespace scintray::core

@@ -9,25 +9,25 @@
 
 namespace scintray::core {
 
-/// Ten rounds of Philox4x64 on `counter` under `key`.
+/// Philox4x64-10 of `counter` under `key`: 256 random bits.
 std::array<std::uint64_t, 4> philox4x64(std::array<std::uint64_t, 4> counter,
                                         std::array<std::uint64_t, 2> key);
 
-/// Which independent family of streams a generator draws from; photons never share numbers with
-/// other uses of the same seed.
+/// Family of independent streams that a generator draws from; photons never share numbers with other uses of
+/// the same seed.
 enum class StreamKind : std::uint64_t {
   photon = 0,     ///< (event, photon)
   event = 1,      ///< (event, 0): positions and energies of a whole event
   table = 2,      ///< (incidence node and side, ray): building a surface table
-  synthesis = 3,  ///< generating a height map
+  synthesis = 3,  ///< synthesising a height map
   other = 4,
-  sensor = 5,  ///< (event, channel): what a sensor and its electronics add
+  sensor = 5,  ///< (event, channel): noise of a sensor and its electronics
   cell = 6,    ///< (cell, photon) of a grid: building a response map
-  mapped = 7,  ///< (event, 0): what a response map makes of an event
+  mapped = 7,  ///< (event, 0): an event simulated with a response map
 };
 
 /// A random stream addressed by (seed, kind, a, b, set). Streams with different addresses are
-/// independent; the same address always gives the same numbers, on any thread.
+/// independent; the same address always generates the same numbers, on any thread.
 class Rng {
  public:
   Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0, std::uint64_t set = 0)
@@ -42,7 +42,7 @@ class Rng {
   /// Uniform on [0, 1), 53 bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
 
-  /// Uniform on (0, 1]: safe under a logarithm.
+  /// Uniform on (0, 1]: safe as the argument of a logarithm.
   double uniform_positive() { return static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53; }
 
  private:

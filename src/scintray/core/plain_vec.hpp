@@ -1,6 +1,6 @@
 #pragma once
-/// Vectors and matrices as plain bytes, which Eigen's are not: for records that are copied as they are, to
-/// another process or to a device. They calculate as Eigen's do.
+/// Trivially copyable vectors and matrices, which Eigen's are not: for records that are copied as bytes, to
+/// another process or to a device. Arithmetic is Eigen's.
 
 #include <array>
 #include <type_traits>

@@ -1,5 +1,5 @@
 #pragma once
-/// Sampling of the directions and lengths that light transport needs.
+/// Sampling of directions, lengths and deviates for light transport.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@ inline Vec3 sample_isotropic(Rng& rng) {
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
-/// The unit vector at the polar angle of cosine `cosine` from the unit vector `axis`.
+/// Unit vector at the polar angle of cosine `cosine` from the unit vector `axis`, at an azimuth about it.
 inline Vec3 turned(const Vec3& axis, double cosine, double azimuth_rad) {
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const Frame frame = Frame::about(axis);
@@ -47,7 +47,7 @@ inline Eigen::Vector2d sample_circle(Rng& rng) {
   }
 }
 
-/// Unit vector across `direction`, uniform in azimuth: the polarisation of unpolarised light.
+/// Unit vector perpendicular to `direction`, uniform in azimuth: the polarisation of unpolarised light.
 inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
   const Frame frame = Frame::about(direction);
   const Eigen::Vector2d at = sample_circle(rng);

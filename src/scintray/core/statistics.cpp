@@ -79,7 +79,7 @@ ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<con
   };
   std::vector<Bin> bins;
   Bin bin;
-  bool impossible = false;  // counts where none can be
+  bool impossible = false;  // counts where none are expected
   for (std::size_t i = 0; i < observed.size(); ++i) {
     impossible = impossible || (observed[i] > 0 && !(expected[i] > 0.0));
     bin.observed += static_cast<double>(observed[i]);

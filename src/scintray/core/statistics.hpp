@@ -19,8 +19,8 @@ struct Estimate {
 /// of one count in n, so that it is never zero.
 Estimate binomial_estimate(std::uint64_t k, std::uint64_t n);
 
-/// Sums from which mean and variance follow; merging is exact up to rounding and is done in a fixed
-/// order so that results do not depend on threads.
+/// Sums that determine mean and variance; merging is exact up to rounding and is done in a fixed order so
+/// that results do not depend on threads.
 struct Moments {
   std::uint64_t count = 0;
   double sum = 0.0;
@@ -60,9 +60,9 @@ struct ChiSquare {
 /// (std::invalid_argument).
 ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<const double> expected);
 
-/// Chi-square that two histograms are samples of one distribution, whatever their totals
+/// Chi-square test that two histograms are samples of one distribution, whatever their totals
 /// (Numerical Recipes 3rd ed., eq. 14.3.3); bins are merged until both together hold at least 20.
-/// An empty histogram holds nothing about shape: p = 1, so compare totals as well.
+/// An empty histogram has no shape: p = 1, so compare totals as well.
 ChiSquare chi_square_two_samples(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b);
 
 }  // namespace scintray::core

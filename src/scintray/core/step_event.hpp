@@ -1,13 +1,13 @@
 #pragma once
-/// What can happen to a photon.
+/// Step events and fates of a photon.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace scintray::core {
 
-/// What happened to a photon in one step. The last ones, from `detected` on, are final: one of them is the
-/// fate of each photon.
+/// Event of a photon in one step. The last ones, from `detected` on, are final: one of them is the fate of
+/// each photon.
 enum class StepEvent : std::uint8_t {
   emitted,      ///< its start
   scattered,    ///< in the bulk
@@ -25,22 +25,22 @@ enum class StepEvent : std::uint8_t {
 };
 inline constexpr int kStepEventCount = 12;
 
-/// A StepEvent that is final.
+/// A final StepEvent.
 using Fate = StepEvent;
 inline constexpr int kFirstFate = static_cast<int>(StepEvent::detected);
 inline constexpr int kFateCount = kStepEventCount - kFirstFate;
 
 constexpr bool is_final(StepEvent event) { return static_cast<int>(event) >= kFirstFate; }
-/// True where a boundary is involved: reflected, transmitted, detected, not detected, absorbed at a surface,
+/// True for events at a boundary: reflected, transmitted, detected, not detected, absorbed at a surface,
 /// and absorbed in the opaque medium behind the boundary.
 constexpr bool is_at_boundary(StepEvent event) {
   return event >= StepEvent::reflected && event <= StepEvent::absorbed_at_surface;
 }
-/// Place of a fate among the fates, 0 to kFateCount - 1.
+/// Index of a fate among the fates, 0 to kFateCount - 1.
 constexpr std::size_t fate_index(Fate fate) {
   return static_cast<std::size_t>(static_cast<int>(fate) - kFirstFate);
 }
-/// The fate at a place, 0 to kFateCount - 1.
+/// The fate at an index, 0 to kFateCount - 1.
 constexpr Fate fate_at(int index) { return static_cast<Fate>(kFirstFate + index); }
 /// Name of a fate in results files: "detected", "unconverted", "absorbed_in_medium", ...
 const char* fate_name(Fate fate);

@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of items written into texts.
+/// Lists of items as text.
 
 #include <span>
 #include <string>
@@ -8,7 +8,7 @@
 namespace scintray::core {
 
 /// The texts of the items in their order with `between` between neighbours; empty without items. `text_of`
-/// makes the text of one item.
+/// returns the text of one item.
 template <typename Range, typename TextOf>
 std::string list_of(const Range& items, std::string_view between, TextOf&& text_of) {
   std::string list;
@@ -21,7 +21,7 @@ std::string list_of(const Range& items, std::string_view between, TextOf&& text_
   return list;
 }
 
-/// "a, b, c".
+/// The list "a, b, c".
 std::string list_of(std::span<const std::string> words, std::string_view between = ", ");
 
 /// The same with each word in quotes.

@@ -1,12 +1,12 @@
 #pragma once
-/// A number for each thread.
+/// Numbers of threads.
 
 #include <atomic>
 
 namespace scintray::core {
 
-/// A small number of the calling thread's own: 1, 2, ... in the order of the first calls. For picking one of
-/// several equal copies; results must not depend on it.
+/// Number of the calling thread: 1, 2, ... in the order of the first calls. It selects one of several equal
+/// copies; results must not depend on it.
 inline unsigned thread_slot() {
   static std::atomic<unsigned> last{0};
   static thread_local unsigned slot = 0;

@@ -61,7 +61,7 @@ const std::vector<Unit>& table_of(Dimension dimension) {
 
 std::string accepted(Dimension dimension) { return list_of(units_of(dimension)); }
 
-/// A quantity as one would write it, in the unit ScintRay itself uses where that has a name.
+/// An example of a quantity, in ScintRay's internal unit where that has a name.
 std::string example(Dimension dimension) {
   const std::vector<Unit>& units = table_of(dimension);
   const auto own =

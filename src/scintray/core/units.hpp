@@ -1,5 +1,5 @@
 #pragma once
-/// Quantities written with their unit, as "2 mm" or "0.5 1/cm".
+/// Quantities written with their unit, such as "2 mm" or "0.5 1/cm".
 ///
 /// Inside ScintRay: mm, ns, nm (wavelength only), rad, keV; lengths and wavelengths are distinct
 /// dimensions here because their internal units differ.
@@ -27,12 +27,12 @@ enum class Dimension {
 std::string dimension_name(Dimension dimension);
 std::vector<std::string> units_of(Dimension dimension);
 
-/// Value of `text` in ScintRay's internal unit for `dimension`.
+/// Value of a quantity written as text, in ScintRay's internal unit for `dimension`.
 /// Throws InputError (no location; callers add theirs) on a malformed number, a missing unit, or a
 /// unit of another dimension; the hint lists what is accepted.
 double parse_quantity(std::string_view text, Dimension dimension);
 
-/// Multiplies a value given in `unit` into the internal unit; throws InputError for other units.
+/// Value in the internal unit of a quantity in `unit`; throws InputError for a unit of another dimension.
 double unit_factor(std::string_view unit, Dimension dimension);
 
 /// hc, for photon energy E (eV) = kHc_eV_nm / wavelength (nm). Exact SI values (CODATA 2018).

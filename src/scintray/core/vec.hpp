@@ -1,5 +1,5 @@
 #pragma once
-/// Vectors and the few geometric operations every module needs.
+/// Vectors and the geometric operations that every module uses.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 #pragma once
-/// Which ScintRay this is; every result file carries it.
+/// Version of ScintRay; every results file holds it.
 
 #include <string>
 

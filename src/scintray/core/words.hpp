@@ -11,15 +11,15 @@
 
 namespace scintray::core {
 
-/// A word and the value that it stands for: an enum's, or the function that reads what the word begins. The
-/// words of an enum stand in a constexpr array beside it.
+/// A word and the value that it stands for: an enumerator, or the function that reads what the word begins.
+/// The words of an enum are a constexpr array beside it.
 template <typename T>
 struct Word {
   const char* word;
   T value;
 };
 
-/// The value of a word; nothing when it is none of `words`. The first of two equal words holds.
+/// The value of a word; empty when it is none of `words`. Of two equal words the first counts.
 template <typename T, std::size_t N>
 [[nodiscard]] constexpr std::optional<T> find_word(const Word<T> (&words)[N], std::string_view text) {
   for (const Word<T>& known : words)

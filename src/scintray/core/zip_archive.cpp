@@ -70,7 +70,7 @@ std::string ZipArchive::read(const std::string& name, std::size_t size) const {
     if (got <= 0) fail("cannot unpack " + in_quotes(name) + ": damaged data", "the file is damaged");
     done += static_cast<std::size_t>(got);
   }
-  // The checksum is compared when the end is met.
+  // The checksum is compared at the end of the data.
   char beyond;
   if (zip_fread(entry.get(), &beyond, 1) != 0)
     fail(in_quotes(name) + " does not fit its size or its checksum", "the file is damaged");

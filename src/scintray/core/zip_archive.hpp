@@ -12,25 +12,25 @@ struct zip;
 
 namespace scintray::core {
 
-/// What a packed file may unpack to: measured heights and the numbers of meshes shrink to a fifth or a tenth,
-/// and a hundredth is no measurement, but small files are let through.
+/// Limit of the unpacked size of a file. Measured heights and the numbers of meshes shrink to a fifth or a
+/// tenth; a hundredth is not a measurement, but small files are accepted.
 constexpr std::size_t most_unpacked(std::size_t packed) {
   return std::max(std::size_t{64} << 20, 100 * packed);
 }
 
-/// An archive in memory; the content must outlive it. Every member throws InputError with the file and
-/// the entry.
+/// An archive in memory; the content must outlive it. Every member throws InputError with the file and the
+/// entry.
 class ZipArchive {
  public:
   ZipArchive(std::string_view content, std::string file);
 
   const std::vector<std::string>& names() const { return names_; }
 
-  /// Unpacked size of an entry. What deflate cannot have packed so small (more than 1032 times), and
-  /// more than most_unpacked allows, is refused, so this is bounded by the archive's own size.
+  /// Unpacked size of an entry in bytes. A size that deflate cannot reach (more than 1032 times the packed
+  /// one), or above most_unpacked, is an error, so this is bounded by the archive's own size.
   std::size_t size(const std::string& name) const;
 
-  /// The first `size` bytes of an entry, which must have exactly so many.
+  /// The content of an entry, which must have exactly `size` bytes.
   std::string read(const std::string& name, std::size_t size) const;
   /// The whole entry.
   std::string read(const std::string& name) const { return read(name, size(name)); }

@@ -29,7 +29,7 @@ int run(z_stream& stream, std::string_view& input, const Step& step, const TakeB
       if (stream.avail_out < part.size()) take({part.data(), part.size() - stream.avail_out});
     } while (state == Z_OK && stream.avail_out == 0);
     input.remove_prefix(fed - stream.avail_in);
-    // Z_BUF_ERROR: all that was fed is used up.
+    // Z_BUF_ERROR: all input is consumed.
   } while ((state == Z_OK || state == Z_BUF_ERROR) && !input.empty());
   return state;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Compressed streams of zlib (RFC 1950) and gzip (RFC 1952), unpacked and packed piece by piece.
+/// Streaming compression and decompression: zlib (RFC 1950) and gzip (RFC 1952).
 
 #include <cstddef>
 #include <functional>
@@ -8,23 +8,23 @@
 
 namespace scintray::core {
 
-/// Takes the next bytes that come out of a stream, at most 16 KiB at once. What it throws ends the stream.
+/// Receiver of the next bytes of a stream, at most 16 KiB at once. An exception of it ends the stream.
 using TakeBytes = std::function<void(std::string_view)>;
 
-/// The header of a stream.
+/// Format of a stream's header.
 enum class Packing { zlib, gzip };
 
-/// How a stream ended.
+/// State at the end of a stream.
 struct Unpacked {
   bool complete = false;        ///< the end of the stream was reached and its check sum is right
   std::size_t bytes_after = 0;  ///< input beyond the end of the stream
 };
 
-/// Unpacks one stream into `take`, which sees all that can be unpacked of a damaged or truncated one.
+/// Unpacks one stream into `take`, which receives all that can be unpacked of a damaged or truncated one.
 /// @throws SystemError when zlib cannot start
 Unpacked unpack(std::string_view packed, Packing packing, const TakeBytes& take);
 
-/// A zlib stream in the making.
+/// A zlib stream being written.
 class Packer {
  public:
   /// @throws SystemError when zlib cannot start

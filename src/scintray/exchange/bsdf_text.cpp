@@ -28,7 +28,7 @@ std::size_t cell_of(const std::vector<double>& borders, double angle) {
   return static_cast<std::size_t>(above - borders.begin()) - 1;
 }
 
-/// Places of light that leaves at `exit` about the specular ray.
+/// Cells of light that leaves at `exit`, about the specular ray.
 struct AboutSpecular {
   double radial, azimuth;
 };
@@ -131,7 +131,7 @@ Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings) {
     append_cells(bsdf, side, settings, std::asin(sine), degrees * core::kDegree);
   }
   if (bsdf.angles.specular.empty())
-    throw core::InputError({{}, "no specular angle that light can leave at", "give angles from 0 deg on"});
+    throw core::InputError({{}, "no specular angle at which light can leave", "give angles from 0 deg on"});
   return bsdf;
 }
 
@@ -140,7 +140,7 @@ void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optic
   const TableSide side(table, settings.side, settings.slice);
   const BsdfAngles& angles = bsdf.angles;
   core::OutputFile file(path, core::Container::plain);
-  file.write(fmt::format("# ScintRay {}: light that meets index {:g} from index {:g}, calculated\n",
+  file.write(fmt::format("# ScintRay {}: light incident on index {:g} from index {:g}, calculated\n",
                          core::version(), side.index_behind(), side.index_before()));
   file.write("# values are means over cells with borders halfway between the angles\n");
   file.write("Source\tMeasured\nSymmetry\tPlaneSymmetrical\nSpectralContent\tMonochrome\n");

@@ -10,9 +10,9 @@
 
 namespace scintray::exchange {
 
-/// Angles of the table, deg. `specular` are the angles of the mirrored or refracted ray, which is what the
-/// format calls AngleOfIncidence. Azimuth runs about that ray from the side of the normal, 0 to 180;
-/// radial is the angle from that ray, 0 to 180.
+/// Angles of the table, deg. `specular` are the angles of the reflected or refracted ray, the format's
+/// AngleOfIncidence. The azimuth is measured about that ray from the side of the normal, 0 to 180; the radial
+/// angle from that ray, 0 to 180.
 struct BsdfAngles {
   std::vector<double> specular, azimuth, radial;
 };
@@ -33,17 +33,17 @@ struct BsdfSettings {
   optics::Side side = optics::Side::inside;
   Leaving way = Leaving::reflected;
   std::size_t slice = 0;        ///< of the table, as from slice_at
-  std::uint64_t rays = 200000;  ///< points that fill the distribution evenly, for each specular angle
+  std::uint64_t rays = 200000;  ///< quasi-random points of the distribution, for each specular angle
   std::uint64_t seed = 1;
   BsdfAngles angles = default_bsdf_angles();
 };
 
-/// Of transmitted light, specular angles that no refracted ray has are left out, and so is all light that
-/// is incident beyond the critical angle. InputError when nothing is left.
+/// Of transmitted light, specular angles without a refracted ray are left out, and so is all light that is
+/// incident beyond the critical angle. Throws InputError when nothing is left.
 Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
 
 /// Solid angle of each cell weighted by the cosine to the normal (sr), [azimuth][radial], on both sides of
-/// the plane of incidence and above the horizon: the values times this add up to the total.
+/// the plane of incidence and above the horizon: the sum of the values times this is the total.
 std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad);
 
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,

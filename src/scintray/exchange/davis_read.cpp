@@ -67,7 +67,7 @@ class PairCheck {
       refuse(files_.directions,
              std::string("no ") + (reflected ? "reflected" : "transmitted") + " direction at " +
                  std::to_string(degree) + " deg, where the reflectance is " +
-                 std::to_string(pair_.reflectances[degree]) + "; Geant4 would search for one for ever",
+                 std::to_string(pair_.reflectances[degree]) + "; Geant4 would search for one without end",
              reflected ? "the two files are not of one pair, or damaged"
                        : "of a surface whose light is detected, import with `--unreflected absorbed`");
   }
@@ -96,7 +96,7 @@ std::vector<optics::ExitAngles> exits(const DavisPair& pair, Leaving way, int de
   return result;
 }
 
-/// Below 1 deg Geant4 reads no directions: light goes back on its path, or straight on.
+/// Below 1 deg Geant4 reads no directions: light returns on its path, or continues straight.
 std::vector<optics::TableNode> below_one_degree(optics::TableNode node, bool transmits) {
   std::vector<optics::TableNode> ends(2, node);
   for (int k = 0; k < 2; ++k) {
@@ -155,10 +155,11 @@ optics::SurfaceTable davis_table(const DavisPair& pair, const ImportSettings& se
   check_indices(settings.index);
   optics::TableProvenance provenance;
   provenance.map = name + ", read as Geant4's LUTDAVIS model reads it";
-  provenance.preparation = std::string("indices given on import; not reflected: ") +
-                           (settings.unreflected == Unreflected::transmitted ? "transmitted" : "absorbed") +
-                           "; from outside, of which the file says nothing: " +
-                           core::word_of(kFromOutsideWords, settings.from_outside) + "; errors unknown";
+  provenance.preparation =
+      std::string("indices given on import; not reflected: ") +
+      (settings.unreflected == Unreflected::transmitted ? "transmitted" : "absorbed") +
+      "; from outside, not in the file: " + core::word_of(kFromOutsideWords, settings.from_outside) +
+      "; errors unknown";
   provenance.version = core::version();
   return optics::SurfaceTable(settings.index, inside_nodes(pair, settings.unreflected),
                               outside_nodes(settings.index, settings.from_outside), std::move(provenance));

@@ -81,7 +81,7 @@ void write_directions(core::OutputFile& file, const TableSide& side, const Davis
   for (const Leaving way : {Leaving::reflected, Leaving::transmitted}) {
     const bool reflected = way == Leaving::reflected;
     for (int block = 0; block < kDavisBlocks; ++block) {
-      // The last blocks are read by no release; filled, they keep readers with other rounding out of an
+      // No release reads the last blocks; filled, they keep readers with other rounding out of an
       // endless search.
       const int degree = std::min(reflected ? block + 1 : block, kDavisDegrees - 1);
       const CubePoint shift =
@@ -97,21 +97,21 @@ void write_directions(core::OutputFile& file, const TableSide& side, const Davis
 std::vector<std::string> losses(const TableSide& side, optics::Side from) {
   std::vector<std::string> result;
   result.push_back(
-      fmt::format("valid only for light in a medium of index {:g} that meets one of index {:g}; the pair "
-                  "does not say so",
+      fmt::format("valid only for light in a medium of index {:g} incident on one of index {:g}; the pair "
+                  "does not state this",
                   side.index_before(), side.index_behind()));
   result.push_back(
       fmt::format("light from {} is not in the pair: use a border surface of one direction, since Geant4 "
-                  "takes the pair of a skin surface for both",
+                  "uses the pair of a skin surface for both",
                   from == optics::Side::inside ? "outside" : "inside"));
   result.push_back(
-      "below 1 deg of incidence Geant4 sends reflected light back on its path and the rest straight on");
+      "below 1 deg of incidence Geant4 reflects light back on its path and transmits the rest straight on");
   double absorbed = 0.0;
   for (const optics::TableNode& node : side.nodes())
     absorbed = std::max(absorbed, side.absorptance(node.incidence_rad));
   if (absorbed > 0.0)
     result.push_back(
-        fmt::format("up to {:.4f} of the light is absorbed in the table; Geant4 transmits what is not "
+        fmt::format("up to {:.4f} of the light is absorbed in the table; Geant4 transmits light that is not "
                     "reflected, or absorbs all of it when EFFICIENCY is above 0",
                     absorbed));
   return result;

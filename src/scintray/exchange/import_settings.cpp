@@ -19,7 +19,7 @@ optics::TableNode outside_node(double incidence_rad, const optics::IndexPair& in
   const double ratio = index.outside / index.inside;
   const optics::FresnelCoefficients flat =
       optics::fresnel(std::cos(incidence_rad), index.outside, index.inside);
-  // The sine of 90 deg is 1 to the last bit, its cosine is not 0.
+  // The sine of 90 deg is exactly 1, its cosine is not 0.
   const bool grazing = incidence_rad >= 0.5 * core::kPi;
   if (choice == FromOutside::mirror || choice == FromOutside::absorb) {
     node.reflectance = choice == FromOutside::mirror ? 1.0 : 0.0;

@@ -13,17 +13,17 @@ namespace scintray::exchange {
 namespace {
 
 constexpr double kThetaStep = 4.0 * core::kDegree, kPhiStep = 5.0 * core::kDegree;
-/// Directions that stand for one incidence.
+/// Number of directions that represent one incidence.
 constexpr std::size_t kDirections = 20000;
 
-/// One cell that Geant4's sampler can draw.
+/// One cell that Geant4's sampler can select.
 struct Cell {
   optics::ExitAngles exit;
   double weight;
 };
 
 /// The cells of one incidence that leave the surface, and the weight of those that do not. The sampler
-/// never draws the last theta and the last phi. At -90 deg of either the direction lies in the surface, and
+/// never selects the last theta and the last phi. At -90 deg of either the direction lies in the surface, and
 /// the sampler tries again.
 struct Cells {
   std::vector<Cell> leaving;
@@ -40,7 +40,7 @@ Cells cells_of(const std::vector<float>& values, std::size_t incidence, const Lb
       cells.leaving_weight += weight;
       const double theta = -0.5 * core::kPi + static_cast<double>(i) * kThetaStep;
       const double phi = -0.5 * core::kPi + static_cast<double>(j) * kPhiStep;
-      // Positive theta turns towards where the light came from; phi turns out of the plane of incidence.
+      // Positive theta is towards the incident light; phi is out of the plane of incidence.
       const double forward = -std::cos(phi) * std::sin(theta), sideways = std::sin(phi);
       const double cosine = std::cos(phi) * std::cos(theta);
       cells.leaving.push_back({{static_cast<float>(std::acos(std::min(1.0, cosine))),
@@ -50,7 +50,7 @@ Cells cells_of(const std::vector<float>& values, std::size_t incidence, const Lb
   return cells;
 }
 
-/// Equally weighted directions in the shares of the cells, by systematic sampling.
+/// Equally weighted directions in proportion to the cells' shares, by systematic sampling.
 optics::DirectionQuantiles quantiles_of_cells(Cells& cells) {
   std::sort(cells.leaving.begin(), cells.leaving.end(), [](const Cell& a, const Cell& b) {
     return a.exit.polar != b.exit.polar ? a.exit.polar < b.exit.polar : a.exit.azimuth < b.exit.azimuth;
@@ -70,7 +70,7 @@ optics::TableNode node_of(const std::vector<float>& values, std::size_t incidenc
   Cells cells = cells_of(values, incidence, layout);
   const double leaving = cells.leaving_weight / cells.all_weight;
   optics::TableNode node;
-  // Reflected and leaving, or reflected, not leaving, and all over again.
+  // Sum over trials: reflected and leaving, or reflected, not leaving, and repeated.
   node.reflectance = std::min(1.0, reflectance * leaving / (1.0 - reflectance * (1.0 - leaving)));
   node.absorptance = 1.0 - node.reflectance;
   node.reflected = quantiles_of_cells(cells);
@@ -95,13 +95,13 @@ std::vector<float> parse_lbnl(std::string_view content, const std::string& file,
       throw core::InputError({{file},
                               "value " + std::to_string(values[k]) + " as number " + std::to_string(k + 1) +
                                   ", at incidence " + std::to_string(k % layout.incidences) +
-                                  " deg; expected 0 to 1, since Geant4 takes it for a probability",
+                                  " deg; expected 0 to 1, since Geant4 uses it as a probability",
                               "divide the table by its largest value, or check that it is a LUT of LBNL"});
   for (std::size_t incidence = 0; incidence < layout.incidences; ++incidence)
     if (cells_of(values, incidence, layout).leaving.empty())
       throw core::InputError({{file},
                               "no direction that leaves the surface at incidence " +
-                                  std::to_string(incidence) + " deg; Geant4 would search for one for ever",
+                                  std::to_string(incidence) + " deg; Geant4 would search for one without end",
                               "the file is damaged or of another kind"});
   return values;
 }
@@ -124,7 +124,7 @@ optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSe
   optics::TableProvenance provenance;
   provenance.map = name + ", read as Geant4's LUT model reads it";
   provenance.preparation = "indices and reflectance " + std::to_string(settings.reflectance) +
-                           " given on import; from outside, of which the file says nothing: " +
+                           " given on import; from outside, not in the file: " +
                            core::word_of(kFromOutsideWords, settings.from_outside) + "; errors unknown";
   provenance.version = core::version();
   return optics::SurfaceTable(settings.index, stepped_nodes(edges, steps),
@@ -137,7 +137,7 @@ optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSe
     throw core::InputError(
         {{path.string()},
          "no such file: Geant4 lists the finishes polishedair, etchedair and groundair, but no "
-         "data exist for them; its reader leaves such a table empty without a word",
+         "data exist for them; its reader leaves such a table empty without a message",
          "take one of the 21 measured ones, for example GroundTeflon.z"});
   const std::string content = load_number_file(path, {layout.numbers(), layout.numbers()});
   return lbnl_table(parse_lbnl(content, path.string(), layout), settings, path.filename().string());

@@ -3,7 +3,7 @@
 /// one file a finish, 91 incidences x 45 x 37 relative probabilities of a direction. docs/exchange.md
 /// describes the layout.
 ///
-/// Source of the layout and of the sampling: what Geant4's own reader does (G4OpticalSurface.cc,
+/// Source of the layout and of the sampling: Geant4's own reader (G4OpticalSurface.cc,
 /// G4OpBoundaryProcess::DielectricLUT, release 11).
 
 #include <filesystem>
@@ -16,31 +16,31 @@
 
 namespace scintray::exchange {
 
-/// Sizes of a table. Geant4 knows these only; other numbers of incidences are for tests.
+/// Sizes of a table. Geant4 has only these; other numbers of incidences are for tests.
 struct LbnlLayout {
   std::size_t incidences = 91;  ///< 0 to 90 deg, the incidence rounded to the nearest
   std::size_t thetas = 45;      ///< -90 to 86 deg: in the plane of incidence, 0 at the normal
   std::size_t phis = 37;        ///< -90 to 90 deg: out of the plane of incidence
 
   std::size_t numbers() const { return incidences * thetas * phis; }
-  /// The incidence runs fastest.
+  /// Index of a value; the incidence varies fastest.
   std::size_t at(std::size_t incidence, std::size_t theta, std::size_t phi) const {
     return incidence + incidences * (theta + thetas * phi);
   }
 };
 
-/// Reads and checks the content of a file. InputError on damaged, short or long files, values that are not
-/// finite or outside 0 to 1 (Geant4 takes each for a probability), and incidences without any direction
-/// that leaves the surface.
+/// The values of a file, read from its content and checked. InputError on damaged, short or long files,
+/// values that are not finite or outside 0 to 1 (Geant4 uses each as a probability), and incidences without
+/// any direction that leaves the surface.
 std::vector<float> parse_lbnl(std::string_view content, const std::string& file, LbnlLayout layout = {});
 
-/// The table of what Geant4 samples: nothing is transmitted, `settings.reflectance` is that of one try, and
-/// tries that end at the horizon are made anew with another chance of absorption.
+/// The table that Geant4 samples: nothing is transmitted, `settings.reflectance` is that of one trial, and
+/// trials that end at the horizon are repeated with another chance of absorption.
 optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSettings& settings,
                                 const std::string& name);
 
-/// Both of the above from a file. A missing file named as one of the bare finishes, for which no data
-/// exist, states so.
+/// The table of a file: both of the above. The error for a missing file with the name of one of the bare
+/// finishes, for which no data exist, states this.
 optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSettings& settings);
 
 }  // namespace scintray::exchange

@@ -25,7 +25,7 @@ constexpr const char* kDamaged = "the file is truncated or damaged, or of anothe
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// Takes text piece by piece; a number may be cut by the end of a piece.
+/// Reads text piece by piece; a number may be split by the end of a piece.
 class NumberList {
  public:
   NumberList(const std::string& file, NumberCount count) : file_(file), count_(count) {}
@@ -76,7 +76,7 @@ class NumberList {
     float value = 0.0f;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) not_a_number(word);
-    // Too small for single precision is zero; too large is no measured value.
+    // Too small for single precision is zero; too large is not a measured value.
     if (error == std::errc::result_out_of_range) value = underflows(digits) ? 0.0f : HUGE_VALF;
     if (!std::isfinite(value)) not_a_number(word);
     numbers_.push_back(value);
@@ -105,7 +105,7 @@ class NumberList {
 };
 
 /// The two bytes that begin a zlib stream (RFC 1950, section 2.2). A text may begin with "80", which would
-/// pass for one of a window of 2 KiB, so that one is left out.
+/// be valid for a window of 2 KiB, so that one is excluded.
 bool is_zlib(std::string_view content) {
   if (content.size() < 2) return false;
   const auto first = static_cast<unsigned char>(content[0]), second = static_cast<unsigned char>(content[1]);

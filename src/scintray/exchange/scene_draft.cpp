@@ -22,7 +22,7 @@ void write_scene_draft(const SceneDraft& draft, const std::filesystem::path& sce
   std::error_code error;
   if (std::filesystem::exists(scene_file, error))
     throw core::InputError(core::Problem{{scene_file.string()},
-                                         "the scene file is there already, and would be lost",
+                                         "the scene file exists already and would be lost",
                                          "choose another -o, or remove the file"});
   const auto make_folder = [&error](const std::filesystem::path& folder) {
     if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -64,11 +64,10 @@ SceneDraft draft_of_model(const std::filesystem::path& file, const ModelImport& 
   const mesh::MeshImport model = mesh::import_mesh(file, import);
 
   SceneDraft draft;
-  draft.toml =
-      "# Made by scintray import from " + file.filename().string() + ".\n" +
-      "# Such a file does not say what its bodies are made of, how they are finished, and where light\n"
-      "# starts: fill in every line that ends in \"required\".\n" +
-      "title = " + toml_string(file.stem().string()) + "\n# ambient = \"air\"  # required\n";
+  draft.toml = "# Made by scintray import from " + file.filename().string() + ".\n" +
+               "# Such a file does not contain the media and finishes of its bodies, nor where light\n"
+               "# starts: fill in every line that ends in \"required\".\n" +
+               "title = " + toml_string(file.stem().string()) + "\n# ambient = \"air\"  # required\n";
   std::vector<std::string> bodies = model.bodies;
   if (bodies.empty()) bodies = {""};
   for (const std::string& body : bodies) {
@@ -95,7 +94,7 @@ SceneDraft draft_of_model(const std::filesystem::path& file, const ModelImport& 
                 toml_string(part_name(bodies.front().empty() ? file.stem().string() : bodies.front())) +
                 " }\n# wavelength = \"420 nm\"\n# photons = 100_000\n";
   for (const std::string& note : model.notes)
-    if (note.find("all taken together") == std::string::npos) draft.notes.push_back(note);
+    if (note.find("all imported together") == std::string::npos) draft.notes.push_back(note);
   draft.missing = {"ambient", "the medium and surface of every part", "[source]"};
   return draft;
 }

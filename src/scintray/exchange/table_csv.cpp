@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kPolarCells = 18, kAzimuthCells = 12;
 constexpr double kPolarCell = 0.5 * core::kPi / kPolarCells, kAzimuthCell = core::kPi / kAzimuthCells;
-/// Points that fill a distribution; their unevenness is far below the errors of a table's rays.
+/// Number of quasi-random points; their discrepancy is far below the errors of a table's rays.
 constexpr std::uint64_t kPoints = 50000;
 
 using Shares = std::array<double, kPolarCells * kAzimuthCells>;

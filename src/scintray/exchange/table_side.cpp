@@ -30,7 +30,7 @@ double polar_step(double level) {
 /// The inverse of azimuth_level.
 double azimuth_step(double level) { return 1.0 - std::sqrt(1.0 - level); }
 
-/// The digits of `k` in a base, mirrored at the point.
+/// Radical inverse of `k` in a base: its digits mirrored at the point.
 double mirrored_digits(std::uint64_t k, std::uint64_t base) {
   double value = 0.0, digit = 1.0;
   for (; k > 0; k /= base) {
@@ -71,12 +71,12 @@ TableSide::TableSide(const optics::SurfaceTable& table, optics::Side side, std::
   if (table.azimuth_kind() == optics::AzimuthKind::directional)
     throw core::InputError({{},
                             "a table of a surface with direction (" + std::to_string(table.azimuths()) +
-                                " azimuths of incidence); the format knows the angle of incidence only",
+                                " azimuths of incidence); the format has the angle of incidence only",
                             "build the table without direction"});
   if (table.slices()[slice].reciprocal)
     throw core::InputError(
         {{},
-         "a table made reciprocal, whose light follows bins and not the distributions of its "
+         "a table made reciprocal, whose light is sampled from bins and not from the distributions of its "
          "angles of incidence",
          "export the table built without that"});
 }

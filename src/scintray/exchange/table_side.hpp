@@ -8,22 +8,22 @@
 
 namespace scintray::exchange {
 
-/// The two ways in which light leaves a surface.
+/// Ways in which light leaves a surface.
 enum class Leaving { reflected, transmitted };
 
-/// The slice of a table at one of its wavelengths; without a wavelength, the only one. InputError when there
-/// is none such, or several and none was requested.
+/// Index of the slice of a table at one of its wavelengths; without a wavelength, the only one. InputError
+/// when there is none such, or several and none was requested.
 std::size_t slice_at(const optics::SurfaceTable& table, std::optional<double> wavelength_nm);
 
-/// Light met from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller states
-/// where in the distribution, so that points can be spread evenly.
+/// Light incident from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller
+/// supplies the coordinates in the distribution, so that points can be spread evenly.
 class TableSide {
  public:
-  /// `table` must outlive this; `slice` as from slice_at. InputError for a table of a surface with
+  /// `table` must outlive this; `slice` as from slice_at. Throws InputError for a table of a surface with
   /// direction, which is no function of the incidence angle alone, and for one made reciprocal.
   TableSide(const optics::SurfaceTable& table, optics::Side side, std::size_t slice = 0);
 
-  /// Share of the light met at an incidence (rad) that leaves this way.
+  /// Share of the light at an incidence (rad) that leaves this way.
   double share(Leaving way, double incidence_rad) const;
   /// Share that is absorbed at the surface.
   double absorptance(double incidence_rad) const;
@@ -49,7 +49,7 @@ class TableSide {
   double before_, behind_;
 };
 
-/// Point `k` of an even filling of the unit cube, moved by `shift` (each in [0, 1)) modulo 1.
+/// Point `k` of a quasi-random sequence in the unit cube, shifted by `shift` (each in [0, 1)) modulo 1.
 /// Source: J. H. Halton 1960, Numer. Math. 2, 84-90, bases 2, 3, 5; the shift is that of R. Cranley and
 /// T. Patterson 1976, SIAM J. Numer. Anal. 13, 904-914.
 struct CubePoint {
@@ -57,7 +57,7 @@ struct CubePoint {
 };
 CubePoint cube_point(std::uint64_t k, const CubePoint& shift);
 
-/// A random shift for `cube_point`, from a seed and two numbers that say what for.
+/// A random shift for `cube_point`, from a seed and two numbers that identify its use.
 CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b);
 
 }  // namespace scintray::exchange

@@ -22,7 +22,7 @@ using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 using Face = Surface::Face_index;
 using FaceNumbers = Surface::Property_map<Face, std::uint32_t>;
 
-/// Carries the number of each face over to the pieces that it is cut into and the copies made of it.
+/// Transfers the number of each face to the pieces that it is cut into and to its copies.
 class NumberVisitor : public pmp::Corefinement::Default_visitor<Surface> {
  public:
   void watch(Surface& surface, FaceNumbers numbers) { (*numbers_)[&surface] = numbers; }
@@ -34,7 +34,7 @@ class NumberVisitor : public pmp::Corefinement::Default_visitor<Surface> {
 
  private:
   FaceNumbers& numbers(const Surface& surface) const { return numbers_->at(&surface); }
-  // CGAL copies its visitor; the copies share what they know.
+  // CGAL copies its visitor; the copies share their state.
   std::shared_ptr<std::map<const Surface*, FaceNumbers>> numbers_ =
       std::make_shared<std::map<const Surface*, FaceNumbers>>();
   std::shared_ptr<std::uint32_t> current_ = std::make_shared<std::uint32_t>(0);
@@ -50,7 +50,7 @@ bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, Fac
   return CGAL::is_closed(surface) && pmp::does_bound_a_volume(surface);
 }
 
-/// Cleans a mesh whose groups are the numbers of the triangles that its triangles are pieces of, those of the
+/// Cleans a mesh whose groups are the numbers of the original triangles of its pieces, those of the
 /// first mesh first, and gives it the first mesh's groups.
 BooleanResult numbered(TriMesh mesh, const TriMesh& first, double clean_mm) {
   const auto of_first = static_cast<std::uint32_t>(first.triangles.size());

@@ -5,9 +5,9 @@
 
 namespace scintray::mesh {
 
-/// diagnose() about the middle of the mesh, so that a part far from the origin is not evaluated by the
-/// rounding of its distance: what is short against that may still be a sound film. Places and bounds are
-/// the mesh's own. @throws InputError as diagnose().
+/// diagnose() relative to the middle of the mesh, so that the rounding of a part far from the origin does not
+/// affect the diagnosis: what is small compared with that rounding may still be a sound film. Positions and
+/// bounds are the mesh's own. @throws InputError as diagnose().
 [[nodiscard]] MeshDiagnosis diagnose_in_place(const TriMesh& mesh);
 
 }  // namespace scintray::mesh

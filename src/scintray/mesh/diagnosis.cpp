@@ -112,7 +112,7 @@ bool make_consistent(TriMesh& mesh) {
         stack.push_back(link.triangle);
       }
     }
-    // The majority of a patch is taken to be right.
+    // The majority of a patch is taken to be correct.
     const State wrong = 2 * turned > patch.size() ? State::kept : State::turned;
     for (const std::uint32_t t : patch) {
       if (state[t] != wrong) continue;
@@ -180,7 +180,7 @@ std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis, const s
     problems.push_back({{}, "part \"" + part_name + "\" has no triangles", "a part needs a closed surface"});
   }
   report(diagnosis.open_edges, "open edge (of one triangle only)", "open edges (of one triangle only)",
-         "the surface has holes, so which medium lies behind it cannot be known; scintray repair fills "
+         "the surface has holes, so the medium behind it is not defined; scintray repair fills "
          "holes");
   report(diagnosis.nonmanifold_edges, "non-manifold edge (of three or more triangles)",
          "non-manifold edges (of three or more triangles)",
@@ -214,7 +214,7 @@ bool orient_outwards(TriMesh& mesh) {
     }
     return true;
   }
-  // Defects keep the nesting from being known; the sign of the volume is the best there is.
+  // With defects the nesting is not defined; the sign of the volume is the best estimate.
   if (!diagnosis.outward() && mesh.volume() < 0.0) {
     for (auto& triangle : mesh.triangles) turn_round(triangle);
     any = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is wrong with a mesh, with places.
+/// Defects of a mesh, with their positions.
 
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// How many, and where the first few are (mm; at most kMaxExamples).
+/// Number of defects, and the positions of the first few (mm; at most kMaxExamples).
 struct Defects {
   static constexpr std::size_t kMaxExamples = 5;
   std::size_t count = 0;
@@ -31,7 +31,7 @@ struct MeshDiagnosis {
   Defects flipped_edges;         ///< edges whose two triangles run along them in the same direction
   Defects degenerate_triangles;  ///< no area (see is_degenerate)
   Defects duplicate_triangles;   ///< same three vertices as an earlier triangle, in any order
-  Defects self_intersections;    ///< pairs of triangles that meet other than in shared vertices/edges
+  Defects self_intersections;    ///< pairs of triangles that intersect other than in shared vertices/edges
   Defects inverted_bodies;       ///< closed bodies whose inside is on the wrong side, given nesting
   std::size_t bodies = 0;        ///< sets of triangles connected through edges
   double volume_mm3 = 0.0;       ///< signed; meaningful when closed and consistently oriented
@@ -48,21 +48,22 @@ struct MeshDiagnosis {
   }
 };
 
-/// Examines a mesh. Self-intersections come from CGAL polygon mesh processing with exact predicates.
-/// Which bodies are inverted is only examined when the mesh is otherwise sound.
+/// Defects and measures of a mesh. Self-intersections come from CGAL polygon mesh processing with exact
+/// predicates. Inverted bodies are only examined when the mesh is otherwise sound.
 /// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.
 [[nodiscard]] MeshDiagnosis diagnose(const TriMesh& mesh);
 
-/// What makes a part unusable, each with its count, a place in mm, and a hint; empty for sound parts.
+/// Problems that make a part unusable, each with its count, a position in mm, and a hint; empty for sound
+/// parts.
 [[nodiscard]] std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis,
                                                        const std::string& part_name);
 
-/// Makes all triangles agree with their neighbours (where the mesh permits) and turns normals out of
-/// the solid, nested shells included. Returns true when any triangle was turned round. Geometry,
-/// vertex numbers and triangle order stay.
+/// Makes all triangles agree with their neighbours (where the mesh permits) and reverses triangles so that
+/// normals point out of the solid, nested shells included. Returns true when any triangle was reversed.
+/// Geometry, vertex numbers and triangle order are unchanged.
 bool orient_outwards(TriMesh& mesh);
 
-/// Shortest length that single precision resolves at the mesh's largest coordinate: 2^-22 of it.
+/// Shortest length (mm) that single precision resolves at the mesh's largest coordinate: 2^-22 of it.
 double rounding_length(const TriMesh& mesh);
 
 /// True when two vertices are the same or the height over the longest edge is at most `length_mm`.

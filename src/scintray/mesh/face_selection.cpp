@@ -29,7 +29,7 @@ double angle_between(const core::Vec3& a, const core::Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Grows flat regions; shared by the labelling of all triangles and the selection of one region.
+/// Growth of flat regions; used to label all triangles and to select one region.
 class FlatRegionGrower {
  public:
   FlatRegionGrower(const TriMesh& mesh, double angle_tolerance_rad)
@@ -44,7 +44,7 @@ class FlatRegionGrower {
     }
   }
 
-  /// Gives `label` to the unlabelled triangles of the region that starts at `seed`.
+  /// Assigns `label` to the unlabelled triangles of the region that starts at `seed`.
   void grow(std::uint32_t seed, std::uint32_t label, std::vector<std::uint32_t>& labels) {
     labels[seed] = label;
     stack_.assign(1, seed);
@@ -64,7 +64,7 @@ class FlatRegionGrower {
     const core::Vec3& normal = normals_[seed];
     if (normal.isZero()) return false;
     if (!normals_[t].isZero() && angle_between(normal, normals_[t]) <= tolerance_) return true;
-    // A sliver's own normal is mostly rounding; its vertices tell better where it lies.
+    // A sliver's own normal is mostly rounding; its vertices define its plane better.
     if (normals_[t].dot(normal) < 0.0) return false;
     const core::Vec3& origin = mesh_.vertices[mesh_.triangles[seed][0]];
     return std::all_of(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), [&](std::uint32_t v) {

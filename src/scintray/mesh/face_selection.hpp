@@ -1,5 +1,5 @@
 #pragma once
-/// Choosing triangles of a mesh, to give them a surface.
+/// Selection of triangles of a mesh, to assign a surface to them.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// Conditions on a triangle; all that are given must hold, none selects every triangle.
+/// Conditions on a triangle; all that are set must hold, and without conditions every triangle is selected.
 /// Lengths in mm, in the coordinates of the mesh.
 struct FaceSelector {
   /// Outward normal within normal_tolerance_rad of this direction (need not have unit length).
@@ -24,7 +24,7 @@ struct FaceSelector {
   double flat_tolerance_rad = 0.1 * core::kDegree;
   /// Group name: glTF material, OBJ group or material, side of a primitive. For a group named
   /// "object:material" either half alone matches too; the number of a CAD face ("face12") matches whatever
-  /// the face is called.
+  /// the name of the face.
   std::optional<std::string> group;
   /// Tags of the group that must have these values: glTF extras, "color" of a CAD face.
   FaceTags tags;
@@ -32,13 +32,13 @@ struct FaceSelector {
   std::optional<core::Vec3> nearest;
 };
 
-/// Mask over triangles: 1 where every condition holds. Triangles without area match no normal.
+/// Mask over triangles: 1 where every condition holds. A triangle without area matches no normal.
 /// @throws InputError for a normal of length zero or a negative tolerance.
 std::vector<char> select_triangles(const TriMesh& mesh, const FaceSelector& selector);
 
 /// Label per triangle, 0, 1, ... in order of first triangle. A region grows through shared edges from
 /// its first triangle over neighbours whose normal is within the tolerance of that first triangle's,
-/// or that lie in its plane within single-precision rounding; it does not creep round a cylinder.
+/// or that lie in its plane within single-precision rounding; it does not extend around a cylinder.
 std::vector<std::uint32_t> flat_regions(const TriMesh& mesh, double angle_tolerance_rad);
 
 /// Index of the triangle nearest `point`, lowest index among equals. @throws InputError when empty.

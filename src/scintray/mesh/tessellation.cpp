@@ -6,11 +6,11 @@
 namespace scintray::mesh {
 
 int arc_segments(double radius_mm, double arc_rad, const Tessellation& tessellation, int least) {
-  constexpr double kMost = 1e6;  // beyond it the caller's own limit of triangles is met anyway
+  constexpr double kMost = 1e6;  // beyond it the caller's own limit of triangles applies anyway
   double step = tessellation.angle_rad;
   if (radius_mm > 0.0 && tessellation.deviation_mm < radius_mm)
     step = std::min(step, 2.0 * std::acos(1.0 - tessellation.deviation_mm / radius_mm));
-  // The last digits of an arc such as 2 pi must not decide about a segment more.
+  // The last digits of an arc such as 2 pi must not add a segment.
   const double segments = std::ceil(arc_rad / step - 1e-9);
   return std::max(least, static_cast<int>(std::min(segments, kMost)));
 }

@@ -1,20 +1,20 @@
 #pragma once
-/// How finely curved faces are cut in triangles.
+/// Fineness of the tessellation of curved faces.
 
 #include "scintray/core/vec.hpp"
 
 namespace scintray::mesh {
 
-/// Both limits hold. The defaults keep the radius of a 2 mm fibre within 0.1 % and cut a full circle in 72
-/// or more.
+/// Limits of a tessellation; both hold. The defaults keep the radius of a 2 mm fibre within 0.1 % and cut a
+/// full circle in 72 or more.
 struct Tessellation {
   double deviation_mm = 0.01;              ///< largest distance of a triangle from the face it stands for
   double angle_rad = 5.0 * core::kDegree;  ///< largest angle between neighbouring triangles or edges
   bool operator==(const Tessellation&) const = default;
 };
 
-/// Segments of a circular arc that keep both limits: an arc of angle a over a chord deviates by
-/// r (1 - cos(a / 2)) from it. At least `least`.
+/// Number of segments of a circular arc that satisfies both limits: an arc of angle a over a chord deviates
+/// by r (1 - cos(a / 2)) from it. At least `least`.
 int arc_segments(double radius_mm, double arc_rad, const Tessellation& tessellation, int least = 1);
 
 }  // namespace scintray::mesh

@@ -5,7 +5,7 @@
 
 namespace scintray::mesh {
 
-/// Where along the segment from `a` to `b` the point nearest `p` lies: 0 at `a`, 1 at `b`; 0 when the two
+/// Parameter along the segment from `a` to `b` of the point nearest `p`: 0 at `a`, 1 at `b`; 0 when the two
 /// are one point.
 [[nodiscard]] double share_along_segment(const core::Vec3& p, const core::Vec3& a, const core::Vec3& b);
 

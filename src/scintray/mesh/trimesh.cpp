@@ -17,7 +17,7 @@ double TriMesh::area() const {
 
 double TriMesh::volume() const {
   if (triangles.empty()) return 0.0;
-  // Tetrahedra from a vertex of the mesh: far from the origin, tetrahedra from there would cancel.
+  // Tetrahedra from a vertex of the mesh: for a mesh far from the origin, those from the origin would cancel.
   const core::Vec3 apex = vertices[triangles.front()[0]];
   double sum = 0.0;
   for (const auto& [a, b, c] : triangles) {

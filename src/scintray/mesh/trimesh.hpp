@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// Keys and values that a file gives to some of its triangles: glTF extras, the colour of a CAD face.
+/// Keys and values that a file assigns to some of its triangles: glTF extras, the colour of a CAD face.
 using FaceTags = std::map<std::string, std::string>;
 
 /// A number as the value of a tag: shortest form that reads back as the same number.
@@ -21,18 +21,18 @@ std::string tag_text(double number);
 struct TriMesh {
   std::vector<core::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Per triangle, index into `groups`: the glTF material or OBJ group it came with.
+  /// Per triangle, index into `groups`: its glTF material or OBJ group.
   std::vector<std::uint32_t> group;
   std::vector<std::string> groups;
-  /// What the file states of each group beside its name; empty when it holds nothing of any. Groups that
-  /// differ here only have the same name.
+  /// Per group, the tags of the file beside its name; empty when no group has any. Groups that differ only
+  /// here have the same name.
   std::vector<FaceTags> group_tags;
 
   core::Vec3 area_vector(std::size_t triangle) const;  ///< normal times area, mm2
   double area() const;                                 ///< mm2
   double volume() const;                               ///< mm3, positive when oriented outwards
 
-  /// Tags of a group; none when the file states nothing.
+  /// Tags of a group; empty when the file has none.
   const FaceTags& tags_of(std::size_t group_number) const;
   /// Number of the group with this name and these tags, added when it is new.
   std::uint32_t group_index(const std::string& name, const FaceTags& tags = {});
@@ -41,7 +41,7 @@ struct TriMesh {
 /// Middle of a triangle, mm.
 core::Vec3 centre_of(const TriMesh& mesh, std::size_t triangle);
 
-/// Takes out the triangles, with their groups, where `wanted` is zero; the rest keep their order.
+/// Removes the triangles, with their groups, where `wanted` is zero; the rest keep their order.
 void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted);
 
 }  // namespace scintray::mesh

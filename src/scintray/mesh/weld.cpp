@@ -72,7 +72,7 @@ class VertexGrid {
   std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> first_in_cell_;
 };
 
-/// Which corner lies between the other two along the triangle's longest edge.
+/// The corner between the other two along the triangle's longest edge.
 std::size_t middle_corner(const TriMesh& mesh, std::size_t triangle) {
   const auto& corner = mesh.triangles[triangle];
   std::size_t middle = 0;
@@ -92,12 +92,12 @@ bool has_equal_corners(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/// One pass of remove_degenerate: takes out degenerate triangles no two of which share a neighbour.
+/// One pass of remove_degenerate: removes degenerate triangles no two of which share a neighbour.
 class DegeneratePass {
  public:
   DegeneratePass(TriMesh& mesh, double length_mm) : mesh_(mesh), length_mm_(length_mm) {}
 
-  /// Returns false when nothing is degenerate. With `cut_neighbours` false slits are left.
+  /// Returns false when nothing is degenerate. With `cut_neighbours` false slits remain.
   bool run(bool cut_neighbours, DegenerateRemoval& total) {
     std::vector<std::size_t> flat;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -134,9 +134,9 @@ class DegeneratePass {
     for (; use != uses.end() && use->low == low && use->high == high; ++use) {
       const std::size_t other = use->triangle;
       if (other == t || has_equal_corners(mesh_.triangles[other])) continue;
-      if (gone_[other] || cut_at_[other] != kNone) return;  // its turn comes in the next pass
-      // Of slivers along one line the longest goes first: cut at a shorter one's corner it would only become
-      // two that are cut back.
+      if (gone_[other] || cut_at_[other] != kNone) return;  // removed in the next pass
+      // Of slivers along one line the longest is removed first: cut at a shorter one's corner it would only
+      // become two that are cut back.
       if (longest_[other] > longest_[t]) return;
       cut_at_[other] = mesh_.triangles[t][middle];
       const auto& corner = mesh_.triangles[other];
@@ -226,7 +226,7 @@ std::size_t weld_vertices(TriMesh& mesh, double length_mm) {
 }
 
 DegenerateRemoval remove_degenerate(TriMesh& mesh, double length_mm) {
-  // A cut makes edges shorter, so chains of slivers end; the bound is for meshes that are nothing but
+  // A cut makes edges shorter, so chains of slivers end; the bound is for meshes that consist of
   // slivers, where slits no longer matter.
   constexpr int kMostPasses = 100;
   DegenerateRemoval total;

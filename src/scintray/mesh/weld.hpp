@@ -1,5 +1,5 @@
 #pragma once
-/// Making one connected mesh out of the loose triangles that files hold.
+/// Welding the separate triangles of files into a connected mesh.
 
 #include <cstddef>
 
@@ -7,22 +7,22 @@
 
 namespace scintray::mesh {
 
-/// Makes vertices closer than `length_mm` along every axis one vertex (the first of them stays), in
-/// vertex order; vertices that no triangle uses go. Triangles stay, even those that collapse.
-/// Returns how many vertices went.
+/// Merges vertices closer than `length_mm` along every axis (the first of them remains), in vertex order, and
+/// removes vertices that no triangle uses. Triangles remain, even those that collapse. Returns the number of
+/// vertices removed.
 std::size_t weld_vertices(TriMesh& mesh, double length_mm);
 
-/// Vertices that no triangle uses go; the others keep their order.
+/// Removes vertices that no triangle uses; the others keep their order.
 void drop_unused_vertices(TriMesh& mesh);
 
 struct DegenerateRemoval {
-  std::size_t removed = 0;  ///< triangles without area that went
+  std::size_t removed = 0;  ///< triangles without area that were removed
   std::size_t cut = 0;      ///< neighbours that were cut at the middle vertex of one
 };
 
-/// Takes out triangles without area (is_degenerate with `length_mm`). One with three different
+/// Removes triangles without area (is_degenerate with `length_mm`). One with three different
 /// vertices leaves a slit between its long edge and its middle vertex, so the neighbour across the
-/// long edge is cut there: open edges do not appear.
+/// long edge is cut there: no open edges arise.
 DegenerateRemoval remove_degenerate(TriMesh& mesh, double length_mm);
 
 }  // namespace scintray::mesh

@@ -14,7 +14,7 @@ namespace scintray::report {
 
 namespace {
 
-/// Standard errors by which a number has to miss a bound for the verdict to count as certain.
+/// Distance of a value from a bound, in standard errors, from which the evaluation counts as certain.
 constexpr double kCertain = 2.0;
 
 core::Estimate ratio_of(const core::Estimate& a, const core::Estimate& b) {
@@ -31,7 +31,7 @@ const SweepSeries& named_series(const SweepView& view, const config::NameRef& na
   throw core::unknown_name(name.where, "curve", name.name, labels);
 }
 
-/// A number that the run does not have.
+/// A value that is not available in the run.
 struct NotAvailable {
   std::string why;
 };
@@ -62,7 +62,7 @@ class CurveEvaluator {
       case scene_file::CriterionQuantity::time_ratio:
         return {time_per_photon(curve) / time_per_photon(series(criterion.over)), 0.0};
       default:
-        throw core::InternalError("a criterion about a surface is evaluated as one about curves");
+        throw core::InternalError("a criterion about a surface was evaluated as one about curves");
     }
   }
 

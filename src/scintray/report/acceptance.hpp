@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene was expected to show, beside what it showed.
+/// Evaluation of the acceptance criteria of a scene.
 
 #include <string>
 #include <vector>
@@ -12,27 +12,29 @@ namespace scintray::report {
 
 struct Evaluation {
   scene_file::CriterionSpec criterion;
-  std::string not_available;  ///< why there is no number; empty when there is one
+  std::string not_available;  ///< reason why there is no value; empty when there is one
   core::Estimate ours;
   bool agrees = false;   ///< within the criterion's bounds
-  bool certain = false;  ///< and would still be, or still not be, two standard errors away
+  bool certain = false;  ///< the same evaluation holds two standard errors away
 };
 
-/// Light is per keV of energy deposited, times 511 keV, for runs of events; else the detected fraction.
+/// Evaluations of the criteria. Light is per keV of energy deposited, times 511 keV, for runs of events; else
+/// the detected fraction.
 /// @throws InputError as check_curves and surface_value do
 std::vector<Evaluation> evaluate(const tally::RunResult& run, const RunAnalysis& analyses);
 
-/// @throws InputError when there is no curve of the name that a criterion, or the reference, has, naming
-/// those
-///         there are, or there is no sweep over a number. Looks at the parameters of the points only, and
-///         passes over criteria about surfaces.
+/// Checks that the curves of the criteria, and of the reference, exist. Uses only the parameters of the
+/// points, and skips criteria about surfaces.
+/// @throws InputError when there is no curve with the name in a criterion or the reference, with the names
+/// that
+///         exist, or there is no sweep over a number
 void check_curves(const tally::RunResult& run, const config::NameRef& reference,
                   const std::vector<scene_file::CriterionSpec>& criteria);
 
-/// A table; empty without criteria.
+/// The evaluations as a table in HTML; empty without criteria.
 std::string criterion_section(const std::vector<Evaluation>& evaluations);
 
-/// The same for a terminal, one line a criterion.
+/// The evaluations for a terminal, one line a criterion.
 std::string criterion_lines(const std::vector<Evaluation>& evaluations);
 
 }  // namespace scintray::report

@@ -1,5 +1,5 @@
 #pragma once
-/// What a page or a summary shows of the events and the surfaces of a run, beside its fates.
+/// Analyses of the events and the surfaces of a run, for its page and its summary.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ struct RunAnalysis {
       points;                 ///< in step with RunResult::points; empty for a run of photons
   config::NameRef reference;  ///< AnalysisSpec::reference
   std::vector<scene_file::CriterionSpec> criteria;
-  std::vector<analysis::SurfaceAnalysis> surfaces;  ///< read on the goniometer
+  std::vector<analysis::SurfaceAnalysis> surfaces;  ///< goniometer readings
 };
 
 }  // namespace scintray::report

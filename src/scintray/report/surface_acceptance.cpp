@@ -16,12 +16,12 @@ constexpr double kSameAngle_rad = 1e-9;
 
 bool same_angle(double a_rad, double b_rad) { return std::abs(a_rad - b_rad) < kSameAngle_rad; }
 
-/// What can be claimed of one surface.
+/// A reading that a criterion can be about.
 struct Readable {
   std::string surface, outside;
   std::vector<double> incidence_rad;
   double directions_at_rad = 0.0;
-  const analysis::SurfaceAnalysis* analysis = nullptr;  ///< nothing before the run
+  const analysis::SurfaceAnalysis* analysis = nullptr;  ///< null before the run
 
   bool has(const scene_file::CriterionSpec& criterion) const {
     return criterion.quantity == scene_file::CriterionQuantity::lobe_width
@@ -55,10 +55,11 @@ const Readable& find(const std::vector<Readable>& readable, const scene_file::Cr
       return one;
   throw core::InputError(
       {criterion.where,
-       fmt::format("no goniometer reads surface \"{}\" to \"{}\" at {:g} deg", criterion.surface.name,
+       fmt::format("no goniometer measures surface \"{}\" to \"{}\" at {:g} deg", criterion.surface.name,
                    criterion.outside.name, criterion.incidence_rad / core::kDegree),
-       criterion.quantity == scene_file::CriterionQuantity::lobe_width ? "widths are read at directions_at"
-                                                                       : "add the angle to its incidence"});
+       criterion.quantity == scene_file::CriterionQuantity::lobe_width
+           ? "widths are available at directions_at only"
+           : "add the angle to its incidence"});
 }
 
 std::size_t node_at(const analysis::SurfaceAnalysis& analysis, double incidence_rad) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Claims about surfaces on the bench.
+/// Acceptance criteria about surfaces on a goniometer.
 
 #include <vector>
 
@@ -8,12 +8,13 @@
 
 namespace scintray::report {
 
-/// The number that a claim is about; angles in rad. The width of a lobe has no error.
-/// @throws InputError when it was not read
+/// The value that a criterion is about; angles in rad. The width of a lobe has no error.
+/// @throws InputError when there is no such reading
 core::Estimate surface_value(const scene_file::CriterionSpec& criterion,
                              const std::vector<analysis::SurfaceAnalysis>& analyses);
 
-/// @throws InputError for claims about what no bench reads, naming what there is
+/// Checks the criteria about surfaces. @throws InputError for one without a goniometer reading, with the
+/// readings available
 void check_surface_criteria(const std::vector<scene_file::GoniometerSpec>& goniometers,
                             const std::vector<scene_file::CriterionSpec>& criteria);
 

@@ -17,7 +17,7 @@ using format::put_text;
 
 constexpr const char* kHistoryGroup = "histories";
 constexpr const char* kPointGroup = "traced_optics";
-/// Numbers of a column kept in memory before they go to disk, and compressed together.
+/// Numbers of a column kept in memory before they are written, and compressed together.
 constexpr std::size_t kBlockNumbers = 65536;
 
 template <typename T>
@@ -58,7 +58,7 @@ void for_each_photon_column(const Visit& visit) {
   visit("photon", &tally::PhotonHistories::photon);
 }
 
-/// Appends rows whose columns go to `places` of rows of `width`.
+/// Appends rows, placing their columns at `places` in rows of `width`.
 template <typename T>
 void append_moved(std::vector<T>& to, const std::vector<T>& from, std::size_t rows,
                   const std::vector<std::size_t>& places, std::size_t width) {
@@ -100,7 +100,7 @@ void HistoryColumns::add(const tally::HistorySubjects& point) {
 HistoryWriter::HistoryWriter(core::h5::Group& root, HistoryColumns columns)
     : group_(root.create_group(kHistoryGroup)), columns_(std::move(columns)) {
   group_.set_attribute("", "description",
-                       std::string("what detected photons went through, one row a photon"));
+                       std::string("path lengths and reflections of detected photons, one row a photon"));
   format::put_text(group_, "history_media", columns_.media);
   format::put_text(group_, "history_gap_media", columns_.gap_media);
   format::put_text(group_, "history_transmitting", columns_.transmitting);

@@ -1,5 +1,5 @@
 #pragma once
-/// The table of photon histories of a results file, and how the points of its run were traced.
+/// The table of photon histories of a results file, and the optics with which its points were traced.
 
 #include <filesystem>
 #include <optional>
@@ -17,19 +17,19 @@ struct HistoryColumns {
   std::vector<tally::ReflectorSite> reflectors;
   std::vector<std::string> transmitting, gap_media;
 
-  /// Adds what is new in a point.
+  /// Adds the media and reflectors of a point that are new.
   void add(const tally::HistorySubjects& point);
 };
 
-/// Writes histories while a run goes on; rows go to disk in blocks, so memory stays bounded.
+/// Writer of histories during a run; rows are written in blocks, so memory is bounded.
 class HistoryWriter {
  public:
   HistoryWriter(core::h5::Group& root, HistoryColumns columns);
 
-  /// Takes photons of a point, in the point's own columns.
+  /// Appends photons of a point, in the point's own columns.
   void add(const tally::PhotonHistories& rows, const tally::HistorySubjects& point);
   void write_waiting();
-  /// Writes how a point was traced into its group.
+  /// Writes the optics of a point, as traced, into its group.
   void describe_point(core::h5::Group& point, const tally::HistorySubjects& subjects) const;
 
  private:
@@ -39,24 +39,24 @@ class HistoryWriter {
   std::size_t block_rows_;
 };
 
-/// How one point was traced, in the columns of the run: not a number where the point has no such medium or
-/// reflector.
+/// Optics of one point as traced, in the columns of the run: not a number where the point has no such medium
+/// or reflector.
 struct TracedOptics {
   std::vector<tally::TracedRange> absorption_per_mm;  ///< per medium
   std::vector<tally::TracedRange> reflectance;        ///< per reflector
 };
 
-/// Reads the histories of a results file.
+/// Reader of the histories of a results file.
 class HistoryReader {
  public:
-  /// Throws InputError when the file is no result that this program reads, or has no histories.
+  /// Throws InputError when the file is not a result that this program reads, or has no histories.
   explicit HistoryReader(const std::filesystem::path& path);
 
   const HistoryColumns& columns() const { return columns_; }
   std::uint64_t rows() const { return rows_; }
-  /// At most `count` rows from `offset` on. Throws InputError when the file contradicts itself.
+  /// At most `count` rows from `offset` on. Throws InputError when the file is inconsistent.
   tally::PhotonHistories read(std::uint64_t offset, std::uint64_t count) const;
-  /// Nothing for a point that was traced without histories.
+  /// Optics of a point as traced; empty for a point without histories.
   std::optional<TracedOptics> traced(std::size_t point) const;
 
  private:

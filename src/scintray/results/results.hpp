@@ -20,37 +20,37 @@ namespace scintray::results {
 /// Version of the layout; grows when a reader of the older one would misread the newer.
 inline constexpr std::int64_t kResultsVersion = 1;
 
-/// Writes one results file while a run goes on. Nothing is at `path` before commit().
+/// Writer of one results file during a run. There is no file at `path` before commit().
 class ResultsWriter {
  public:
-  /// Opens the file at once, so that a place that cannot be written is found before hours of work.
+  /// Creates the file at once, so that a path that cannot be written is an error before hours of work.
   /// `photon_list` also prepares the list of detected photons. Throws InputError when `path` is taken
-  /// by something that is not a ScintRay result, SystemError when it cannot be written.
+  /// by a file that is not a ScintRay result, SystemError when it cannot be written.
   ResultsWriter(const std::filesystem::path& path, const tally::RunHeader& header, bool photon_list);
   ResultsWriter(ResultsWriter&&) noexcept;
   ResultsWriter& operator=(ResultsWriter&&) noexcept;
-  /// Without commit() nothing stays.
+  /// Without commit() the file is removed.
   ~ResultsWriter();
 
-  /// Adds the surfaces that were read on the goniometer; once at most.
+  /// Adds the goniometer readings; once at most.
   void add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses);
-  /// Adds to the list of detected photons. Rows go to disk in blocks, so memory stays bounded.
+  /// Appends to the list of detected photons. Rows are written in blocks, so memory is bounded.
   void append_photons(const std::vector<tally::DetectedPhoton>& photons);
-  /// Says what the events of a point are read out by, before the first of them; without it the file has
+  /// Sets the readout of the events of a point, before the first of them; without it the file has
   /// no events. Throws InputError when points differ in the length of waveforms or in the order of photons.
   void begin_events(std::size_t point, std::vector<tally::ReadoutChannel> channels,
                     const std::optional<detector::ReadoutSpec>& readout);
-  /// Adds to the table of events, as append_photons does.
+  /// Appends to the table of events, as append_photons does.
   void append_events(const std::vector<tally::EventRecord>& events);
   /// Prepares the table of photon histories, before the first of them; without it the file has none.
   void begin_histories(HistoryColumns columns);
-  /// Adds histories of the point whose media and reflectors these are, as append_photons does.
+  /// Appends histories of the point that has these media and reflectors, as append_photons does.
   void append_histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& point);
-  /// Adds the result of the next point, and how it was traced where histories are kept.
+  /// Adds the result of the next point, and its optics as traced where histories are kept.
   void add_point(const tally::PointResult& point, const tally::HistorySubjects* history = nullptr);
   /// Replaces the warnings of the header, which may grow during the run.
   void set_note(const std::string& note);
-  /// Puts the file in place. An interrupted run is committed with complete = false and the reason
+  /// Renames the file to its path. An interrupted run is committed with complete = false and the reason
   /// ("interrupted by Ctrl-C"); readers then show it as partial.
   void commit(bool complete, const std::string& reason_if_partial = {});
 
@@ -59,7 +59,7 @@ class ResultsWriter {
   std::unique_ptr<State> state_;
 };
 
-/// What a file states about being partial.
+/// Completeness of a file.
 struct ResultsStatus {
   bool complete = false;
   std::string reason;  ///< empty when complete
@@ -68,8 +68,8 @@ struct ResultsStatus {
   std::uint64_t listed_events = 0;  ///< 0 when there are none
 };
 
-/// Reads everything but the photon list. Throws InputError when the file is missing, is not a ScintRay
-/// result, has a version this program does not read (both versions are named) or contradicts itself.
+/// Content of a file without the photon list. Throws InputError when the file is missing, is not a ScintRay
+/// result, has a version this program does not read (both versions are named) or is inconsistent.
 tally::RunResult read_results(const std::filesystem::path& path);
 ResultsStatus read_results_status(const std::filesystem::path& path);
 
@@ -77,16 +77,16 @@ ResultsStatus read_results_status(const std::filesystem::path& path);
 std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                                 std::uint64_t count);
 
-/// Surfaces that were read on the goniometer; empty when there are none.
+/// Goniometer readings; empty when there are none.
 std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path);
 
-/// What the events of a point are read out by; empty when it has none.
+/// Readout of the events of a point; empty when it has no events.
 std::vector<tally::ReadoutChannel> read_channels(const std::filesystem::path& path, std::size_t point);
 
-/// Which photons the times of n-th photons are of, from 1; empty without such times.
+/// Numbers n, from 1, of the recorded times of n-th photons; empty without such times.
 std::vector<std::uint64_t> read_photon_order(const std::filesystem::path& path);
 
-/// How much of events is read.
+/// Parts of events that are read.
 enum class EventDetail {
   numbers,       ///< without the times of n-th photons and the waveforms
   photon_times,  ///< without the waveforms

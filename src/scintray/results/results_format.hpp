@@ -1,5 +1,5 @@
 #pragma once
-/// Names, units and descriptions of everything in a results file, for its writer and its reader.
+/// Names, units and descriptions of the datasets of a results file, for its writer and its reader.
 
 #include <filesystem>
 #include <string>
@@ -20,23 +20,23 @@ struct Field {
   const char* description;
 };
 
-/// The description of dataset `name` ("photons", "path_mm"); InternalError when it has none, so that
-/// nothing undescribed is ever written.
+/// The description of dataset `name` ("photons", "path_mm"); InternalError when it has none, so that no
+/// dataset is written without one.
 const Field& field(std::string_view name);
 
 /// Sets `description` and `unit` on a dataset just written.
 void describe(core::h5::Group& group, const std::string& name);
 
-/// Opens a result and checks that this program can read it; InputError when it cannot.
+/// An opened result that this program can read; InputError when it cannot.
 core::h5::File open_results(const std::filesystem::path& path);
 
 /// True when the root states that the file is a ScintRay result.
 bool has_format(const core::h5::Group& root);
 
-/// The error of a result that contradicts itself.
+/// The error of an inconsistent result.
 core::InputError damaged(const std::filesystem::path& path, const std::string& what);
 
-/// Writes a dataset and describes it.
+/// Writes a dataset with its description and unit.
 inline void put_text(core::h5::Group& group, const std::string& name,
                      const std::vector<std::string>& values) {
   group.write_strings(name, values);

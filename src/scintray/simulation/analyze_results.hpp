@@ -1,5 +1,5 @@
 #pragma once
-/// The events of a results file, analyzed.
+/// Analysis of the events of a results file.
 
 #include <filesystem>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace scintray::simulation {
 
-/// Analyses of the points of a run, in their order. Events are read in portions and 64 bytes kept of each,
-/// and 8 for each n-th photon whose time the readout kept. Empty when the file has no events.
+/// Analyses of the points of a run, in their order. Events are read in portions; 64 bytes of each are kept,
+/// and 8 for each n-th photon whose time the readout recorded. Empty when the file has no events.
 /// @param run   of the same file
 /// @param spec  throws InputError for a part of a layer that the run does not have
 std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene's [fit], from beginning to end, and the file that it becomes (HDF5, docs/fit.md).
+/// The [fit] of a scene, and its file (HDF5, docs/fit.md).
 
 #include <atomic>
 #include <cstdint>
@@ -16,22 +16,22 @@
 
 namespace scintray::simulation {
 
-/// What a curve is traced with.
+/// Options of the tracing of a curve.
 struct FitModelSettings {
   SimulationOptions run;
-  const std::atomic<bool>* stop = nullptr;                             ///< set from outside: give up
+  const std::atomic<bool>* stop = nullptr;                             ///< set from outside: stop
   std::function<void(std::uint64_t done, std::uint64_t of)> progress;  ///< within a curve
 };
 
-/// A curve of a scene that can be traced for any values of the fitted keys. Every curve of one draw has the
-/// same seed, and each point streams of its own, so that photons are the same ones for all values.
+/// A curve of a scene that can be traced for any values of the fitted keys. All curves of one draw have the
+/// same seed, and each point its own streams, so that the photons are the same ones for all values.
 class FitModel {
  public:
   virtual ~FitModel() = default;
-  /// In step with the measured points; nothing when it was stopped.
+  /// The curve, in step with the measured points; empty when it was stopped.
   virtual std::optional<analysis::ModelCurve> trace(const std::vector<double>& parameters,
                                                     std::uint64_t draw) = 0;
-  /// Photons, events or rays at each point, and which of these.
+  /// Number of photons, events or rays at each point, and which of these.
   virtual std::uint64_t count() const = 0;
   virtual std::string thing() const = 0;
   virtual std::uint64_t seed() const = 0;
@@ -39,9 +39,10 @@ class FitModel {
   virtual std::vector<std::string> notes() const = 0;
 };
 
-/// Checks the scene with every position, and with every parameter at its bounds.
-/// @throws InputError with what is wrong: a source that has no such quantity, a sweep that leaves open which
-///         scene is meant, options that the source does not have, and what the scene itself refuses
+/// Model of the fit of a scene, checked with every position, and with every parameter at its bounds.
+/// @throws InputError for a source without the quantity, a sweep that does not determine which scene is
+/// meant,
+///         options that the source does not have, and errors of the scene itself
 std::unique_ptr<FitModel> make_fit_model(const scene_file::SceneFile& file, const scene_file::FitSpec& fit,
                                          const analysis::MeasuredCurve& measured,
                                          const FitModelSettings& settings);
@@ -51,20 +52,19 @@ struct SceneFitOptions {
   std::function<void(const analysis::CurveFitStep&)> step;  ///< called after each step of the search
 };
 
-/// Reads the measurement, and searches. What was found is in the record also after an early stop, and then
-/// marked by FitEnd::stopped.
-/// @throws InputError when the scene has no [fit], and what read_measured_curve, make_fit_model and fit_curve
-/// do
+/// Fit of a scene to its measurement. The record contains the result also after an early stop, marked by
+/// FitEnd::stopped.
+/// @throws InputError when the scene has no [fit], and as read_measured_curve, make_fit_model and fit_curve
 [[nodiscard]] analysis::FitRecord fit_scene(const scene_file::SceneFile& file,
                                             const SceneFitOptions& options);
 
 /// Version of the file's layout; grows when a reader of the older one would misread the newer.
 inline constexpr std::int64_t kFitVersion = 1;
 
-/// Throws InputError when `path` is taken by something that is not a fit.
+/// Throws InputError when `path` is taken by a file that is not a fit.
 void check_fit_path(const std::filesystem::path& path);
 
-/// Throws what check_fit_path does, and SystemError when the file cannot be written.
+/// Writes a fit. Throws as check_fit_path, and SystemError when the file cannot be written.
 void write_fit(const std::filesystem::path& path, const analysis::FitRecord& record);
 
 }  // namespace scintray::simulation

@@ -19,7 +19,7 @@ bool is_fit_file(const std::filesystem::path& path) {
   }
 }
 
-/// A dataset with its unit and what it is.
+/// Writes a dataset with its unit and description.
 class FitTable {
  public:
   explicit FitTable(core::h5::Group group) : group_(std::move(group)) {}
@@ -28,16 +28,16 @@ class FitTable {
                const std::string& description, core::h5::Shape shape = {}) {
     if (shape.empty()) shape = {values.size()};
     group_.write(name, values, shape);
-    say(name, unit, description);
+    describe(name, unit, description);
   }
   void texts(const char* name, const std::vector<std::string>& values, const std::string& description) {
     group_.write_strings(name, values);
-    say(name, "", description);
+    describe(name, "", description);
   }
   core::h5::Group& group() { return group_; }
 
  private:
-  void say(const char* name, const std::string& unit, const std::string& description) {
+  void describe(const char* name, const std::string& unit, const std::string& description) {
     group_.set_attribute(name, "unit", unit);
     group_.set_attribute(name, "description", description);
   }
@@ -65,21 +65,21 @@ void put_parameters(FitTable table, const analysis::FitRecord& record) {
     units.push_back(p.unit.empty() ? "1" : p.unit);
   }
   table.texts("key", keys, "fitted keys of the scene");
-  table.texts("label", labels, "what they are called");
+  table.texts("label", labels, "names of the parameters");
   table.texts("unit", units, "unit of each parameter's numbers; 1: a plain number");
   const std::vector<analysis::FittedParameter>& fitted = record.fit.parameters;
   const std::string unit = "as /parameters/unit";
   table.numbers("start", gathered(fitted, [](const auto& p) { return p.parameter.start; }), unit,
-                "where the search began");
+                "start of the search");
   table.numbers("low", gathered(fitted, [](const auto& p) { return p.parameter.low; }), unit, "lower bound");
   table.numbers("high", gathered(fitted, [](const auto& p) { return p.parameter.high; }), unit,
                 "upper bound");
-  table.numbers("value", gathered(fitted, [](const auto& p) { return p.value.value; }), unit, "found");
+  table.numbers("value", gathered(fitted, [](const auto& p) { return p.value.value; }), unit, "fitted value");
   if (!record.fit.has_errors) return;
   table.numbers("error", gathered(fitted, [](const auto& p) { return p.value.error; }), unit,
                 "one standard error, of the measurement and of the Monte Carlo noise");
   table.numbers("monte_carlo_error", gathered(fitted, [](const auto& p) { return p.monte_carlo_error; }),
-                unit, "what of it is Monte Carlo noise");
+                unit, "part of it from Monte Carlo noise");
   std::vector<double> correlation;
   for (Eigen::Index i = 0; i < record.fit.correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < record.fit.correlation.cols(); ++j)
@@ -92,7 +92,7 @@ void put_curve(FitTable table, const analysis::FitRecord& record) {
   const analysis::CurveFit& fit = record.fit;
   const auto& points = record.measured.points;
   table.numbers("position", gathered(points, [](const auto& p) { return p.x; }), record.spec.unit,
-                "where it was measured");
+                "position of the measurement");
   table.numbers("measured", gathered(points, [](const auto& p) { return p.y.value; }), "as measured",
                 "measured");
   if (record.measured.has_errors)
@@ -104,7 +104,7 @@ void put_curve(FitTable table, const analysis::FitRecord& record) {
   table.numbers("start", gathered(fit.start_curve, value), unit, "simulated at the start, before any scale");
   table.numbers("start_error", gathered(fit.start_curve, error), unit, "its standard error");
   table.numbers("fitted", gathered(fit.curve, value), unit,
-                "simulated with what was found, before any scale");
+                "simulated with the fitted values, before any scale");
   table.numbers("fitted_error", gathered(fit.curve, error), unit, "its standard error");
   table.numbers("residual", fit.residual, "1", "(measured - scale fitted) / residual_error");
   table.numbers("residual_error", fit.error, "as measured",
@@ -119,7 +119,7 @@ void put_steps(FitTable table, const analysis::FitRecord& record) {
   table.numbers("parameters", parameters, "as /parameters/unit", "of each step, from the start",
                 {steps.size(), record.spec.parameters.size()});
   table.numbers("chi2", gathered(steps, [](const auto& s) { return s.chi2; }), "1",
-                "under the weights of the moment");
+                "with the weights of the step");
   table.numbers("scale", gathered(steps, [](const auto& s) { return s.scale; }), "1", "best for the step");
   table.numbers("evaluations",
                 gathered(steps, [](const auto& s) { return static_cast<double>(s.evaluations); }), "1",
@@ -155,11 +155,11 @@ void write_fit(const std::filesystem::path& path, const analysis::FitRecord& rec
   group.set_attribute("", "scale_fitted", static_cast<std::int64_t>(record.spec.free_scale));
   group.set_attribute("", "traced_per_point", static_cast<std::int64_t>(record.traced));
   group.set_attribute("", "traced", record.thing);
-  root.texts("scene", {record.scene_text}, "the whole scene file");
-  root.texts("warnings", fit.warnings, "what a user should know");
+  root.texts("scene", {record.scene_text}, "the complete scene file");
+  root.texts("warnings", fit.warnings, "warnings of the fit");
   group.write("seed", std::vector<std::uint64_t>{record.seed}, {1});
   group.set_attribute("seed", "unit", std::string("1"));
-  group.set_attribute("seed", "description", std::string("of every curve"));
+  group.set_attribute("seed", "description", std::string("seed of the random streams of every curve"));
   root.numbers("chi2", {fit.goodness.chi2, fit.goodness.degrees, fit.goodness.p_value}, "1",
                "chi-square, degrees of freedom, probability of a larger one");
   root.numbers("scale", {fit.scale.value, fit.scale.error, fit.start_scale}, "measured over simulated",

@@ -15,8 +15,8 @@ namespace scintray::simulation {
 
 namespace {
 
-/// Equal shares of the photons, from which the noise of differences is measured, and the fewest photons or
-/// rays, or events of many photons, that a share must have.
+/// Number of equal shares of the photons, from which the noise of differences is measured, and the fewest
+/// photons or rays, or events of many photons, that a share must have.
 constexpr std::uint64_t kFitParts = 20, kLeastInPart = 20, kLeastEventsInPart = 2;
 
 /// The scene at given parameters, without a position.
@@ -54,14 +54,14 @@ void refuse_open_sweeps(const scene_file::SceneFile& file, const scene_file::Fit
         fit.quantity == scene_file::FitQuantity::reflectance && paths[i].key.rfind("source.", 0) == 0;
     if (paths[i].key == fit.at.key || no_matter || file.sweep_values(i) == 1) continue;
     problems.add(paths[i].where,
-                 fmt::format("a fit is of one scene, but the sweep over \"{}\" makes {}", paths[i].key,
+                 fmt::format("a fit is of one scene, but the sweep over \"{}\" has {} values", paths[i].key,
                              file.sweep_values(i)),
-                 "leave it one value, or take the sweep away");
+                 "reduce it to one value, or remove the sweep");
   }
   problems.throw_if_any();
 }
 
-/// What one share of the photons, or all of them, give at a point.
+/// Result of one share of the photons, or of all of them, at a point.
 class SceneCurve : public FitModel {
  public:
   SceneCurve(const scene_file::SceneFile& file, const scene_file::FitSpec& fit,
@@ -97,7 +97,7 @@ class SceneCurve : public FitModel {
  private:
   bool energy() const { return fit_.quantity == scene_file::FitQuantity::light_per_keV; }
 
-  /// Where light starts does not change the scene.
+  /// True when the position only changes the start of light, not the scene.
   bool only_source_moves() const {
     return fit_.at.key.rfind("source.region.", 0) == 0 || fit_.at.key.rfind("source.position", 0) == 0;
   }
@@ -111,7 +111,7 @@ class SceneCurve : public FitModel {
     return spec;
   }
 
-  /// @param built  at the position before; null: none yet
+  /// @param built  at the previous position; null: none yet
   std::unique_ptr<const SimulationPoint> point_at(const std::vector<double>& parameters, std::size_t point,
                                                   const std::shared_ptr<const scene::BuiltScene>& built,
                                                   std::uint32_t stream = 0) {
@@ -134,7 +134,7 @@ class SceneCurve : public FitModel {
     }
   }
 
-  /// Light may start nowhere at a measured position: what is wrong then states which it is.
+  /// Adds the measured position to an error, since light may have no place to start there.
   void check_position(const std::vector<double>& starts, std::size_t point) {
     const analysis::MeasuredCurve::Point& measured = measured_.points[point];
     try {
@@ -154,7 +154,7 @@ class SceneCurve : public FitModel {
         {fit_.where,
          fmt::format("a fit of {}, but [source] is one of {}", scene_file::quantity_name(fit_.quantity),
                      energy() ? "photons" : "energy"),
-         energy() ? "use quantity = \"detected_fraction\", or a source of energy (docs/gamma_sources.md)"
+         energy() ? "use quantity = \"detected_fraction\", or an event source (docs/gamma_sources.md)"
                   : "use quantity = \"light_per_keV\", or type = \"photons\" in [source]"});
   }
 
@@ -258,7 +258,7 @@ class ReflectanceCurve : public FitModel {
   void check() {
     if (settings_.run.events)
       throw core::InputError(
-          {fit_.where, "--events is given, but a reflectance is made of rays", "use --photons"});
+          {fit_.where, "--events is given, but a reflectance is measured with rays", "use --photons"});
     core::Problems problems;
     for (std::size_t i = 0; i < measured_.points.size(); ++i)
       if (!(angle_rad(i) >= 0.0 && angle_rad(i) < 0.5 * core::kPi))

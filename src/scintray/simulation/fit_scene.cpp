@@ -13,7 +13,7 @@ scene_file::FitSpec fit_of(const scene_file::SceneSpec& spec) {
   throw core::InputError(
       {{spec.file.string()},
        "this scene has no [fit]",
-       "say in [fit] what was measured and in [[fit.parameter]] what is to be found (docs/fit.md)"});
+       "define in [fit] the measurement and in [[fit.parameter]] the parameters (docs/fit.md)"});
 }
 
 void check_errors(const scene_file::FitSpec& spec, const analysis::MeasuredCurve& measured) {
@@ -25,8 +25,8 @@ void check_errors(const scene_file::FitSpec& spec, const analysis::MeasuredCurve
   if (!measured.has_errors && !spec.errors_from_scatter)
     throw core::InputError(
         {spec.measurement_where, spec.measurement.string() + " has no errors: its rows are of two values",
-         "give one standard deviation as a third column; or write errors = \"from_scatter\" in [fit], "
-         "which takes one unknown error for all points, found from their scatter about the curve"});
+         "add one standard deviation as a third column; or write errors = \"from_scatter\" in [fit], "
+         "which assumes one unknown error for all points, from their scatter about the curve"});
 }
 
 std::vector<analysis::FitParameter> parameters_of(const scene_file::FitSpec& spec) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A response map, ready to compute what sensors see of light from any place.
+/// Interpolation of a response map: detection of light from any position.
 
 #include <array>
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace scintray::simulation {
 
-/// What one channel sees of light from one place. Cheap to copy; lives no longer than the response.
+/// Response of one channel to light from one position. Cheap to copy; the MappedResponse must outlive it.
 class PlaceResponse {
  public:
-  /// Of a photon emitted there.
+  /// Detection probability of a photon emitted there.
   double probability() const { return probability_; }
-  /// Time from emission to detection of a detected photon, ns: one of those in the map, of a cell nearby.
+  /// Delay from emission to detection of a detected photon, ns: one of those in the map, from a nearby cell.
   double sample_delay(core::Rng& rng) const;
-  /// No delay is shorter, ns.
+  /// The shortest delay, ns.
   double earliest_delay() const { return earliest_; }
 
  private:
@@ -35,9 +35,9 @@ class PlaceResponse {
   std::array<Cell, 8> cells_;
 };
 
-/// Interpolates a map: probabilities linear in x, y and z between the centres of cells, constant beyond the
-/// outermost centres; empty cells are left out of the mean. Where all around is empty the nearest cell that
-/// is not speaks. Immutable; keeps a reference to the map.
+/// Interpolation of a map: probabilities linear in x, y and z between the centres of cells, constant beyond
+/// the outermost centres; empty cells are left out of the mean. Where all neighbours are empty, the nearest
+/// cell that is not empty is used. Immutable; keeps a reference to the map.
 class MappedResponse {
  public:
   explicit MappedResponse(const ResponseMap& map);
@@ -45,7 +45,7 @@ class MappedResponse {
   std::size_t channels() const { return map_.channels.size(); }
   /// True when light from this region is in the map.
   bool covers(std::uint32_t region) const { return region < grid_of_.size() && grid_of_[region] >= 0; }
-  /// Response of every channel, in order, to light from a place in a region that is covered.
+  /// Response of every channel, in order, to light from a position in a covered region.
   /// @param response  one a channel
   void at(const core::Vec3& position, std::uint32_t region, std::vector<PlaceResponse>& response) const;
 
@@ -72,9 +72,10 @@ class MappedResponse {
 };
 
 /// Time of the first of `count` photons (at least 1) that a channel detects of light emitted at time 0 with
-/// this decay. Photons are made in the order of their decay, whose steps are those of ordered exponentials
-/// (A. Renyi 1953, Acta Math. Acad. Sci. Hung. 4, 191), up to the one that comes out too late to be first
-/// even by the shortest way: exact, and quick where times of flight are short beside the decay.
+/// this decay time. Photons are generated in the order of their decay, whose steps are those of ordered
+/// exponentials (A. Renyi 1953, Acta Math. Acad. Sci. Hung. 4, 191), up to the one that is too late to be
+/// first even with the shortest delay: exact, and fast where times of flight are short compared with the
+/// decay time.
 double sample_first(std::uint64_t count, const std::vector<optics::DecayComponent>& decay,
                     const PlaceResponse& response, core::Rng& rng);
 

@@ -5,11 +5,11 @@
 
 namespace scintray::simulation {
 
-/// Keeps everything that a results file would hold. The lists grow with the run: a photon takes 64 bytes, an
+/// Sink that keeps the content of a results file. The lists grow with the run: a photon takes 64 bytes, an
 /// event 64 and 40 for each channel.
 class MemorySink : public ResultSink {
  public:
-  /// What one point was read out by; empty for a source of photons.
+  /// Readout of one point; empty for a source of photons.
   struct PointReadout {
     std::vector<tally::ReadoutChannel> channels;
     std::optional<detector::ReadoutSpec> readout;
@@ -21,7 +21,7 @@ class MemorySink : public ResultSink {
   };
 
   RunOutline outline;
-  tally::RunResult result;  ///< complete() is false until the run is committed as such
+  tally::RunResult result;  ///< complete() is false until a complete run is committed
   std::vector<analysis::SurfaceAnalysis> surface_analyses;
   std::vector<PointReadout> readouts;  ///< per point
   std::vector<tally::DetectedPhoton> photon_list;

@@ -24,7 +24,7 @@ class ListedPhotons {
  public:
   explicit ListedPhotons(const std::filesystem::path& path) : path_(path) {}
 
-  /// The next photon of this event; null after its last.
+  /// The next photon of this event; null after the last.
   const tally::DetectedPhoton* next(std::uint32_t point, std::uint64_t event) {
     if (at_ == photons_.size()) {
       offset_ += photons_.size();
@@ -43,7 +43,7 @@ class ListedPhotons {
   std::size_t at_ = 0;
 };
 
-/// The channels of one point, with the electronics wanted.
+/// The channels of one point, with the new electronics.
 class PointElectronics {
  public:
   PointElectronics(const std::filesystem::path& path, const tally::RunResult& run,
@@ -60,12 +60,11 @@ class PointElectronics {
       numbers_[channel.name] = i;
     }
     if (numbers_.size() != recorded.size() || recorded.size() != plan.channels.list.size())
-      throw not_to_read_out(path,
-                            "the scene of this result has other sensors than its events were read out by",
+      throw not_to_read_out(path, "the scene of this result has other sensors than those of its events",
                             "a file that the scene names has changed since; run it again");
   }
 
-  /// Gives an event the signals of its photons.
+  /// Computes the signals of an event from its photons.
   void read_out(tally::EventRecord& event, ListedPhotons& photons) {
     for (std::vector<detector::Arrival>& arrivals : arrivals_) arrivals.clear();
     std::uint64_t listed = 0;
@@ -114,17 +113,17 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
   const results::ResultsStatus status = results::read_results_status(path);
   if (status.listed_events == 0)
     throw not_to_read_out(path, "this result has no events to read out",
-                          "run a scene whose [source] is one of energy");
+                          "run a scene whose [source] is an event source");
   if (!status.has_photon_list)
     throw not_to_read_out(path, "this result has no list of detected photons to read out again",
                           "write photon_list = true in [run] of the scene and run it again");
   std::error_code ignored;
   if (std::filesystem::equivalent(path, output, ignored))
-    throw not_to_read_out(output, "the new result would replace the one it is made of", "name another file");
+    throw not_to_read_out(output, "the new result would replace its own source", "name another file");
   const scene_file::SceneFile file =
       scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file);
   tally::RunHeader header = run.header;
-  header.note += (header.note.empty() ? "" : "\n") + std::string("electronics made again by ") +
+  header.note += (header.note.empty() ? "" : "\n") + std::string("electronics applied again by ") +
                  readout.where.file + " from the photons of " + path.filename().string();
   results::ResultsWriter writer(output, header, false);
   SimulationOptions options;

@@ -1,5 +1,5 @@
 #pragma once
-/// The electronics of a result rerun from its recorded photons, without tracing.
+/// Readout electronics applied again to the recorded photons of a result, without tracing.
 
 #include <filesystem>
 
@@ -8,15 +8,14 @@
 
 namespace scintray::simulation {
 
-/// Writes a result like the one at `path`, whose events have the charges, times and waveforms that other
-/// electronics make of the same detected photons. The list of photons is not copied. With the electronics of
-/// the run its own numbers come back, but for the rounding of recorded times and places to single precision:
+/// Writes a result like the one at `path`, whose events have the charges, times and waveforms of other
+/// electronics for the same detected photons. The list of photons is not copied. With the electronics of the
+/// run the numbers are its own, except for the rounding of recorded times and positions to single precision:
 /// random streams are those of the run. Sensors are those of the scene.
 /// @param run      of the same file; its scene is built again, so files that it names must be where they were
-/// @param readout  as the reader of [readout] checks it
+/// @param readout  checked by the reader of [readout]
 /// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
-/// those of
-///         the result, and for electronics that do not suit a sensor
+///         those of the result, and for electronics that do not suit a sensor
 void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
                    const detector::ReadoutSpec& readout, const std::filesystem::path& output);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Response maps of scene files: built, kept in files (HDF5, docs/response_maps.md), and events from them.
+/// Response maps of scene files: construction, files (HDF5, docs/response_maps.md), and events from them.
 
 #include <filesystem>
 #include <string>
@@ -12,23 +12,23 @@ namespace scintray::simulation {
 /// Version of the file's layout; grows when a reader of the older one would misread the newer.
 inline constexpr std::int64_t kResponseVersion = 1;
 
-/// A map and where it comes from.
+/// A map and its origin.
 struct ResponseFile {
-  ResponseMap map;         ///< as read, grids know their parts and not their regions
+  ResponseMap map;         ///< as read, grids have their parts but not their regions
   std::string version;     ///< of ScintRay
-  std::string scene_file;  ///< as it was named
-  std::string scene_text;  ///< the whole scene file
+  std::string scene_file;  ///< name as given
+  std::string scene_text;  ///< the complete scene file
 };
 
-/// Throws InputError when `path` is taken by something that is not a response map, SystemError when it cannot
-/// be written.
+/// Writes a map. Throws InputError when `path` is taken by a file that is not a response map, SystemError
+/// when it cannot be written.
 void write_response(const std::filesystem::path& path, const ResponseFile& file);
 
-/// Throws what write_response would before anything is traced for it.
+/// Throws as write_response would, before anything is traced.
 void check_response_path(const std::filesystem::path& path);
 
-/// Throws InputError when the file is missing, is not a response map, has a version this program does not
-/// read or contradicts itself.
+/// Map of a file. Throws InputError when the file is missing, is not a response map, has a version this
+/// program does not read or is inconsistent.
 ResponseFile read_response(const std::filesystem::path& path);
 
 struct MapOptions {
@@ -37,23 +37,23 @@ struct MapOptions {
   std::optional<std::uint64_t> seed;
   ResponseHooks hooks;
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
-  const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();  ///< as SimulationOptions has them
+  const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();  ///< as in SimulationOptions
   materials::DefinitionModels models;  ///< surface and sensor models that the scene may name
 };
 
-/// Builds the map of all parts that scintillate. The scene's [source] states whether light is polarised and,
-/// by being one of energy, which wavelengths are in use; its events are not requested.
-/// @return without grids when stopped
+/// Map of all parts that scintillate. The scene's [source] states whether light is polarised and, as an event
+/// source, which wavelengths are in use; its events are not traced.
+/// @return a map without grids when stopped
 /// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map does
 ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options);
 
-/// Throws InputError unless the scene is the one that the map is of: everything must be written alike but
-/// the title, [source], [run], [readout], [analysis] and tallies, and light must be polarised or not as then.
+/// Throws InputError unless the scene is that of the map: everything must be written alike except the title,
+/// [source], [run], [readout], [analysis] and tallies, and the polarisation of light must be the same.
 void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& response);
 
-/// Events of the scene from a map, as Simulation::run_all makes them by tracing. The header states in its
-/// note where they come from. Tallies of photons are left out, as no photon is traced.
-/// @throws InputError as require_same_scene does, and when parts are not where they were
+/// Events of the scene from a map, as Simulation::run_all produces them by tracing. The note of the header
+/// states their origin. Tallies of photons are left out, as no photon is traced.
+/// @throws InputError as require_same_scene, and when parts are not at their positions in the map
 tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::filesystem::path& map_file,
                                  ResultSink& sink, const SimulationOptions& options,
                                  const SimulationHooks& hooks = {});

@@ -14,8 +14,8 @@ namespace {
 
 constexpr const char* kResponseFormat = "scintray-response";
 
-void say(core::h5::Group& group, const std::string& name, const std::string& unit,
-         const std::string& description) {
+void describe(core::h5::Group& group, const std::string& name, const std::string& unit,
+              const std::string& description) {
   group.set_attribute(name, "unit", unit);
   group.set_attribute(name, "description", description);
 }
@@ -35,28 +35,29 @@ void put_probability(core::h5::Group& group, const ResponseGrid& grid, std::size
     errors.push_back(empty ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(estimate.error));
   }
   group.write("probability", values, shape);
-  say(group, "probability", "1", "probability that a photon is detected, per cell and channel; NaN: empty");
+  describe(group, "probability", "1",
+           "probability that a photon is detected, per cell and channel; NaN: empty");
   group.write("probability_error", errors, shape);
-  say(group, "probability_error", "1", "binomial standard error of probability");
+  describe(group, "probability_error", "1", "binomial standard error of probability");
 }
 
 void put_grid(core::h5::Group& group, const ResponseGrid& grid, std::size_t channels) {
   group.set_attribute("", "part", grid.part);
   group.write("low_mm", numbers_of(grid.low));
-  say(group, "low_mm", "mm", "corner of the grid: x, y, z");
+  describe(group, "low_mm", "mm", "corner of the grid: x, y, z");
   group.write("pitch_mm", numbers_of(grid.pitch));
-  say(group, "pitch_mm", "mm", "edges of a cell: x, y, z");
+  describe(group, "pitch_mm", "mm", "edges of a cell: x, y, z");
   const core::h5::Shape cells{grid.cells[0], grid.cells[1], grid.cells[2]};
   const core::h5::Shape responses{cells[0], cells[1], cells[2], channels};
   group.write("photons_emitted", grid.photons, cells);
-  say(group, "photons_emitted", "1", "photons emitted in each cell; 0: nothing of the part is in it");
+  describe(group, "photons_emitted", "1", "photons emitted in each cell; 0: the part is not in the cell");
   group.write("photons_detected", grid.detected, responses);
-  say(group, "photons_detected", "1", "of them detected, per cell and channel");
+  describe(group, "photons_detected", "1", "of them detected, per cell and channel");
   put_probability(group, grid, channels, responses);
   group.write("delay_ns", grid.delays_ns);
-  say(group, "delay_ns", "ns",
-      "times from emission to detection of the first photons of each cell and channel, as many as "
-      "photons_detected or at most delays_kept, one after the other");
+  describe(group, "delay_ns", "ns",
+           "times from emission to detection of the first photons of each cell and channel, as many as "
+           "photons_detected or at most delays_kept, one after the other");
 }
 
 core::InputError wrong_map(const std::filesystem::path& path, const std::string& what,
@@ -76,7 +77,7 @@ bool is_response_file(const std::filesystem::path& path) {
   }
 }
 
-/// Reads one grid, with checks that nothing contradicts anything.
+/// Reader of one grid, which checks its consistency.
 class GridReader {
  public:
   GridReader(const std::filesystem::path& path, const ResponseMap& map) : path_(path), map_(map) {}
@@ -87,31 +88,31 @@ class GridReader {
     grid.low = vec(group, "low_mm");
     grid.pitch = vec(group, "pitch_mm");
     require(grid.low.allFinite() && grid.pitch.allFinite() && grid.pitch.minCoeff() > 0.0,
-            "the place of the grid of \"" + grid.part + "\" is not one");
+            "the corner or the pitch of the grid of \"" + grid.part + "\" is not valid");
     core::h5::Shape cells, responses;
     grid.photons = group.read<std::uint32_t>("photons_emitted", &cells);
     grid.detected = group.read<std::uint32_t>("photons_detected", &responses);
-    require(cells.size() == 3 && !grid.photons.empty(), "photons_emitted has not three axes");
+    require(cells.size() == 3 && !grid.photons.empty(), "photons_emitted does not have three axes");
     for (std::size_t axis = 0; axis < 3; ++axis) grid.cells[axis] = static_cast<std::uint32_t>(cells[axis]);
     cells.push_back(map_.channels.size());
     require(responses == cells, "photons_detected does not match photons_emitted and the channels");
     grid.delays_ns = group.read<float>("delay_ns");
     check_counts(grid);
     for (const float delay : grid.delays_ns)
-      require(std::isfinite(delay) && delay >= 0.0f, "delay_ns has a time that is not one");
+      require(std::isfinite(delay) && delay >= 0.0f, "delay_ns has a value that is not a time");
     return grid;
   }
 
  private:
   void require(bool holds, const std::string& what) const {
     if (!holds)
-      throw wrong_map(path_, "this response map contradicts itself: " + what,
+      throw wrong_map(path_, "this response map is inconsistent: " + what,
                       "copy it again from where it was made, or build it again");
   }
 
   core::Vec3 vec(const core::h5::Group& group, const std::string& name) const {
     const auto values = group.read<double>(name);
-    require(values.size() == 3, name + " has not three numbers");
+    require(values.size() == 3, name + " does not have three numbers");
     return {values[0], values[1], values[2]};
   }
 
@@ -128,7 +129,7 @@ class GridReader {
       emitted += grid.photons[cell];
     }
     require(emitted > 0, "all cells of \"" + grid.part + "\" are empty");
-    require(delays == grid.delays_ns.size(), "delay_ns has another length than the counts say");
+    require(delays == grid.delays_ns.size(), "delay_ns does not have the length of the counts");
   }
 
   const std::filesystem::path& path_;
@@ -166,11 +167,11 @@ void write_response(const std::filesystem::path& path, const ResponseFile& file)
   root.set_attribute("", "delays_kept", static_cast<std::int64_t>(map.delays_kept));
   root.set_attribute("", "unpolarised", static_cast<std::int64_t>(map.unpolarised));
   root.write("seed", std::vector<std::uint64_t>{map.seed}, {});
-  say(root, "seed", "1", "seed of the random streams");
+  describe(root, "seed", "1", "seed of the random streams");
   root.write_strings("scene", {file.scene_text});
-  say(root, "scene", "", "the scene file, whole");
+  describe(root, "scene", "", "the complete scene file");
   root.write_strings("channel_name", map.channels);
-  say(root, "channel_name", "", "name of each channel");
+  describe(root, "channel_name", "", "name of each channel");
   core::h5::Group grids = root.create_group("grids");
   grids.set_attribute("", "description", std::string("one group for each part that scintillates"));
   for (std::size_t i = 0; i < map.grids.size(); ++i) {
@@ -199,7 +200,7 @@ ResponseFile read_response(const std::filesystem::path& path) {
   const auto scene = root.read_strings("scene");
   const auto seed = root.read<std::uint64_t>("seed");
   if (scene.size() != 1 || seed.size() != 1)
-    throw wrong_map(path, "this response map does not say which scene or seed it is of", "build it again");
+    throw wrong_map(path, "this response map does not state its scene or seed", "build it again");
   file.scene_text = scene.front();
   file.map.seed = seed.front();
   file.map.channels = root.read_strings("channel_name");

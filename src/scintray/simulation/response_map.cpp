@@ -12,15 +12,15 @@ namespace scintray::simulation {
 
 namespace {
 
-/// Points drawn in a cell to find out whether it holds anything of its region: what fills less than a
+/// Points sampled in a cell to find whether it contains part of its region: one that fills less than a
 /// hundredth of its cell is missed once in ten times, and then has its neighbours' response.
 constexpr int kSurveyDraws = 256;
-/// Draws after which a photon of a cell that holds something is taken to be in a sliver.
+/// Trials after which a photon of a non-empty cell is treated as being in a sliver.
 constexpr int kMostDraws = 1'000'000;
-/// Addresses the stream of a cell's survey, as no photon does.
+/// Address of the random stream of a cell's test points, which no photon has.
 constexpr std::uint64_t kSurvey = std::numeric_limits<std::uint64_t>::max();
 
-/// What the light of one cell gave.
+/// Result of the light of one cell.
 struct CellResponse {
   std::uint32_t photons = 0;
   std::vector<std::uint32_t> detected;        ///< per channel
@@ -164,7 +164,7 @@ std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector
   }
   if (grids.empty())
     throw core::InputError({{},
-                            "no part scintillates, so there is no place to map the light of",
+                            "no part scintillates, so there is no light to map",
                             "give the medium of a part [yield], [emission] and [[decay]]"});
   return grids;
 }
@@ -174,7 +174,7 @@ ResponseMap build_response_map(const scene::Scene& scene, const std::vector<std:
                                const ResponseHooks& hooks) {
   const tally::ReadoutChannels channels(scene);
   if (channels.list.empty())
-    throw core::InputError({{}, "the scene has no sensor", "give a part or a face a sensor"});
+    throw core::InputError({{}, "the scene has no sensor", "assign a sensor to a part or a face"});
   ResponseMap map;
   for (const tally::ReadoutChannel& channel : channels.list) map.channels.push_back(channel.name);
   map.seed = run.seed;

@@ -1,5 +1,5 @@
 #pragma once
-/// Response maps: what sensors see of light from each place of a scene, traced once.
+/// Response maps: detection probabilities and delays of light from each position of a scene, traced once.
 
 #include <algorithm>
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace scintray::simulation {
 
-/// Even cells over the bounding box of one part that scintillates, along the axes of the world. Those that
-/// hold nothing of the part's region are empty.
+/// Grid of equal cells over the bounding box of one part that scintillates, along the axes of the world.
+/// Cells outside the part's region are empty.
 struct ResponseGrid {
   std::string part;
   std::uint32_t region = 0;               ///< index into Scene::regions
   core::Vec3 low = core::Vec3::Zero();    ///< corner of the box, mm
   core::Vec3 pitch = core::Vec3::Ones();  ///< edges of a cell, mm
   std::array<std::uint32_t, 3> cells{};
-  std::vector<std::uint32_t> photons;   ///< emitted, per cell; 0: the cell is empty. z runs fastest
+  std::vector<std::uint32_t> photons;   ///< emitted, per cell; 0: the cell is empty. z varies fastest
   std::vector<std::uint32_t> detected;  ///< of them, per cell and channel, channels fastest
   /// Times from emission to detection, ns, of the first detected photons of each cell and channel, as many
   /// as ResponseMap::kept states: one after the other in the order of `detected`.
@@ -39,42 +39,42 @@ struct ResponseMap {
   std::uint64_t seed = 1;
   std::uint32_t photons_per_cell = 0;
   std::uint32_t delays_kept = 0;  ///< most delays kept of one cell and channel
-  bool unpolarised = false;       ///< light starts without polarisation
+  bool unpolarised = false;       ///< light is emitted unpolarised
   std::vector<ResponseGrid> grids;
 
-  /// Delays kept of `detected` photons.
+  /// Number of delays kept of `detected` photons.
   std::uint32_t kept(std::uint32_t detected) const { return std::min(detected, delays_kept); }
 };
 
-/// How fine a map is to be.
+/// Resolution and statistics of a map.
 struct ResponseSettings {
   double pitch_mm = 1.0;  ///< largest edge of a cell: edges divide those of the box evenly
   std::uint32_t photons_per_cell = 10'000;
   std::uint32_t delays_kept = 64;
 };
 
-/// Most cells times channels that a map may have, and most delays: 1.6 and 2 GB in memory.
+/// Limits of the cells times channels of a map, and of its delays: 1.6 and 2 GB in memory.
 inline constexpr std::uint64_t kMostResponses = 400'000'000, kMostDelays = 500'000'000;
 
-/// Progress of building while it goes on. Either may be empty.
+/// Progress and interruption of the construction. Either may be empty.
 struct ResponseHooks {
   std::function<void(std::uint64_t cells, std::uint64_t of)> progress;  ///< from one thread at a time
-  const std::atomic<bool>* stop = nullptr;                              ///< set from outside: give up
+  const std::atomic<bool>* stop = nullptr;                              ///< set from outside: stop
 };
 
-/// Traces the light of every cell. The result does not depend on the number of threads: every photon has
-/// its own random stream, of StreamKind::cell.
-/// @param regions      that scintillate, one grid each
-/// @param unpolarised  light starts without polarisation
+/// Response map by tracing the light of every cell. The result does not depend on the number of threads:
+/// every photon has its own random stream, of StreamKind::cell.
+/// @param regions      scintillating regions, one grid each
+/// @param unpolarised  light is emitted unpolarised
 /// @param run          seed, threads and limits; a photon cut by a limit is not detected
-/// @return an empty list of grids when stopped
-/// @throws InputError when no sensor is there, no region scintillates, or the map would be beyond
+/// @return a map without grids when stopped
+/// @throws InputError when there is no sensor, no region scintillates, or the map would exceed
 ///         kMostResponses or kMostDelays
 ResponseMap build_response_map(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
                                bool unpolarised, const ResponseSettings& settings, const RunSettings& run,
                                const ResponseHooks& hooks = {});
 
-/// Empty grids as build_response_map makes them, one a region. @throws InputError as it does
+/// Empty grids as of build_response_map, one a region. @throws InputError as build_response_map
 std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
                                     double pitch_mm);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the results of a run go while it goes on.
+/// Interface of a receiver of results during a run.
 
 #include <optional>
 #include <string>
@@ -15,16 +15,16 @@
 
 namespace scintray::simulation {
 
-/// What is known of a run before its first photon.
+/// Information about a run before its first photon.
 struct RunOutline {
   tally::RunHeader header;
-  bool photon_list = false;                          ///< detected photons will come one by one
-  std::optional<results::HistoryColumns> histories;  ///< of all points; nothing: there are none
+  bool photon_list = false;                          ///< detected photons will be passed to the sink
+  std::optional<results::HistoryColumns> histories;  ///< of all points; empty: there are none
 };
 
-/// Takes the results of a run, point after point. All indices are those of RunHeader. Each function does
-/// nothing unless it is overridden, so that a sink takes what it is for. All are called from one thread at a
-/// time.
+/// Receiver of the results of a run, point after point. All indices are those of RunHeader. Each function
+/// does nothing unless it is overridden, so that a sink receives only what it needs. All are called from one
+/// thread at a time.
 class ResultSink {
  public:
   ResultSink() = default;
@@ -32,11 +32,11 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = default;
   virtual ~ResultSink() = default;
 
-  /// Before all others, once.
+  /// Called before all others, once.
   virtual void begin(const RunOutline& /*run*/) {}
-  /// Surfaces of the scene's goniometers, once, when there are any.
+  /// Readings of the scene's goniometers, once, when there are any.
   virtual void surfaces(const std::vector<analysis::SurfaceAnalysis>& /*studies*/) {}
-  /// What the events of a point are read out by, before the first of them; for a source of photons never.
+  /// Readout of the events of a point, before the first of them; not called for a source of photons.
   virtual void begin_events(std::size_t /*point*/, const std::vector<tally::ReadoutChannel>& /*channels*/,
                             const std::optional<detector::ReadoutSpec>& /*readout*/) {}
   /// The next detected photons, in their order, when they are listed.
@@ -44,11 +44,11 @@ class ResultSink {
   /// The next histories, in the order of the photons, when they are kept.
   virtual void histories(const tally::PhotonHistories& /*histories*/,
                          const tally::HistorySubjects& /*of_point*/) {}
-  /// The next events of a source of energy, in their order.
+  /// The next events of an event source, in their order.
   virtual void events(const std::vector<tally::EventRecord>& /*events*/) {}
   /// A point, after all that belongs to it; no subjects (null) when no histories are kept.
   virtual void point(const tally::PointResult& /*result*/, const tally::HistorySubjects* /*histories*/) {}
-  /// After all others, once, with the reason why the run is not complete; empty when it is.
+  /// Called after all others, once, with the reason why the run is not complete; empty when it is.
   virtual void commit(bool /*complete*/, const std::string& /*reason*/) {}
 };
 

@@ -9,13 +9,13 @@
 
 namespace scintray::simulation {
 
-/// Writes a results file. Nothing is at its path before commit().
+/// Sink that writes a results file. There is no file at its path before commit().
 class ResultsFile : public ResultSink {
  public:
   explicit ResultsFile(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Opens the file, so that a place that cannot be written is found before hours of work.
-  /// @throws InputError, SystemError as ResultsWriter does
+  /// Creates the file, so that a path that cannot be written is an error before hours of work.
+  /// @throws InputError, SystemError as ResultsWriter
   void begin(const RunOutline& run) override;
   void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,

@@ -27,7 +27,7 @@ std::vector<std::map<std::uint64_t, double>> emitted_by_event(const std::filesys
   return emitted;
 }
 
-/// The sum of weights of the event under way, and sums over the events before.
+/// The sum of weights of the current event, and sums over the previous events.
 struct EventSums {
   double weight = 0.0;
   core::Moments light;               ///< of events with detected photons
@@ -35,7 +35,7 @@ struct EventSums {
   analysis::RatioOfSums of_traced;   ///< light over detected photons as traced
 };
 
-/// One point under all choices of values, photon by photon.
+/// One point with all combinations of values, photon by photon.
 class PointReweighting {
  public:
   PointReweighting(const tally::PointResult& point, std::vector<analysis::Reweighting> choices,
@@ -83,7 +83,7 @@ class PointReweighting {
 
   void end_events() {
     if (under_way_) end_event();
-    for (const auto& [event, emitted] : emitted_) {  // that no sensor saw
+    for (const auto& [event, emitted] : emitted_) {  // without detected photons
       if (emitted == 0.0) continue;
       traced_.add(emitted, 0.0);
       for (EventSums& sums : sums_) sums.of_emitted.add(emitted, 0.0);
@@ -96,7 +96,7 @@ class PointReweighting {
     result.light.relative = sums.of_traced.ratio();
     result.traced_per_event = point_.energy.detected.mean();
     core::Moments light = sums.light;
-    light.count = std::max(light.count, point_.energy.detected.count);  // the others gave no light
+    light.count = std::max(light.count, point_.energy.detected.count);  // the others have no light
     result.per_event = light.mean();
   }
 

@@ -54,7 +54,7 @@ class Targets {
     }
     const auto& transmitting = columns_.transmitting;
     if (std::find(transmitting.begin(), transmitting.end(), name) != transmitting.end())
-      throw refused(path_, "\"" + name + "\" lets light through, so its reflectance does not change alone",
+      throw refused(path_, "\"" + name + "\" transmits light, so its reflectance does not change alone",
                     "run the scene again with the other reflectance");
     if (!found.empty()) return found;
     for (const std::string& surface : run_.header.surfaces)
@@ -62,7 +62,7 @@ class Targets {
         throw refused(
             path_,
             "the surface \"" + name +
-                "\" has no reflectance of its own: it has no reflector, or is a table that holds one",
+                "\" has no reflectance of its own: it has no reflector, or is a table that contains one",
             names.empty() ? "no surface of this result has a reflector"
                           : "reflectors of this result: " + fmt::format("{}", fmt::join(names, ", ")));
     throw core::unknown_name({path_.string()}, "reflector", name, {names.begin(), names.end()});
@@ -86,7 +86,7 @@ void check_values(const std::filesystem::path& path, const PropertyScan& scan) {
   const auto refuse = [&](double value, const std::string& expected) {
     throw refused(path, describe(scan) + " cannot be " + describe_value(scan, value), expected);
   };
-  if (scan.values.empty()) throw refused(path, describe(scan) + " has no value", "give one value or several");
+  if (scan.values.empty()) throw refused(path, describe(scan) + " has no value", "set one value or several");
   for (const double value : scan.values) {
     if (scan.times) {
       if (!(value > 0.0 && std::isfinite(value))) refuse(value, "a factor is above 0");
@@ -103,21 +103,21 @@ analysis::WantedProperty wanted(const PropertyScan& scan, double value) {
   return {as, scan.property == OpticalProperty::absorption_length ? 1.0 / value : value};
 }
 
-/// What is traced where a point has no such medium or reflector: none of its photons knows it.
+/// Optics where a point has no such medium or reflector: none of its photons interacts with it.
 std::vector<tally::TracedRange> known_ranges(std::vector<tally::TracedRange> ranges, double otherwise) {
   for (tally::TracedRange& range : ranges)
     if (std::isnan(range.least) || std::isnan(range.most)) range = {otherwise, otherwise};
   return ranges;
 }
 
-/// All combinations of values, the last scan's fastest.
+/// All combinations of values, the last scan's varying fastest.
 std::vector<std::vector<double>> combinations(const std::filesystem::path& path,
                                               const std::vector<PropertyScan>& scans) {
   std::vector<std::vector<double>> all{{}};
   for (const PropertyScan& scan : scans) {
     if (all.size() * scan.values.size() > kMostChoices)
       throw refused(path, fmt::format("more than {} combinations of values", kMostChoices),
-                    "give fewer values at once");
+                    "use fewer values at once");
     std::vector<std::vector<double>> longer;
     for (const std::vector<double>& values : all)
       for (const double value : scan.values) {
@@ -143,8 +143,8 @@ ReweightPlan::ReweightPlan(const std::filesystem::path& path, const tally::RunRe
                            const results::HistoryColumns& columns, const std::vector<PropertyScan>& scans)
     : path_(path), scans_(scans) {
   if (scans.empty())
-    throw refused(path, "nothing is wanted otherwise than it was traced",
-                  "give an absorption length or a reflectance");
+    throw refused(path, "no absorption length or reflectance to change",
+                  "set an absorption length or a reflectance");
   const Targets find(path, run, columns);
   std::map<std::pair<OpticalProperty, std::size_t>, std::string> taken;
   for (const PropertyScan& scan : scans) {
@@ -154,9 +154,9 @@ ReweightPlan::ReweightPlan(const std::filesystem::path& path, const tally::RunRe
       const auto [other, is_new] = taken.try_emplace({scan.property, target}, scan.name);
       if (!is_new)
         throw refused(path,
-                      fmt::format("\"{}\" and \"{}\" ask for the {} of the same thing", other->second,
-                                  scan.name, property_name(scan.property)),
-                      "give each once; several values as \"NAME=1,2,3\"");
+                      fmt::format("\"{}\" and \"{}\" set the {} of the same item", other->second, scan.name,
+                                  property_name(scan.property)),
+                      "set each once; several values as \"NAME=1,2,3\"");
     }
   }
   choices_ = combinations(path, scans);
@@ -184,7 +184,7 @@ analysis::OpticalChange ReweightPlan::change(const results::TracedOptics& traced
         throw refused(path_,
                       fmt::format("a reflectance of {:.6g} times {:.6g} is above 1, of {}", most, chosen[i],
                                   reflector_names_[target]),
-                      fmt::format("give factors up to {:.6g}", 1.0 / most));
+                      fmt::format("use factors up to {:.6g}", 1.0 / most));
       change.reflectance[target] = property;
     }
   return change;

@@ -1,5 +1,5 @@
 #pragma once
-/// Names over all points of a run, and the numbers of a point's own names in them.
+/// Names over all points of a run, and the indices of a point's own names in them.
 
 #include <cstdint>
 #include <map>
@@ -13,13 +13,13 @@
 
 namespace scintray::simulation {
 
-/// Names of a kind over all points of a sweep: points may differ in their media and surfaces, results
+/// Names of a kind over all points of a sweep: points may differ in their media and surfaces; results
 /// have one list.
 class NameList {
  public:
-  /// Number of a name, which is added when it is new.
+  /// Index of a name, which is added when it is new.
   std::uint32_t add(const std::string& name);
-  /// Number of a name that was added.
+  /// Index of a name that was added.
   std::uint32_t index(const std::string& name) const { return index_.at(name); }
   const std::vector<std::string>& names() const { return names_; }
 
@@ -34,7 +34,7 @@ struct RunNames {
   void add(const scene::Scene& scene);
 };
 
-/// Rewrites a point's indices from its scene's lists to the run's.
+/// Conversion of a point's indices from its scene's lists to the run's.
 class Renumbering {
  public:
   /// @param names  with those of the scene

@@ -11,7 +11,7 @@ namespace scintray::simulation {
 
 namespace {
 
-/// What one piece of work found.
+/// Result of one block.
 struct Block {
   Block(const scene::Scene& scene, const tally::TallyPlan& plan)
       : photons(scene, plan), events(scene, plan) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// Many photons: fixed blocks over threads.
+/// Tracing of a point: photons in fixed blocks over threads.
 
 #include <atomic>
 #include <functional>
@@ -20,22 +20,22 @@ struct RunSettings {
   int threads = 0;                           ///< 0: all cores
 };
 
-/// Progress of a run while it goes on. Any may be empty. All are called from one thread at a time.
+/// Callbacks during a run. Any may be empty. All are called from one thread at a time.
 struct RunHooks {
-  /// Photons traced so far, or events of a source of energy.
+  /// Photons traced so far, or events of an event source.
   std::function<void(std::uint64_t done)> progress;
   std::function<void(const std::vector<tally::DetectedPhoton>&)> detected;  ///< in the order of photons
   std::function<void(const tally::PhotonHistories&)> histories;        ///< of the detected, in the same order
-  std::function<void(const std::vector<tally::EventRecord>&)> events;  ///< of a source of energy, in order
-  const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the blocks under way and return
+  std::function<void(const std::vector<tally::EventRecord>&)> events;  ///< of an event source, in order
+  const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the current blocks and return
 };
 
 /// The random stream of one photon of a run.
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon);
-/// The random stream of what an event is before its first photon.
+/// The random stream of an event before its first photon.
 core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
 
-/// The random stream of what a sensor and its electronics add to an event.
+/// The random stream of the noise of a sensor and its electronics in an event.
 core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
 
 /// The limits of a run, at which photons are cut.
@@ -46,16 +46,16 @@ inline transport::PropagationLimits limits_of(const RunSettings& settings) {
   return limits;
 }
 
-/// Traces all photons of a source. The result does not depend on the number of threads, to the last
-/// bit: every photon has its own random stream and blocks are merged in order. A stopped run holds
-/// the photons of the blocks before the stop and states `complete = false`.
+/// Result of all photons of a source. It does not depend on the number of threads, to the last
+/// bit: every photon has its own random stream and blocks are merged in order. A stopped run contains
+/// the photons of the blocks before the stop, with `complete = false`.
 /// @throws InternalError when a photon has no fate.
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
                              const tally::TallyPlan& plan, const RunSettings& settings,
                              const RunHooks& hooks = {});
 
-/// Follows one photon again; `visit` sees every step, each total reflection among them. Returns the photon as
-/// it ended. Throws InputError when there is no such photon.
+/// Replays one photon; `visit` is called for every step, each total reflection included. Returns the photon
+/// as it ended. Throws InputError when there is no such photon.
 source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
                       const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
                       transport::StepVisitor visit);

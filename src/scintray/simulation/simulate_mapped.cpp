@@ -9,24 +9,24 @@ namespace scintray::simulation {
 
 namespace {
 
-/// Keys of a scene that do not change how light goes from a place to a sensor.
+/// Keys of a scene that do not change the propagation of light to the sensors.
 const std::vector<std::string> kFreeKeys = {"title", "source", "run",   "readout", "analysis",
                                             "tally", "claim",  "bench", "fit"};
 
-/// How far a part may be from where the map has it: what rounding of a scene's numbers makes.
+/// Tolerance of a part's position relative to the map: the rounding of a scene's numbers.
 constexpr double kSamePlace_mm = 1e-6;
 
 void refuse_sweep(const scene_file::SceneFile& file) {
   if (file.points() != 1 || !file.sweep_keys().empty())
     throw core::InputError({{file.spec(0).file.string()},
                             "a response map is of one scene, and this one has a sweep",
-                            "make a scene of each point, without [[sweep]]"});
+                            "write a scene for each point, without [[sweep]]"});
 }
 
 void require_energy(const scene_file::SceneSpec& spec) {
   if (!spec.energy_source)
     throw core::InputError({spec.source.where,
-                            "response maps are for sources of energy, and this is a source of photons",
+                            "response maps are for event sources, and this is a source of photons",
                             "use type = \"gamma_events\", \"gammas\" or \"hits\" (docs/gamma_sources.md)"});
   if (spec.energy_source->cherenkov)
     throw core::InputError(
@@ -35,7 +35,7 @@ void require_energy(const scene_file::SceneSpec& spec) {
          "remove cherenkov, or trace the scene with `scintray run`"});
 }
 
-/// Gives the grids of a map their regions of a scene.
+/// Assigns to the grids of a map their regions in a scene.
 void bind_grids(ResponseMap& map, const scene::Scene& scene, const std::string& where) {
   const auto changed = [&](const std::string& what) {
     return core::InputError(
@@ -65,7 +65,7 @@ bool counts_photons(const scene_file::SceneSpec& spec) {
   return !spec.tallies.empty() || spec.run.photon_list || spec.run.photon_history;
 }
 
-/// What can only be had of photons that are traced.
+/// Removes the output that requires traced photons.
 void leave_photons_out(scene_file::SceneSpec& spec) {
   spec.tallies.clear();
   spec.run.photon_list = spec.run.photon_history = false;
@@ -111,7 +111,7 @@ void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& r
     throw core::InputError({spec.energy_source->where,
                             std::string("the response map is of ") +
                                 (response.map.unpolarised ? "unpolarised" : "polarised") +
-                                " light, and source.polarisation says otherwise",
+                                " light, in contradiction to source.polarisation",
                             hint});
 }
 
@@ -127,7 +127,7 @@ tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::f
     leave_photons_out(spec);
   };
   Simulation simulation(file, without_photons);
-  simulation.spec(0);  // what is wrong with the options comes first
+  simulation.spec(0);  // errors of the options come first
   ResponseFile response = read_response(map_file);
   require_same_scene(file, response);
   bind_grids(response.map, simulation.point(0)->scene(), map_file.string());

@@ -113,7 +113,7 @@ void Simulation::build(const SimulationHooks& hooks) {
   notes_.clear();
   work_.clear();
   for (std::size_t i = 0; i < points(); ++i) {
-    if (stopped(hooks)) throw core::Cancelled("the scene was being built, and nothing was traced");
+    if (stopped(hooks)) throw core::Cancelled("while the scene was built, before any photon was traced");
     add_to_outline(*point(i));
   }
   tally::RunHeader& header = outline_.header;

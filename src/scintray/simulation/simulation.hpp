@@ -1,5 +1,5 @@
 #pragma once
-/// A scene, run from beginning to end: by the command line, fits, response maps, benchmarks and tests.
+/// Simulation of a scene, for the command line, fits, response maps, benchmarks and tests.
 ///
 ///     Simulation simulation(SceneFile::load("scene.toml"));
 ///     ResultsFile file("scene.h5");
@@ -25,34 +25,34 @@ namespace scintray::simulation {
 /// RunResult::partial_reason of a run that SimulationHooks::stop ended.
 inline constexpr const char* kStopped = "stopped by the user";
 
-/// How far a run is.
+/// Progress of a run.
 struct SimulationProgress {
-  std::size_t point = 0, points = 1;  ///< under way, of how many
+  std::size_t point = 0, points = 1;  ///< the current point, and the number of points
   std::uint64_t done = 0, total = 0;  ///< over all points
   std::string thing;                  ///< of which: "photons", or "events"
 };
 
 struct SimulationHooks {
   std::function<void(const SimulationProgress&)> progress;  ///< from one thread at a time
-  /// Set from outside: what was traced is kept, and marked as partial.
+  /// Set from outside: the photons traced are kept, and the result is marked as partial.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// A scene with its sweep, and all that is needed to trace it. Each point is built once (within
+/// Simulation of a scene with its sweep. Each point is built once (within
 /// SimulationOptions::most_triangles_kept), points that differ only in their source, run settings and tallies
-/// share one scene, each surface table is made once and each definition of the material database read once.
-/// Results depend on the scene and the options only, to the last bit: not on the number of threads, nor on
-/// which points were traced before. To be used by one thread at a time; traces with many.
+/// share one scene, each surface table is made once and each definition of the material database is read
+/// once. Results depend on the scene and the options only, to the last bit: not on the number of threads, nor
+/// on which points were traced before. To be used by one thread at a time; traces with many.
 ///
-/// Indices of parts, faces, media and surfaces in results are those of header(), which names these of all
+/// Indices of parts, faces, media and surfaces in results are those of header(), which has the names of all
 /// points.
 ///
-/// All functions that take a point throw InputError for one that is not there, and, when they need to build,
-/// what is wrong with the scene.
+/// All functions of a point throw InputError for one that does not exist and, when they build it, for the
+/// errors of the scene.
 class Simulation {
  public:
   explicit Simulation(scene_file::SceneFile file, SimulationOptions options = {});
-  /// A scene made in code: one point, and no file is needed.
+  /// A scene built in code: one point, without a file.
   explicit Simulation(scene_file::SceneSpec scene, SimulationOptions options = {});
 
   std::size_t points() const;
@@ -60,30 +60,31 @@ class Simulation {
   std::vector<std::string> sweep_keys() const;
   /// The value of each swept key at a point, as written ("2 mm").
   std::vector<std::string> parameters(std::size_t point) const;
-  /// The scene of a point with the options in it, not yet built.
+  /// The scene of a point with the options applied, not yet built.
   scene_file::SceneSpec spec(std::size_t point) const;
-  /// A point, built now unless it is kept.
+  /// A point, built on demand.
   std::shared_ptr<const SimulationPoint> point(std::size_t point);
-  /// Keeps a point no longer.
+  /// Releases a point.
   void release(std::size_t point);
 
-  /// Builds every point, so that mistakes show before the first photon. Called by all that needs it.
+  /// Builds every point, so that errors are thrown before the first photon. Called by the functions that need
+  /// it.
   /// @throws InputError; Cancelled when it was stopped
   void build(const SimulationHooks& hooks = {});
-  /// What is known before the first photon, for sinks; builds every point.
+  /// Information before the first photon, for sinks; builds every point.
   const RunOutline& outline();
-  /// What the numbers of the results refer to; builds every point.
+  /// Header of the results, with the names that indices refer to; builds every point.
   const tally::RunHeader& header() { return outline().header; }
 
-  /// Opens a sink for the points to come, and has the surfaces on the goniometers read.
+  /// Begins a sink for the following points, and computes the goniometer readings.
   void begin(ResultSink& sink, const SimulationHooks& hooks = {});
-  /// Traces one point. Stopped early, the result has what was traced until then and is not complete.
-  /// @param sink  that was begun; takes the photons, events and histories that the scene requests, and the
-  /// result
+  /// Result of one point. After an early stop it contains the photons traced until then and is not complete.
+  /// @param sink  begun before; receives the photons, events and histories that the scene requests, and the
+  ///              result
   /// @throws InternalError when a photon has no fate
   tally::PointResult run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks = {});
   tally::PointResult run(std::size_t point, const SimulationHooks& hooks = {});
-  /// The same with events from a response map: no photon is traced. @throws InputError as run_mapped does
+  /// The same with events from a response map: no photon is traced. @throws InputError as run_mapped
   tally::PointResult run(std::size_t point, const MappedResponse& response, ResultSink& sink,
                          const SimulationHooks& hooks = {});
   /// Begins the sink, traces all points one after the other and commits the sink, also after an early stop.
@@ -91,12 +92,12 @@ class Simulation {
   tally::RunResult run_all(ResultSink& sink, const SimulationHooks& hooks = {});
   tally::RunResult run_all(const SimulationHooks& hooks = {});
 
-  /// Follows one photon of run() again; `visit` sees every step. Returns the photon as it ended.
+  /// Replays one photon of run(); `visit` is called for every step. Returns the photon as it ended.
   /// @throws InputError when there is no such photon
   source::Photon replay(std::size_t point, std::uint64_t event, std::uint64_t photon,
                         const transport::StepVisitor& visit);
 
-  /// What was done so far.
+  /// Statistics of the work done so far.
   struct Counts {
     std::size_t scenes_built = 0;
     materials::MaterialDatabase::Readings definitions;
@@ -129,7 +130,7 @@ class Simulation {
   RunNames names_;
   std::vector<std::string> notes_;   ///< in the header, each once
   std::vector<std::uint64_t> work_;  ///< photons or events, per point
-  bool energy_ = false;              ///< the source is one of energy
+  bool energy_ = false;              ///< the source is an event source
 };
 
 }  // namespace scintray::simulation

@@ -1,5 +1,5 @@
 #pragma once
-/// What a user may set beside a scene.
+/// Options of a simulation that are not in the scene.
 
 #include <cstdint>
 #include <functional>
@@ -14,17 +14,17 @@
 namespace scintray::simulation {
 
 struct SimulationOptions {
-  std::optional<int> threads;  ///< in place of the scene's
+  std::optional<int> threads;  ///< replaces the scene's
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> photons;  ///< per point, of a source of photons
-  std::optional<std::uint64_t> events;   ///< per point, of a source of energy
+  std::optional<std::uint64_t> events;   ///< per point, of an event source
   bool quick = false;  ///< the scene's quick_photons or quick_events in place of its full number
   std::function<void(scene_file::SceneSpec&)>
       change;                                      ///< applied to the scene of every point, after all others
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
   materials::DefinitionModels models;              ///< surface and sensor models that the scene may name
-  /// That mesh files of parts may have; outlives the simulation. Elements of arrays are of built-in formats:
-  /// their size is needed when the scene file is read.
+  /// Formats of the mesh files of parts; must outlive the simulation. Elements of arrays are of built-in
+  /// formats: their size is needed when the scene file is read.
   const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();
   /// Points of a sweep are kept from when they are built until they have been traced, as long as the parts of
   /// their scenes, each scene counted once, have no more triangles than this: a block of 12 x 12 crystals

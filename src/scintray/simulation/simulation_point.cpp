@@ -25,7 +25,7 @@ bool any_shifts(const scene::Scene& scene) {
 
 /// Emission and time spread of the sensors, where all light of events has the same: one decay in all media
 /// that scintillate, sensors of one time spread behind a readout, no Cherenkov light and no wavelength
-/// shifter. Nothing otherwise.
+/// shifter. Empty otherwise.
 std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const scene_file::SceneSpec& spec,
                                                const source::LightSource& source,
                                                const tally::TallyPlan& plan) {

@@ -1,5 +1,5 @@
 #pragma once
-/// One scene, ready to be traced.
+/// One point of a simulation, ready to be traced.
 
 #include <memory>
 #include <optional>
@@ -14,15 +14,15 @@
 
 namespace scintray::simulation {
 
-/// A built scene, its source bound to it, and what is counted. Immutable: it can be traced by any thread, as
-/// often as one likes, and each time has the same result.
+/// A built scene with its source and tallies. Immutable: it can be traced by any thread, any number of times,
+/// with the same result.
 class SimulationPoint {
  public:
   /// Builds the scene.
   /// @param number  of the point in its sweep: each has random streams of its own
   /// @throws InputError with every problem of the scene, or of its source, or of its tallies
   SimulationPoint(scene_file::SceneSpec spec, scene::SceneBuilder& builder, std::uint32_t number = 0);
-  /// A scene that differs in its source, tallies and run settings only from the one that was built, so that
+  /// A scene that differs only in its source, tallies and run settings from the built one, so that
   /// nothing is built again.
   SimulationPoint(scene_file::SceneSpec spec, std::shared_ptr<const scene::BuiltScene> built,
                   std::uint32_t number = 0);
@@ -35,24 +35,24 @@ class SimulationPoint {
   const std::shared_ptr<const scene::BuiltScene>& built() const { return built_; }
   const source::LightSource& source() const { return *source_; }
   const tally::TallyPlan& plan() const { return plan_; }
-  /// What a user should know of the scene, none of which stops a run.
+  /// Warnings about the scene, none of which prevents a run.
   const std::vector<std::string>& warnings() const { return built_->warnings; }
-  /// The same of the source.
+  /// Warnings about the source.
   const std::vector<std::string>& source_notes() const { return source_notes_; }
-  /// Photons, or events of a source of energy.
+  /// Number of photons, or of events of an event source.
   std::uint64_t work() const { return source_->has_energy() ? source_->events() : source_->photons(); }
   /// Seed, limits, threads and random streams.
   const RunSettings& settings() const { return settings_; }
 
-  /// When one photon of an event is detected, where it is one for all light.
+  /// Distribution of the detection time of a photon, where it is the same for all light.
   std::optional<tally::LightTiming> timing() const;
 
-  /// Traces all photons. Indices in what it returns and in what hooks receive are those of scene().
+  /// Result of all photons. Indices in it and in the arguments of hooks are those of scene().
   /// @throws InternalError when a photon has no fate
   tally::PointResult trace(const RunHooks& hooks = {}) const;
-  /// Makes the events from a response map; no photon is traced. @throws InputError as run_mapped does
+  /// Events from a response map; no photon is traced. @throws InputError as run_mapped
   tally::PointResult trace(const MappedResponse& response, const RunHooks& hooks = {}) const;
-  /// Follows one photon of trace() again; `visit` sees every step. Returns the photon as it ended.
+  /// Replays one photon of trace(); `visit` is called for every step. Returns the photon as it ended.
   /// @throws InputError when there is no such photon
   source::Photon replay(std::uint64_t event, std::uint64_t photon, const transport::StepVisitor& visit) const;
 

@@ -23,14 +23,14 @@ constexpr std::uint64_t kUnitsPerStep = std::uint64_t{1} << 24;
 /// Random streams of the reciprocal kernel's states, apart from those of nodes.
 constexpr std::uint64_t kKernelStreams = std::uint64_t{1} << 62;
 
-/// What became of one ray.
+/// Result of one ray.
 struct RayEnd {
   optics::SurfaceOutcome outcome = optics::SurfaceOutcome::inside;
   double first_slope_rad = 0.0;
   bool cut = false;
 };
 
-/// Sends a ray, in the surface's own frame (z: the mean normal), to the surface and on its way.
+/// Traces a ray, in the surface's own frame (z: the mean normal), to the surface and until it leaves.
 using SendRay =
     std::function<RayEnd(optics::Ray& ray, optics::Side side, const SpectralPoint& at, core::Rng& rng)>;
 
@@ -42,7 +42,7 @@ struct RayRecord {
   bool unclassified = false;
 };
 
-/// Angles of a direction that left, from the outgoing normal and from the forward azimuth.
+/// Angles of an outgoing direction, from the outgoing normal and from the forward azimuth.
 optics::ExitAngles exit_angles(const core::Vec3& direction, double forward_azimuth,
                                optics::AzimuthKind kind) {
   const double lateral = std::hypot(direction.x(), direction.y());
@@ -67,7 +67,7 @@ void check(const std::vector<SpectralPoint>& spectrum, const TableSettings& s) {
   if (!(s.target_error >= 0.0 && s.target_error < 1.0))
     problems.add({}, "target error is " + std::to_string(s.target_error) + "; expected 0 up to 1");
   if (s.reciprocal && s.directional)
-    problems.add({}, "a table with direction cannot be made reciprocal", "ask for one of the two");
+    problems.add({}, "a table with direction cannot be made reciprocal", "set one of the two");
   if (s.most_rays == 0) problems.add({}, "at most 0 times the rays; expected at least 1");
   positive(s.refine_change, "change of reflectance to refine at");
   positive(s.refine_down_to_rad, "smallest incidence interval");
@@ -84,7 +84,7 @@ void check(const std::vector<SpectralPoint>& spectrum, const TableSettings& s) {
   problems.throw_if_any();
 }
 
-/// Lays the maps of a surface, and of its shares, along x: the builder turns the light instead.
+/// Aligns the maps of a surface, and of its shares, with x: the builder rotates the light instead.
 void lay_along_x(optics::Surface& surface) {
   surface.direction = core::Vec3::UnitX();
   for (optics::SurfaceShare& part : surface.mixture) {
@@ -166,7 +166,7 @@ class Builder {
   RayRecord follow(optics::Side side, std::uint64_t position, double angle, std::uint64_t number) const {
     const std::uint64_t address = (static_cast<std::uint64_t>(side) << 60) | position;
     core::Rng rng(settings_.seed, core::StreamKind::table, address, number, slice_);
-    // Azimuths are stratified, not fixed: the rows of the map are no special direction.
+    // Azimuths are stratified, not fixed: the rows of the map are not a special direction.
     const double stratum = static_cast<double>((number % batch()) / settings_.rays);
     const double azimuth = settings_.directional
                                ? slice_azimuth_
@@ -189,7 +189,7 @@ class Builder {
     const std::uint64_t rays = std::max<std::uint64_t>(1, batch() / 2);
     constexpr std::size_t kRow = std::size_t{Kernel::kStates} * Kernel::kTurns;
     std::vector<std::uint32_t> counts(Kernel::kStates * kRow);
-    // A task a state: none writes into another's row.
+    // One task per state: none writes into another's row.
     tbb::parallel_for(0, Kernel::kStates, [&](int state) {
       const optics::Side from = state < Kernel::kPolar ? optics::Side::inside : optics::Side::outside;
       for (std::uint64_t k = 0; k < rays; ++k) {
@@ -255,7 +255,7 @@ class Builder {
            std::max(node.reflectance_error, node.absorptance_error) <= settings_.target_error;
   }
 
-  /// Reduces the records in their order, whatever threads made them.
+  /// Reduces the records in their order, independent of the threads.
   void reduce(optics::TableNode& node, optics::Side side) {
     std::vector<optics::ExitAngles> reflected, transmitted;
     std::uint64_t absorbed = 0, cut = 0, unclassified = 0;
@@ -288,7 +288,7 @@ class Builder {
   const TableSettings& settings_;
   const TableProgress& progress_;
   optics::AzimuthKind kind_ = optics::AzimuthKind::folded;
-  const SpectralPoint* point_ = nullptr;  ///< of the slice under way
+  const SpectralPoint* point_ = nullptr;  ///< of the current slice
   std::uint64_t slice_ = 0;
   double slice_azimuth_ = 0.0;
   std::uint64_t intervals_ = 0, azimuths_ = 0, cut_ = 0, unconverged_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// From a height field to a surface table, by tracing.
+/// Surface tables from height fields, by ray tracing.
 
 #include <cstdint>
 #include <functional>
@@ -13,57 +13,58 @@
 
 namespace scintray::topography {
 
-/// How a table is traced. The defaults are those of E. Roncali and S. R. Cherry 2013, Phys. Med.
+/// Settings of the tracing of a table. The defaults are those of E. Roncali and S. R. Cherry 2013, Phys. Med.
 /// Biol. 58, 2185, section 2.1: 2.25 deg of incidence, 9 deg of azimuth, 2000 rays each.
 struct TableSettings {
   double incidence_step_rad = 2.25 * core::kDegree;
   double azimuth_step_rad = 9.0 * core::kDegree;
   std::uint64_t rays = 2000;  ///< per incidence angle and azimuth step
   std::uint64_t seed = 1;
-  bool refine = true;           ///< bisect where the reflectance changes fast, as at a critical angle
-  double refine_change = 0.05;  ///< change of reflectance that requests another node
-  double refine_down_to_rad = 0.1 * core::kDegree;  ///< intervals not wider than this are left
+  bool refine = true;  ///< bisect intervals in which the reflectance changes fast, as at a critical angle
+  double refine_change = 0.05;  ///< change of reflectance above which an interval is bisected
+  double refine_down_to_rad = 0.1 * core::kDegree;  ///< intervals not wider than this are not bisected
   double grazing_rad = 89.9 * core::kDegree;        ///< where the node at 90 deg is traced
 
-  /// A slice per azimuth step of incidence on the map, for surfaces with direction; `rays` are then traced
+  /// A slice per azimuth step of incidence on the map, for anisotropic surfaces; `rays` are then traced
   /// for each incidence angle and slice.
   bool directional = false;
-  /// One-sigma error of a node's reflectance (and absorptance) down to which rays are added; 0: the number
+  /// One-sigma error of a node's reflectance (and absorptance) until which rays are added; 0: the number
   /// of rays is fixed.
   double target_error = 0.0;
-  std::uint64_t most_rays = 64;  ///< at most this many times the rays of a fixed number
-  /// Lossless surfaces only: the table is made exactly reciprocal (ReciprocalKernel), each of its states lit
-  /// with half as many rays as a node. Not together with `directional`.
+  std::uint64_t most_rays = 64;  ///< limit of the added rays, as a multiple of `rays`
+  /// For lossless surfaces only: the table is made exactly reciprocal (ReciprocalKernel), each of its states
+  /// lit with half as many rays as a node. Not together with `directional`.
   bool reciprocal = false;
 };
 
-/// A wavelength to tabulate, and the indices there.
+/// A wavelength of the table, and the indices at it.
 struct SpectralPoint {
   double wavelength_nm = 0.0;  ///< 0: not stated
   optics::IndexPair index;
 };
 
-/// Called with the share of the work done so far, between 0 and 1; returns false to stop.
+/// Progress callback: its argument is the share of the work done, 0 to 1; it returns false to stop.
 using TableProgress = std::function<bool(double)>;
 
-/// The building of a table was stopped by its progress callback.
+/// Thrown when the progress callback stops the building of a table.
 class TableStopped : public core::Cancelled {
  public:
   using core::Cancelled::Cancelled;
 };
 
-/// Whether a direction, in the frame of the surface (z: outwards), points into the medium that the light left
-/// into; so does that of absorbed light. A ray for which it does not has no medium: none may (InternalError).
+/// True when a direction, in the frame of the surface (z: outwards), points into the medium into which the
+/// light left; true for absorbed light. A ray for which it is false has no medium (InternalError).
 [[nodiscard]] bool leaves_into_medium(optics::SurfaceOutcome outcome, const core::Vec3& direction);
 
-/// Traces unpolarised light from both sides at every incidence node of every wavelength: positions uniform
-/// over the map (so facets are hit as the beam sees them), azimuths of the map stratified over the circle
-/// (or, for a directional table, one by one), rays followed until they leave. Nodes are then bisected where
-/// settings.refine states so, and rays added as settings.target_error requires.
+/// Surface table of a height field: traces unpolarised light from both sides at every incidence node of every
+/// wavelength, with positions uniform over the map (so that facets are weighted by their area projected along
+/// the beam) and azimuths of the map stratified over the circle (or, for a directional table, one by one);
+/// rays are followed until they leave. Then nodes are bisected where settings.refine requires, and rays added
+/// as settings.target_error requires.
 ///
 /// Runs on all threads of the calling task arena; the result is the same for any number of them.
 /// @param spectrum   at least one point, in order of wavelength
-/// @param provenance map, preparation and tiling as the caller knows them; the rest is filled in.
+/// @param provenance map, preparation and tiling, set by the caller; the rest is filled in
 /// InputError on settings out of range; TableStopped when `progress` returns false.
 optics::SurfaceTable build_table(const optics::HeightField& field, const std::vector<SpectralPoint>& spectrum,
                                  const TableSettings& settings, optics::TableProvenance provenance = {},
@@ -73,8 +74,8 @@ optics::SurfaceTable build_table(const optics::HeightField& field, const optics:
                                  const TableSettings& settings, optics::TableProvenance provenance = {},
                                  const TableProgress& progress = {});
 
-/// A whole stack as one table: the same for any surface, its gap, reflector and shares included. Of a stack
-/// the mean visible slope is not known: it is left at zero.
+/// A complete stack as one table: the same for any surface, including its gap, reflector and shares. The mean
+/// visible slope of a stack is not available: it is zero.
 optics::SurfaceTable build_stack_table(const optics::Surface& surface,
                                        const std::vector<SpectralPoint>& spectrum,
                                        const TableSettings& settings, optics::TableProvenance provenance = {},

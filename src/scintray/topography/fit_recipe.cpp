@@ -17,7 +17,7 @@ namespace {
 constexpr double kClose = 0.02;
 constexpr std::uint64_t kRays = 40000;
 
-/// What a recipe shows, as means over the realisations.
+/// Slopes and height of a recipe, as means over the realisations.
 struct Shown {
   double normal_rad = 0.0, grazing_rad = 0.0, rms_height_um = 0.0;
 };
@@ -35,8 +35,8 @@ Shown show(SynthesisRecipe recipe, std::uint32_t realisations) {
   return shown;
 }
 
-/// The equations, in the form that Eigen's solvers request: unknowns are logarithms of what is
-/// searched, residuals logarithms of what is shown over what is wanted.
+/// The equations, in the form that Eigen's solvers require: unknowns are logarithms of the parameters,
+/// residuals logarithms of the values over their targets.
 class Equations {
  public:
   Equations(const SynthesisRecipe& recipe, const SlopeTarget& target) : recipe_(recipe), target_(target) {}
@@ -51,8 +51,8 @@ class Equations {
   }
 
   SynthesisRecipe recipe(const Eigen::VectorXd& logarithms) const {
-    // A search for what cannot be strays far from any surface, where rays take for ever: reliefs as
-    // high as they are wide, and bowls with walls, are its ends.
+    // A search for an impossible target moves far from any surface, where rays take very long: reliefs as
+    // high as they are wide, and bowls with steep walls, are the bounds.
     const auto value = [&](Eigen::Index k, double most) {
       return std::exp(std::clamp(logarithms[k], -20.0, std::log(most)));
     };
@@ -116,7 +116,7 @@ SynthesisRecipe fit_recipe(const SynthesisRecipe& recipe, const SlopeTarget& tar
   solver.parameters.epsfcn = 1e-4;
   solver.parameters.xtol = 1e-4;
   solver.parameters.maxfev = 30;
-  // Its result is not needed: what the recipe shows decides.
+  // Its status is not needed: the slopes of the recipe are compared below.
   solver.solveNumericalDiff(logarithms);
   const SynthesisRecipe result = equations.recipe(logarithms);
   const Shown shown = show(result, target.realisations);
@@ -124,8 +124,8 @@ SynthesisRecipe fit_recipe(const SynthesisRecipe& recipe, const SlopeTarget& tar
       !near(shown.rms_height_um, target.rms_height_um))
     throw core::InputError(
         {{},
-         fmt::format("recipe {} comes to mean slopes of {:.2f} deg at normal and {:.2f} deg at grazing "
-                     "incidence and an rms height of {:.4g} um, not to the targets",
+         fmt::format("recipe {} has mean slopes of {:.2f} deg at normal and {:.2f} deg at grazing "
+                     "incidence and an rms height of {:.4g} um, not the targets",
                      recipe.name, shown.normal_rad / core::kDegree, shown.grazing_rad / core::kDegree,
                      shown.rms_height_um),
          "change its spacing, spreads or correlation length"});

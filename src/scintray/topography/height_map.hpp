@@ -1,5 +1,5 @@
 #pragma once
-/// A measured or made height map, before it becomes a surface that light interacts with.
+/// Measured or synthetic height maps, before they become surfaces.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace scintray::topography {
 
-/// Heights on a rectangular grid, um, with the record of everything that was done to them.
+/// Heights on a rectangular grid, um, with the record of their processing.
 struct HeightMap {
   std::vector<double> heights_um;  ///< row-major, heights_um[row * columns + column]; NaN: missing
   std::uint32_t columns = 0;       ///< along x
@@ -19,8 +19,8 @@ struct HeightMap {
   double pitch_x_um = 0.0;
   double pitch_y_um = 0.0;
   std::string title;
-  bool periodic = false;           ///< the row after the last is the first again, by construction
-  std::vector<std::string> steps;  ///< where it comes from and what was done, in order
+  bool periodic = false;           ///< the row after the last is the first, by construction
+  std::vector<std::string> steps;  ///< origin and processing steps, in order
 
   double& at(std::uint32_t column, std::uint32_t row) {
     return heights_um[std::size_t{row} * columns + column];
@@ -32,48 +32,45 @@ struct HeightMap {
   std::string history() const;
 };
 
-/// What the reader is given beyond what the file states. A value given here takes the place of the
-/// file's own.
+/// Options of the reader beyond the content of the file. A value set here replaces the file's own.
 struct ReadOptions {
   std::optional<double> pitch_um;        ///< distance of neighbouring points, both ways
   std::optional<double> width_um;        ///< lateral width of the whole map, columns * pitch
   std::optional<double> height_unit_um;  ///< um per unit of the numbers in the file
-  std::optional<std::string> channel;    ///< by name, or the beginning of one name
+  std::optional<std::string> channel;    ///< by name, or the unique beginning of a name
   bool periodic = false;                 ///< the map is one period of a periodic surface
   bool query_gwyddion = true;            ///< other formats go to the program gwyddion where it is installed
 };
 
-/// Reads a height map; the format is found from the content, through gzip where it is compressed.
+/// Height map of a file; the format is detected from the content, also within gzip.
 ///
 /// Formats: Gwyddion (.gwy, also of version 1) and its simple field (.gsf) and text export with an
 /// English or German header, Nanoscope, PicoView (.mi), Igor wave (.ibw), ISO 25178-71 (.sdf) and -72
 /// (.x3p), the text matrix of optical profilers ("h=650 w=650 / pixel size=..."), a bare matrix of
-/// numbers, a list of x y z on a grid; docs/height_maps.md tells which is which. Anything else is given to
+/// numbers, a list of x y z on a grid; docs/height_maps.md describes them. Other files are passed to
 /// the program gwyddion, where it is installed and the options allow it.
 ///
-/// Units are read, never guessed: InputError requests what neither file nor options state. Where a
-/// file has several channels and none is requested, the height that a sensor measured goes before
-/// another height, forward before backward; InputError lists the channels when that leaves a choice,
-/// or when the one requested is not there. The channel and the number of missing points stand in the
-/// map's steps. InputError also on truncated data, on sizes that the file cannot hold, and on
-/// infinite heights.
+/// Units are read, never guessed: InputError when neither file nor options state one. In a file of several
+/// channels with none requested, the height that a sensor measured has precedence over another height,
+/// forward over backward; InputError lists the channels when this leaves several, or when the requested one
+/// does not exist. The channel and the number of missing points are in the map's steps. InputError also on
+/// truncated data, on sizes that the file cannot hold, and on infinite heights.
 HeightMap read_height_map(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// Writes a Gwyddion simple field, metres in single precision. SystemError when it cannot.
+/// Writes a Gwyddion simple field, metres in single precision. Throws SystemError on failure.
 void write_gsf(const std::filesystem::path& path, const HeightMap& map);
 
-/// How a finite map is continued without an edge.
+/// Continuation of a finite map without an edge.
 enum class Tiling {
   mirror,     ///< mirrored at every edge: period 2 (N - 1) points
   periodic,   ///< repeated as it is
-  automatic,  ///< periodic when the map states that it is, else mirror
+  automatic,  ///< periodic when the map is, else mirror
 };
 
-/// "mirror" or "periodic": what `tiling` comes to for this map.
+/// "mirror" or "periodic": the effect of `tiling` for this map.
 std::string tiling_name(const HeightMap& map, Tiling tiling);
 
-/// The map as a surface without edges. InputError when the map is smaller than 2 x 2 or points of it
-/// are missing.
+/// The map as a surface without edges. InputError when the map is smaller than 2 x 2 or has missing points.
 optics::HeightField make_height_field(const HeightMap& map, Tiling tiling = Tiling::automatic);
 
 }  // namespace scintray::topography

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers that describe a height map.
+/// Statistics of height maps.
 
 #include <array>
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace scintray::topography {
 
-/// Height and slope statistics of a map as it is (ISO 25178-2:2012, 4.1 and 4.3), heights from their
+/// Height and slope statistics of a map (ISO 25178-2:2012, 4.1 and 4.3), heights relative to their
 /// mean; missing points are left out. Slopes are those of neighbouring points and of the two
-/// triangles of each cell, as light hits them; a periodic map goes on over its edges.
+/// triangles of each cell, as light hits them; a periodic map continues across its edges.
 struct MapStatistics {
   std::uint64_t points = 0;   ///< with a height
   std::uint64_t missing = 0;  ///< without
@@ -32,20 +32,20 @@ struct MapStatistics {
   /// Share of the projected area whose angle to the mean plane lies between k and k + 1 deg.
   std::array<double, 90> slope_histogram{};
   /// Rms slope over two pitches as a share of the rms slope over one: sqrt((1 + r) / 2) for slopes
-  /// whose neighbours have the correlation r. 1: resolved; 0.71: every slope for itself; 0: zigzag.
+  /// whose neighbours have the correlation r. 1: resolved; 0.71: uncorrelated slopes; 0: zigzag.
   double slope_ratio_at_two_pitches = 1.0;
 };
 
-/// InputError when the map has no point with a height.
+/// Statistics of a map. InputError when the map has no point with a height.
 MapStatistics map_statistics(const HeightMap& map);
 
-/// Mean angle (rad) between the mean normal and the first facet hit by a parallel beam at an
-/// incidence angle in [0, 90 deg), averaged over position and azimuth, with its standard error.
-/// Runs on all threads of the calling task arena; the result is the same for any number of them.
+/// Mean visible slope: mean angle (rad) between the mean normal and the first facet hit by a parallel beam at
+/// an incidence angle in [0, 90 deg), averaged over position and azimuth, with its standard error. Runs on
+/// all threads of the calling task arena; the result is the same for any number of them.
 core::Estimate mean_visible_slope(const optics::HeightField& field, optics::Side side, double incidence_rad,
                                   std::uint64_t rays = 20000, std::uint64_t seed = 1);
 
-/// The incidence at which "grazing" slopes of recipes are stated: 88.5 deg.
+/// Incidence angle (rad) of the "grazing" slopes of recipes: 88.5 deg.
 inline constexpr double kGrazingStated_rad = 88.5 * core::kDegree;
 
 }  // namespace scintray::topography

@@ -16,7 +16,7 @@ namespace scintray::topography {
 namespace {
 
 constexpr int kDirections = 180;
-/// ISO 25178-3:2012, 4.3: the value to which the autocorrelation is followed unless given otherwise.
+/// ISO 25178-3:2012, 4.3: the default value to which the autocorrelation is followed.
 constexpr double kFallenTo = 0.2;
 constexpr double kResolvedRatio = 0.9, kLeastLengths = 10.0;
 
@@ -101,7 +101,7 @@ void fill_lengths(const HeightMap& map, MapTexture& texture) {
 
 double hann(std::uint32_t k, std::uint32_t n) { return 0.5 - 0.5 * std::cos(core::kTwoPi * (k + 0.5) / n); }
 
-/// Direction across that of most power.
+/// Direction perpendicular to that of most power.
 std::optional<double> lay_direction(const HeightMap& map) {
   std::vector<double> heights = centred(map);
   if (!map.periodic)
@@ -143,8 +143,8 @@ std::optional<double> lay_direction(const HeightMap& map) {
     }
   }
   if (!(most > 0.0)) return std::nullopt;
-  // The few terms of a map stand in few directions: the middle of the power about the maximum states
-  // more than the sector itself. The weight falls smoothly, so that no term jumps in or out.
+  // A map has few terms in few directions: the middle of the power about the maximum is more precise than the
+  // sector itself. The weight falls smoothly, so that no term jumps in or out.
   constexpr int kRounds = 30;
   double angle = (best + 0.5) * core::kDegree;
   for (int round = 0; round < kRounds; ++round) {
@@ -176,7 +176,7 @@ Autocorrelation::Autocorrelation(const HeightMap& map)
   values_ = self_products(centred(map), map, columns_, rows_);
   const std::vector<double> pairs = self_products(known, map, columns_, rows_);
   const double square = values_[0] / pairs[0];
-  // Counts are whole numbers up to rounding; where no pair of points is that far apart nothing is known.
+  // Counts are whole numbers up to rounding; at a lag without pairs of points the value is undefined.
   for (std::size_t k = 0; k < values_.size(); ++k)
     values_[k] = pairs[k] > 0.5 ? values_[k] / (pairs[k] * square) : std::nan("");
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The whole way from a raw height map to the surface, as a command or a scene requests it.
+/// All steps from a raw height map to the surface, as set in a command or a scene.
 
 #include <optional>
 #include <variant>
@@ -8,19 +8,19 @@
 
 namespace scintray::topography {
 
-/// What is subtracted from a map.
+/// Levelling: the shape subtracted from a map.
 struct Leveling {
   enum class Kind { none, mean, plane, polynomial };
   Kind kind = Kind::plane;
   int degree = 1;  ///< of the polynomial
 };
 
-/// A box of a map in lengths.
+/// A rectangle of a map in lengths.
 struct CropLengths {
   double x_um = 0.0, y_um = 0.0, width_um = 0.0, height_um = 0.0;
 };
 
-/// The steps, in the order in which they are done.
+/// The steps, in the order in which they are applied.
 struct Preparation {
   std::variant<std::monostate, CropBox, CropLengths> crop;
   std::optional<double> outlier_limit;  ///< robust standard deviations, see remove_outliers
@@ -32,7 +32,7 @@ struct Preparation {
   Leveling leveling;
 };
 
-/// Does the steps that are requested. InputError as each of them.
+/// Applies the steps that are set. InputError as each of them.
 void prepare(HeightMap& map, const Preparation& preparation);
 
 }  // namespace scintray::topography

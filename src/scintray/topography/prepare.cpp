@@ -18,7 +18,7 @@ void require(bool good, const std::string& what, const std::string& expected) {
   if (!good) throw core::InputError({{}, what + "; expected " + expected, ""});
 }
 
-/// Index on one axis, wrapped around when the map is periodic; nothing beyond an edge.
+/// Index on one axis, wrapped around when the map is periodic; empty beyond an edge.
 std::optional<std::uint32_t> neighbour(std::uint32_t at, long offset, std::uint32_t n, bool periodic) {
   const long index = static_cast<long>(at) + offset;
   if (index >= 0 && index < static_cast<long>(n)) return static_cast<std::uint32_t>(index);
@@ -27,7 +27,7 @@ std::optional<std::uint32_t> neighbour(std::uint32_t at, long offset, std::uint3
   return static_cast<std::uint32_t>(((index % size) + size) % size);
 }
 
-/// Weighted mean of neighbours on one axis, for every pixel; missing points weigh nothing.
+/// Weighted mean of neighbours on one axis, for every pixel; missing points have no weight.
 void blur_axis(HeightMap& map, bool along_x, double sigma_in_pixels) {
   const long reach = static_cast<long>(std::ceil(6.0 * sigma_in_pixels));
   std::vector<double> weights;
@@ -62,7 +62,7 @@ Eigen::VectorXd monomials(double x, double y, int degree) {
 }
 
 /// Local linear regression at one point of a line that has a height. Where fewer than two points of
-/// the window have one, no slope is known and the point stays as it is.
+/// the window have one, the slope is undefined and the point is unchanged.
 double loess_at(const double* line, std::uint32_t columns, std::uint32_t at, double half_width) {
   const long reach = static_cast<long>(std::ceil(half_width)) - 1;
   double s0 = 0, s1 = 0, s2 = 0, z0 = 0, z1 = 0;
@@ -115,10 +115,9 @@ void level_polynomial(HeightMap& map, int degree) {
       right += map.at(i, j) * m;
     }
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal.selfadjointView<Eigen::Lower>());
-  require(
-      solver.info() == Eigen::Success && solver.rcond() > 1e-13,
-      fmt::format("points with a height lie so that they do not settle a polynomial of degree {}", degree),
-      "points spread over the map, or a lower degree");
+  require(solver.info() == Eigen::Success && solver.rcond() > 1e-13,
+          fmt::format("points with a height do not determine a polynomial of degree {}", degree),
+          "points spread over the map, or a lower degree");
   const Eigen::VectorXd coefficients = solver.solve(right);
   for (std::uint32_t j = 0; j < map.rows; ++j)
     for (std::uint32_t i = 0; i < map.columns; ++i)
@@ -202,7 +201,7 @@ void filter_loess_lines(HeightMap& map, double width_um) {
   std::vector<double> line(map.columns);
   for (std::uint32_t j = 0; j < map.rows; ++j) {
     std::copy_n(&map.at(0, j), map.columns, line.begin());
-    // At an end of the line half the window is missing; a window of two points is the least.
+    // At an end of the line half the window is missing; a window of two points is the minimum.
     for (std::uint32_t i = 0; i < map.columns; ++i)
       if (!std::isnan(line[i])) map.at(i, j) = loess_at(line.data(), map.columns, i, half_width);
   }

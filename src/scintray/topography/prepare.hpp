@@ -1,6 +1,6 @@
 #pragma once
-/// From a raw height map to one that is the surface: cropping, levelling and filters. Each leaves a
-/// line in the map's steps. Missing points (NaN) take no part and stay missing.
+/// Preparation of a raw height map: cropping, levelling and filters. Each adds a
+/// line to the map's steps. Missing points (NaN) are left out and remain missing.
 
 #include <cstdint>
 
@@ -8,15 +8,15 @@
 
 namespace scintray::topography {
 
-/// Points of a map, counted from 0.
+/// A rectangle of points of a map, counted from 0.
 struct CropBox {
   std::uint32_t column = 0, row = 0;  ///< the first
   std::uint32_t columns = 0, rows = 0;
   bool operator==(const CropBox&) const = default;
 };
 
-/// Keeps the points of the box. What is left of a periodic map is not periodic. InputError when the
-/// box reaches out of the map or holds fewer than 2 x 2 points.
+/// Keeps the points of the box. The result of cropping a periodic map is not periodic. InputError when the
+/// box extends beyond the map or has fewer than 2 x 2 points.
 void crop(HeightMap& map, const CropBox& box);
 
 /// The box of this corner and size, um, rounded to whole points. InputError when one is negative.
@@ -27,7 +27,7 @@ void subtract_mean(HeightMap& map);
 
 /// Subtracts the least-squares polynomial of total degree `degree` (1: a plane) in x and y.
 /// InputError when degree is not in [0, 8], or when the points with a height are fewer than the
-/// coefficients or do not settle them.
+/// coefficients or do not determine them.
 void level_polynomial(HeightMap& map, int degree);
 
 /// Subtracts the least-squares plane.

@@ -30,9 +30,9 @@ std::string file_content(const std::filesystem::path& path) {
   const std::string export_it = "export the height channel from the instrument's program as text or .gsf";
   std::string hint = export_it;
   if (answer == GwyddionAnswer::not_installed)
-    hint = "install gwyddion, which reads many more formats and is asked when it is there, or " + export_it;
+    hint = "install gwyddion, which reads many more formats and is run when it is installed, or " + export_it;
   if (answer == GwyddionAnswer::refused) hint = "Gwyddion does not read it either: " + export_it;
-  if (answer == GwyddionAnswer::timed_out) hint = "Gwyddion did not come to an end with it: " + export_it;
+  if (answer == GwyddionAnswer::timed_out) hint = "Gwyddion did not finish reading it: " + export_it;
   throw core::InputError({{file}, "format not known; expected one of: " + format_names(), hint});
 }
 
@@ -63,8 +63,8 @@ void set_pitch(const ReadOptions& options, RawMap& map, const std::string& file,
     map.pitch_y_um = *map.pitch_x_um * map.pitch_ratio;
   }
   if (!map.pitch_x_um || !map.pitch_y_um)
-    problems.add({file}, "the file gives no lateral size in a unit of length",
-                 "give it: --pitch \"0.175 um\" or --width \"90 um\"");
+    problems.add({file}, "the file has no lateral size in a unit of length",
+                 "set it: --pitch \"0.175 um\" or --width \"90 um\"");
   else if (!std::isfinite(*map.pitch_x_um) || !(*map.pitch_x_um > 0.0) || !std::isfinite(*map.pitch_y_um) ||
            !(*map.pitch_y_um > 0.0))
     problems.add({file}, "the distance of points is not a positive number", "the header is damaged");
@@ -75,12 +75,12 @@ void set_unit(const ReadOptions& options, RawMap& map, const std::string& file, 
   if (map.height_unit_um) return;
   const std::string which = map.channel.empty() ? "heights" : "channel " + core::in_quotes(map.channel);
   if (trimmed(map.height_unit).empty())
-    problems.add({file}, "the file gives no unit of length for " + which, "give it: --unit um");
+    problems.add({file}, "the file has no unit of length for " + which, "set it: --unit um");
   else
     problems.add({file}, which + " is in " + core::in_quotes(map.height_unit) + "; expected a unit of length",
                  map.channels.size() > 1
-                     ? "choose a height channel, or say what one of these units stands for: --unit um"
-                     : "say what one of these units stands for: --unit um");
+                     ? "choose a height channel, or state the length of one of these units: --unit um"
+                     : "state the length of one of these units: --unit um");
 }
 
 std::string shortest(double value) {
@@ -93,13 +93,13 @@ std::string place_of(std::size_t k, std::uint32_t columns) {
   return "column " + std::to_string(k % columns + 1) + ", row " + std::to_string(k / columns + 1);
 }
 
-/// How many points have no height.
+/// Number of points without a height.
 std::size_t missing_points(const HeightMap& map) {
   return static_cast<std::size_t>(
       std::count_if(map.heights_um.begin(), map.heights_um.end(), [](double h) { return std::isnan(h); }));
 }
 
-/// um for all heights; what is infinite is an error, what is missing stays NaN.
+/// Heights in um; an infinite height is an error, a missing one remains NaN.
 void scale_heights(HeightMap& map, double unit_um, const std::string& file) {
   for (std::size_t k = 0; k < map.heights_um.size(); ++k) {
     double& height = map.heights_um[k];
@@ -118,7 +118,7 @@ std::string source_step(const std::filesystem::path& path, const RawMap& raw, co
   step += "), " + std::to_string(raw.columns) + " x " + std::to_string(raw.rows) + " points, pitch " +
           shortest(*raw.pitch_x_um) + " x " + shortest(*raw.pitch_y_um) + " um";
   if (options.height_unit_um)
-    step += ", heights in units of " + shortest(*options.height_unit_um) + " um as told";
+    step += ", heights in units of " + shortest(*options.height_unit_um) + " um as given";
   return step;
 }
 

@@ -40,7 +40,7 @@ void check(const ScratchRelief& s, double narrow, const Require& require) {
           "width of scratches is not between 0 and a twentieth of the map's width");
   require(s.length_um > 0.0 && s.length_um < 0.5 * narrow,
           "length of scratches is not between 0 and half the map's width");
-  // As many as there are pixels along the map's width, ten times over, are no scratches any more.
+  // Scratches that together cover the map more than ten times are no longer scratches.
   require(s.spacing_um * 10.0 >= s.width_um, "scratches are closer than a tenth of their width");
 }
 

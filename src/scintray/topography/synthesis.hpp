@@ -1,5 +1,5 @@
 #pragma once
-/// Height maps made from a recipe: for surfaces that were not measured.
+/// Synthetic height maps, for surfaces that were not measured.
 
 #include <cstdint>
 #include <string>
@@ -13,14 +13,14 @@ namespace scintray::topography {
 /// correlation_length)^2), u along the lay (the direction of grooves) and v across it.
 struct GaussianRelief {
   double rms_height_um = 0.0;          ///< Sq, exactly
-  double correlation_length_um = 1.0;  ///< where the autocorrelation has fallen to 1/e, across the lay
-  double lay_length_um = 0.0;          ///< the same along the lay; 0: no lay, the same both ways
+  double correlation_length_um = 1.0;  ///< lag at which the autocorrelation has fallen to 1/e, across the lay
+  double lay_length_um = 0.0;          ///< the same along the lay; 0: isotropic
   double lay_angle_rad = 0.0;          ///< of the lay, from x towards y
 };
 
 /// Fracture by grit: bowls chipped out of the surface, side by side, each
 /// depth + (r / radius)^exponent * rise; the surface is the lowest bowl everywhere, so neighbours
-/// meet in sharp ridges that are the steepest part. A second, independent set is laid upside down
+/// join in sharp ridges that are the steepest part. A second, independent set is laid upside down
 /// on top, so that grooves are as sharp as ridges and light from both sides hits the same slopes.
 struct FractureRelief {
   double spacing_um = 0.0;       ///< mean distance of bowls, 1/sqrt(density); 0: no fracture
@@ -58,7 +58,7 @@ struct SpectrumRelief {
   std::vector<double> density_um4;       ///< not negative
 };
 
-/// All that it takes to make the same map again. The map is periodic; reliefs add up.
+/// All parameters of a synthetic map. The map is periodic; its height is the sum of the reliefs.
 struct SynthesisRecipe {
   std::string name = "gaussian";
   GaussianRelief gaussian;
@@ -75,19 +75,19 @@ struct SynthesisRecipe {
 /// A ground crystal, heavy-tailed in slope: on average over seeds 1 to 5 the mean visible slope is 18 deg
 /// at normal incidence and 35 deg at grazing (88.5 deg), heights within about +-3 um (Roncali and
 /// Cherry 2013, Phys. Med. Biol. 58, 2185, section 3.1), and Sq is 0.45 um, which is no part of that
-/// source. Spacing, spreads and correlation length were chosen so that heights stay within those
-/// limits, the rest was searched by
+/// source. Spacing, spreads and correlation length were chosen so that heights remain within those
+/// limits, the rest was fitted by
 ///     scintray map synthesize ground --fit-normal "18 deg" --fit-grazing "35 deg"
 ///         --fit-rms-height "0.45 um" --seeds 5 -o ground.gsf
 SynthesisRecipe ground_recipe();
 
 /// A polished crystal with scratches: on average over seeds 1 to 5 the mean visible slope is 1.25 deg, at
 /// any incidence up to 85 deg within 0.02 deg, heights within about +-0.05 um (as above). The
-/// scratches are an assumption; the height of the Gaussian relief was searched beside them by
+/// scratches are an assumption; the height of the Gaussian relief was fitted with them by
 ///     scintray map synthesize polished --fit-normal "1.25 deg" --seeds 5 -o polished.gsf
 SynthesisRecipe polished_recipe();
 
-/// Makes the map; the same recipe always gives the same map. InputError names what is out of range.
+/// The map of a recipe, the same for the same recipe. InputError names the parameter that is out of range.
 HeightMap synthesize(const SynthesisRecipe& recipe);
 
 /// The recipe in one line, numbers in full; of a tabulated spectrum only its extent.

@@ -15,14 +15,14 @@ namespace {
 
 using Eigen::Index;
 
-/// Correlations above this leave only a combination of two parameters known.
+/// Correlation above which only a combination of two parameters is determined.
 constexpr double kSameDirection = 0.98;
 constexpr double kLeastProbability = 1e-3;
 
 void check(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
            const CurveFitOptions& options) {
   core::Problems problems;
-  if (parameters.empty()) problems.add({}, "a fit without parameters", "give one at least");
+  if (parameters.empty()) problems.add({}, "a fit without parameters", "define at least one");
   for (const FitParameter& p : parameters)
     if (!(p.low < p.start && p.start < p.high))
       problems.add({},
@@ -56,13 +56,13 @@ void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen
     const std::string& name = p.parameter.name;
     if (p.at_low || p.at_high)
       warn(
-          fmt::format("{} is at its {} bound, {:g}: the best value may lie beyond it, and its error is not "
+          fmt::format("{} is at its {} bound, {:g}: the best value may be beyond it, and its error is not "
                       "that of a free parameter",
                       name, p.at_low ? "lower" : "upper", p.at_low ? p.parameter.low : p.parameter.high));
     if (!p.determined)
       warn(
           fmt::format("the measurement does not determine {}: its error, {:.3g}, is as large as that of "
-                      "knowing nothing between {:g} and {:g}",
+                      "a uniform distribution between {:g} and {:g}",
                       name, p.value.error, p.parameter.low, p.parameter.high));
     else if (p.monte_carlo_error * p.monte_carlo_error > 0.5 * p.value.error * p.value.error)
       warn(
@@ -71,30 +71,30 @@ void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen
                       name));
     const auto k = static_cast<Index>(j);
     if (p.determined && slope_noise(k, k) > 0.1 * information(k, k))
-      warn(fmt::format("the slope of the curve by {} is known to {:.0f} % only: take more photons", name,
+      warn(fmt::format("the slope of the curve by {} is known to {:.0f} % only: use more photons", name,
                        100.0 * std::sqrt(slope_noise(k, k) / information(k, k))));
     for (std::size_t other = 0; other < j; ++other) {
       const double correlation = fit.correlation(k, static_cast<Index>(other));
       if (std::abs(correlation) > kSameDirection)
         warn(
             fmt::format("{} and {} have a correlation of {:.4f}: the measurement determines a combination of "
-                        "the two, hardly each",
+                        "the two, hardly each of them",
                         fit.parameters[other].parameter.name, name, correlation));
     }
   }
   if (fit.end == FitEnd::not_converged)
     warn(
-        "the search did not come to rest: what is given is the best it found. Start nearer, narrow the "
+        "the search did not converge: the result is the best point found. Start nearer, narrow the "
         "bounds, "
-        "or take more photons");
+        "or use more photons");
   if (!errors_from_scatter && fit.goodness.degrees > 0.0 && fit.goodness.p_value < kLeastProbability)
     warn(
         "the fitted curve does not describe the measurement within its errors, so the errors of the "
         "parameters, "
-        "which take the model to be right, are too small");
+        "which assume a correct model, are too small");
 }
 
-/// The scale's own error and that which it takes from the parameters.
+/// The scale's own error and its part from the parameters.
 double scale_error(const FitSearch& search, const FitCovariance& covariance, const ModelCurve& curve) {
   const WeightedResiduals& residuals = search.residuals();
   if (!residuals.free_scale()) return 0.0;

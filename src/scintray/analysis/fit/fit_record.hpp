@@ -1,5 +1,5 @@
 #pragma once
-/// A fit of a scene to a measurement, with everything that its file and its page hold. Plain data.
+/// A fit of a scene to a measurement, with the content of its file and its page. Plain data.
 
 #include <cstdint>
 #include <string>
@@ -23,7 +23,7 @@ struct FitRecord {
   std::vector<std::string> notes;  ///< warnings of the scene
 };
 
-/// What is measured, for headings: "detected fraction", "light per keV", "reflectance".
+/// Name of the measured quantity, for headings: "detected fraction", "light per keV", "reflectance".
 inline const char* quantity_words(scene_file::FitQuantity quantity) {
   return quantity == scene_file::FitQuantity::detected_fraction ? "detected fraction"
          : quantity == scene_file::FitQuantity::light_per_keV   ? "light per keV"

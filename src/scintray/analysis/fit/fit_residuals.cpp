@@ -39,7 +39,7 @@ double WeightedResiduals::match_common_error(const ModelCurve& curve, double deg
     reweight(curve);
     return chi2(curve);
   };
-  // Wide enough for any curve: the residuals of no curve at all are the values themselves.
+  // Wide enough for any curve: the residuals without a curve are the values themselves.
   double low = 1e-9 * value_.norm(), high = value_.norm();
   if (chi2_with(low) < degrees) {
     set_common_error(0.0);
@@ -57,7 +57,7 @@ double WeightedResiduals::match_common_error(const ModelCurve& curve, double deg
 
 void WeightedResiduals::reweight(const ModelCurve& curve) {
   const Eigen::VectorXd model_error = errors_of(curve);
-  // The scale is in the errors and the errors in the scale: a few rounds settle both.
+  // The scale depends on the errors and the errors on the scale: both converge in a few iterations.
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
     const double s = scale(curve);

@@ -15,7 +15,7 @@ MeasuredCurve read_measured_curve(const std::filesystem::path& path) {
     throw core::InputError(
         {{table.file, table.rows.front().line, 1},
          fmt::format("rows of {} values; expected position,value or position,value,error", width),
-         "take the other columns away"});
+         "remove the other columns"});
   core::Problems problems;
   MeasuredCurve curve;
   curve.has_errors = width == 3;
@@ -26,7 +26,7 @@ MeasuredCurve read_measured_curve(const std::filesystem::path& path) {
       problems.add(point.where,
                    fmt::format("a position of {:g} after {:g}; expected them to increase", point.x,
                                curve.points.back().x),
-                   "sort the rows by position, and give each position once");
+                   "sort the rows by position, each position once");
     if (point.y.value < 0.0)
       problems.add(point.where, fmt::format("a value of {:g}; expected 0 or more", point.y.value),
                    "light and reflectance are not negative: leave the row out");

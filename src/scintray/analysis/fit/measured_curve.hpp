@@ -1,5 +1,5 @@
 #pragma once
-/// A measured curve that a simulation is compared with.
+/// A measured curve for comparison with a simulation.
 
 #include <filesystem>
 #include <vector>
@@ -20,9 +20,9 @@ struct MeasuredCurve {
   bool has_errors = false;
 };
 
-/// Reads rows of position, value and perhaps error (one sigma) from a CSV file, with or without a heading.
-/// InputError with every row that is wrong: not two or three columns, positions that do not increase, values
-/// below 0, errors that are not above 0; or nothing above 0 at all.
+/// Curve of a CSV file with rows of position, value and optionally error (one sigma), with or without a
+/// heading. InputError with every row that is wrong: not two or three columns, positions that do not
+/// increase, values below 0, errors that are not above 0; or no value above 0.
 MeasuredCurve read_measured_curve(const std::filesystem::path& path);
 
 }  // namespace scintray::analysis

@@ -12,7 +12,7 @@ namespace scintray::analysis {
 
 namespace {
 
-/// Rays followed as one piece; with the order of the sums, part of what makes readings reproducible.
+/// Rays of one block; with the order of the sums, it makes readings reproducible.
 constexpr std::uint64_t kBlockRays = 16384;
 
 /// Sums of directions on one side, components forward, across, along.

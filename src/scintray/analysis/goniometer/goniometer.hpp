@@ -1,5 +1,5 @@
 #pragma once
-/// A goniometer: a parallel beam on one surface, and where its light goes.
+/// A goniometer: a parallel beam on one surface, and the distribution of the outgoing light.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace scintray::analysis {
 
 struct GoniometerSettings {
-  optics::Side side = optics::Side::inside;  ///< where the light comes from
+  optics::Side side = optics::Side::inside;  ///< side of the incident light
   double incidence_rad = 0.0;                ///< from the mean normal, in [0, 90 deg)
   double wavelength_nm = 0.0;
   std::uint64_t rays = 1'000'000;
@@ -21,18 +21,18 @@ struct GoniometerSettings {
   double profile_half_width_rad = 5.0 * core::kDegree;  ///< of the detector, out of the plane of incidence
 };
 
-/// Mean direction and width of the light that left on one side.
+/// Mean direction and width of the outgoing light on one side.
 struct Lobe {
-  std::uint64_t rays = 0;  ///< nothing below means anything without
+  std::uint64_t rays = 0;  ///< the other members are defined only above 0
   /// Of the mean direction: its angle in the plane of incidence from the side's outward normal, forward
   /// positive, and its angle out of that plane (rad), with standard errors.
   core::Estimate in_plane_rad, across_rad;
-  /// Root mean square of the direction's component, across the mean direction, in the plane of incidence
-  /// and out of it: for narrow lobes the standard deviation in rad, at most 1.
+  /// Root mean square of the direction's component perpendicular to the mean direction, in the plane of
+  /// incidence and out of it: for narrow lobes the standard deviation in rad, at most 1.
   double width_in_plane = 0.0, width_across = 0.0;
 };
 
-/// What came of the rays; every ray is in exactly one of the three counts.
+/// Result of the rays; every ray is in exactly one of the three counts.
 struct GoniometerReading {
   GoniometerSettings settings;
   std::uint64_t reflected = 0, transmitted = 0, absorbed = 0;
@@ -44,9 +44,9 @@ struct GoniometerReading {
   core::Estimate absorptance() const { return core::binomial_estimate(absorbed, settings.rays); }
 };
 
-/// Shoots unpolarised light (the mean of Fresnel's two reflectances at every facet, as tables are made) at
-/// a surface. A surface with a direction lies on a face of normal z, the light travelling
-/// towards +x.
+/// Reading of unpolarised light (the mean of Fresnel's two reflectances at every facet, as in tables)
+/// incident on a surface. An anisotropic surface is on a face of normal z, with the light travelling towards
+/// +x.
 ///
 /// Runs on all threads of the calling task arena; the reading is the same for any number of them.
 /// @param index  of the media on the two sides, at the wavelength

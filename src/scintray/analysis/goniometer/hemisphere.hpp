@@ -9,9 +9,9 @@
 
 namespace scintray::analysis {
 
-/// Cells: rings of equal steps of the polar angle, each cut into equal steps of azimuth, so many that a
-/// cell is about as wide as it is high. Azimuth 0 is the middle of a ring's first cell, so the plane of
-/// incidence cuts no cell's edge there.
+/// Cells of a hemisphere: rings of equal steps of the polar angle, each divided into equal steps of azimuth
+/// so that a cell is about as wide as high. Azimuth 0 is the middle of a ring's first cell, so the plane of
+/// incidence is not on an edge of a cell there.
 class HemisphereGrid {
  public:
   static constexpr int kRings = 45;  ///< of 2 deg
@@ -33,11 +33,11 @@ class HemisphereGrid {
   std::vector<std::size_t> first_;  ///< index of each ring's first cell, and the number of all
 };
 
-/// The one grid.
+/// The grid that all readings share.
 const HemisphereGrid& hemisphere_grid();
 
-/// Directions on one side, as an instrument would see them: polar angle from that side's outward normal;
-/// azimuth 0 forward, in the plane of incidence, where a mirror or a flat face would send the light.
+/// Directions on one side, as in an instrument: polar angle from that side's outward normal;
+/// azimuth 0 forward, in the plane of incidence, the side of light from a mirror or a flat face.
 struct DirectionCounts {
   /// Bins of the in-plane profile: 1 deg from -90 to 90 deg, forward positive.
   static constexpr int kProfileBins = 180;
@@ -47,10 +47,10 @@ struct DirectionCounts {
 
   DirectionCounts();
   /// `forward`, `across`, `along` are the direction's components (unit length, `along` >= 0 along the
-  /// side's outward normal); the profile takes it when |across| <= sine of the half-width.
+  /// side's outward normal); it counts in the profile when |across| <= sine of the half-width.
   void add(double forward, double across, double along, double sin_half_width);
   void merge(const DirectionCounts& other);
-  /// Light that left on this side.
+  /// Number of rays that left on this side.
   std::uint64_t total() const;
 };
 

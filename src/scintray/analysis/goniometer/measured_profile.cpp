@@ -18,7 +18,7 @@ double area(const std::vector<double>& x, const std::vector<double>& y) {
   return sum;
 }
 
-/// The reading's density at an angle, linear between the middles of bins, level beyond.
+/// The reading's density at an angle, linear between the middles of bins, constant beyond.
 double density_at(const DirectionCounts& reading, double angle_deg, double per_count) {
   const double at = std::clamp(angle_deg - profile_edge_deg(0) - 0.5, 0.0,
                                static_cast<double>(DirectionCounts::kProfileBins - 1));
@@ -37,7 +37,7 @@ MeasuredProfile read_measured_profile(const std::filesystem::path& path) {
     throw core::InputError(
         {{table.file, table.rows.front().line, 1},
          fmt::format("rows of {} values; expected angle_deg,value or angle_deg,value,error", width),
-         "take the other columns away"});
+         "remove the other columns"});
   core::Problems problems;
   MeasuredProfile profile;
   for (const config::CsvTable::Row& row : table.rows) {
@@ -51,7 +51,7 @@ MeasuredProfile read_measured_profile(const std::filesystem::path& path) {
     if (!profile.angle_deg.empty() && angle <= profile.angle_deg.back())
       wrong(fmt::format("an angle of {:g} deg after {:g}; expected them to increase", angle,
                         profile.angle_deg.back()),
-            "sort the rows by angle, and give each angle once");
+            "sort the rows by angle, each angle once");
     if (value < 0.0) wrong(fmt::format("a value of {:g}; expected 0 or more", value), "");
     if (width == 3 && row.values[2] < 0.0)
       wrong(fmt::format("an error of {:g}; expected 0 or more", row.values[2]), "");
@@ -80,7 +80,7 @@ ScaledProfile scale_to(const MeasuredProfile& measured, const DirectionCounts& r
          fmt::format("no ray left between {:g} and {:g} deg in the plane of incidence, where the "
                      "measurement is",
                      measured.angle_deg.front(), measured.angle_deg.back()),
-         "give more rays, a wider --half-width, or the measurement of this surface"});
+         "use more rays, a wider --half-width, or the measurement of this surface"});
   ScaledProfile scaled{measured, own_area / area(measured.angle_deg, measured.value), 0.0};
   double squares = 0.0;
   for (std::size_t k = 0; k < own.size(); ++k) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kSlopeRays = 40'000;
 
-/// Of the first wavelength, over all azimuths: facets do not change with the light's colour.
+/// Mean visible slope at the first wavelength, over all azimuths: facets do not depend on wavelength.
 double slope_in_table(const optics::SurfaceTable& table, optics::Side side, double incidence_rad) {
   double sum = 0.0;
   for (std::size_t slice = 0; slice < table.azimuths(); ++slice)
@@ -67,7 +67,7 @@ SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
 bool has_facets(const optics::Surface& surface) {
   if (!surface.mixture.empty()) return false;
   if (const auto* table = surface.microsurface.get_if<optics::SurfaceTable>())
-    return table->provenance().stack.empty();  // a table of a stack does not know
+    return table->provenance().stack.empty();  // not available in a table of a stack
   return surface.microsurface->kind() == optics::MicrosurfaceKind::smooth ||
          surface.microsurface.get_if<optics::HeightField>();
 }

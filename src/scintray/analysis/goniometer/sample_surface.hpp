@@ -1,5 +1,5 @@
 #pragma once
-/// A surface of the database between two media at one wavelength, ready for the goniometer.
+/// A surface of the database between two media at one wavelength, for the goniometer.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace scintray::analysis {
 
-/// What lies where.
+/// The surface, the media on both sides, and the wavelength.
 struct SamplePlace {
   std::string surface;
   std::string inside, outside;  ///< media
@@ -24,21 +24,21 @@ struct SampleSurface {
   std::vector<std::string> sources, warnings;
 };
 
-/// Looks the names up and makes the surface, its table included.
-/// @param on_the_spot  rays on height maps and recipes are followed on the map itself, without a table
-/// InputError for unknown names (with the nearest), for a medium, gap or reflector that has no value at the
-/// wavelength, and for what the database and the factory refuse.
+/// The surface with these names, including its table.
+/// @param on_the_spot  rays on height maps and recipes are traced on the map itself, without a table
+/// @throws InputError for unknown names (with the nearest), for a medium, gap or reflector without a value at
+///         the wavelength, and for errors of the definitions
 SampleSurface make_sample_surface(const materials::MaterialDatabase& database,
                                   materials::SurfaceFactory& factory, const SamplePlace& place,
                                   bool on_the_spot = false);
 
-/// True when the surface has facets of its own whose slopes light can hit.
+/// True when the surface has facets of its own, and so a visible slope.
 bool has_facets(const optics::Surface& surface);
 
-/// Mean angle (rad) between the mean normal and the first facet hit, by light from `side` at an incidence
-/// angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's nodes (then
-/// without an error), 0 for a smooth surface.
-/// InputError for surfaces without known facets (statistical models, painted, mixtures, tables of stacks).
+/// Mean visible slope: mean angle (rad) between the mean normal and the first facet hit by light from `side`
+/// at an incidence angle in [0, 90 deg): traced with 40,000 rays on a height map, interpolated from a table's
+/// nodes (then without an error), 0 for a smooth surface. InputError for surfaces without facets of their own
+/// (statistical models, painted, mixtures, tables of stacks).
 core::Estimate mean_visible_slope(const optics::Surface& surface, optics::Side side, double incidence_rad);
 
 }  // namespace scintray::analysis

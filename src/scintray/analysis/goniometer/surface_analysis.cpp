@@ -7,9 +7,9 @@ namespace scintray::analysis {
 
 namespace {
 
-/// Visible slopes on surfaces, which do not depend on what lies behind them: each is traced once. They are
-/// traced on the height map itself where there is one: towards grazing incidence they rise too fast for a
-/// table's nodes.
+/// Visible slopes on surfaces, which do not depend on the medium behind them: each is traced once. They are
+/// traced on the height map itself where there is one: towards grazing incidence they increase too fast for
+/// the nodes of a table.
 class SlopeReader {
  public:
   SlopeReader(const materials::MaterialDatabase& database, materials::SurfaceFactory& surfaces)

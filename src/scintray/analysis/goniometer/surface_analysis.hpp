@@ -1,6 +1,6 @@
 #pragma once
-/// The surfaces of a scene's goniometers, read over angles of incidence: figures 6 to 8 of E. Roncali and S.
-/// R. Cherry 2013, Phys. Med. Biol. 58, 2185.
+/// Readings of the surfaces of a scene's goniometers over angles of incidence: figures 6 to 8 of E. Roncali
+/// and S. R. Cherry 2013, Phys. Med. Biol. 58, 2185.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace scintray::analysis {
 
-/// One surface between two media.
+/// Readings of one surface between two media.
 struct SurfaceAnalysis {
   std::string goniometer;  ///< its title
   SamplePlace place;
@@ -20,15 +20,15 @@ struct SurfaceAnalysis {
   std::vector<double> incidence_rad;
   std::vector<core::Estimate> reflectance;  ///< at each, of light from inside
   std::vector<core::Estimate> slope_rad;    ///< mean angle of the facets hit first; empty: it has no facets
-  /// At one incidence; of its settings only incidence and rays count.
+  /// Reading at one incidence; of its settings only incidence and rays are meaningful.
   GoniometerReading directions;
 };
 
-/// Reads every surface of every goniometer, in their order, surfaces before media behind them.
+/// Readings of every surface of every goniometer, in their order, the surface varying fastest.
 /// @param database   with the scene's own definitions
 /// @param surfaces  makes them, as for the crystals
 /// @param seed      of the rays
-/// @throws InputError at the place in the scene for what make_sample_surface refuses
+/// @throws InputError as make_sample_surface, with the place in the scene
 std::vector<SurfaceAnalysis> analyze_surfaces(const std::vector<scene_file::GoniometerSpec>& goniometers,
                                               const materials::MaterialDatabase& database,
                                               materials::SurfaceFactory& surfaces, std::uint64_t seed);

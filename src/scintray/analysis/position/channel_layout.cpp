@@ -15,7 +15,7 @@ core::Vec3 flattest_axis(std::span<const core::Vec3> channels_mm) {
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
   }
-  // The last of equals: one channel, or a row of them, is seen along z.
+  // The last of equals: the depth of one channel, or of a row of them, is along z.
   Eigen::Index flattest = 2;
   for (Eigen::Index k = 1; k >= 0; --k)
     if ((high - low)[k] < (high - low)[flattest]) flattest = k;

@@ -1,5 +1,5 @@
 #pragma once
-/// How readout channels lie: in one plane, or at the two ends of something.
+/// Arrangement of readout channels: in one plane, or at two ends.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace scintray::analysis {
 
-/// Where depths are measured from and along; `direction` has unit length.
+/// Origin and direction of depths; `direction` has unit length.
 struct DepthAxis {
   core::Vec3 origin_mm = core::Vec3::Zero();
   core::Vec3 direction = core::Vec3::UnitZ();
@@ -22,7 +22,8 @@ struct DepthAxis {
 struct ChannelLayout {
   std::vector<std::size_t> near;  ///< channels of the end at the smaller depth, or of the only plane
   std::vector<std::size_t> far;   ///< of the other end; empty when there is one plane
-  /// Directions across the depth: the two other axes of the world, in their order, when depth runs along one.
+  /// Directions perpendicular to the depth: the two other axes of the world, in their order, when depth is
+  /// along one.
   core::Vec3 across_x = core::Vec3::UnitX(), across_y = core::Vec3::UnitY();
 
   std::array<double, 2> across(const core::Vec3& position_mm) const {
@@ -31,7 +32,7 @@ struct ChannelLayout {
 };
 
 /// Channels sorted by their depth: all within 0.1 mm are one plane; two groups, each no deeper than a tenth
-/// of the distance over which they are spread, are two ends. Nothing when they lie otherwise. Without an axis
+/// of the distance over which they are spread, are two ends. Empty for other arrangements. Without an axis
 /// depth is along the axis of the world in which the channels' positions differ least.
 std::optional<ChannelLayout> layout_of(std::span<const core::Vec3> channels_mm,
                                        const std::optional<DepthAxis>& axis);

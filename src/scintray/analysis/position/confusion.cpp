@@ -9,13 +9,13 @@ namespace scintray::analysis {
 
 namespace {
 
-/// The cut between the values of a lower and a higher layer with the fewest on the wrong side.
+/// The threshold between the values of a lower and a higher layer with the fewest wrong decisions.
 double best_threshold(const std::vector<double>& lower, const std::vector<double>& higher) {
-  std::vector<std::pair<double, bool>> all;  // value, of the higher layer
+  std::vector<std::pair<double, bool>> all;  // value, true for the higher layer
   for (const double value : lower) all.emplace_back(value, false);
   for (const double value : higher) all.emplace_back(value, true);
   std::sort(all.begin(), all.end());
-  // A cut below everything has all of the lower layer wrong.
+  // With a threshold below all values, all of the lower layer are wrong.
   auto wrong = static_cast<long>(lower.size());
   long fewest = wrong;
   double threshold = all.front().first;
@@ -82,7 +82,7 @@ LayerAnalysis classify_layers(std::span<const std::size_t> layer, std::span<cons
             [&](std::size_t a, std::size_t b) { return means[a] < means[b]; });
   for (std::size_t i = 0; i + 1 < layers; ++i)
     analysis.thresholds.push_back(best_threshold(values[analysis.order[i]], values[analysis.order[i + 1]]));
-  // Where layers lie on top of each other two cuts may come out in the wrong order.
+  // Where layers overlap completely, two thresholds may be in the wrong order.
   std::sort(analysis.thresholds.begin(), analysis.thresholds.end());
   std::vector<std::size_t> truth, assigned;
   for (std::size_t i = 1; i < layer.size(); i += 2) {

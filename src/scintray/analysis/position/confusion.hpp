@@ -1,5 +1,5 @@
 #pragma once
-/// How often a class was assigned rightly.
+/// Confusion matrices of classifications.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Confusion {
 Confusion confusion_of(std::span<const std::size_t> truth, std::span<const std::size_t> assigned,
                        std::size_t classes);
 
-/// Classifies layers by one number (a ratio, a decay constant) between thresholds.
+/// Classification of layers by one number (a ratio, a decay time) between thresholds.
 struct LayerAnalysis {
   std::vector<double> thresholds;  ///< rising, between neighbouring layers in order of their means
   std::vector<std::size_t> order;  ///< layers by rising mean of the number

@@ -14,7 +14,7 @@ namespace scintray::analysis {
 
 namespace {
 
-/// The photopeak's position of every slice; empty when one of them has none that can be trusted.
+/// The photopeak's position of every slice; empty when one of them has no trusted one.
 std::vector<core::Estimate> peak_positions(const std::vector<DepthSlice>& slices) {
   std::vector<core::Estimate> positions;
   for (const DepthSlice& slice : slices) {

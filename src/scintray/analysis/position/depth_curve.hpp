@@ -1,5 +1,5 @@
 #pragma once
-/// Light output, or any other number, against depth.
+/// Light output, or another quantity, against depth.
 
 #include <cstddef>
 #include <span>
@@ -25,27 +25,26 @@ struct DepthPoint {
   double depth_mm = 0.0;
   std::size_t count = 0;  ///< events
   core::Estimate value;
-  bool from_peak = false;  ///< a photopeak's position; else a mean
+  bool from_peak = false;  ///< the value is a photopeak's position; else a mean
 };
 
 struct DepthCurve {
-  std::vector<DepthPoint> points;  ///< by depth
-  std::size_t reference = 0;       ///< index of the point that others are divided by
-  std::vector<core::Estimate>
-      relative;       ///< value over that of the reference; the reference itself: 1, exactly
-  StraightLine line;  ///< of value against depth; zeros with fewer than two points
-  /// Slope over the line's value in the middle of the depths, 1/mm: what share is lost each mm.
+  std::vector<DepthPoint> points;        ///< by depth
+  std::size_t reference = 0;             ///< index of the point that others are divided by
+  std::vector<core::Estimate> relative;  ///< value over that of the reference; exactly 1 for the reference
+  StraightLine line;                     ///< of value against depth; zeros with fewer than two points
+  /// Slope over the line's value in the middle of the depths, 1/mm: the relative change per mm.
   core::Estimate relative_slope_per_mm;
 };
 
-/// Points in order of depth, compared. @param reference_mm  the point nearest to it is the reference
+/// Depth curve of points in order of depth. @param reference_mm  the point nearest to it is the reference
 /// @throws std::invalid_argument without points, or for a value or an error that is not positive
 DepthCurve depth_curve(std::vector<DepthPoint> points, double reference_mm);
 
-/// One point a slice of equal thickness between the least and the greatest depth: the photopeak's position
-/// where a fit locates it in every slice, the mean in all of them otherwise (a curve never mixes the
-/// two). Slices with fewer than `least` values are left out; the depth of a slice is the mean depth of its
-/// events.
+/// Depth curve with one point a slice of equal thickness between the least and the greatest depth: the
+/// photopeak's position where a fit locates it in every slice, the mean in all of them otherwise (a curve
+/// never mixes the two). Slices with fewer than `least` values are left out; the depth of a slice is the mean
+/// depth of its events.
 std::vector<DepthPoint> depth_points(std::span<const double> depths_mm, std::span<const double> values,
                                      std::size_t slices, std::size_t least = 20);
 

@@ -12,7 +12,7 @@ namespace scintray::analysis {
 
 enum class EndRatio {
   share,     ///< A / (A + B)
-  logarithm  ///< ln(A / B), a straight line where light is attenuated exponentially towards both ends
+  logarithm  ///< ln(A / B), linear in depth where light is attenuated exponentially towards both ends
 };
 
 /// NaN unless both ends saw light.
@@ -20,19 +20,19 @@ double end_ratio(EndRatio kind, double a, double b);
 
 enum class DoiCalibrationKind {
   linear,   ///< one straight line
-  monotone  ///< slice means forced into one direction, joined by lines
+  monotone  ///< monotone regression of the slice means, joined by lines
 };
 
-/// From ratio to depth.
+/// Calibration from ratio to depth.
 struct DoiCalibration {
   std::vector<double> ratio, depth_mm;  ///< knots, by rising ratio, at least two
 
-  /// Linear between knots; beyond them the outermost line goes on.
+  /// Linear between knots; beyond them the outermost line is extrapolated.
   double depth(double at_ratio) const;
 };
 
-/// Calibrates on depths that are known. The regression is of ratio on depth, then turned round, since the
-/// ratio is what fluctuates; the other way depths would be pulled towards the middle (classical against
+/// Calibration from known depths. The regression is of ratio on depth, then inverted, since the ratio is what
+/// fluctuates; the opposite regression would bias depths towards the middle (classical against
 /// inverse calibration: R. G. Krutchkoff 1967, Technometrics 9, 425). Monotone: isotonic least squares of the
 /// slice means by pooling adjacent violators (M. Ayer et al. 1955, Ann. Math. Statist. 26, 641).
 /// @throws InputError when the ratio does not change with depth
@@ -55,9 +55,9 @@ struct DoiAnalysis {
   std::vector<DoiSlice> slices;  ///< the same by depth
 };
 
-/// Calibrates on the even events and evaluates the odd ones, so that no event is evaluated by a calibration
-/// it took part in. Ratios that are not finite are left out. The spread of depths within an event, which a
-/// simulation with gammas has, is part of what is found.
+/// Depth of interaction, calibrated with the even events and evaluated with the odd ones, so that no event is
+/// evaluated by a calibration that includes it. Ratios that are not finite are left out. The spread of depths
+/// within an event, which a simulation with gammas has, is part of the result.
 /// @throws InputError with fewer than 100 usable events, or when the ratio does not change with depth
 DoiAnalysis analyze_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
                         DoiCalibrationKind kind, std::size_t slices = 10);

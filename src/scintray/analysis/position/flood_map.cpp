@@ -17,11 +17,11 @@ namespace scintray::analysis {
 namespace {
 
 constexpr std::size_t kLeastPlaced = 100;
-/// Standard deviations of the kernels tried, in distances of peaks, and that distance where their number is
-/// not known.
+/// Standard deviations of the kernels, in distances of peaks, and that distance where their number is not
+/// known.
 constexpr std::array kKernels{0.25, 0.18, 0.125, 0.09, 0.063, 0.045};
 constexpr double kDistanceOfSide = 0.08;
-/// Cells whose smoothed height is below this share of the highest belong to no basin of their own.
+/// Cells whose smoothed height is below this share of the highest do not belong to a basin.
 constexpr double kFloor = 1e-6;
 
 FloodGrid grid_of(std::span<const std::array<double, 2>> positions, std::size_t cells) {
@@ -36,7 +36,7 @@ FloodGrid grid_of(std::span<const std::array<double, 2>> positions, std::size_t 
   if (!(high[0] > low[0]) || !(high[1] > low[1]))
     throw core::InputError(
         core::Problem{{}, "all events of the flood map lie on one line", "use channels in two directions"});
-  // A margin, so that the outermost peaks come down on all sides.
+  // A margin, so that the outermost peaks decrease on all sides.
   const double margin = 0.03 * std::max(high[0] - low[0], high[1] - low[1]);
   FloodGrid grid;
   grid.x_low = low[0] - margin;

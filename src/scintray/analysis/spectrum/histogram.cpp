@@ -67,7 +67,7 @@ std::optional<Histogram> automatic_histogram(std::span<const double> values) {
   const double between = sorted_quantile(sorted, 0.75) - sorted_quantile(sorted, 0.25);
   const double root = std::cbrt(static_cast<double>(sorted.size()));
   const double width = between > 0.0 ? 2.0 * between / root : (high - low) / root;
-  // The largest value belongs into the last bin, not beyond it.
+  // The largest value belongs to the last bin, not beyond it.
   return make_histogram_of_width(sorted, low, std::nextafter(high, high + 1.0) + 1e-9 * (high - low), width);
 }
 

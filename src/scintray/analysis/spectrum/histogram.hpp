@@ -26,20 +26,22 @@ struct Histogram {
 /// @throws std::invalid_argument without bins or without a range
 Histogram make_histogram(std::span<const double> values, double low, double high, std::size_t bins);
 
-/// Bins of about `width` over the values from `low` to `high`. Whole numbers (photons counted) get bins of
-/// a whole width with edges half way between numbers: other bins would hold now more, now fewer numbers,
-/// a comb that is not in the data. At most 10,000 bins.
+/// Histogram with bins of about `width` over the values from `low` to `high`. Whole numbers (photons counted)
+/// get bins of a whole width with edges halfway between numbers: other bins would contain different counts of
+/// numbers, a comb that is not in the data. At most 10,000 bins.
 Histogram make_histogram_of_width(std::span<const double> values, double low, double high, double width);
 
-/// Bins that show the shape: twice the distance between the quartiles over the cube root of the number
-/// (D. Freedman and P. Diaconis 1981, Z. Wahrscheinlichkeitstheorie 57, 453), over all values but the
-/// outermost thousandth at each end where these lie far out. Nothing without two different finite values.
+/// Histogram with the bin width of Freedman and Diaconis: twice the distance between the quartiles over the
+/// cube root of the number (D. Freedman and P. Diaconis 1981, Z. Wahrscheinlichkeitstheorie 57, 453), over
+/// all values but the outermost thousandth at each end where these are outliers. Empty without two different
+/// finite values.
 std::optional<Histogram> automatic_histogram(std::span<const double> values);
 
-/// The value below which a share of `sorted` lies, linear between values. `sorted` rises and is not empty.
+/// Quantile: the value below which a share of `sorted` lies, linear between values. `sorted` rises and is not
+/// empty.
 double sorted_quantile(std::span<const double> sorted, double share);
 
-/// The finite ones of `values`, rising.
+/// The finite ones of `values`, sorted.
 std::vector<double> sorted_finite(std::span<const double> values);
 
 }  // namespace scintray::analysis

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostParameters = 5;
 constexpr std::size_t kMostSteps = 200;
-/// Below this an expectation counts as this much, so that a logarithm of it exists.
+/// Lower limit of an expectation, so that its logarithm exists.
 constexpr double kLeastExpected = 1e-30;
 
 double normal_density(double u) { return std::exp(-0.5 * u * u) / std::sqrt(core::kTwoPi); }
@@ -40,7 +40,7 @@ BinExpectation expectation(const PeakModel& model, double low, double high) {
   const double a = (low - model.position) / model.sigma, b = (high - model.position) / model.sigma;
   const double density_a = normal_density(a), density_b = normal_density(b);
   const double tail_a = upper_tail(a), tail_b = upper_tail(b);
-  // The difference of the nearer tails keeps its digits on either side of the peak.
+  // The difference of the nearer tails keeps its precision on either side of the peak.
   const double share = a > 0.0 ? tail_a - tail_b : upper_tail(-b) - upper_tail(-a);
   const double step = model.sigma * ((b * tail_b - density_b) - (a * tail_a - density_a));
   BinExpectation bin;
@@ -54,7 +54,7 @@ BinExpectation expectation(const PeakModel& model, double low, double high) {
   return bin;
 }
 
-/// Positions are searched for in units of the first sigma from the first position, so that the units of the
+/// Positions are fitted in units of the first sigma from the first position, so that the units of the
 /// spectrum do not matter.
 struct Task {
   const Histogram& histogram;
@@ -72,7 +72,7 @@ struct Task {
   }
 };
 
-/// Signed root of what a bin adds to the deviance.
+/// Signed root of the contribution of a bin to the deviance.
 double residual(double count, double expected) {
   const double term = expected - count + (count > 0.0 ? count * std::log(count / expected) : 0.0);
   return std::copysign(std::sqrt(2.0 * std::max(0.0, term)), count - expected);
@@ -119,7 +119,7 @@ struct Free {
   void operator()(gsl_multifit_nlinear_workspace* w) const { gsl_multifit_nlinear_free(w); }
 };
 
-/// Searches from `start`; true when the search came to rest.
+/// Searches from `start`; true when the search converged.
 bool search(Task& task, PeakModel& found) {
   const PeakModel& start = task.start;
   const std::size_t parameters = parameters_of(task.background);
@@ -143,7 +143,7 @@ bool search(Task& task, PeakModel& found) {
   const int status =
       gsl_multifit_nlinear_driver(kMostSteps, 1e-9, 1e-9, 0.0, nullptr, nullptr, &why, work.get());
   found = task.model(gsl_multifit_nlinear_position(work.get()));
-  // At the bottom rounding may leave no step that goes further down: that is rest as well.
+  // At the minimum rounding may leave no further decrease: that is convergence as well.
   return usable(found) && (status == GSL_SUCCESS || status == GSL_ENOPROG);
 }
 
@@ -155,7 +155,7 @@ void set_errors(const Histogram& histogram, PeakFit& fit) {
     const Eigen::Map<const Eigen::VectorXd> slope(bin.slope.data(), parameters);
     information += slope * slope.transpose() / std::max(kLeastExpected, bin.value);
   }
-  // A background that is not there has no information: its row would spoil the others.
+  // A background of zero carries no information: its row would make the matrix singular.
   for (Eigen::Index k = 0; k < parameters; ++k)
     if (information(k, k) < 1e-9) information(k, k) = 1e-9;
   const Eigen::MatrixXd covariance =
@@ -182,7 +182,7 @@ void set_goodness(const Histogram& histogram, PeakFit& fit) {
     fit.deviance += r * r;
   }
   fit.goodness = core::chi_square_test(observed, expected);
-  // That test takes one degree for a fixed total; here the total is fitted with the rest.
+  // That test subtracts one degree for a fixed total; here the total is fitted with the rest.
   fit.goodness.degrees += 1.0 - static_cast<double>(parameters_of(fit.background));
   fit.goodness.p_value = core::chi_square_p_value(fit.goodness.chi2, fit.goodness.degrees);
 }

@@ -24,13 +24,13 @@ constexpr double kPoor = 1e-4;
 constexpr double kSmallMisfit = 0.01;
 constexpr int kMostPeakRounds = 8;
 
-/// Where the photopeak of a spectrum is, roughly: what a fit starts from.
+/// Approximate photopeak of a spectrum: the start of a fit.
 struct PeakPlace {
   double position = 0.0;
   double sigma = 0.0;        ///< from the half width at half maximum above the peak
   double sigma_below = 0.0;  ///< from that below it: a shoulder makes it larger
   double height = 0.0;       ///< density of values at the peak, smoothed
-  double valley = 0.0;       ///< lowest point between the peak and what lies below it
+  double valley = 0.0;       ///< of the lowest point between the previous maximum and the peak
 };
 
 constexpr std::size_t kBins = 512;
@@ -49,7 +49,7 @@ struct Maximum {
   double height = 0.0;
 };
 
-/// Maxima that stand out on both sides, in rising order: a walk that turns only when what it lost or won
+/// Significant maxima, in rising order: a walk that turns only when its decrease or increase
 /// since the last turn is significant.
 std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
   std::vector<Maximum> found;
@@ -69,13 +69,13 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
       top = i;
     }
   }
-  // A spectrum cut off above its peak never comes down again.
+  // A spectrum truncated above its peak does not decrease again.
   if (climbing && density[top] - density[valley] > kPeakSignificance * height_error(density[top], width))
     found.push_back({top, valley, density[top]});
   return found;
 }
 
-/// Standard deviation from so many bins of half width, less what smoothing added.
+/// Standard deviation from a half width in bins, corrected for the smoothing.
 double sigma_from(std::size_t bins, double width) {
   const double half = static_cast<double>(bins) / kHalfWidth;
   return std::max(0.5, std::sqrt(std::max(half * half - width * width, 0.1 * half * half)));
@@ -90,7 +90,7 @@ PeakPlace place_of(const Maximum& peak, const std::vector<double>& density, cons
           sigma_from(peak.at - left, width) * grid.width, peak.height / grid.width, grid.centre(peak.valley)};
 }
 
-/// The highest in x of the maxima that stand out and have a tenth of the height of the highest; see
+/// The highest in x of the significant maxima with a tenth of the height of the highest; see
 /// fit_photopeak. @param sorted  rising, finite
 std::optional<PeakPlace> find_photopeak(std::span<const double> sorted) {
   if (sorted.size() < 2) return std::nullopt;
@@ -124,7 +124,7 @@ PeakFit fit_with_background(const Histogram& histogram, PeakModel start, const P
   return best;
 }
 
-/// First guess of the heights, from the counts of the outermost bins.
+/// Initial heights, from the counts of the outermost bins.
 PeakModel start_model(const Histogram& histogram, double position, double sigma) {
   PeakModel start;
   start.position = position;
@@ -159,8 +159,8 @@ Photopeak with_status(Photopeak peak, PeakStatus found, std::string reason) {
   return peak;
 }
 
-/// Values within 0.1 sigma of an end of the data, where these end on the slope of the peak: as many as a
-/// quarter of its height makes are no tail.
+/// True when the data end on the slope of the peak: when the values within 0.1 sigma of an end are more than
+/// a quarter of those in such an interval at the peak.
 bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above) {
   const double sigma = above ? place.sigma_below : place.sigma;
   const double margin = above ? sorted.back() - place.position : place.position - sorted.front();
@@ -172,7 +172,7 @@ bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above)
   return static_cast<double>(near_end) > 0.25 * place.height * reach;
 }
 
-/// Repeats the fit until the bins it used are those that its result requests.
+/// Repeats the fit until its bins are those that its result requires.
 void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, const PhotopeakOptions& options,
                       Photopeak& peak) {
   double position = place.position, sigma = place.sigma;
@@ -232,14 +232,14 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
   }
   if (static_cast<double>(sorted.size()) < kLeastInPeak)
-    return with_status(peak, PeakStatus::too_few,
-                       fmt::format("{} pulses; a fit needs {:.0f} in the peak", sorted.size(), kLeastInPeak));
+    return with_status(
+        peak, PeakStatus::too_few,
+        fmt::format("{} pulses; a fit requires {:.0f} in the peak", sorted.size(), kLeastInPeak));
   const std::optional<PeakPlace> place = find_photopeak(sorted);
   if (!place)
     return with_status(peak, PeakStatus::no_peak,
-                       sorted.front() == sorted.back()
-                           ? "all pulses are equal"
-                           : "no maximum stands 4 standard errors above its sides");
+                       sorted.front() == sorted.back() ? "all pulses are equal"
+                                                       : "no maximum is 4 standard errors above its sides");
   for (const bool above : {true, false})
     if (cut_off(sorted, *place, above))
       return with_status(peak, PeakStatus::edge_of_range,
@@ -249,10 +249,10 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
   if (!peak.has_numbers()) {
     if (peak.fitted.total() < kLeastInPeak)
       return with_status(peak, PeakStatus::too_few,
-                         fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit needs {:.0f}",
+                         fmt::format("{:.0f} pulses near the peak at {:.4g}; a fit requires {:.0f}",
                                      peak.fitted.total(), place->position, kLeastInPeak));
     return with_status(peak, PeakStatus::not_converged,
-                       fmt::format("the fit of the peak near {:.4g} did not come to rest", place->position));
+                       fmt::format("the fit of the peak near {:.4g} did not converge", place->position));
   }
   const PeakModel& model = peak.fit.model;
   const double margin_above = (sorted.back() - model.position) / model.sigma;
@@ -269,9 +269,10 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
   if (peak.fit.goodness.degrees > 0.0 && peak.fit.goodness.p_value < kPoor)
     return with_status(
         peak, PeakStatus::poor_fit,
-        fmt::format("chi-square {:.1f} for {:.0f} degrees of freedom (p {:.1g}): the peak is no Gaussian on "
-                    "a shoulder",
-                    peak.fit.goodness.chi2, peak.fit.goodness.degrees, peak.fit.goodness.p_value));
+        fmt::format(
+            "chi-square {:.1f} for {:.0f} degrees of freedom (p {:.1g}): the peak is not a Gaussian on "
+            "a shoulder",
+            peak.fit.goodness.chi2, peak.fit.goodness.degrees, peak.fit.goodness.p_value));
   return with_status(peak, PeakStatus::trusted, "");
 }
 

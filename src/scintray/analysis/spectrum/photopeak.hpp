@@ -1,5 +1,5 @@
 #pragma once
-/// The photopeak of an energy spectrum, and whether its fit can be trusted.
+/// The photopeak of an energy spectrum, and the reliability of its fit.
 
 #include <array>
 #include <optional>
@@ -14,19 +14,19 @@ namespace scintray::analysis {
 enum class PeakStatus {
   trusted,
   too_few,        ///< not enough events
-  no_peak,        ///< nothing stands out of the continuum
-  edge_of_range,  ///< the peak is cut off by the end of the data or of the window
+  no_peak,        ///< no peak above the continuum
+  edge_of_range,  ///< the peak is truncated by the end of the data or of the window
   not_converged,
-  poor_fit,  ///< the shape is another one (p below 1e-4): position and width are descriptions
+  poor_fit,  ///< the shape differs (p below 1e-4): position and width are only descriptive
 };
-/// "trusted", "too few events", ...
+/// Text of a status: "trusted", "too few events", ...
 const char* status_name(PeakStatus status);
 
 struct PhotopeakOptions {
-  /// Only a peak in here is looked for and fitted; without, the highest in energy of those that have at
+  /// Range in which a peak is searched and fitted; without, the highest in energy of those that have at
   /// least a tenth of the height of the highest.
   std::optional<std::array<double, 2>> window;
-  /// Taken as given; without, the simplest that the data do not refute: a term is added when twice the
+  /// Background model; without, the simplest that the data do not reject: a term is added when twice the
   /// log likelihood ratio is above 9 (once in 700 without cause: S. S. Wilks 1938, Ann. Math. Statist. 9,
   /// 60).
   std::optional<PeakBackground> background;
@@ -34,24 +34,24 @@ struct PhotopeakOptions {
 
 struct Photopeak {
   PeakStatus status = PeakStatus::no_peak;
-  std::string reason;  ///< of a status other than trusted: what was found, and what was needed
+  std::string reason;  ///< of a status other than trusted: the value found and the one required
   PeakFit fit;         ///< position, sigma, relative_fwhm (the energy resolution), goodness
-  Histogram fitted;    ///< bins that were fitted; without bins when nothing was
+  Histogram fitted;    ///< bins that were fitted; without bins when none were
 
   bool has_numbers() const { return fit.converged; }
-  /// Chi-square above its degrees of freedom, per pulse fitted: how far the shape is from the model, whatever
-  /// the number of pulses (the mean square contingency, H. Cramer 1946, Mathematical Methods of
-  /// Statistics). 0 without a fit.
+  /// Chi-square above its degrees of freedom, per pulse fitted: the deviation of the shape from the model,
+  /// independent of the number of pulses (the mean square contingency, H. Cramer 1946, Mathematical Methods
+  /// of Statistics). 0 without a fit.
   double misfit() const;
-  /// Good for choosing pulses and for depth curves: trusted, or a poor fit only because many pulses show a
-  /// small difference (misfit below 0.01, a tenth in the root mean square).
+  /// Usable for selecting pulses and for depth curves: trusted, or a poor fit only because many pulses reveal
+  /// a small difference (misfit below 0.01, a tenth in the root mean square).
   bool locates_peak() const;
 };
 
-/// Finds and fits the photopeak. The search smooths the spectrum at falling widths and takes the first
-/// width finer than half the peak it shows; a maximum counts when it stands 4 standard errors above the
+/// Search and fit of the photopeak. The search smooths the spectrum with decreasing widths and uses the first
+/// width finer than half the peak found; a maximum counts when it is 4 standard errors above the
 /// valleys beside it. The fit spans from 3 sigma below the peak, or the valley when that is nearer, to 4
-/// sigma above, in bins of sigma / 4, and is repeated until the span agrees with what it finds.
+/// sigma above, in bins of sigma / 4, and is repeated until the span agrees with the result.
 /// @param values  one a pulse, any positive unit; values that are not finite are left out
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options = {});
 

@@ -23,7 +23,7 @@ core::Estimate quantile_fwhm(std::span<const double> sorted) {
     return 0.5 * (sorted_quantile(sorted, q + step) - sorted_quantile(sorted, q - step));
   };
   const double low = error(share), high = error(1.0 - share);
-  // Both shares lie equally far from the ends, so the correlation is q / (1 - q).
+  // Both shares are equally far from the ends, so the correlation is q / (1 - q).
   const double covariance = low * high * share / (1.0 - share);
   return {sorted_quantile(sorted, 1.0 - share) - sorted_quantile(sorted, share),
           std::sqrt(std::max(0.0, low * low + high * high - 2.0 * covariance))};
@@ -55,7 +55,7 @@ Spread spread_of(std::span<const double> values) {
   Spread spread;
   spread.count = sorted.size();
   core::Moments moments;
-  // About a value within, so that a small width far from zero keeps its digits.
+  // Relative to a value within, so that a small width far from zero keeps its precision.
   const double origin = sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
   for (const double value : sorted) moments.add(value - origin);
   spread.mean = moments.mean();

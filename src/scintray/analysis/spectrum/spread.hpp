@@ -12,19 +12,19 @@ namespace scintray::analysis {
 struct Spread {
   std::size_t count = 0;
   core::Estimate mean;
-  /// FWHM of a Gaussian fitted within 2.5 sigma of its centre; no number unless `fit.converged`.
+  /// FWHM of a Gaussian fitted within 2.5 sigma of its centre; not a number unless `fit.converged`.
   core::Estimate gaussian_fwhm;
-  /// Between the quantiles that enclose a Gaussian's FWHM (0.1195 and 0.8805): needs no shape and feels no
-  /// tails. 0 without two different values.
+  /// Between the quantiles that enclose a Gaussian's FWHM (0.1195 and 0.8805): requires no shape and is
+  /// insensitive to tails. 0 without two different values.
   core::Estimate quantile_fwhm;
   PeakFit fit;
-  Histogram fitted;  ///< bins of the fit; without bins when nothing was fitted
+  Histogram fitted;  ///< bins of the fit; without bins when there was no fit
 };
 
-/// Errors of the quantiles are distribution-free: half the distance between the order statistics one
-/// standard deviation (sqrt(q (1 - q) N)) to either side; their covariance is that of two order statistics
-/// (Kendall & Stuart, The Advanced Theory of Statistics, vol. 1, section 10.10). Values that are not finite
-/// are left out.
+/// Centre and width of values. Errors of the quantiles are distribution-free: half the distance between the
+/// order statistics one standard deviation (sqrt(q (1 - q) N)) to either side; their covariance is that of
+/// two order statistics (Kendall & Stuart, The Advanced Theory of Statistics, vol. 1, section 10.10). Values
+/// that are not finite are left out.
 Spread spread_of(std::span<const double> values);
 
 }  // namespace scintray::analysis

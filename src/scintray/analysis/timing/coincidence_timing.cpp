@@ -12,7 +12,7 @@ namespace scintray::analysis {
 namespace {
 
 constexpr std::size_t kLeastPairs = 50, kLeastOfSlice = 100;
-/// Of a Gaussian whose width is quoted; as for photopeaks.
+/// Least p of a Gaussian whose width is quoted, as for photopeaks.
 constexpr double kLeastQuoted = 1e-4;
 
 OrderTiming timing_of(std::size_t n, const std::vector<double>& times) {
@@ -26,7 +26,7 @@ std::vector<double> finite(const std::vector<double>& times) {
   return known;
 }
 
-/// 0 when there is none.
+/// Index of the smallest CTR; 0 when there is none.
 std::size_t smallest(const std::vector<OrderTiming>& all) {
   return static_cast<std::size_t>(std::min_element(all.begin(), all.end(),
                                                    [](const OrderTiming& a, const OrderTiming& b) {

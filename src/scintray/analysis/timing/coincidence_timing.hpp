@@ -13,25 +13,25 @@
 
 namespace scintray::analysis {
 
-/// Differences of the times of events 0 and 1, 2 and 3, and so on: two detectors like the one simulated, back
+/// Differences of the times of events 0 and 1, 2 and 3, and so on: two detectors as the one simulated, back
 /// to back. No event is used twice, so that differences are independent. Times that are not finite are
-/// left out first.
+/// left out before.
 std::vector<double> paired_differences(std::span<const double> times_ns);
 
-/// a - b of every event that has both. @throws std::invalid_argument when the sizes differ
+/// Differences a - b of every event that has both. @throws std::invalid_argument when the sizes differ
 std::vector<double> channel_differences(std::span<const double> a_ns, std::span<const double> b_ns);
 
 /// The CTR to quote: the fitted FWHM where a Gaussian describes the differences (p of 1e-4 or more), else
 /// that of the quantiles.
 core::Estimate quoted_fwhm(const Spread& differences);
 
-/// Keeps the earliest detected photons of every event, however many photons there are.
+/// Collector of the earliest detected photons of every event, for any number of photons.
 class FirstPhotons {
  public:
   explicit FirstPhotons(std::size_t most) : most_(most) {}
-  /// A detected photon, in any order.
+  /// Adds a detected photon, in any order.
   void add(std::uint64_t event, double time_ns);
-  /// Of every event seen, by event number: its earliest times, rising, up to `most`.
+  /// The earliest times, rising, up to `most`, of every event, by event number.
   std::vector<std::vector<double>> times_ns() const;
 
  private:
@@ -39,7 +39,7 @@ class FirstPhotons {
   std::unordered_map<std::uint64_t, std::vector<double>> heaps_;  ///< latest kept time on top
 };
 
-/// What one choice of photons gives.
+/// Timing with one choice of photons.
 struct OrderTiming {
   std::size_t n = 0;           ///< from 1
   std::size_t events = 0;      ///< with that many photons
@@ -47,11 +47,11 @@ struct OrderTiming {
   core::Estimate ctr_fwhm_ns;  ///< of pairs of events, between quantiles
 };
 
-/// Times of events by one choice of photons; not a number where an event has fewer.
+/// Times of events with one choice of photons; not a number where an event has fewer.
 struct OrderTimes {
   std::size_t n = 0;
   std::vector<double> single;   ///< of the n-th photon
-  std::vector<double> average;  ///< mean of the first n; empty: not known
+  std::vector<double> average;  ///< mean of the first n; empty: not available
 };
 
 struct OrderAnalysis {
@@ -61,17 +61,17 @@ struct OrderAnalysis {
   std::size_t best_average = 0;
 };
 
-/// CTR by each choice of photons, from independent events paired as in paired_differences. Choices that fewer
-/// than 50 pairs have are left out.
+/// CTR with each choice of photons, from independent events paired as in paired_differences. Choices that
+/// fewer than 50 pairs have are left out.
 OrderAnalysis analyze_orders(std::span<const OrderTimes> choices);
 
 /// CTR by the n-th detected photon and by the mean of the first n, each for n = 1 to `most`, from independent
 /// events paired as in paired_differences. Where fewer than 50 pairs have n photons the list ends. The best
-/// is the smallest of numbers with errors, so it is low by a part of its error.
+/// is the smallest of numbers with errors, so it is biased low by a part of its error.
 /// @param times_ns  of each event, rising
 OrderAnalysis analyze_orders(std::span<const std::vector<double>> times_ns, std::size_t most);
 
-/// Orders of photons at one depth.
+/// Timing by order of photons at one depth.
 struct OrderSlice {
   double depth_mm = 0.0;
   std::size_t count = 0;
@@ -79,7 +79,8 @@ struct OrderSlice {
   OrderAnalysis orders;
 };
 
-/// Slices of equal thickness; those with fewer than 100 events are left out.
+/// Timing by order of photons against depth, in slices of equal thickness; those with fewer than 100 events
+/// are left out.
 /// @param choices  times of as many events as there are depths and numbers of photons (std::invalid_argument)
 std::vector<OrderSlice> orders_against_depth(std::span<const double> depths_mm,
                                              std::span<const OrderTimes> choices,
@@ -97,7 +98,7 @@ struct TimingDepth {
   StraightLine line;  ///< of the mean time, ns, against depth, mm; zeros with fewer than two slices
 };
 
-/// Slices of equal thickness; those with fewer than 100 events are left out.
+/// Timing against depth, in slices of equal thickness; those with fewer than 100 events are left out.
 TimingDepth timing_against_depth(std::span<const double> depths_mm, std::span<const double> times_ns,
                                  std::size_t slices = 10);
 

@@ -34,8 +34,8 @@ std::string message_of(std::string line) {
 
 }  // namespace
 
-// The public location() counts the lines before every value anew, so that reading a scene would take time as
-// the square of its length; the region that it counts in has the offset.
+// The public location() counts the lines before every value anew, so that the time to read a scene would grow
+// with the square of its length; the region that it counts in holds the offset.
 Span span_of(const toml::value& value) {
   const auto* region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
   if (region == nullptr) return {};
@@ -43,7 +43,7 @@ Span span_of(const toml::value& value) {
 }
 
 // The drawing: "[error] toml::function: message\n --> file\n   |\n 3 | line\n   |   ^--- comment". The last
-// caret is where the text went wrong; the public location() is where the value began.
+// caret marks the error; the public location() is the start of the value.
 SyntaxError syntax_error(const toml::exception& error) {
   SyntaxError result{error.location().line(), error.location().column(), {}, Mistake::other};
   std::istringstream drawing(error.what());

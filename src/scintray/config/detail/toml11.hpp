@@ -1,6 +1,6 @@
 #pragma once
-/// What ScintRay knows of toml11 beyond its public interface: where a value stands in the text, and what a
-/// syntax error is about. Nothing else uses toml::detail or reads toml11's messages;
+/// Adapter for the parts of toml11 that are not its public interface: the place of a value in the text, and
+/// the cause of a syntax error. Nothing else uses toml::detail or reads toml11's messages;
 /// tests/scene/toml11_test.cpp pins both for the version in use.
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 #if !defined(TOML11_VERSION_MAJOR) || TOML11_VERSION_MAJOR != 3
 #error \
-    "ScintRay knows the regions and the messages of toml11 3 only: see src/scintray/config/detail/toml11.cpp"
+    "only the regions and the messages of toml11 3 are supported: see src/scintray/config/detail/toml11.cpp"
 #endif
 
 namespace scintray::config::toml11 {
 
-/// Where a value stands in the text, in bytes.
+/// Range of a value in the text, in bytes.
 struct Span {
   std::size_t offset = 0, size = 0;
 };
@@ -22,7 +22,7 @@ struct Span {
 /// Empty, at the start of the text, for a value that was not read from one.
 [[nodiscard]] Span span_of(const toml::value& value);
 
-/// What a text that is not TOML has wrong, as far as toml11's message states.
+/// Kind of a syntax error, as far as toml11's message identifies it.
 enum class Mistake {
   more_on_the_line,  ///< something after the value
   defined_twice,
@@ -35,14 +35,14 @@ enum class Mistake {
   other,
 };
 
-/// A syntax error in plain words.
+/// A syntax error: its kind, its place and its message.
 struct SyntaxError {
   std::size_t line = 0, byte_column = 0;  ///< from 1
   std::string message;                    ///< one line, with toml11's comment on the place in brackets
   Mistake mistake = Mistake::other;
 };
 
-/// Reads toml11's drawing of the error; where that shows no place, the place is its public location().
+/// The syntax error in toml11's drawing; where that shows no place, the place is its public location().
 [[nodiscard]] SyntaxError syntax_error(const toml::exception& error);
 
 }  // namespace scintray::config::toml11

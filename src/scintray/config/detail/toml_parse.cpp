@@ -66,7 +66,7 @@ std::size_t skip_string(const std::string& text, std::size_t i) {
   return text.size();
 }
 
-/// Refuses nesting that would exhaust the stack of a recursive parser.
+/// Throws InputError for nesting that would exhaust the stack of a recursive parser.
 void refuse_deep_nesting(const TextPlaces& places) {
   const std::string& text = places.text();
   int depth = 0;
@@ -123,7 +123,7 @@ bool is_bare(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-/// Where the key of the value at `offset` starts, or `offset` when it stands in a header or array.
+/// Start of the key of the value at `offset`, or `offset` for a value in a header or array.
 std::size_t key_offset(const std::string& text, std::size_t offset) {
   std::size_t i = offset;
   const auto skip_blanks = [&] {

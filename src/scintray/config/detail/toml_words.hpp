@@ -1,5 +1,5 @@
 #pragma once
-/// Words of the messages about values in a TOML document.
+/// Phrases of the messages about values in a TOML document.
 
 #include <string>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace scintray::config {
 
-/// What a value is: "the string "x"", "an array".
+/// Kind of a value, with a scalar's content: "the string "x"", "an array".
 std::string kind_name(const TomlNode& value);
-/// The unit that examples of a dimension have; empty without one.
+/// The unit used in examples of a dimension; empty for a dimension without one.
 std::string usual_unit(core::Dimension dimension);
-/// "a length with its unit, as "2 mm""
+/// The expected form of a quantity: "a length with its unit, as "2 mm"".
 std::string expected_quantity(core::Dimension dimension);
-/// "did you mean "x"? ", or nothing when no word is near.
+/// "did you mean "x"? "; empty when no word is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace scintray::config

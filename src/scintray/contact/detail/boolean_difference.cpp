@@ -14,7 +14,7 @@ using Key = std::array<double, 3>;
 
 Key key_of(const core::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Moves a mesh to the grid and remembers where its vertices came from.
+/// Rounds a mesh to the grid and keeps the original positions of its vertices.
 mesh::TriMesh on_grid(mesh::TriMesh mesh, const Eigen::Matrix3d& axes, const core::Vec3& origin,
                       std::map<Key, core::Vec3>& own) {
   for (core::Vec3& vertex : mesh.vertices) {
@@ -32,7 +32,7 @@ Eigen::AlignedBox3d bounds_of(const mesh::TriMesh& mesh) {
   return box;
 }
 
-/// What `combine(first, second, clean)` makes of both meshes, rounded in `axes` about the middle of `part`.
+/// Result of `combine(first, second, clean)` for both meshes rounded in `axes` about the middle of `part`.
 template <typename Combine>
 std::optional<mesh::BooleanResult> on_common_grid(const mesh::TriMesh& part, const mesh::TriMesh& tool,
                                                   const Eigen::Matrix3d& axes, double tolerance_mm,
@@ -42,7 +42,7 @@ std::optional<mesh::BooleanResult> on_common_grid(const mesh::TriMesh& part, con
   const core::Vec3 origin = box.center();
   std::map<Key, core::Vec3> own;
   const mesh::TriMesh first = on_grid(part, axes, origin, own), second = on_grid(tool, axes, origin, own);
-  // Not below what diagnose() takes for rounding.
+  // Not below what diagnose() treats as rounding.
   const double clean = std::max(kClean * tolerance_mm, 1.01 * std::ldexp(box.diagonal().norm(), -22));
   std::optional<mesh::BooleanResult> result = combine(first, second, clean);
   if (!result) return result;

@@ -7,13 +7,13 @@
 
 namespace scintray::contact {
 
-/// Rotation into axes along the largest faces of the parts (contact::natural_axes): there, faces that lie
-/// in one plane by intention have equal coordinates once these are rounded.
+/// Rotation into axes along the largest faces of the parts (contact::natural_axes): in these axes, faces that
+/// are meant to be coplanar have equal coordinates after rounding.
 Eigen::Matrix3d difference_axes(const std::vector<PlacedMesh>& parts);
 
-/// `part` less `tool`. Both are rounded to 2^-30 mm in `axes` about the middle of `part`, so that nearly
-/// equal planes become equal ones; vertices of either that survive get their own places back. Nothing
-/// when CGAL refuses, an empty mesh when nothing is left.
+/// `part` minus `tool`. Both are rounded to 2^-30 mm in `axes` about the middle of `part`, so that nearly
+/// equal planes become equal; surviving vertices of either keep their original positions. Empty (nullopt)
+/// when CGAL fails, an empty mesh when nothing is left.
 std::optional<mesh::BooleanResult> difference_on_grid(const mesh::TriMesh& part, const mesh::TriMesh& tool,
                                                       const Eigen::Matrix3d& axes, double tolerance_mm);
 

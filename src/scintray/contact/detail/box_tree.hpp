@@ -46,8 +46,8 @@ class BoxTree {
 
   /// Indices of the boxes that have a point in common with `query`, ascending.
   [[nodiscard]] std::vector<std::uint32_t> touching(const Box& query) const;
-  /// Indices of the boxes that the ray origin + t direction, t >= 0, passes through, ascending. A box that
-  /// it only grazes may be left out or not.
+  /// Indices of the boxes that the ray origin + t direction, t >= 0, crosses, ascending. Boxes that it only
+  /// grazes may or may not be included.
   [[nodiscard]] std::vector<std::uint32_t> on_ray(const core::Vec3& origin,
                                                   const core::Vec3& direction) const;
 

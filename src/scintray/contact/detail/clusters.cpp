@@ -39,7 +39,7 @@ std::vector<std::vector<std::uint32_t>> neighbours(const Body& body) {
   return result;
 }
 
-/// Grows flat patches from the largest triangles; the plane follows what has been gathered, so that
+/// Grows flat patches from the largest triangles; the plane is that of all triangles so far, so that
 /// the rounding of one small triangle does not tilt a large face.
 void add_patches(const Body& body, std::uint32_t index, double flatness_mm, Clusters& clusters) {
   constexpr std::uint32_t kNone = ~0U;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which flat faces of different parts lie on each other, and the snapping that makes them meet.
+/// Clusters of coplanar faces of different parts, and the snapping of their vertices onto one plane.
 
 #include <cstdint>
 #include <utility>
@@ -19,7 +19,7 @@ struct TriangleOf {
 /// Two bodies whose boxes come close, body a before body b.
 struct BodyPair {
   std::uint32_t a, b;
-  bool surfaces_near = false;                                     ///< some triangles' boxes meet
+  bool surfaces_near = false;                                     ///< boxes of some triangles intersect
   std::vector<std::pair<std::uint32_t, std::uint32_t>> parallel;  ///< near triangles, almost parallel
 };
 

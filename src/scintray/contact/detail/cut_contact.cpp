@@ -22,7 +22,7 @@ Sides sides_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   return sides;
 }
 
-/// Outlines of triangles; nothing where two of them meet in a vertex.
+/// Outlines of triangles; empty where two of them share a vertex.
 std::optional<std::vector<Loop>> outlines_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   const Sides sides = sides_of(triangles);
   std::map<std::uint32_t, std::uint32_t> next;
@@ -78,8 +78,8 @@ std::uint32_t add_vertex(mesh::TriMesh& mesh, const core::Vec3& position) {
 
 namespace {
 
-/// The pieces of a part's facing triangles, and its other triangles whole: cuts that run on through faces
-/// that have no part in the contact would leave slivers beside it.
+/// The pieces of a part's facing triangles, and its other triangles uncut: cuts that continue through faces
+/// outside the contact would leave slivers beside it.
 CutPart only_facing_cut(const ContactSide& side, const mesh::BooleanResult& cut) {
   CutPart result;
   result.mesh.vertices = cut.mesh.vertices;
@@ -94,7 +94,7 @@ CutPart only_facing_cut(const ContactSide& side, const mesh::BooleanResult& cut)
     if (side.facing[cut.origin[t].triangle]) add(cut.mesh.triangles[t], cut.origin[t].triangle);
   const Sides pieces = sides_of(result.mesh.triangles);
 
-  // Vertices that survive a cut keep their places exactly.
+  // Vertices that survive a cut keep their positions exactly.
   std::map<std::array<double, 3>, std::uint32_t> index;
   const auto key = [](const core::Vec3& v) { return std::array<double, 3>{v.x(), v.y(), v.z()}; };
   for (std::uint32_t v = 0; v < cut.mesh.vertices.size(); ++v) index.emplace(key(cut.mesh.vertices[v]), v);
@@ -156,9 +156,8 @@ std::vector<std::array<std::uint32_t, 3>> without_needless_corners(
   return triangles;
 }
 
-/// Puts the pieces of each cut triangle together again as far as they lie on one side of the contact's
-/// outline: what is left is the outline, without the corners that the triangles of the other part made along
-/// it.
+/// Merges the pieces of each cut triangle that lie on the same side of the contact's outline: what is left is
+/// the outline, without the corners that the triangles of the other part made along it.
 void unite_pieces(CutPart& part) {
   const mesh::TriMesh& mesh = part.mesh;
   std::vector<std::set<std::uint32_t>> owners(mesh.vertices.size());  // own triangles around each vertex

@@ -1,5 +1,5 @@
 #pragma once
-/// Which faces of two parts, curved ones too, lie near each other and face each other.
+/// Faces of two parts, flat or curved, that lie near each other and face each other.
 
 #include <vector>
 
@@ -8,12 +8,12 @@
 
 namespace scintray::contact {
 
-/// How a triangle of one part lies to the other part.
+/// Contact of a triangle of one part with the other part.
 enum class Facing {
-  none,     ///< nowhere within the tolerance
-  flat,     ///< in contact within the scene's own tolerance where it is in contact at all
-  partly,   ///< here within the tolerance and there not
-  covered,  ///< everywhere within it
+  none,     ///< none within the tolerance
+  flat,     ///< wherever it is in contact, within the scene's own tolerance
+  partly,   ///< only partly within the tolerance
+  covered,  ///< entirely within it
 };
 
 /// Points of a triangle: a regular grid of 6 steps a side, its corners included.
@@ -30,11 +30,12 @@ struct Nearest {
 Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& normal, bool opposed,
                 double reach);
 
-/// How each triangle of `body` faces `other`. What lies within `flat_mm` of each other is in contact already.
+/// Contact of each triangle of `body` with `other`. Faces within `flat_mm` of each other are in contact
+/// already.
 std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm);
 
-/// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles go outwards by
-/// `by` and those of their neighbours stay (least squares, weighted by area so that slivers, whose normals
+/// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles move outwards
+/// by `by` and those of their neighbours stay (least squares, weighted by area so that slivers, whose normals
 /// are rounding, do not count; nearly parallel planes count as one).
 mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<char>& marked, double by);
 

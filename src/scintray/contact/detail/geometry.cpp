@@ -13,7 +13,7 @@ namespace scintray::contact {
 namespace {
 
 /// The Fibonacci lattice (González 2010, Math. Geosci. 42, 49, eq. 1): directions spread evenly and in
-/// general position, so a ray along one seldom meets an edge, and another is at hand when it does.
+/// general position, so a ray along one rarely hits an edge, and then another one is tried.
 core::Vec3 lattice_direction(int i) {
   constexpr int kCount = 101;
   constexpr double kGoldenAngle = core::kTwoPi * (1.0 - 1.0 / std::numbers::phi);
@@ -28,7 +28,7 @@ struct Hit {
   double margin;  ///< least barycentric coordinate: negative outside, near zero at an edge
 };
 
-/// Where the line meets the plane of the triangle (Möller and Trumbore 1997); none when parallel.
+/// Intersection of the line with the plane of the triangle (Möller and Trumbore 1997); none when parallel.
 std::optional<Hit> intersect(const core::Vec3& origin, const core::Vec3& direction, const core::Vec3& a,
                              const core::Vec3& b, const core::Vec3& c) {
   const core::Vec3 e1 = b - a, e2 = c - a;
@@ -188,7 +188,7 @@ core::Vec3 Body::interior_point() const {
   core::Vec3 best = vertices[0];
   for (std::size_t i = 0; i < starts; ++i) {
     const std::uint32_t start = order[i];
-    // Off the centroid, lest the chord end on an edge of a symmetric mesh.
+    // Off the centroid, so that the chord does not end on an edge of a symmetric mesh.
     const core::Vec3 from = 0.36 * corner(start, 0) + 0.33 * corner(start, 1) + 0.31 * corner(start, 2);
     const core::Vec3 inward = -normal[start];
     double length = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #pragma once
-/// Geometry that resolving contacts needs: a part with a tree over its triangles.
+/// Geometry for resolving contacts: a part with a tree over its triangles.
 
 #include <array>
 #include <cstdint>
@@ -14,19 +14,19 @@ namespace scintray::contact {
 using Vec2 = Eigen::Vector2d;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Rotation into axes along the largest faces of all parts, in which boxes fit arrays of crystals
-/// closely however the assembly is turned. Identity for an upright assembly.
+/// Rotation into axes along the largest faces of all parts, in which boxes enclose arrays of crystals
+/// closely for any orientation of the assembly. Identity for an upright assembly.
 Eigen::Matrix3d natural_axes(const std::vector<PlacedPart>& parts);
 
-/// Where a point lies with respect to a body.
+/// Position of a point relative to a body.
 enum class Side { inside, outside, on_surface };
 
-/// A part with what the queries need. Boxes are in the axes given on construction.
+/// A part with the data of its queries. Boxes are in the axes given on construction.
 class Body {
  public:
   Body(const PlacedPart& part, const Eigen::Matrix3d& axes);
 
-  /// Recomputes all that depends on the vertices, after they moved.
+  /// Recomputes all that depends on the vertices after they have moved.
   void update();
 
   Box box_of(std::uint32_t triangle) const;

@@ -8,17 +8,17 @@ namespace scintray::contact {
 
 namespace {
 
-/// Where the surface of one body was found with respect to another body.
+/// Position of the surface of one body relative to another body.
 struct Found {
   bool inside = false;
   bool outside = false;
   bool resolved() const { return inside && outside; }
 };
 
-/// Looks where the surface of `body` lies with respect to `other`: at its corners, at the middle of
+/// Position of the surface of `body` relative to `other`: at its corners, at the middle of
 /// its triangles, and on its edges between the places where they can pass through the other surface.
-/// Two surfaces that cross always have an edge of one going through the other, so this sees every
-/// crossing; the triangles' middles see what lies between edges that run along the other's faces.
+/// Two surfaces that cross always have an edge of one going through the other, so this finds every crossing;
+/// the middles of triangles detect what lies between edges that run along the other's faces.
 class SurfaceSampler {
  public:
   SurfaceSampler(const Body& body, const Body& other, double tolerance)
@@ -99,7 +99,7 @@ class Relations {
   }
 
  private:
-  /// Surfaces that come nowhere near each other need one look per connected piece.
+  /// Surfaces that are nowhere near each other need one query per connected piece.
   Found surface(const Body& body, const Body& other, bool near) const {
     if (near) return SurfaceSampler(body, other, tolerance_).sample();
     Found found;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which part lies inside which, and which parts overlap and by how much.
+/// Nesting and overlap of parts.
 
 #include <cstdint>
 #include <vector>
@@ -25,12 +25,12 @@ struct Nesting {
   }
 };
 
-/// Decides for every near pair whether the bodies are apart (touching or not), nested or overlapping.
-/// What reaches less than `tolerance_mm` into the other body counts as touching it.
+/// Relation of every near pair of bodies: apart (touching or not), nested or overlapping. A body that
+/// reaches less than `tolerance_mm` into the other one counts as touching it.
 [[nodiscard]] Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
                                    double tolerance_mm);
 
-/// How much two parts overlap.
+/// Overlap of two parts.
 struct OverlapVolume {
   double volume_mm3 = 0.0;
   core::Vec3 inside = core::Vec3::Zero();  ///< a point inside both, mm; where none was found, the middle of
@@ -38,11 +38,11 @@ struct OverlapVolume {
   bool exact = true;                       ///< false: counted on a grid of points
 };
 
-/// Points of the grid that large meshes are counted on.
+/// Number of grid points for the overlap of large meshes.
 inline constexpr int kOverlapGridPoints = 32 * 32 * 32;
 
-/// The volume common to two bodies. Exact to rounding while the product of their numbers of triangles
-/// is at most 200,000; beyond, counted on a regular grid over the common part of their boxes.
+/// Volume common to two bodies. Exact to rounding while the product of their numbers of triangles is at
+/// most 200,000; beyond, estimated on a regular grid over the common part of their boxes.
 [[nodiscard]] OverlapVolume overlap_volume(const PlacedPart& a, const PlacedPart& b);
 
 }  // namespace scintray::contact

@@ -18,7 +18,7 @@ void add_prism(const std::array<core::Vec3, 3>& a, const std::array<core::Vec3, 
   out.push_back({a[2], b[0], b[1], b[2]});
 }
 
-/// Adds what of `t` lies where normal . (p - origin) <= 0.
+/// Adds the part of `t` where normal . (p - origin) <= 0.
 void clip(const Tetrahedron& t, const core::Vec3& origin, const core::Vec3& normal,
           std::vector<Tetrahedron>& out) {
   std::array<double, 4> height{};

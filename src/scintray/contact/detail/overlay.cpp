@@ -102,7 +102,7 @@ class Sweep {
     }
   }
 
-  /// From `face` out over its side k: the neighbour is to the left of from -> to.
+  /// From `face` across its side k: the neighbour is to the left of from -> to.
   void cross(Triangulation::Face_handle face, int k, Windings& windings) {
     const auto from = face->vertex(Triangulation::cw(k)), to = face->vertex(Triangulation::ccw(k));
     for (auto context : triangulation_.contexts(from, to)) {  // id() is not const

@@ -27,10 +27,10 @@ struct Overlay {
   std::vector<OverlayCell> cells;
 };
 
-/// Triangulates the plane so that every edge is made of sides of cells, and states for each cell which
-/// labels wind around it. Crossings are computed exactly; coverage follows from the edges passed on
-/// the way in from infinity, never from a rounded point, so neighbouring cells cannot disagree. Cells
-/// that no label covers are left out. Points must be distinct; edges may cross and overlap.
+/// Triangulation of the plane in which every edge consists of sides of cells, with the labels that wind
+/// around each cell. Crossings are computed exactly; coverage follows from the edges crossed on the way in
+/// from infinity, never from a rounded point, so neighbouring cells cannot disagree. Cells that no label
+/// covers are left out. Points must be distinct; edges may cross and overlap.
 Overlay overlay(std::vector<Vec2> points, const std::vector<OverlayEdge>& edges);
 
 }  // namespace scintray::contact

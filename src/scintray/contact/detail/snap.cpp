@@ -115,7 +115,7 @@ class Snapper {
   /// The edges of outlines that start or end at a vertex.
   using EdgesAt = std::multimap<Index, Edge>;
 
-  /// Does `edge` draw the vertex i to it? Along a common line the longer edge stays and the vertices of
+  /// True when `edge` attracts the vertex i. Along a common line the longer edge stays and the vertices of
   /// the shorter move; if both moved, each would go where the other was.
   bool draws(const Edge& edge, Index i, const EdgesAt& edges_at) const {
     constexpr double kSameLine = 0.99;
@@ -147,7 +147,7 @@ class Snapper {
     return edges;
   }
 
-  /// A corner within the tolerance of another body's outline is to lie on it, if the outline draws it.
+  /// A corner within the tolerance of another body's outline has to lie on it, if the outline attracts it.
   void join_edges() {
     for (std::uint32_t c = 0; c < clusters_.clusters.size(); ++c) {
       const Cluster& cluster = clusters_.clusters[c];

@@ -1,5 +1,5 @@
 #pragma once
-/// Curved faces that touch where each ends within the other: the stitching of two parts, and its steps.
+/// Stitching of two parts along curved faces that touch where each ends within the other, and its steps.
 
 #include <map>
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace scintray::contact {
 
-/// Gives `conforming` the triangles of `reference` where both face each other within the tolerance, and
-/// stitches them to what is left of its own faces.
+/// Replaces the faces of `conforming` by the triangles of `reference` where both face each other within the
+/// tolerance, and stitches these to its remaining faces.
 ///
 /// Both meshes are first cut where the other's contact ends: along the other part, its facing triangles
 /// pushed out by twice the tolerance, so that the planes in which it ends run on through this one's surface
@@ -24,16 +24,17 @@ namespace scintray::contact {
 /// the contact is the same triangles on both sides, and the conforming side's faces beside it lean over to
 /// the common outline instead of ending at a step. Nothing moves by more than twice the tolerance.
 ///
-/// @return why it cannot be done, or nothing. Then both parts are changed, with a note each.
+/// @return empty on success, when both parts are changed, with a note each; otherwise the reason of the
+/// failure
 [[nodiscard]] std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, double tolerance_mm,
                                  double flat_mm, const Eigen::Matrix3d& axes);
 
-/// How far facing triangles are pushed, in tolerances: past the deepest sliver, with room.
+/// Displacement of facing triangles, in tolerances: beyond the deepest sliver, with a margin.
 inline constexpr double kContactPush = 2.0;
 
 using Loop = std::vector<std::uint32_t>;  ///< vertices, the first one after the last
 
-/// A part cut where its contact with another ends.
+/// A part cut along the outline of its contact with another.
 struct CutPart {
   mesh::TriMesh mesh;
   std::vector<std::uint32_t> origin;  ///< per triangle, the part's own triangle that it is a piece of
@@ -41,7 +42,7 @@ struct CutPart {
   std::vector<Loop> outlines;         ///< of the contact, which lies to their left seen from outside
 };
 
-/// A part with what the cuts need.
+/// A part with the data of its cuts.
 struct ContactSide {
   const PlacedMesh& part;
   Body body;
@@ -51,8 +52,8 @@ struct ContactSide {
 
 ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, double tolerance, double flat_mm);
 
-/// Cuts a part where its contact with the other ends. Nothing when CGAL refuses, or the contact has no
-/// plain outline.
+/// The part cut along the outline of its contact with the other. Empty when CGAL fails, or the contact has no
+/// simple outline.
 [[nodiscard]] std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide& other,
                                                     double tolerance, double flat_mm,
                                                     const Eigen::Matrix3d& axes);
@@ -63,31 +64,31 @@ void split_edge(CutPart& part, std::uint32_t a, std::uint32_t b, std::uint32_t v
 
 std::uint32_t add_vertex(mesh::TriMesh& mesh, const core::Vec3& position);
 
-/// A place of the common outline, in order along the reference side's.
+/// A point of the common outline, in order along the reference side's.
 struct Knot {
   double along = 0.0;
   core::Vec3 position;
   std::uint32_t of_reference = ~0U, of_conforming = ~0U;  ///< vertices
 };
 
-/// Two cut parts on their way to a common outline, and what changed so far.
+/// Two cut parts being joined along a common outline, with the changes so far.
 struct OutlineStitching {
   CutPart &reference, &conforming;
   double tolerance;                               ///< of the contact, mm
-  std::map<std::uint32_t, std::uint32_t> merged;  ///< vertices of the conforming side, and what they become
-  double moved = 0.0;                             ///< how far one of them went at most, mm
+  std::map<std::uint32_t, std::uint32_t> merged;  ///< vertices of the conforming side, and their new ones
+  double moved = 0.0;                             ///< largest displacement of one of them, mm
 };
 
-/// One outline in the place of the conforming side's and the reference side's, which runs the other way
-/// round: moves the conforming side's corners onto the reference side's outline, and cuts edges of both parts
-/// where the other has a corner. Nothing where the two run further apart than twice the tolerance, or their
-/// corners come in another order.
+/// The common outline that replaces the conforming side's and the reference side's, which runs in the other
+/// sense: moves the conforming side's corners onto the reference side's outline, and cuts edges of both parts
+/// where the other has a corner. Empty where the two are further apart than twice the tolerance, or their
+/// corners are in another order.
 [[nodiscard]] std::optional<std::vector<Knot>> stitch_outlines(OutlineStitching& parts,
                                                                const Loop& reference_loop,
                                                                const Loop& conforming_loop);
 
-/// Which outline of the reference side each of the conforming side's runs along; nothing when they are no
-/// pairs.
+/// The outline of the reference side along which each outline of the conforming side runs; empty when they do
+/// not form pairs.
 [[nodiscard]] std::optional<std::vector<std::size_t>> outline_pairs(const CutPart& reference,
                                                                     const CutPart& conforming);
 

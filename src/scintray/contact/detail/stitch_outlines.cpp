@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSame = 0.05;  // in tolerances: outline corners this near to each other are one
 
-/// A closed line, with places on it by the length of the way along it.
+/// A closed line with points on it given by the path length along it.
 class Outline {
  public:
   Outline(const mesh::TriMesh& mesh, const Loop& loop) {
@@ -51,7 +51,7 @@ class Outline {
   double length_ = 0.0;
 };
 
-/// Makes one outline of two.
+/// The common outline of two.
 class OutlineStitcher {
  public:
   OutlineStitcher(OutlineStitching& parts, const Loop& reference_loop, const Loop& conforming_loop)
@@ -60,13 +60,13 @@ class OutlineStitcher {
         merged_(parts.merged),
         moved_(parts.moved),
         reference_loop_(reference_loop.rbegin(),
-                        reference_loop.rend()),  // the other way round, as seen from here
+                        reference_loop.rend()),  // in the opposite sense, as seen from here
         conforming_loop_(conforming_loop),
         outline_(reference_.mesh, reference_loop_),
         reach_(kContactPush * parts.tolerance),
         same_(kSame * parts.tolerance) {}
 
-  /// The common outline; nothing where the two run too far apart or in another order. Moves the conforming
+  /// The common outline; empty where the two are too far apart or in another order. Moves the conforming
   /// side's corners and cuts edges of both.
   std::optional<std::vector<Knot>> stitch() {
     if (!place_corners()) return std::nullopt;
@@ -77,8 +77,8 @@ class OutlineStitcher {
   }
 
  private:
-  /// Finds the places of the conforming side's corners along the reference side's outline, each after the one
-  /// before.
+  /// Finds the positions of the conforming side's corners along the reference side's outline, each after the
+  /// one before.
   bool place_corners() {
     for (const std::uint32_t v : conforming_loop_) {
       const Outline::Place place = outline_.nearest(conforming_.mesh.vertices[v]);
@@ -100,7 +100,7 @@ class OutlineStitcher {
     return std::abs(turn - outline_.length()) <= 1e-6 * outline_.length();
   }
 
-  /// A corner of the outline when there is one that near.
+  /// The corner of the outline within reach, if there is one.
   double snapped(double along) const {
     for (std::size_t i = 0; i < outline_.size(); ++i)
       if (std::abs(along - outline_.start(i)) <= same_) return outline_.start(i);

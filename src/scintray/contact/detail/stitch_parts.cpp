@@ -14,7 +14,8 @@ namespace scintray::contact {
 
 namespace {
 
-/// Triangles of the conforming side outside the contact, with merged vertices; those that collapse go.
+/// Triangles of the conforming side outside the contact, with merged vertices; those that collapse are
+/// removed.
 CutPart without_contact(const CutPart& conforming, const std::map<std::uint32_t, std::uint32_t>& merged) {
   CutPart rest;
   rest.mesh.vertices = conforming.mesh.vertices;
@@ -33,7 +34,7 @@ CutPart without_contact(const CutPart& conforming, const std::map<std::uint32_t,
   return rest;
 }
 
-/// Adds the reference side's contact triangles, turned round, to what is left of the conforming side. False
+/// Adds the reference side's contact triangles, reversed, to the rest of the conforming side. False
 /// when one strays from the conforming side's own surface by more than `reach`.
 bool add_contact(const CutPart& reference, const ContactSide& conforming, const std::vector<Knot>& knots,
                  double reach, CutPart& rest, double& moved) {
@@ -67,13 +68,13 @@ bool add_contact(const CutPart& reference, const ContactSide& conforming, const 
   return true;
 }
 
-/// Takes out triangles whose corners came to lie on one edge of the outline.
+/// Removes triangles whose corners lie on one edge of the outline.
 void remove_flat_triangles(CutPart& cut) {
   Eigen::AlignedBox3d box;
   for (const core::Vec3& v : cut.mesh.vertices) box.extend(v);
   const std::vector<std::uint32_t> group = cut.mesh.group, origin = cut.origin;
   std::iota(cut.mesh.group.begin(), cut.mesh.group.end(), 0U);
-  // What diagnose() takes for rounding, and a little more.
+  // What diagnose() treats as rounding, and a little more.
   mesh::remove_degenerate(cut.mesh, 1.01 * std::ldexp(0.5 * box.sizes().maxCoeff(), -22));
   cut.origin.clear();
   for (std::uint32_t& number : cut.mesh.group) {
@@ -82,7 +83,7 @@ void remove_flat_triangles(CutPart& cut) {
   }
 }
 
-/// The part with another mesh; or why that is no part.
+/// The part with another mesh, or the reason why that is not a sound part.
 std::string replace_mesh(PlacedMesh& part, CutPart cut) {
   mesh::drop_unused_vertices(cut.mesh);
   remove_flat_triangles(cut);
@@ -105,7 +106,7 @@ std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, double toleran
                     conforming_side = contact_side(conforming, reference, tolerance_mm, flat_mm);
   auto reference_cut = cut_at_contact(reference_side, conforming_side, tolerance_mm, flat_mm, axes),
        conforming_cut = cut_at_contact(conforming_side, reference_side, tolerance_mm, flat_mm, axes);
-  if (!reference_cut || !conforming_cut) return "their contact has no plain outline";
+  if (!reference_cut || !conforming_cut) return "their contact has no simple outline";
   const auto pairs = outline_pairs(*reference_cut, *conforming_cut);
   if (!pairs) return "the outlines of their contact do not fit each other";
 

@@ -29,8 +29,8 @@ std::string hdf5_reason() {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, visit, &deepest);
-  if (deepest.empty()) return "HDF5 gives no reason";
-  // Messages about system calls bury the cause in a list of addresses: take the cause alone.
+  if (deepest.empty()) return "HDF5 reports no reason";
+  // Messages about system calls hide the cause in a list of addresses: take the cause alone.
   const std::string mark = "error message = '";
   const auto start = deepest.find(mark);
   if (start == std::string::npos) return deepest;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the files of the HDF5 layer share; nothing outside src/core/h5_*.cpp includes this.
+/// Shared parts of the HDF5 layer; only core's h5_*.cpp files include this.
 
 #include <hdf5.h>
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace scintray::core::h5 {
 
-/// Switches HDF5's printing to stderr off while it lives; the caller's setting comes back after.
+/// Switches HDF5's printing to stderr off during its lifetime; its destructor restores the setting.
 class Quiet {
  public:
   Quiet() {
@@ -28,9 +28,9 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-/// Where HDF5's latest failure began: the deepest entry of its error stack.
+/// Cause of HDF5's latest failure: the deepest entry of its error stack.
 std::string hdf5_reason();
-/// "FILE: cannot ACTION OBJECT: why", with the reason of HDF5's latest failure.
+/// Message "FILE: cannot ACTION OBJECT: reason", with the reason of HDF5's latest failure.
 std::string failure_text(const std::string& file, const std::string& object, const std::string& action);
 
 /// An HDF5 identifier, closed with its own function.
@@ -57,18 +57,19 @@ class Handle {
   Closer closer_;
 };
 
-/// Text of any length in UTF-8.
+/// HDF5 type of text of any length in UTF-8.
 Handle text_type();
-/// For files and groups: members keep their order, and no time stamps make equal results equal files.
+/// Creation properties of files and groups: members keep their order, and there are no time stamps, so that
+/// equal results are equal files.
 Handle creation_order_properties(hid_t kind);
 
-/// Makes [from, to) of a file real disk space. 0 or an errno value.
+/// Allocates disk space for [from, to) of a file. Returns 0 or an errno value.
 int allocate(int descriptor, off_t from, off_t to);
 
-/// What a file and its groups know of each other: groups may outlive the file.
+/// State that a file and its groups share: groups may outlive the file.
 ///
-/// HDF5 cannot let go of a file whose caches it could not write: closing fails, and the process crashes
-/// in HDF5's exit handler. So disk space is taken before HDF5 needs it, and a full disk is met here.
+/// HDF5 cannot release a file whose caches it could not write: closing fails, and the process crashes in
+/// HDF5's exit handler. So disk space is allocated before HDF5 needs it, and a full disk is detected here.
 struct Life {
   hid_t file = -1;  ///< -1 once closed
   bool writing = false;
@@ -77,10 +78,10 @@ struct Life {
   std::uint64_t stream_bytes = 0;  ///< most that the chunk caches of all streams can hold back
 
   int descriptor() const;
-  /// Takes disk space for `bytes` more of data and for what describes it. 0 or an errno value.
+  /// Allocates disk space for `bytes` more of data and its metadata. Returns 0 or an errno value.
   int reserve(std::uint64_t bytes);
-  /// Should a write fail all the same, the file is thrown away: from then on its descriptor points to
-  /// memory, where what the caches still hold goes when the file is closed.
+  /// Abandons the file when a write fails all the same: from then on its descriptor refers to memory, which
+  /// receives what the caches still hold when the file is closed.
   void give_up(const std::string& message);
   void require_usable(const std::string& name) const;
 };
@@ -103,7 +104,7 @@ struct Group::State {
   ~State();
   std::string object(const std::string& member) const;
   [[noreturn]] void fail(const std::string& action, const std::string& member) const;
-  /// As fail(), when data already accepted may not have reached the file.
+  /// As fail(), when data accepted before may not have reached the file.
   [[noreturn]] void give_up(const std::string& action, const std::string& member) const;
   [[noreturn]] void refuse(const std::string& action, const std::string& member,
                            const std::string& reason) const;
@@ -113,12 +114,12 @@ struct Group::State {
   /// The object that carries attributes: a member or, for "", the group itself.
   Handle attribute_owner(const std::string& member) const;
   Handle open_dataset(const std::string& member) const;
-  /// Shape of a dataset, checked to be no larger than what the file can hold.
+  /// Shape of a dataset, checked against the size of the file.
   Shape checked_shape(const Handle& dataset, const std::string& member) const;
   void write_text_attribute(const std::string& member, const std::string& attribute, const char* text) const;
   void write_attribute(const std::string& member, const std::string& attribute, hid_t file_type,
                        hid_t memory_type, const void* value) const;
-  /// An attribute of one value whose type has class text or number, as requested.
+  /// An attribute of one value, of text or of a number as requested.
   Handle open_attribute(const std::string& member, const std::string& attribute, bool text) const;
 };
 

@@ -127,7 +127,7 @@ class SceneMaker {
   std::string part(std::size_t i) {
     const PlacedVolume& placed = structure_.placed[i];
     const Eigen::Matrix3d linear = placed.to_world.linear();
-    // Scaled placements: turn and scale go into the mesh.
+    // Scaled placements: rotation and scale are applied to the mesh.
     const bool scaled = !(linear.transpose() * linear).isIdentity(1e-9) || linear.determinant() < 0.0;
     std::string keys;
     try {
@@ -166,7 +166,7 @@ class SceneMaker {
         if (const SurfacePlacement* back = find_border(outside, placed.physvol);
             back && back->property != border->property)
           note("the border from " + outside + " into " + placed.physvol +
-               ": a face has one finish, and that of the way out is taken");
+               ": a face has one finish, and that of the outward crossing is used");
         return use_surface(*border);
       }
       if (const SurfacePlacement* back = find_border(outside, placed.physvol)) return use_surface(*back);
@@ -209,7 +209,7 @@ class SceneMaker {
     return text;
   }
 
-  /// Name of the surface in the scene; writes its definition when it is met first.
+  /// Name of the surface in the scene; writes its definition on first use.
   std::string use_surface(const SurfacePlacement& placement) {
     const std::string& property = placement.property;
     if (const auto given = options_.surfaces.find(property); given != options_.surfaces.end())
@@ -223,7 +223,7 @@ class SceneMaker {
     for (const std::string& left_out : surface.notes) note("surface " + property + ": " + left_out);
     if (surface.toml.empty())
       draft_.missing.push_back("surface " + toml_string(property) + ": [surfaces." + toml_string(property) +
-                               "], or --surface " + property + "=LIBRARY_SURFACE");
+                               "], or --surface " + property + "=DATABASE_SURFACE");
     else
       surface_tables_ += "\n[surfaces." + toml_string(property) + "]\n" + surface.toml;
     return property;
@@ -260,7 +260,7 @@ class SceneMaker {
       }
     draft_.missing.push_back(
         "[source]: no volume has a material with RINDEX for light to start in; give its materials media with "
-        "--medium MATERIAL=LIBRARY_MEDIUM");
+        "--medium MATERIAL=DATABASE_MEDIUM");
     return "";
   }
 

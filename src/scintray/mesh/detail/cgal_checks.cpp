@@ -31,7 +31,7 @@ std::vector<Point> points_of(const TriMesh& mesh) {
   return points;
 }
 
-/// Corners of a triangle, those that `other` has too first; returns how many those are.
+/// Corners of a triangle, those shared with `other` first; returns the number of shared ones.
 std::size_t shared_first(Corners& corners, const Corners& other) {
   const auto middle = std::stable_partition(corners.begin(), corners.end(), [&other](std::uint32_t v) {
     return std::find(other.begin(), other.end(), v) != other.end();
@@ -44,11 +44,11 @@ bool intersect(const std::vector<Point>& p, Corners a, Corners b) {
   shared_first(b, a);
   const Triangle first(p[a[0]], p[a[1]], p[a[2]]), second(p[b[0]], p[b[1]], p[b[2]]);
   if (shared == 0) return CGAL::do_intersect(first, second);
-  if (shared == 1) {  // beyond the common vertex exactly when an opposite side meets the other triangle
+  if (shared == 1) {  // beyond the common vertex exactly when an opposite side intersects the other triangle
     return CGAL::do_intersect(Segment(p[a[1]], p[a[2]]), second) ||
            CGAL::do_intersect(Segment(p[b[1]], p[b[2]]), first);
   }
-  if (shared == 2) {  // folded flat onto each other
+  if (shared == 2) {  // folded onto each other
     return CGAL::coplanar(p[a[0]], p[a[1]], p[a[2]], p[b[2]]) &&
            CGAL::coplanar_orientation(p[a[0]], p[a[1]], p[a[2]], p[b[2]]) == CGAL::POSITIVE;
   }
@@ -79,7 +79,7 @@ std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh) {
   Soup<Point> soup(mesh);
   pmp::orient_polygon_soup(soup.points, soup.polygons);  // splits vertices in which several bodies touch
   if (!pmp::is_polygon_soup_a_polygon_mesh(soup.polygons)) {
-    throw core::InternalError("a closed, consistently oriented mesh is no polygon mesh for CGAL");
+    throw core::InternalError("a closed, consistently oriented mesh is not a polygon mesh for CGAL");
   }
   CGAL::Surface_mesh<Point> surface;
   pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);

@@ -1,5 +1,5 @@
 #pragma once
-/// The checks that need exact predicates. CGAL stays in the one file behind this header.
+/// Checks with exact predicates. CGAL is used only in this header's source file.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace scintray::mesh {
 
-/// Pairs of triangles that meet other than in the vertices or edge they share by index. Triangles
+/// Pairs of triangles that intersect other than in the vertices or edge they share by index. Triangles
 /// without area, and pairs with the same three vertices, are left out: they are counted elsewhere.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const TriMesh& mesh);
 
-/// Mask of triangles to turn round so that normals point out of the solid, nested shells alternating.
+/// Mask of triangles to reverse so that normals point out of the solid, nested shells alternating.
 /// The mesh must be closed, consistently oriented and free of self-intersections.
 std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Between our meshes and CGAL's, as templates: the few files that include CGAL give the types.
+/// Conversion between TriMesh and CGAL's meshes, as templates: the files that include CGAL supply the types.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace scintray::mesh {
 
-/// A mesh as CGAL's polygon soups are. `Point` is made of three numbers.
+/// A mesh in the form of CGAL's polygon soups. `Point` is constructed from three numbers.
 template <typename Point>
 struct Soup {
   std::vector<Point> points;

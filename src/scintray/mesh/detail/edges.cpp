@@ -25,7 +25,7 @@ std::vector<EdgeUse> sorted_edge_uses(const TriMesh& mesh) {
 
 TriangleNeighbours::TriangleNeighbours(const TriMesh& mesh) : start_(mesh.triangles.size() + 1, 0) {
   const auto uses = sorted_edge_uses(mesh);
-  // An edge of many triangles links them in a ring, so that its cost stays linear.
+  // An edge of many triangles links them in a ring, so that its cost is linear.
   const auto for_each_link = [&uses](auto&& link) {
     for_each_edge(uses, [&link](const EdgeUse* first, const EdgeUse* last) {
       const std::size_t n = static_cast<std::size_t>(last - first);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which triangles meet at which edge.
+/// Edges of a mesh, and the triangles that share each.
 
 #include <cstddef>
 #include <cstdint>

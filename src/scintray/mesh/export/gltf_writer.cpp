@@ -149,7 +149,7 @@ void write_glb(const std::filesystem::path& path, const std::vector<GltfObject>&
   std::ostringstream stream;
   tinygltf::TinyGLTF writer;
   if (!writer.WriteGltfSceneToStream(const_cast<tinygltf::Model*>(&maker.model()), stream, false, true))
-    throw core::SystemError("cannot write " + path.string() + ": the glTF library refuses");
+    throw core::SystemError("cannot write " + path.string() + ": the glTF library failed");
   core::write_whole_file(path, stream.str());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Meshes written in formats that hold triangles alone: STL and PLY.
+/// Export to formats that hold only triangles: STL and PLY.
 
 #include <filesystem>
 
@@ -7,13 +7,13 @@
 
 namespace scintray::mesh {
 
-/// Writes a binary STL with coordinates in mm, rounded to single precision (groups are lost: the
-/// format has none). The file appears whole or not at all. @throws SystemError when it cannot.
+/// Writes a binary STL with coordinates in mm, rounded to single precision (groups are lost: the format has
+/// none). The file is written completely or not at all. @throws SystemError when it cannot be written
 void write_stl(const std::filesystem::path& path, const TriMesh& mesh);
 
 /// Writes a binary PLY with coordinates in mm, in double precision, so that bodies that touch still touch
-/// after reading (groups are lost: the format has none). The file appears whole or not at all.
-/// @throws SystemError when it cannot.
+/// after reading (groups are lost: the format has none). The file is written completely or not at all.
+/// @throws SystemError when it cannot be written
 void write_ply(const std::filesystem::path& path, const TriMesh& mesh);
 
 }  // namespace scintray::mesh

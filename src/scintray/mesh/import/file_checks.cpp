@@ -69,7 +69,7 @@ void check_stl(const std::filesystem::path& path, const std::string& content) {
 }
 
 void check_off(const std::filesystem::path& path, const std::string& content) {
-  // The counts follow the keyword (OFF, COFF, ...), perhaps without a space; '#' begins a comment.
+  // The counts follow the keyword (OFF, COFF, ...), possibly without a space; '#' begins a comment.
   const std::size_t keyword = content.find("OFF");
   if (keyword == std::string::npos || keyword > 1000) {
     reject_file(path, "not an OFF file: the keyword OFF is missing", "export the mesh again as OFF");

@@ -81,9 +81,9 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   raw.notes.insert(raw.notes.begin(), unit_notes.begin(), unit_notes.end());
   choose_body(path, raw, options.body);
   if (raw.deviation_mm > 0.0) {
-    raw.notes.push_back("curved CAD faces cut in triangles within " +
+    raw.notes.push_back("curved CAD faces tessellated within " +
                         number_text(raw.deviation_mm * options.scale) + " mm" +
-                        " of them (asked for: " + number_text(options.tessellation.deviation_mm) +
+                        " of them (requested: " + number_text(options.tessellation.deviation_mm) +
                         " mm and " + number_text(options.tessellation.angle_rad / core::kDegree) + " deg)");
   }
   MeshImport result{std::move(raw.mesh), raw.unit.name, std::move(raw.notes), 0, std::move(raw.bodies)};
@@ -94,7 +94,7 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   }
   if (raw.crossing_polygons > 0) {
     result.notes.push_back(std::to_string(raw.crossing_polygons) +
-                           " polygons cross themselves and were cut in triangles as well as may be");
+                           " polygons cross themselves and were triangulated approximately");
   }
   if (mesh.triangles.empty()) {
     reject_file(path, "the file holds no triangles",
@@ -111,7 +111,7 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   const DegenerateRemoval removal = remove_degenerate(mesh, length);
   if (result.degenerate_triangles > 0) {
     result.notes.push_back(std::to_string(result.degenerate_triangles) +
-                           " triangles without area kept out, " + std::to_string(removal.cut) +
+                           " triangles without area left out, " + std::to_string(removal.cut) +
                            " neighbours cut to close the slits they leave");
   }
   if (mesh.triangles.empty()) {

@@ -12,14 +12,14 @@
 
 namespace scintray::mesh {
 
-/// How a mesh file is to be taken.
+/// Options for the import of a mesh file.
 struct ImportOptions {
-  /// Length of one unit of the file in mm; 0 takes the unit that the file or its format states.
+  /// Length of one unit of the file in mm; 0: the unit that the file or its format states.
   double mm_per_unit = 0.0;
   double scale = 1.0;         ///< extra factor
-  std::string body;           ///< name of the one body to take, or its number from 1 on; empty: all of them
+  std::string body;           ///< name or number (from 1 on) of the one body to import; empty: all of them
   Tessellation tessellation;  ///< of curved CAD faces, after `scale`
-  /// What may be read; lives as long as the reading. Formats from outside are added to a list of the
+  /// Formats that can be read; must outlive the import. External formats are added to a list of the
   /// caller's.
   const MeshFormats* formats = &MeshFormats::built_in();
 };
@@ -28,19 +28,19 @@ struct MeshImport {
   TriMesh mesh;                          ///< mm, vertices welded, no triangle of zero area
   std::string unit_from_file;            ///< "m" for glTF; "" when the file does not state
   std::vector<std::string> notes;        ///< everything that was left out, repaired or warned about
-  std::size_t degenerate_triangles = 0;  ///< triangles of the file that had no area and were kept out
+  std::size_t degenerate_triangles = 0;  ///< triangles of the file without area, left out
   std::vector<std::string> bodies;       ///< all bodies of the file; empty when its format has none
 };
 
-/// Reads STL, OBJ, OFF (assimp), PLY, 3MF and COLLADA (here), glTF 2.0 as .gltf or .glb (tinygltf), and
-/// STEP (Open CASCADE, when it was there at build time).
+/// Mesh of a file: STL, OBJ, OFF (assimp), PLY, 3MF and COLLADA (own readers), glTF 2.0 as .gltf or .glb
+/// (tinygltf), and STEP (Open CASCADE, when it was available at build time).
 ///
-/// All node transforms are applied; axes stay as the file has them. Polygons are cut into triangles.
+/// All node transforms are applied; the axes are those of the file. Polygons are cut into triangles.
 /// Triangles keep the order in which the file's objects and then their faces come.
 ///
 /// Vertices are single precision in most of these formats, so vertices closer than 2^-22 of the largest
 /// absolute coordinate (two units in the last place) are one vertex. Triangles that then have two
-/// equal vertices, or whose height is below the same length, have no area: they are kept out, and a
+/// equal vertices, or whose height is below the same length, have no area: they are left out, and a
 /// neighbour that had its long edge in common with one is cut at its middle vertex so that the mesh
 /// stays closed.
 ///
@@ -52,7 +52,7 @@ struct MeshImport {
 /// Groups: glTF material name; name, else colour ("#rrggbb"), else number ("face12") of a CAD face; for
 /// other formats the object or group name, the material name, or "object:material" when both are given.
 /// Unnamed triangles are in the group "default". Tags of groups: scalar glTF extras of the nodes, the mesh,
-/// the material and the primitive, the later ones winning; "color" and "face" of a CAD face.
+/// the material and the primitive, the later ones taking precedence; "color" and "face" of a CAD face.
 ///
 /// @throws InputError  missing, empty, unreadable or malformed file; no triangles; a vertex that is
 ///                     not finite; unknown extension; no unit, or one that contradicts the file; no such
@@ -62,14 +62,14 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
 /// The same with nothing but a unit: see ImportOptions::mm_per_unit.
 MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit);
 
-/// Endings (with the dot, lower case) of the formats that are built in.
+/// Extensions (with the dot, lower case) of the built-in formats.
 const std::vector<std::string>& mesh_extensions();
 
-/// Whether the ending (with the dot, lower case) is that of STEP, whose curved faces are cut in triangles.
+/// True for an extension (with the dot, lower case) of STEP, whose curved faces are tessellated.
 bool is_step(const std::string& extension);
 
-/// Whether files of this ending (with the dot, lower case) say in which unit they are, or their format
-/// does. False for one that is not built in.
+/// True for an extension (with the dot, lower case) whose files or format state the unit of length. False for
+/// an extension that is not built in.
 bool states_its_unit(const std::string& extension);
 
 }  // namespace scintray::mesh

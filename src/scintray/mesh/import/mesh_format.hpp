@@ -1,5 +1,5 @@
 #pragma once
-/// The file formats that meshes are read from.
+/// File formats of meshes.
 
 #include <filesystem>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// A mesh file as the reader of its format receives it; all live as long as the reader runs.
+/// A mesh file as the reader of its format receives it; all members outlive the call.
 struct MeshFile {
   const std::filesystem::path& path;  ///< for messages, and for files beside it
   const std::string& content;         ///< all bytes, at least one
@@ -21,14 +21,14 @@ struct MeshFile {
 /// One file format.
 struct MeshFormat {
   std::string extension;     ///< of its files, with the dot, lower case; each has one format
-  bool states_unit = false;  ///< the file, or its format, states the unit; otherwise the user has to
-  bool is_step = false;      ///< CAD: faces may be curved, and are cut in triangles
-  /// Reads a file. Throws InputError, naming the path, for content that is not of this format; indices of
+  bool states_unit = false;  ///< the file or its format states the unit; otherwise the user must
+  bool is_step = false;      ///< CAD: faces may be curved, and are tessellated
+  /// Mesh of a file. Throws InputError, naming the path, for content that is not of this format; indices of
   /// vertices and groups are in range.
   std::function<RawMesh(const MeshFile& file)> read;
 };
 
-/// A list of formats, told apart by the file's extension. Constant once filled: many threads may then read
+/// A list of formats, identified by the file's extension. Constant once filled: many threads may then read
 /// meshes with it.
 class MeshFormats {
  public:
@@ -36,10 +36,10 @@ class MeshFormats {
   MeshFormats();
   static const MeshFormats& built_in();
 
-  /// Adds a format. Throws InternalError when its extension is none, or is taken, or it has no reader.
+  /// Adds a format. Throws InternalError when its extension is empty or taken, or it has no reader.
   void add(MeshFormat format);
 
-  /// The format of an extension (with the dot, lower case), or nullptr.
+  /// The format of an extension (with the dot, lower case); nullptr when there is none.
   [[nodiscard]] const MeshFormat* find(const std::string& extension) const;
   /// All extensions, built-in ones first.
   const std::vector<std::string>& extensions() const { return extensions_; }

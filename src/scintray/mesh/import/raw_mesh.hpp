@@ -1,5 +1,5 @@
 #pragma once
-/// What the reader of a mesh format returns.
+/// Result of the reader of a mesh format.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace scintray::mesh {
 
 /// The unit of length of a mesh file.
 struct FileUnit {
-  std::string name;      ///< as "inch"; empty when neither the file nor its format states
+  std::string name;      ///< such as "inch"; empty when neither the file nor its format states one
   double mm = 0.0;       ///< length of the unit; 0 when unknown
   bool written = false;  ///< the file itself states it; otherwise its format prescribes it
-  double read_mm = 0.0;  ///< what one unit of the coordinates, as the library gave them, is
+  double read_mm = 0.0;  ///< length of one unit of the coordinates, as the library returned them
 };
 
-/// Triangles as the file has them, in file units; vertices not welded, indices checked.
+/// Triangles of the file, in file units; vertices not welded, indices checked.
 struct RawMesh {
   TriMesh mesh;
   FileUnit unit;
@@ -30,13 +30,13 @@ struct RawMesh {
   std::vector<std::uint32_t> body_of;
 
   std::size_t points_and_lines = 0;   ///< faces with fewer than three corners, left out
-  std::size_t crossing_polygons = 0;  ///< polygons that cross themselves, cut as well as may be
+  std::size_t crossing_polygons = 0;  ///< polygons that cross themselves, triangulated approximately
   double deviation_mm = 0.0;          ///< largest distance found between triangles and a curved CAD face
 
-  /// Begins a body: triangles added from now on, and those left without one, belong to it. A name that is
-  /// taken gets a number; an empty one becomes "body".
+  /// Begins a body: triangles added from now on, and those without one, belong to it. A number is appended
+  /// to a name that is taken; an empty one becomes "body".
   void begin_body(const std::string& name);
-  /// Gives the triangles added since the last call to the latest body.
+  /// Assigns the triangles added since the last call to the latest body.
   void fill_body();
 
   /// Adds a polygon over vertices of `mesh`, cut in triangles, with its corners in reverse order when

@@ -38,11 +38,11 @@ class Repairer {
     remove_flat();
     clear_edges();
     fill();
-    clear_edges();  // covers of holes beside each other can meet
+    clear_edges();  // covers of adjacent holes can touch
     resolve_crossings();
     remove_flat();
     orient("");
-    weld_vertices(mesh(), rounding_length(mesh()));  // drops vertices that nothing uses
+    weld_vertices(mesh(), rounding_length(mesh()));  // removes vertices that nothing uses
     result_.after = diagnose(mesh());
     return std::move(result_);
   }
@@ -110,11 +110,11 @@ class Repairer {
           << " mm across)";
     refuse(filling.too_large.count, "hole stays open:" + sizes.str(), "holes stay open:" + sizes.str());
     refuse(filling.without_cover.count, "hole could not be covered", "holes could not be covered");
-    refuse(filling.sheets, "open sheet encloses nothing: what lies behind it cannot be known",
-           "open sheets enclose nothing: what lies behind them cannot be known");
+    refuse(filling.sheets, "open sheet encloses nothing: the medium behind it is not defined",
+           "open sheets enclose nothing: the medium behind them is not defined");
   }
 
-  /// Bodies of one mesh, and which of them cross or touch.
+  /// Bodies of one mesh, and the pairs that cross or touch.
   struct Bodies {
     std::vector<TriMesh> body;
     std::vector<Defects> tangled;  ///< pairs of triangles of one body that cross
@@ -144,7 +144,7 @@ class Repairer {
     return bodies;
   }
 
-  /// Takes crossings out of single bodies, then makes one of bodies that cross or touch.
+  /// Removes crossings within single bodies, then unites bodies that cross or touch.
   void resolve_crossings() {
     const auto crossings = self_intersections(mesh());
     if (crossings.empty()) return;

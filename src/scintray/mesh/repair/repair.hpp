@@ -1,5 +1,5 @@
 #pragma once
-/// Mending meshes.
+/// Repair of meshes.
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ struct RepairSettings {
   double largest_hole_mm = 0.0;
 };
 
-/// One kind of change, how often it was made, and where first.
+/// One kind of change, with its number and the positions of the first ones.
 struct RepairStep {
   std::string what;  ///< "duplicate triangles removed"
   Defects where;
@@ -24,14 +24,14 @@ struct RepairStep {
 struct RepairedMesh {
   TriMesh mesh;  ///< groups kept per triangle; what fills a hole takes its neighbours'
   std::vector<RepairStep> steps;
-  std::vector<std::string> refused;  ///< what was tried in vain, and why, in words
+  std::vector<std::string> refused;  ///< attempts that failed, with the reason, in words
   MeshDiagnosis before, after;
 };
 
-/// Welds vertices; takes out triangles without area, duplicates, fins, and walls inside; makes
-/// neighbours agree and normals point outwards; fills holes; unites bodies that cross; and replaces
-/// local self-intersections. Bodies that do not cross stay separate. What could not be mended is what
-/// `after` still finds; a sound mesh comes back as it is.
+/// A mesh repaired as follows: welds vertices; removes triangles without area, duplicates, fins, and inner
+/// walls; makes neighbours agree and normals point outwards; fills holes; unites bodies that cross; and
+/// replaces local self-intersections. Bodies that do not cross remain separate. What could not be repaired is
+/// in `after`; a sound mesh is returned unchanged.
 /// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.
 [[nodiscard]] RepairedMesh repair_mesh(TriMesh mesh, const RepairSettings& settings = {});
 

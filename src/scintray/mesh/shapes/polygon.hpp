@@ -1,5 +1,5 @@
 #pragma once
-/// Cutting polygons in triangles.
+/// Triangulation of polygons.
 
 #include <array>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace scintray::mesh {
 
-/// Polygons with more corners are refused by readers: ear clipping takes quadratic time.
+/// Limit of the corners of a polygon, above which readers throw: ear clipping takes quadratic time.
 inline constexpr std::size_t kMostCorners = 20000;
 
 /// Triangles (indices into `corners`) of a simple polygon in space, nearly flat, convex or not, in the

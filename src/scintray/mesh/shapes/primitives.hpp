@@ -11,36 +11,35 @@ namespace scintray::mesh {
 /// @throws InputError when a side is not positive or not finite.
 TriMesh make_box(const core::Vec3& low, const core::Vec3& high);
 
-/// Whose circle a cylinder's polygon represents.
+/// Relation of a cylinder's polygon to its circle.
 enum class CylinderRadius {
   inscribed_polygon,  ///< corners on the circle: the polygon is inside the cylinder
   equal_area,         ///< same cross-section, and so the same volume, as the true cylinder
 };
 
-/// Regular prism standing for a cylinder about the z axis, z from 0 to height, first corner on +x.
+/// Regular prism that represents a cylinder about the z axis, z from 0 to height, first corner on +x.
 /// Groups "side" (2 triangles a segment), "-z", "+z" (fans without a middle vertex).
 /// @throws InputError when radius or height is not positive, or segments < 3.
 TriMesh make_cylinder(double radius, double height, int segments,
                       CylinderRadius kind = CylinderRadius::inscribed_polygon);
 
-/// Geodesic sphere about the origin: an icosahedron whose triangles are cut in subdivisions^2 each,
+/// Geodesic sphere about the origin: an icosahedron whose triangles are each cut into subdivisions^2,
 /// all vertices on the sphere; 20 subdivisions^2 triangles, one group "sphere".
 /// @throws InputError when radius is not positive, or subdivisions < 1.
 TriMesh make_sphere(double radius, int subdivisions);
 
-/// Cuts every triangle in n*n similar ones; shared edges stay shared. Triangle t becomes triangles
-/// n*n*t ... n*n*(t+1)-1. @throws InputError for n < 1.
+/// Mesh with every triangle cut into n*n similar ones; shared edges remain shared. Triangle t becomes
+/// triangles n*n*t ... n*n*(t+1)-1. @throws InputError for n < 1.
 TriMesh subdivide_faces(const TriMesh& mesh, int n);
 
-/// Mesh moved by `transform`; triangles are turned round when it mirrors (determinant < 0), so that
-/// outwards stays outwards. @throws InputError when the determinant is zero or not finite.
+/// Mesh transformed by `transform`; triangles are reversed when it mirrors (determinant < 0), so that outward
+/// remains outward. @throws InputError when the determinant is zero or not finite.
 TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform);
 
-/// Turns every triangle round, in place.
+/// Reverses every triangle, in place.
 void reverse_orientation(TriMesh& mesh);
 
-/// Both meshes in one; vertices are not welded, groups with the same name and
-/// tags become one.
+/// Both meshes in one; vertices are not welded, groups with the same name and tags become one.
 TriMesh joined(const TriMesh& a, const TriMesh& b);
 
 }  // namespace scintray::mesh

@@ -122,8 +122,8 @@ TriMesh straight_prism(const std::vector<Vec2>& outline, double z0, double z1,
   return make_loft({{z0, outline}, {z1, outline}}, {sides});
 }
 
-/// Each corner of an outline in three: where the chamfered body leaves the end face, and where it leaves
-/// the two sides that met there.
+/// Points of a chamfered outline for each corner of the sharp one: on the end face, and on the two sides
+/// that share the corner.
 struct ChamferedOutline {
   std::vector<Vec2> inset;  ///< every point twice, to pair with `sides`
   std::vector<Vec2> sides;  ///< two per corner: end of the side before it, start of the side after it
@@ -243,7 +243,7 @@ TriMesh make_winston(const WinstonShape& shape) {
     const double exit = theta + 0.5 * core::kPi;
     const ProfilePoint point =
         winston_profile(shape.exit_radius, theta, exit + (entrance - exit) * i / shape.rings);
-    // The ends are put where they are known to be, free of rounding.
+    // The ends are set to their known values, free of rounding.
     const double z = i == 0 ? 0.0 : i == shape.rings ? length : point.z;
     const Vec2 half(point.radius, 0.5 * shape.trough_width);
     rings.push_back(

@@ -12,7 +12,7 @@ namespace scintray::mesh {
 /// corner and the next counter-clockwise), "-z", "+z", and "chamfer" where there is one.
 ///
 /// @param circumradius  of the circle through the corners; the flats are 2 R cos(pi / sides) apart
-/// @param chamfer       width of the bevel as measured along each of the two faces that met at an edge
+/// @param chamfer       width of the bevel as measured along each of the two faces of an edge
 /// @throws InputError for fewer than 3 sides, lengths that are not positive, or a chamfer that leaves
 ///         nothing of a face.
 TriMesh make_prism(int sides, double circumradius, double height, double chamfer = 0.0);

@@ -31,7 +31,7 @@ void add_walls(TriMesh& mesh, const std::vector<std::uint32_t>& ring,
   }
 }
 
-/// Corners that fell together become one, walls without area go, and the outside is turned outwards.
+/// Merges coincident corners, removes walls without area, and orients the triangles outwards.
 TriMesh finished(TriMesh mesh) {
   mesh.groups = {"default"};
   mesh.group.assign(mesh.triangles.size(), 0);

@@ -9,10 +9,10 @@
 
 namespace scintray::mesh {
 
-/// Largest number of triangles that a body is cut in; finer ones are refused.
+/// Limit of the triangles of a swept body; finer tessellations are errors.
 inline constexpr std::size_t kMostSweptTriangles = 4'000'000;
 
-/// A turn about the z axis: from start_rad counter-clockwise through extent_rad, in flat steps.
+/// A rotation about the z axis: from start_rad counter-clockwise through extent_rad, in flat steps.
 struct Turn {
   double start_rad = 0.0;
   double extent_rad = core::kTwoPi;  ///< above 0; a full circle from 2 pi on
@@ -33,7 +33,7 @@ TriMesh lofted(const std::vector<std::vector<core::Vec3>>& outlines);
 
 /// Corners of (r, z) along an ellipse about (r0, z0) with half axes a (along r) and b (along z), from one
 /// angle to the other (0 on the +r side, counter-clockwise towards +z), both ends included, as finely as the
-/// tessellation asks of a circle of the larger half axis.
+/// tessellation requires for a circle of the larger half axis.
 std::vector<Eigen::Vector2d> arc(const Eigen::Vector2d& centre, double a, double b, double from_rad,
                                  double to_rad, const Tessellation& tessellation);
 

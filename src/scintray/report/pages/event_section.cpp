@@ -112,7 +112,7 @@ std::string numbers_table(const std::vector<PointAnalysis>& points) {
                rows);
 }
 
-/// Points that lie apart in depth by more than twice the spread of depths within any of them.
+/// True for points whose distances in depth exceed twice the spread of depths within any of them.
 bool are_apart(std::vector<double> depths_mm, double spread_mm) {
   std::sort(depths_mm.begin(), depths_mm.end());
   for (std::size_t i = 1; i < depths_mm.size(); ++i)
@@ -142,7 +142,7 @@ std::string curve_over_points(const std::vector<PointAnalysis>& points) {
   return event_figure(svg_plot(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
 }
 
-/// Timing by order of photons of all points, where several have it and the eye can tell them apart.
+/// Timing by order of photons of all points, where several have it and few enough to be distinguishable.
 std::string orders_over_points(const std::vector<PointAnalysis>& points) {
   std::vector<std::pair<std::string, analysis::OrderAnalysis>> with_orders;
   for (const PointAnalysis& point : points)

@@ -1,5 +1,5 @@
 #pragma once
-/// What the events of a run say: spectra, light against depth, flood maps, depth of interaction, timing.
+/// Analyses of the events of a run: spectra, light against depth, flood maps, depth of interaction, timing.
 
 #include <string>
 #include <vector>
@@ -8,22 +8,22 @@
 
 namespace scintray::report {
 
-/// The study of one point of a sweep.
+/// The analysis of one point of a sweep.
 struct PointAnalysis {
   std::string label;  ///< "rough, 2 mm"; "run" without a sweep
   analysis::EventAnalysis analysis;
 };
 
-/// A table of all points and the figures of each (those beyond the fourth folded away), and the light against
-/// depth over the points of a sweep, where these lie apart in depth by more than their events are spread.
+/// A table of all points and the figures of each (those beyond the fourth collapsed), and the light against
+/// depth over the points of a sweep, where their distance in depth exceeds the spread of their events.
 /// Empty when no point has an event.
 std::string event_section(const std::vector<PointAnalysis>& points);
 
-/// One self-contained page with that section. @param under  the line below the title: the file it is from
+/// One self-contained page with that section. @param under  the line below the title: the name of the file
 std::string event_page(const std::string& title, const std::string& under,
                        const std::vector<PointAnalysis>& points);
 
-/// The same numbers for a terminal, one line a study; empty without events.
+/// The same numbers for a terminal; empty without events.
 std::string event_lines(const analysis::EventAnalysis& analysis);
 
 }  // namespace scintray::report

@@ -156,8 +156,9 @@ std::string fit_page(const analysis::FitRecord& record) {
           paragraph(
               "Errors are one standard error, from the Fisher information of the residuals. They hold the "
               "measurement's errors, the Monte Carlo errors of the fitted curve, and what the noise of the "
-              "curve's slopes does to the place of the minimum; the part that is Monte Carlo noise is given "
-              "beside them and falls with more photons. They do not hold what the scene itself has wrong.") +
+              "curve's slopes does to the position of the minimum; the part that is Monte Carlo noise is "
+              "given "
+              "beside them and falls with more photons. They do not include errors of the scene itself.") +
           paragraph(fit_facts(record) + "."));
   const std::string title = record.title.empty() ? "Fit" : "Fit: " + record.title;
   return html_page(title,

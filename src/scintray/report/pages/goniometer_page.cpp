@@ -58,7 +58,7 @@ std::string lobe_table(const analysis::GoniometerReading& reading) {
          "</tbody>\n</table></div>\n";
 }
 
-/// Where a flat face sends refracted light; below 0 under total reflection.
+/// Polar angle of light refracted at a flat face; below 0 under total reflection.
 double refracted_rad(const optics::IndexPair& index, optics::Side side, double incidence_rad) {
   const double sine = std::sin(incidence_rad) * index.on(side) / index.on(optics::other(side));
   return sine < 1.0 ? std::asin(sine) : -1.0;
@@ -102,9 +102,8 @@ std::string notes(const analysis::SampleSurface& sample, const analysis::Goniome
       "transmitted. Angles are from the normal of the side that the light leaves on; forward is the side of "
       "the mirror direction. Widths are the root mean square of the direction's component across the mean "
       "direction, as the angle of that sine. In the maps the distance from the centre is the polar angle "
-      "(circles at 30, 60 and 90 deg), forward is to the right, the cross is where a flat face would send "
-      "the "
-      "light, and colours span three decades of density.</p>\n<p class=\"note\">Seed " +
+      "(circles at 30, 60 and 90 deg), forward is to the right, the cross is the direction of light from a "
+      "flat face, and colours span three decades of density.</p>\n<p class=\"note\">Seed " +
       std::to_string(s.seed) + ".</p>\n";
   if (!sample.sources.empty()) {
     out += "<h2>Sources of the surface</h2>\n<ul>\n";

@@ -13,7 +13,7 @@ namespace scintray::report {
 /// The page: the answer first, then events, fates, sensors, angles, paths, conditions and the scene.
 std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses = {});
 
-/// Writes the page under a temporary name and renames it, so that no half page is ever found.
+/// Writes the page under a temporary name and renames it, so that a partly written page is never found.
 /// Throws SystemError with path and reason.
 void write_report(const std::filesystem::path& path, const tally::RunResult& run,
                   const RunAnalysis& analyses = {});

@@ -25,8 +25,8 @@ img.heights { display: block; width: 100%; image-rendering: pixelated; }
 td.meaning { color: var(--soft); }
 )css";
 
-/// The part of the heights that the colours span: all but one in a thousand at either end, so that
-/// a single spike does not turn the picture into one colour.
+/// Range of heights that the colours span: all but one in a thousand at either end, so that a single spike
+/// does not take the whole range.
 std::pair<double, double> shown_range(const topography::HeightMap& map) {
   std::vector<double> heights;
   for (const double h : map.heights_um)

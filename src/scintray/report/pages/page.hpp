@@ -11,11 +11,11 @@ namespace scintray::report {
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
                        const std::string& body);
 
-/// The same with the version of this program after `under`.
+/// The same with ScintRay's version after `under`.
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,
                       const std::string& body);
 
-/// Writes a page or a drawing. SystemError when it cannot.
+/// Writes a page or a drawing. Throws SystemError on failure.
 void write_page(const std::filesystem::path& path, const std::string& content);
 
 }  // namespace scintray::report

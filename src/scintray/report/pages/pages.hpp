@@ -15,13 +15,13 @@
 
 namespace scintray::report {
 
-/// A measurement shown beside the reflected light of the only reading.
+/// A measurement shown with the reflected light of the only reading.
 struct Overlay {
   analysis::ScaledProfile scaled;
   std::string name;  ///< of its file
 };
 
-/// "LSO (n 1.8270) to air (n 1.0003), 420 nm, from inside".
+/// Media, indices and wavelength of a sample: "LSO (n 1.8270) to air (n 1.0003), 420 nm, from inside".
 std::string sample_text(const analysis::SampleSurface& sample, optics::Side side);
 
 /// One self-contained page: shares with errors, mean directions and widths, and for each reading the
@@ -30,11 +30,10 @@ std::string goniometer_page(const analysis::SampleSurface& sample,
                             const std::vector<analysis::GoniometerReading>& readings,
                             const std::optional<Overlay>& overlay);
 
-/// "scaled by 0.0123, to the same area as ...": how a measurement was brought to scale, and how far off it
-/// is.
+/// Scale of a measurement and its deviation: "scaled by 0.0123, to the same area as ...".
 std::string overlay_text(const Overlay& overlay);
 
-/// What was read of a surface that could be made.
+/// Readings of a surface that could be made.
 struct SurfaceReadings {
   analysis::SampleSurface sample;
   std::vector<analysis::GoniometerReading> sweep;  ///< over incidence, increasing
@@ -45,12 +44,12 @@ struct SurfaceEntry {
   std::string name;
   materials::SurfaceOutline outline;
   std::optional<SurfaceReadings> readings;
-  std::string not_made;  ///< why there are no readings
+  std::string not_made;  ///< reason why there are no readings
 };
 
 /// One self-contained page: for each surface its model, sources and needs, and, where it was made,
 /// reflectance and absorptance against incidence beside Fresnel, and the in-plane profile. `under` states
-/// between what and at which wavelength.
+/// the media and the wavelength.
 std::string surface_page(const std::vector<SurfaceEntry>& entries, const std::string& under);
 
 /// One self-contained HTML page: both maps, which show the same part of a surface, as pictures, a line
@@ -59,11 +58,11 @@ std::string surface_page(const std::vector<SurfaceEntry>& entries, const std::st
 std::string map_page(const std::string& title, const topography::HeightMap& before,
                      const topography::HeightMap& after);
 
-/// Writes the page. SystemError when it cannot.
+/// Writes the page. Throws SystemError on failure.
 void write_map_page(const std::filesystem::path& path, const std::string& title,
                     const topography::HeightMap& before, const topography::HeightMap& after);
 
-/// Measured points, the curves of the start and of what was found, residuals, parameters.
+/// Page of a fit: measured points, the curves of the start and of the result, residuals, parameters.
 std::string fit_page(const analysis::FitRecord& record);
 
 }  // namespace scintray::report

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures made of pixels, for pages.
+/// Pixel images for pages.
 
 #include <cstdint>
 #include <string>
@@ -11,14 +11,14 @@ struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
 
-/// Viridis (S. van der Walt and N. Smith 2015, CC0) at a share in [0, 1], clamped: equal steps, linear
-/// between.
+/// Colour of viridis (S. van der Walt and N. Smith 2015, CC0) at a share in [0, 1], clamped: equal steps,
+/// linear between.
 Colour viridis(double share);
 /// The same colours from left to right, as a CSS background.
 std::string viridis_gradient();
 
-/// Pixels, row by row from the top, as "data:image/png;base64,...". `pixels` holds width x height.
-/// SystemError when the PNG library refuses.
+/// Pixels, row by row from the top, as "data:image/png;base64,...". `pixels` has width x height values.
+/// Throws SystemError when the PNG library fails.
 std::string png_data(const std::vector<Colour>& pixels, std::uint32_t width, std::uint32_t height);
 
 }  // namespace scintray::report

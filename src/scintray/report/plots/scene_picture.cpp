@@ -56,7 +56,7 @@ class ViewPainter {
   double x(const core::Vec3& p) const { return left_ + 0.5 * kView + per_mm_ * view_.right.dot(p - centre_); }
   double y(const core::Vec3& p) const { return top_ + 0.5 * kView - per_mm_ * view_.up.dot(p - centre_); }
 
-  /// How near to the viewer the part comes, mm.
+  /// Coordinate of the part's nearest point towards the viewer, mm.
   double nearest(const mesh::TriMesh& mesh) const {
     double most = -HUGE_VAL;
     for (const core::Vec3& v : mesh.vertices) most = std::max(most, view_.toward.dot(v));
@@ -83,7 +83,7 @@ class ViewPainter {
     return mesh.area_vector(t).dot(view_.toward) > 0.0;
   }
 
-  /// Edges on the outline, open ones, and those where the surface bends.
+  /// Edges on the outline, open edges, and those where the surface bends.
   std::string edges(const mesh::TriMesh& mesh) const {
     constexpr double kFlat = 0.94;  // cosine of 20 deg
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> beside;
@@ -147,7 +147,7 @@ std::string label(double x, double y, const std::string& words) {
                  "paint-order=\"stroke\"");
 }
 
-/// Rings of one view; marks that fall on one spot share a ring and its label.
+/// Rings of one view; coincident marks share a ring and its label.
 std::string rings(const ViewPainter& painter, const std::vector<PictureMark>& marks) {
   constexpr double kSpot = 10.0;
   struct Spot {
@@ -170,7 +170,7 @@ std::string rings(const ViewPainter& painter, const std::vector<PictureMark>& ma
   return svg;
 }
 
-/// At most so many bytes, cut between characters of UTF-8.
+/// At most `most` bytes of a text, cut between characters of UTF-8.
 std::string shortened(const std::string& text) {
   if (text.size() <= kTextLength) return text;
   std::size_t end = kTextLength - 3;

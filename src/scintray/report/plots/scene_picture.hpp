@@ -11,22 +11,22 @@ namespace scintray::report {
 
 struct PicturePart {
   std::string name;
-  std::string medium;  ///< decides the colour
+  std::string medium;  ///< determines the colour
   const mesh::TriMesh* mesh = nullptr;
 };
 
-/// Something to point at.
+/// A mark in the picture.
 struct PictureMark {
   std::string text;
   std::vector<core::Vec3> places;  ///< mm
 };
 
-/// A colour for the medium that is the `index`th to appear (Okabe and Ito 2008, without the red that marks
-/// need; repeated after six).
+/// Colour of the `index`th medium in order of appearance (Okabe and Ito 2008, without the red of the marks;
+/// repeated after six).
 Colour picture_colour(std::size_t index);
 
 /// Front, side and top view in one scale: parts translucent, farther ones first, with their edges and
-/// outlines; each mark a numbered red ring; and below the media and what the marks say.
+/// outlines; each mark a numbered red ring; and below the media and the texts of the marks.
 std::string scene_svg(const std::vector<PicturePart>& parts, const std::vector<PictureMark>& marks);
 
 }  // namespace scintray::report

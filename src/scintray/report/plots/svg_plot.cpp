@@ -14,7 +14,7 @@ namespace scintray::report {
 namespace {
 
 constexpr double kTextHeight = 14.0;
-/// Of the widest sans-serif fonts of browsers (DejaVu) at 14 units, on average; names are bold.
+/// Mean character width of the widest sans-serif font of browsers (DejaVu) at 14 units; names are bold.
 constexpr double kLetterWidth = 8.4, kBoldLetterWidth = 9.6;
 constexpr int kColours = 7;
 constexpr double kLegendRow = 22.0;
@@ -40,7 +40,7 @@ std::string text(double x, double y, const std::string& kind, const std::string&
          escape_html(words) + "</text>\n";
 }
 
-/// Ticks are exact multiples, so six digits show them all; what rounding leaves of zero is zero.
+/// Ticks are exact multiples, so six digits represent them; a rounding residue of zero is written as zero.
 std::string tick_text(double tick) { return compact(std::abs(tick) < 1e-14 ? 0.0 : tick, 6); }
 
 struct Range {
@@ -53,7 +53,7 @@ struct Range {
   }
 };
 
-/// Maps data to drawing; knows the ticks.
+/// An axis: maps data to the drawing and computes the ticks.
 struct Axis {
   std::vector<double> ticks;
   double low = 0.0, high = 1.0;   ///< in data, or log10 of data
@@ -137,7 +137,7 @@ class Drawing {
         if (!drawable(series.y[i])) continue;
         const double error = series.error.empty() ? 0.0 : series.error[i];
         y.include(series.y[i] + error);
-        if (!plot_.log_y)  // what cannot be negative does not become so by its error
+        if (!plot_.log_y)  // the error bar of a non-negative quantity does not extend below zero
           y.include(plot_.y_from_zero && series.y[i] >= 0.0 ? std::max(0.0, series.y[i] - error)
                                                             : series.y[i] - error);
         else
@@ -289,7 +289,7 @@ class Drawing {
     double x, y;
   };
 
-  /// Names in a row above the plot, in as many rows as they need.
+  /// Names above the plot, in as many rows as required.
   std::vector<LegendPlace> legend_places() const {
     std::vector<LegendPlace> places;
     LegendPlace next{left_, 18.0};

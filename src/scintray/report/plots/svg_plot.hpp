@@ -15,7 +15,7 @@ struct PlotSeries {
   bool steps = false;         ///< a histogram's outline instead of points joined by lines
   bool marks = true;          ///< points: a mark at each; without, for many points, the line alone
   bool joined = true;         ///< points: by lines
-  bool dashed = false;        ///< lines: for what is computed, not measured
+  bool dashed = false;        ///< lines: for computed, not measured, curves
 };
 
 struct Plot {
@@ -24,18 +24,18 @@ struct Plot {
   std::vector<PlotSeries> series;
   bool log_y = false;                    ///< values of zero and below are left out
   bool y_from_zero = true;               ///< linear axis only
-  std::optional<double> x_low, x_high;   ///< what the axis spans, both or none; else the data
+  std::optional<double> x_low, x_high;   ///< range of the axis, both or none; else that of the data
   double x_step = 0.0;                   ///< between ticks, for axes with x_low and x_high; 0: chosen
   std::optional<double> y_high;          ///< linear axis: its upper end at least
   bool legend_above = false;             ///< names in rows above the plot, not at the ends of the curves
   double width = 860.0, height = 380.0;  ///< user units; the plot scales to the page
 };
 
-/// The plot; text is escaped. Throws std::invalid_argument when the lengths of a series differ or
-/// nothing is finite.
+/// The plot as an SVG element; text is escaped. Throws std::invalid_argument when the lengths of a series
+/// differ or nothing is finite.
 std::string svg_plot(const Plot& plot);
 
-/// The plot as a file of its own, with its style and a background, light or dark as the reader's.
+/// The plot as a separate SVG file, with its style and a background, light or dark as the viewer's.
 std::string svg_file(const Plot& plot);
 
 /// Ticks at multiples of 1, 2 or 5 times a power of ten that cover [low, high], about `count` of them.

@@ -17,7 +17,7 @@ std::string measured_text(const core::Estimate& value) {
   return value.error > 0.0 ? with_error(value) : compact(value.value, 5);
 }
 
-/// A point of the simulation as the measurement has it.
+/// A point of the simulation on the scale of the measurement.
 std::string scaled_text(const analysis::ModelPoint& point, double scale) {
   return with_error({scale * point.value.value, scale * point.value.error});
 }
@@ -80,7 +80,7 @@ std::string fit_goodness_text(const analysis::FitRecord& record) {
         "{} degrees of freedom; the error of a measured value, found from the scatter, is {:.3g}, so "
         "chi-square holds no information",
         fit.goodness.degrees, *fit.common_error);
-  if (!(fit.goodness.degrees > 0.0)) return "no degrees of freedom are left to evaluate the fit by";
+  if (!(fit.goodness.degrees > 0.0)) return "there are no degrees of freedom to test the fit";
   return fmt::format("chi-square {:.2f} for {} degrees of freedom, p = {:.3g}", fit.goodness.chi2,
                      fit.goodness.degrees, fit.goodness.p_value);
 }

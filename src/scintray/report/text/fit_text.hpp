@@ -1,5 +1,5 @@
 #pragma once
-/// A fit in words and tables, for a terminal and for its page.
+/// Text and tables of a fit, for a terminal and for its page.
 
 #include <string>
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace scintray::report {
 
-/// Rows of a table, the first its head.
+/// Rows of a table, the head first.
 using TextTable = std::vector<std::vector<std::string>>;
 
-/// What was found: start, value with its error, the part of the error that is Monte Carlo noise, bounds.
+/// Parameters of the result: start, value with its error, the part of the error that is Monte Carlo noise,
+/// bounds.
 TextTable fit_parameter_table(const analysis::FitRecord& record);
-/// Correlations; empty with one parameter or without errors.
+/// Correlations of the parameters; empty with one parameter or without errors.
 TextTable fit_correlation_table(const analysis::FitRecord& record);
 /// Measured, start, fitted and residual at each position.
 TextTable fit_curve_table(const analysis::FitRecord& record);
@@ -22,16 +23,16 @@ TextTable fit_curve_table(const analysis::FitRecord& record);
 std::string fit_facts(const analysis::FitRecord& record);
 /// Chi-square with degrees of freedom and p, or the error from the scatter.
 std::string fit_goodness_text(const analysis::FitRecord& record);
-/// How surely differences are known; empty without Monte Carlo noise.
+/// Gain of precision by common random numbers; empty without Monte Carlo noise.
 std::string fit_noise_text(const analysis::FitRecord& record);
-/// How the search ended, and after how many curves.
+/// End of the search, with its number of curves.
 std::string fit_end_text(const analysis::FitRecord& record);
 
 /// One line for a step of the search: "step 3: chi2 12.3, sigma 12.1 deg, ... (17 curves)".
 std::string fit_step_text(const analysis::CurveFitStep& step,
                           const std::vector<scene_file::FitParameterSpec>& parameters, bool free_scale);
 
-/// All of it.
+/// All parts of the text.
 std::string fit_text(const analysis::FitRecord& record);
 
 }  // namespace scintray::report

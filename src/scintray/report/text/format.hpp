@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers and text as people read them.
+/// Formatting of numbers and text for readers.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace scintray::report {
 
-/// Text made safe inside HTML and SVG, attributes included.
+/// Text escaped for HTML and SVG, attributes included.
 std::string escape_html(const std::string& text);
 /// "0.3373 ± 0.0011": the error to two significant digits, the value to the same place.
 std::string with_error(const core::Estimate& estimate);
@@ -17,11 +17,11 @@ std::string with_error(const core::Estimate& estimate);
 std::string percent_with_error(const core::Estimate& estimate);
 /// "187 500": digits in groups of three.
 std::string grouped(std::uint64_t count);
-/// A number with so many decimals.
+/// A number with a fixed number of decimals.
 std::string fixed(double value, int decimals);
 /// At most `digits` significant digits, without needless zeros.
 std::string compact(double value, int digits = 4);
-/// Columns a terminal needs for UTF-8 text (code points; ScintRay writes no wide ones).
+/// Width of UTF-8 text on a terminal, columns (code points; ScintRay writes no wide ones).
 std::size_t display_width(const std::string& text);
 /// Rows for a terminal: columns padded to their widest cell, the first to the left, the others to the right.
 std::string aligned(const std::vector<std::vector<std::string>>& table);

@@ -1,5 +1,5 @@
 #pragma once
-/// A sweep seen as curves: one numeric key along the axis, one series for each setting of the others.
+/// A sweep as curves: one numeric key along the axis, one series for each setting of the others.
 
 #include <optional>
 #include <string>
@@ -20,10 +20,10 @@ struct SweepView {
   std::string unit;                 ///< "mm"; empty for a plain number
   std::vector<std::string> rows;    ///< distinct values of the key as written, by size
   std::vector<double> row_values;   ///< in step with rows
-  std::vector<SweepSeries> series;  ///< in the order met
+  std::vector<SweepSeries> series;  ///< in order of appearance
 };
 
-/// The last swept key that is a number with one unit throughout and takes two values or more; nothing
+/// View of a sweep over the last key that is a number with one unit throughout and two values or more; empty
 /// when there is none.
 std::optional<SweepView> view_sweep(const tally::RunResult& run);
 

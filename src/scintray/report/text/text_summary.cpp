@@ -51,7 +51,7 @@ std::string fate_table(const tally::PointResult& point) {
   Table table{{"fate", "photons", "fraction"}};
   for (int i = 0; i < core::kFateCount; ++i) {
     const core::Fate fate = core::fate_at(i);
-    std::string name = core::fate_name(fate);
+    std::string name = fate == core::Fate::not_detected ? "not detected" : core::fate_name(fate);
     std::replace(name.begin(), name.end(), '_', ' ');
     table.push_back({name, std::to_string(point.count(fate)), with_error(point.fraction(fate))});
   }
@@ -76,7 +76,7 @@ std::string warnings(const tally::RunResult& run) {
   return text;
 }
 
-/// Events of a point, in words: what became of their energy, and what they show.
+/// Text of the events of a point: their energies and analyses.
 std::string energy_lines(const tally::PointResult& point) {
   const tally::EnergyBalance& energy = point.energy;
   if (energy.events_requested == 0) return "";

@@ -1,5 +1,5 @@
 #pragma once
-/// The answer of a run for the terminal.
+/// Summary of a run for the terminal.
 
 #include <string>
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace scintray::report {
 
-/// A sweep over a number: a table of detected fractions, rows the swept value, columns the series. Any
-/// other sweep: one line a point. One point: every fate. Ends with what is partial or doubtful.
-/// @param studies  of the events of the points; with them the tables are of light per event
+/// Summary of a run as text. A sweep over a number: a table of detected fractions, rows the swept value,
+/// columns the series. Any other sweep: one line a point. One point: every fate. Ends with warnings and the
+/// reason of a partial result.
+/// @param analyses  of the events of the points; with them the tables are of light per event
 std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyses = {});
 
 }  // namespace scintray::report

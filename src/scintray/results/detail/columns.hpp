@@ -1,6 +1,6 @@
 #pragma once
-/// The columns of a results file's tables: detected photons, events, what channels saw of them, the channels,
-/// and what wavelength shifters did.
+/// Columns of a results file's tables: detected photons, events, signals of channels, the channels, and
+/// wavelength shifting.
 
 #include <cmath>
 
@@ -11,7 +11,7 @@
 
 namespace scintray::results::format {
 
-/// Calls visit(name, member) for every column of a kind of row, which the null pointer names;
+/// Calls visit(name, member) for every column of a kind of row, selected by the type of the null pointer;
 /// `member(row)` is a reference to its value.
 template <typename Visit>
 void for_each_column(const tally::DetectedPhoton*, const Visit& visit) {
@@ -125,7 +125,7 @@ void for_each_channel_number(const Visit& visit) {
       "channel_area_mm2", [](auto& c) -> auto& { return c.area_mm2; });
 }
 
-/// True when a channel has something to say of an event; other channels have no row.
+/// True when a channel has a signal in an event; other channels have no row.
 inline bool has_signal(const tally::ChannelRecord& record) {
   return record.detected > 0 || !std::isnan(record.charge);  // NaN: no readout
 }

@@ -80,7 +80,7 @@ T get_number(const core::h5::Group& group, const char* name) {
 template <typename T>
 std::vector<T> get_column(const core::h5::Group& group, const char* name, std::size_t size) {
   std::vector<T> values = group.read<T>(name);
-  if (values.size() != size) throw std::invalid_argument("the columns of a bench differ in length");
+  if (values.size() != size) throw std::invalid_argument("the columns of a goniometer differ in length");
   return values;
 }
 
@@ -132,11 +132,12 @@ analysis::SurfaceAnalysis get_analysis(const core::h5::Group& group) {
 void put_surface_analyses(core::h5::Group& root, const std::vector<analysis::SurfaceAnalysis>& analyses) {
   if (analyses.empty()) return;
   core::h5::Group group = root.create_group(kGroup);
-  group.set_attribute("", "description",
-                      std::string("surfaces read on a bench, one group a surface and place"));
+  group.set_attribute(
+      "", "description",
+      std::string("goniometer readings, one group for each surface between two media at one wavelength"));
   put_cells(group);
   core::h5::Group list = group.create_group("surfaces");
-  list.set_attribute("", "description", std::string("the surfaces, in the order of the scene"));
+  list.set_attribute("", "description", std::string("the readings, in the order of the scene"));
   for (std::size_t i = 0; i < analyses.size(); ++i) put_analysis(list.create_group(numbered(i)), analyses[i]);
 }
 

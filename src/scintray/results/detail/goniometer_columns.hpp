@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces read on the goniometer, in a results file.
+/// Goniometer readings in a results file.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace scintray::results::format {
 
-/// Group /benches, described in docs/results.md; nothing without studies.
+/// Writes the group /benches, described in docs/results.md; none without readings.
 void put_surface_analyses(core::h5::Group& root, const std::vector<analysis::SurfaceAnalysis>& analyses);
 
-/// Empty when the file has none. @throws SystemError for what is missing, std::invalid_argument for columns
-/// that contradict each other
+/// Readings of a file; empty when it has none. @throws SystemError for missing datasets,
+/// std::invalid_argument for columns that contradict each other
 std::vector<analysis::SurfaceAnalysis> get_surface_analyses(const core::h5::Group& root);
 
 }  // namespace scintray::results::format

@@ -137,7 +137,7 @@ class PointReader {
     return timing;
   }
 
-  /// Zeros from a file of before there were wavelength shifters.
+  /// Zeros from a file older than wavelength shifters.
   std::vector<optics::ShiftCount> shifts(const std::string& name, std::size_t size) const {
     std::vector<optics::ShiftCount> counts(size);
     if (!group_.has(name)) return counts;
@@ -199,7 +199,7 @@ class PointReader {
     require(axis.edges.size() >= 2 && std::is_sorted(axis.edges.begin(), axis.edges.end()),
             "the edges of an axis of a tally do not rise");
     const auto along = group.read<double>("along");
-    require(along.size() == 3, "the direction of an axis has not three components");
+    require(along.size() == 3, "the direction of an axis does not have three components");
     std::copy(along.begin(), along.end(), axis.along.begin());
     return axis;
   }
@@ -271,7 +271,7 @@ std::vector<float> row_of(const std::vector<float>& samples, std::size_t row, st
   return {begin, begin + static_cast<std::ptrdiff_t>(width)};
 }
 
-/// Gives events the signals of their channels.
+/// Attaches the signals of the channels to events.
 void add_signals(const std::filesystem::path& path, const core::h5::Group& root, std::uint64_t offset,
                  const std::vector<format::EventRow>& rows, EventDetail detail,
                  std::vector<tally::EventRecord>& events) {
@@ -349,7 +349,7 @@ std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& pat
   const core::h5::Group root = file.root();
   if (!root.has("photons"))
     throw wrong(path, "this result has no list of detected photons",
-                "ask for the list when running the scene");
+                "request the list when running the scene");
   auto photons = format::read_rows<tally::DetectedPhoton>(root.open_group("photons"), offset, count);
   if (!photons) throw format::damaged(path, "the columns of photons differ in length");
   return std::move(*photons);
@@ -381,7 +381,7 @@ std::vector<tally::EventRecord> read_events(const std::filesystem::path& path, s
   const core::h5::File file = format::open_results(path);
   const core::h5::Group root = file.root();
   if (!root.has("events"))
-    throw wrong(path, "this result has no events", "run a scene whose [source] is one of energy");
+    throw wrong(path, "this result has no events", "run a scene whose [source] is an event source");
   const auto rows = format::read_rows<format::EventRow>(root.open_group("events"), offset, count);
   if (!rows) throw format::damaged(path, "the columns of events differ in length");
   std::vector<tally::EventRecord> events;

@@ -106,7 +106,7 @@ void put_axis(core::h5::Group& tally, const std::string& name, const tally::Tall
 /// Those that are no exit angles.
 void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& tallies) {
   core::h5::Group group = point.create_group("tallies");
-  group.set_attribute("", "description", std::string("counts that the scene asked for, one group a tally"));
+  group.set_attribute("", "description", std::string("tallies of the scene, one group a tally"));
   std::size_t number = 0;
   for (const tally::TallyResult& from : tallies) {
     if (from.type == scene_file::kExitAngle || from.type == scene_file::kExitAngleBeyond) continue;
@@ -131,7 +131,7 @@ void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& 
 
 void put_energy(core::h5::Group& point, const tally::EnergyBalance& energy) {
   core::h5::Group group = point.create_group("energy");
-  group.set_attribute("", "description", std::string("what became of the energy of the events"));
+  group.set_attribute("", "description", std::string("energy of the events"));
   format::put(group, "events_requested", energy.events_requested);
   format::put(group, "events_traced", energy.events);
   format::put(group, "events_silent", energy.silent);
@@ -140,12 +140,14 @@ void put_energy(core::h5::Group& point, const tally::EnergyBalance& energy) {
   format::put(group, "escaped_total_keV", energy.escaped);
   format::put(group, "unseen_total_keV", energy.non_scintillating);
   put_moments(group, "detected_per_event", "1",
-              "photons detected per event that left energy in a scintillator", energy.detected);
+              "photons detected per event with energy deposited in a scintillator", energy.detected);
 }
 
 void put_light_timing(core::h5::Group& point, const tally::LightTiming& timing) {
   core::h5::Group group = point.create_group("light_timing");
-  group.set_attribute("", "description", std::string("when one photon is detected, but for its way"));
+  group.set_attribute(
+      "", "description",
+      std::string("distribution of the detection time of one photon, without its time of flight"));
   std::vector<double> decay, rise, share;
   for (const optics::DecayComponent& component : timing.decay) {
     decay.push_back(component.decay_ns);
@@ -160,7 +162,7 @@ void put_light_timing(core::h5::Group& point, const tally::LightTiming& timing) 
 
 void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChannel>& channels) {
   core::h5::Group group = point.create_group("channels");
-  group.set_attribute("", "description", std::string("what the sensors are read out as"));
+  group.set_attribute("", "description", std::string("readout channels of the sensors"));
   std::vector<std::string> names;
   std::vector<std::uint32_t> parts;
   for (const tally::ReadoutChannel& channel : channels) {
@@ -195,13 +197,13 @@ void put_header(core::h5::Group& root, const tally::RunHeader& header) {
   format::put_text(root, "fate_names", fates);
 }
 
-/// A result may be written anew, anything else may be someone's only copy.
+/// A result may be overwritten; any other file may be the only copy.
 void refuse_foreign_file(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path);
   if (!std::filesystem::exists(status) || is_results_file(path)) return;
   throw core::InputError({{path.string()},
                           "this exists and is not a ScintRay result, so it is not written over",
-                          "choose another name for the result, or move what is there away"});
+                          "choose another name for the result, or move that file away"});
 }
 
 }  // namespace
@@ -257,11 +259,11 @@ void ResultsWriter::begin_events(std::size_t point, std::vector<tally::ReadoutCh
           {readout ? readout->where : core::FileLocation{},
            "the points of the sweep differ in the number of samples or of n-th photons",
            "keep readout.window, readout.sampling, pulses and photon_order the same in all points, "
-           "or make runs of their own"});
+           "or run them separately"});
     return;
   }
   state_->events = {state_->root, "events", "events, one row an event"};
-  state_->signals = {state_->root, "signals", "what channels saw of events, one row an event and channel"};
+  state_->signals = {state_->root, "signals", "signals of channels, one row an event and channel"};
   if (orders > 0) {
     state_->orders = {state_->root, "photon_times", "times of the n-th photons, one row a signal", orders};
     format::put(state_->orders.group(), "order", readout->photon_order);
@@ -308,9 +310,8 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   put_fates(group, point);
   format::put(group, "absorbed_in_medium", point.absorbed_in_medium);
   format::put(group, "absorbed_at_surface", point.absorbed_at_surface);
-  put_shifts(group, "shifted_in_medium", "what the wavelength shifter of each medium did",
-             point.shifted_in_medium);
-  put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
+  put_shifts(group, "shifted_in_medium", "wavelength shifting in each medium", point.shifted_in_medium);
+  put_shifts(group, "shifted_at_surface", "wavelength shifting in the gap of each surface",
              point.shifted_at_surface);
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, analysis::crossing_angles(point), state_->faces);

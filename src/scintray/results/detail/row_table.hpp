@@ -13,16 +13,16 @@
 
 namespace scintray::results::format {
 
-/// Type of the values of a column of rows.
+/// Type of the values of a column.
 template <typename Row, typename Member>
 using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, Row&>>;
 
-/// Writes rows; they go to disk in blocks, so memory stays bounded.
+/// Writer of rows; they are written in blocks, so memory is bounded.
 template <typename Row>
 class RowWriter {
  public:
   RowWriter() = default;
-  /// Makes the group and its columns.
+  /// Creates the group and its columns.
   RowWriter(core::h5::Group& root, const std::string& name, const std::string& description)
       : group_(root.create_group(name)) {
     group_->set_attribute("", "description", description);
@@ -53,8 +53,8 @@ class RowWriter {
   }
 
  private:
-  /// Rows kept in memory before they go to disk, and rows compressed together. While they are compressed,
-  /// other threads make the next ones, and would wait for larger blocks.
+  /// Rows kept in memory before they are written, and rows compressed together. While they are compressed,
+  /// other threads trace the next ones, and would wait for larger blocks.
   static constexpr std::size_t kBlockRows = 8192;
 
   std::optional<core::h5::Group> group_;
@@ -62,7 +62,7 @@ class RowWriter {
   std::uint64_t rows_ = 0;
 };
 
-/// Writes rows of equally many samples into the dataset "samples" of a group.
+/// Writer of rows with an equal number of samples into the dataset "samples" of a group.
 class SampleWriter {
  public:
   SampleWriter() = default;
@@ -79,7 +79,7 @@ class SampleWriter {
   core::h5::Group& group() { return *group_; }
   std::size_t width() const { return width_; }
 
-  /// Nothing without a group.
+  /// Does nothing without a group.
   void add(const std::vector<float>& samples) {
     if (!group_) return;
     waiting_.insert(waiting_.end(), samples.begin(), samples.end());
@@ -92,7 +92,7 @@ class SampleWriter {
   }
 
  private:
-  /// Samples kept in memory before they go to disk, and samples compressed together: 1 MB.
+  /// Samples kept in memory before they are written, and samples compressed together: 1 MB.
   static constexpr std::size_t kBlockSamples = 262144;
 
   std::optional<core::h5::Group> group_;
@@ -100,7 +100,7 @@ class SampleWriter {
   std::vector<float> waiting_;
 };
 
-/// At most `count` rows from `offset` on. Nothing when the columns differ in length.
+/// At most `count` rows from `offset` on. Empty (nullopt) when the columns differ in length.
 template <typename Row>
 std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uint64_t offset,
                                           std::uint64_t count) {

@@ -8,7 +8,7 @@ namespace {
 
 /// Transforms every column of a spectrum, forward or back.
 void transform_columns(HalfSpectrum& spectrum, bool forward) {
-  if (spectrum.rows == 1) return;  // a transform of one point is that point; Eigen's does not know it
+  if (spectrum.rows == 1) return;  // the transform of one point is that point; Eigen's cannot compute it
   Eigen::FFT<double> fft;
   std::vector<std::complex<double>> column(spectrum.rows), result;
   for (std::uint32_t k = 0; k < spectrum.kept(); ++k) {

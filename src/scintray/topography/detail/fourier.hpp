@@ -1,5 +1,5 @@
 #pragma once
-/// Discrete Fourier transforms of maps. Internal to topography.
+/// Discrete Fourier transforms of height maps.
 
 #include <complex>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace scintray::topography {
 
-/// The transform of a real map of columns x rows points, of which half is kept: the other half is its
+/// Transform of a real map of columns x rows points, of which half is stored: the other half is its
 /// complex conjugate.
 struct HalfSpectrum {
   std::uint32_t columns = 0, rows = 0;       ///< of the map
@@ -18,20 +18,20 @@ struct HalfSpectrum {
   const std::complex<double>& at(std::uint32_t k, std::uint32_t l) const {
     return values[std::size_t{l} * kept() + k];
   }
-  /// How many terms of the whole transform column k stands for: 1 or 2.
+  /// Number of terms of the complete transform that column k represents: 1 or 2.
   double weight(std::uint32_t k) const { return k == 0 || 2 * k == columns ? 1.0 : 2.0; }
 };
 
-/// sum over points of h exp(-2 pi i (k i / columns + l j / rows)); `heights` is row-major.
+/// Transform: sum over points of h exp(-2 pi i (k i / columns + l j / rows)); `heights` is row-major.
 HalfSpectrum fourier_transform(const std::vector<double>& heights, std::uint32_t columns, std::uint32_t rows);
 
-/// The inverse, with its factor 1 / (columns rows).
+/// Inverse transform, with its factor 1 / (columns rows).
 std::vector<double> inverse_fourier_transform(const HalfSpectrum& spectrum);
 
 /// Spatial frequency, 1/um, of term k of n points at this pitch: negative above the middle.
 double spatial_frequency(std::uint32_t k, std::uint32_t n, double pitch_um);
 
-/// The smallest number not below n without prime factors above 5, for which transforms are quick.
+/// The smallest number not below n without prime factors above 5, for which transforms are fast.
 std::uint32_t quick_size(std::uint32_t n);
 
 }  // namespace scintray::topography

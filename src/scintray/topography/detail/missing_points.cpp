@@ -76,7 +76,7 @@ std::uint64_t remove_outliers(HeightMap& map, double limit, int radius) {
   if (!(limit >= 1.0 && std::isfinite(limit)))
     throw core::InputError({{},
                             fmt::format("outliers beyond {} standard deviations; expected 1 or more", limit),
-                            "6 takes away next to nothing from a Gaussian surface"});
+                            "6 removes almost nothing from a Gaussian surface"});
   require_some_height(map, count_missing(map));
   HeightMap smooth = map;
   filter_median(smooth, radius);
@@ -93,7 +93,7 @@ std::uint64_t remove_outliers(HeightMap& map, double limit, int radius) {
       ++taken;
     }
   map.steps.push_back(
-      fmt::format("{} outliers taken away, farther than {:.6g} robust standard deviations ({:.4g} um) from "
+      fmt::format("{} outliers removed, farther than {:.6g} robust standard deviations ({:.4g} um) from "
                   "the median within {} pixels",
                   taken, limit, most, radius));
   return taken;

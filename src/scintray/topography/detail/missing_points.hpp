@@ -7,18 +7,18 @@
 
 namespace scintray::topography {
 
-/// How many points have no height.
+/// Number of points without a height.
 std::uint64_t count_missing(const HeightMap& map);
 
-/// Takes away the heights that lie farther from the median of the (2 radius + 1)^2 points around
+/// Removes the heights that are farther from the median of the (2 radius + 1)^2 points around
 /// them than `limit` robust standard deviations of all such differences: 1.4826 times their median
 /// absolute deviation (F. R. Hampel 1974, J. Am. Stat. Assoc. 69, 383), or, where more than half of
 /// the differences are equal, 1.2533 times their mean absolute deviation (B. Iglewicz and D. C.
-/// Hoaglin 1993, How to Detect and Handle Outliers, section 3.3). Returns how many were taken.
+/// Hoaglin 1993, How to Detect and Handle Outliers, section 3.3). Returns the number removed.
 /// InputError when the limit is not at least 1, the radius not in [1, 50], or no point has a height.
 std::uint64_t remove_outliers(HeightMap& map, double limit, int radius = 2);
 
-/// Gives every missing point the height of a membrane spanned over the gap: the solution of Laplace's
+/// Fills every missing point with the height of a membrane spanned over the gap: the solution of Laplace's
 /// equation with the points around as boundary, free at the edges of the map (wrapped around on a
 /// periodic one), by the five-point formula (Press et al. 2007, Numerical Recipes 3rd ed., section
 /// 3.8) and a sparse Cholesky factorization. No filled height exceeds the heights around its gap.

@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of a synthetic relief. Internal to synthesis: recipes have been checked.
+/// The parts of a synthetic relief. Recipes have been checked before.
 
 #include <cstdint>
 #include <functional>
@@ -24,7 +24,7 @@ inline core::Rng relief_random(const SynthesisRecipe& recipe, ReliefPart part) {
   return core::Rng(recipe.seed, core::StreamKind::synthesis, static_cast<std::uint64_t>(part));
 }
 
-/// Each adds its part, um, to the row-major heights of the recipe's grid.
+/// Each function adds its part, um, to the row-major heights of the recipe's grid.
 void add_gaussian(const SynthesisRecipe& recipe, std::vector<double>& heights_um);
 void add_k_correlation(const SynthesisRecipe& recipe, std::vector<double>& heights_um);
 void add_spectrum(const SynthesisRecipe& recipe, std::vector<double>& heights_um);

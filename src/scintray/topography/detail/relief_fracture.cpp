@@ -24,7 +24,7 @@ class Bowls {
         half_exponent_(0.5 * recipe.fracture.exponent) {
     const FractureRelief& f = recipe.fracture;
     core::Rng rng = relief_random(recipe, part);
-    // One bowl anywhere in each cell of a grid: no large gap, whose rim would tower over the rest.
+    // One bowl anywhere in each cell of a grid: no large gap, whose rim would be far above the rest.
     const auto across = static_cast<std::uint32_t>(std::lround(width_x_ / f.spacing_um));
     const auto along = static_cast<std::uint32_t>(std::lround(width_y_ / f.spacing_um));
     for (std::uint32_t k = 0; k < across * along; ++k) {
@@ -37,7 +37,7 @@ class Bowls {
   }
 
   /// Adds sign * (lowest bowl) to every height. Rows of tiles keep only bowls that can be lowest
-  /// somewhere in the tile; they do not share heights, so threads change nothing.
+  /// somewhere in the tile; they do not share heights, so the result does not depend on threads.
   void add(double sign, std::vector<double>& heights) const {
     const std::uint32_t tile_rows = (recipe_.rows + kTile - 1) / kTile;
     tbb::parallel_for(std::uint32_t{0}, tile_rows,

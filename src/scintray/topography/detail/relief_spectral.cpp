@@ -15,7 +15,7 @@ namespace {
 using Density = std::function<double(double fx, double fy)>;
 
 /// One realisation with the expected power spectrum `density`, um^4. White noise of unit variance has
-/// the power N in each of the N terms of its transform; a term of the heights is to have
+/// the power N in each of the N terms of its transform; a term of the heights must have
 /// N^2 S / area = N S / pitch^2.
 std::vector<double> realisation(const SynthesisRecipe& recipe, ReliefPart part, const Density& density) {
   core::Rng rng = relief_random(recipe, part);
@@ -28,7 +28,7 @@ std::vector<double> realisation(const SynthesisRecipe& recipe, ReliefPart part, 
       const double fy = spatial_frequency(l, recipe.rows, recipe.pitch_um);
       spectrum.at(k, l) *= std::sqrt(density(fx, fy)) / recipe.pitch_um;
     }
-  spectrum.at(0, 0) = 0.0;  // the mean height means nothing
+  spectrum.at(0, 0) = 0.0;  // the mean height is arbitrary
   return inverse_fourier_transform(spectrum);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Index;
 
-/// What the fit of a scale leaves of a fluctuation of each point: 1 - u_i^2, u the unit vector of the curve.
+/// Share of the variance of each point after the fit of a scale: 1 - u_i^2, u the unit vector of the curve.
 Eigen::VectorXd left_by_scale(const WeightedResiduals& residuals, const ModelCurve& centre) {
   Eigen::VectorXd left = Eigen::VectorXd::Ones(static_cast<Index>(centre.size()));
   if (!residuals.free_scale()) return left;
@@ -82,7 +82,7 @@ FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre
 }
 
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
-  // Three times a squared range's inverse is the information of an error of twice what knowing nothing has.
+  // Three times the inverse squared range is the information of twice the error of a uniform distribution.
   const Eigen::VectorXd least = 3.0 * range.array().square().inverse().matrix();
   const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope;
   const Eigen::MatrixXd noise = slopes.summed_noise();

@@ -1,5 +1,5 @@
 #pragma once
-/// How a curve answers to parameters, how sure that is, and what the parameters' errors are.
+/// Derivatives of a curve by its parameters with their noise, and the covariances of the parameters.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace scintray::analysis {
 
-/// Curves on both sides of a place in one parameter.
+/// Curves on both sides of a point in one parameter.
 struct DifferencePair {
   ModelCurve low, high;
   double span = 0.0;  ///< between the two values of the parameter, above 0
@@ -18,32 +18,33 @@ struct DifferencePair {
 struct FitSlopes {
   Eigen::MatrixXd slope;               ///< points x parameters
   std::vector<Eigen::MatrixXd> noise;  ///< per point: covariance of its row
-  /// Variance of the differences, summed over points and parameters in units of sigma^2: as it is with
-  /// common random numbers, and as it would be if each curve had its own.
+  /// Variance of the differences, summed over points and parameters in units of sigma^2: with common random
+  /// numbers, and as it would be if each curve had its own.
   double common_variance = 0.0, independent_variance = 0.0;
 
   Eigen::MatrixXd summed_noise() const;
 };
 
+/// Derivatives from pairs of curves. With `parts` in the curves the noise is measured: the differences of
+/// each part, of other photons, are independent repetitions of the whole difference. Without, both curves
+/// count as independent.
 /// @param pairs  one a parameter
-/// With `parts` in the curves the noise is measured: the differences of each part, made of other photons, are
-/// independent repetitions of the whole difference. Without, both curves count as independent.
 FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre,
                     const std::vector<DifferencePair>& pairs);
 
-/// Fisher information J^T J less what the noise of J adds to it (a square is never negative, so noise looks
-/// like information). The noise is taken away along the principal directions of J^T J; what then is left less
-/// than in an error of 1/sqrt(3) of the range of the parameters, twice that of knowing nothing between the
-/// bounds, is given that, so that there is an inverse.
+/// Fisher information J^T J minus the contribution of the noise of J (a square is never negative, so noise
+/// looks like information). The noise is subtracted along the principal directions of J^T J; where less
+/// remains than corresponds to an error of 1/sqrt(3) of the range of the parameters, twice that of a uniform
+/// distribution between the bounds, it is set to that, so that an inverse exists.
 /// @param range  of each parameter, high - low
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
 
 /// Covariances of the parameters at the least squares.
 struct FitCovariance {
-  /// Of everything: inverse information, whose sigma has measurement and Monte Carlo errors of the curve, and
-  /// what the noise of the slopes does to the place of the minimum, F^-1 (sum r_i^2 N_i) F^-1.
+  /// Total: inverse information, whose sigma contains the measurement and Monte Carlo errors of the curve,
+  /// and the effect of the noise of the slopes on the position of the minimum, F^-1 (sum r_i^2 N_i) F^-1.
   Eigen::MatrixXd total;
-  Eigen::VectorXd monte_carlo;  ///< of the variances, what comes from the simulation
+  Eigen::VectorXd monte_carlo;  ///< part of the variances from the simulation
 };
 
 FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,

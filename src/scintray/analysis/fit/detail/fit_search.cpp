@@ -19,23 +19,24 @@ namespace {
 
 using Eigen::Index;
 
-/// Expected fall of chi-square at which the search rests: parameters are then within a third of their error.
+/// Expected decrease of chi-square at which the search ends: parameters are then within a third of their
+/// error.
 constexpr double kRest = 0.1;
-/// The same for the estimate, within which the curve is taken to be straight, and at most.
+/// The same for the estimate, within which the curve is treated as linear, and its upper limit.
 constexpr double kStraight = 1.0, kMostStraight = 9.0;
 /// Difference spans, as shares of the range of a parameter.
 constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
-/// Noise of a difference that is wanted, over the difference, and how much wider it may get for that.
+/// Target noise of a difference, relative to the difference, and the limit of its widening for that.
 constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
 constexpr int kMostEstimates = 4, kMostRounds = 4;
-/// Shorter and shorter steps that GSL may try before one that goes down is given up on.
+/// Number of shorter steps that GSL may try before the search for a decrease is abandoned.
 constexpr int kMostTrials = 6;
-/// Values that a parameter can have: so many between its bounds, that going inside and out again does not
-/// make another curve by rounding.
+/// Number of values that a parameter can have between its bounds, so that the conversion to the internal
+/// variable and back does not change a curve by rounding.
 constexpr double kGrid = 0x1.0p40;
-/// Errors that change less than this need no new search.
+/// Relative change of the errors below which no new search is needed.
 constexpr double kSameErrors = 0.05;
-/// First guess of a common error, over the root mean square of the values.
+/// Initial common error, relative to the root mean square of the values.
 constexpr double kFirstCommonError = 0.05;
 
 struct FreeWorkspace {
@@ -50,7 +51,7 @@ double root_mean_square(const MeasuredCurve& measured) {
 
 }  // namespace
 
-/// GSL's view of the search.
+/// Functions of the search for GSL.
 struct GslFunctions {
   static int residuals(const gsl_vector* x, void* data, gsl_vector* out) {
     FitSearch& search = *static_cast<FitSearch*>(data);
@@ -138,7 +139,7 @@ std::optional<ModelCurve> FitSearch::evaluate(const std::vector<double>& at) {
     return std::nullopt;
   }
   if (curve->size() != residuals_.size())
-    throw std::invalid_argument("the model gives another number of points than were measured");
+    throw std::invalid_argument("the model returns another number of points than were measured");
   ++evaluations_;
   known_.emplace(at, *curve);
   return curve;
@@ -167,9 +168,9 @@ bool FitSearch::find_slopes(const std::vector<double>& at) {
 }
 
 /// Differences over one standard error (of each parameter alone) to each side change chi-square by one: far
-/// above what rounding or a lost photon do, and near enough for a straight line. Where photons go other ways
-/// from one side to the other, their noise grows with the root of the distance and the difference with the
-/// distance, so wider differences are surer.
+/// above rounding or the loss of a photon, and small enough for a linear curve. Where photons take different
+/// paths on both sides, their noise grows with the root of the distance and the difference with the distance,
+/// so wider differences are more precise.
 void FitSearch::choose_spans() {
   const Eigen::MatrixXd noise = slopes_->summed_noise();
   const Eigen::MatrixXd information = information_of(*slopes_, range());
@@ -184,11 +185,11 @@ void FitSearch::choose_spans() {
 
 FitSearch::Outlook FitSearch::outlook() const {
   const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
-  // The noise of the slopes, which information_of takes away, stays in: it shortens steps where they are
-  // unsure. To know as little of a parameter as its range is no knowledge, but keeps steps finite.
+  // The noise of the slopes, which information_of subtracts, is kept: it shortens steps where they are
+  // uncertain. A prior as wide as the range carries almost no information, but keeps steps finite.
   Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
   information.diagonal() += range().array().square().inverse().matrix();
-  // A parameter at a bound that would go beyond it stays.
+  // A parameter at a bound that would go beyond it is fixed.
   std::vector<Index> free;
   for (std::size_t j = 0; j < best_.size(); ++j) {
     const FitParameter& p = parameters_[j];
@@ -227,14 +228,14 @@ void FitSearch::accept(const std::vector<double>& at) {
   report_step();
 }
 
-/// Down by GSL's trust region, from the best so far.
+/// Minimises by GSL's trust region, from the best point so far.
 void FitSearch::descend() {
   const std::size_t count = parameters_.size();
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
   settings.scale = gsl_multifit_nlinear_scale_levenberg;
   const std::unique_ptr<gsl_multifit_nlinear_workspace, FreeWorkspace> work(
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, residuals_.size(), count));
-  if (!work) throw core::InternalError("GSL has no room for a fit");
+  if (!work) throw core::InternalError("GSL cannot allocate a fit");
   gsl_multifit_nlinear_fdf functions{};
   functions.f = GslFunctions::residuals;
   functions.df = GslFunctions::slopes;
@@ -247,7 +248,7 @@ void FitSearch::descend() {
   trials_ = 0;
   if (gsl_multifit_nlinear_init(&x.vector, &functions, work.get()) != GSL_SUCCESS) return;
   while (steps_.size() <= options_.most_steps && outlook().fall > kRest) {
-    // No progress is an answer too: what is left is smaller than the noise of the curve.
+    // No progress is a result, too: the remaining decrease is smaller than the noise of the curve.
     trials_ = 0;
     if (gsl_multifit_nlinear_iterate(work.get()) != GSL_SUCCESS) return;
     accept(outer(gsl_multifit_nlinear_position(work.get())->data));
@@ -261,7 +262,7 @@ void FitSearch::update_weights() {
     residuals_.reweight(*curve_);
 }
 
-/// After a stop in the middle of a step: the best of all curves that were traced.
+/// After a stop within a step: the best of all curves that were traced.
 void FitSearch::accept_best_known() {
   const auto chi2_of = [&](const auto& entry) { return residuals_.chi2(entry.second); };
   const auto least = std::min_element(known_.begin(), known_.end(),
@@ -269,7 +270,7 @@ void FitSearch::accept_best_known() {
   if (least != known_.end() && chi2_of(*least) < residuals_.chi2(*curve_)) accept(least->first);
 }
 
-/// The curve beside the one at the best, by its slopes.
+/// The curve near the best point, extrapolated by slopes.
 ModelCurve FitSearch::carried_on(const std::vector<double>& to) const {
   ModelCurve curve = *curve_;
   for (std::size_t i = 0; i < curve.size(); ++i)
@@ -279,9 +280,9 @@ ModelCurve FitSearch::carried_on(const std::vector<double>& to) const {
   return curve;
 }
 
-/// Search goes where noise happens to agree with the measurement, so that the curve found is too good. New
-/// random numbers around the place know nothing of that: Newton's step by them is the estimate, and the
-/// residuals left by it are those of a fit.
+/// A search converges where noise happens to agree with the measurement, so that the curve found is too good.
+/// New random numbers near that point are independent of it: Newton's step with them is the estimate, and its
+/// residuals are those of a fit.
 bool FitSearch::estimate() {
   draw_ = 1;
   known_.clear();
@@ -315,8 +316,8 @@ FitEnd FitSearch::run() {
   start_curve_ = *curve_;
   if (std::none_of(curve_->begin(), curve_->end(), [](const ModelPoint& p) { return p.value.value > 0.0; }))
     throw core::InputError({{},
-                            "at the start no light arrives at any of the measured points",
-                            "start nearer to what is measured, or trace more photons"});
+                            "at the start there is no light at any of the measured points",
+                            "start nearer to the measurement, or trace more photons"});
   update_weights();
   report_step();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {

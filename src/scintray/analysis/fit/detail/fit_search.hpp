@@ -1,5 +1,5 @@
 #pragma once
-/// The search for the least squares of a noisy curve (curve_fit.hpp states how it goes).
+/// The search for the least squares of a noisy curve, as described in curve_fit.hpp.
 
 #include <map>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace scintray::analysis {
 
-/// A parameter this near to a bound, as a share of its range, is at it.
+/// Distance from a bound, as a share of the range, within which a parameter is at the bound.
 inline constexpr double kAtBound = 1e-3;
 
 class FitSearch {
@@ -21,10 +21,11 @@ class FitSearch {
   FitEnd run();
 
   const std::vector<double>& best() const { return best_; }
-  /// At the best: traced, or carried on by slopes from next to it. Nothing when the first one was stopped.
+  /// Curve at the best point: traced, or extrapolated by slopes from nearby. Empty when the first one was
+  /// stopped.
   const std::optional<ModelCurve>& curve() const { return curve_; }
   const ModelCurve& start_curve() const { return start_curve_; }
-  /// Where the estimate was made; nothing when stopped before they were known.
+  /// Derivatives at the point of the estimate; empty when stopped before they were computed.
   const std::optional<FitSlopes>& slopes() const { return slopes_; }
   /// Derivatives of the scale by the parameters there.
   const Eigen::VectorXd& scale_slopes() const { return scale_slopes_; }
@@ -32,15 +33,15 @@ class FitSearch {
   const std::optional<double>& common_error() const { return common_error_; }
   const std::vector<CurveFitStep>& steps() const { return steps_; }
   Eigen::VectorXd range() const;
-  /// Points less what is fitted.
+  /// Degrees of freedom: points minus fitted quantities.
   double degrees() const;
 
  private:
   friend struct GslFunctions;
-  /// Newton's step by the slopes of the moment.
+  /// Newton's step with the current slopes.
   struct Outlook {
     Eigen::VectorXd step;
-    double fall = 0.0;  ///< by which chi-square is expected to go down
+    double fall = 0.0;  ///< expected decrease of chi-square
   };
 
   std::optional<ModelCurve> evaluate(const std::vector<double>& at);
@@ -69,7 +70,7 @@ class FitSearch {
   ModelCurve start_curve_;
   std::vector<double> span_;           ///< to each side, of each parameter's differences
   std::vector<double> wider_;          ///< factor on one standard error, for the noise
-  std::vector<DifferencePair> pairs_;  ///< that the slopes are of
+  std::vector<DifferencePair> pairs_;  ///< from which the slopes are computed
   std::optional<FitSlopes> slopes_;
   Eigen::VectorXd scale_slopes_;
   std::optional<double> common_error_;

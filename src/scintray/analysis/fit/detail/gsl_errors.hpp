@@ -1,11 +1,11 @@
 #pragma once
-/// GSL's way with errors, made ours.
+/// Conversion of GSL's errors to exceptions.
 
 #include <string>
 
 namespace scintray::analysis {
 
-/// From now on GSL returns its errors instead of ending the process, which is its habit. May be called
+/// Makes GSL return its errors instead of aborting the process, which is its default. May be called
 /// often and from any thread.
 void silence_gsl();
 

@@ -10,11 +10,11 @@ namespace scintray::analysis {
 
 namespace {
 
-/// Standard errors by which a peak stands; fewer where the number of peaks is known and only the best are
-/// kept.
+/// Standard errors above the saddle from which a peak is kept; fewer where the number of peaks is known and
+/// only the most significant are kept.
 constexpr double kSignificance = 5.0;
 
-/// Visits the up to eight cells around one.
+/// Calls a function for the up to eight cells around one.
 template <typename Visit>
 void around(std::size_t cell, std::size_t rows, std::size_t columns, Visit visit) {
   const std::size_t row = cell / columns, column = cell % columns;
@@ -23,7 +23,7 @@ void around(std::size_t cell, std::size_t rows, std::size_t columns, Visit visit
       if (r != row || c != column) visit(r * columns + c);
 }
 
-/// Cells above the floor, highest first; equal ones by index, so that the result is one.
+/// Cells above the floor, highest first; equal ones by index, so that the result is unique.
 std::vector<std::size_t> falling(const std::vector<double>& height, double floor) {
   std::vector<std::size_t> cells(height.size());
   std::iota(cells.begin(), cells.end(), std::size_t{0});
@@ -33,7 +33,7 @@ std::vector<std::size_t> falling(const std::vector<double>& height, double floor
   return cells;
 }
 
-/// How far every maximum stands above the saddle where it meets a higher one; the highest of all: infinitely.
+/// Height of every maximum above its saddle to a higher one; infinite for the highest of all.
 std::map<std::size_t, double> persistences(const std::vector<double>& height, std::size_t rows,
                                            std::size_t columns, const std::vector<std::size_t>& order) {
   constexpr auto kDry = std::numeric_limits<std::size_t>::max();
@@ -52,7 +52,7 @@ std::map<std::size_t, double> persistences(const std::vector<double>& height, st
       if (a == b) return;
       if (height[a] < height[b] || (height[a] == height[b] && a > b)) std::swap(a, b);
       found[b] = height[b] - height[cell];
-      if (b == cell) found.erase(b);  // no maximum at all
+      if (b == cell) found.erase(b);  // not a maximum
       parent[b] = a;
     });
   }
@@ -80,7 +80,7 @@ Basins find_basins(const std::vector<double>& height, std::size_t rows, std::siz
                    [&](std::size_t a, std::size_t b) { return height[a] > height[b]; });
   basins.of_cell.assign(height.size(), Basins::kNone);
   for (std::uint32_t i = 0; i < basins.peaks.size(); ++i) basins.of_cell[basins.peaks[i]] = i;
-  // Each cell follows its highest neighbour that has a basin; maxima that were given up wait for one.
+  // Each cell follows its highest neighbour that has a basin; removed maxima follow later.
   std::vector<std::size_t> waiting = order;
   for (bool grew = true; grew && !waiting.empty();) {
     grew = false;

@@ -22,7 +22,7 @@ namespace {
 /// exp(-21) and the tail of a Gaussian beyond 6 sigma are below 1e-9.
 constexpr double kDecays = 21.0, kSigmas = 7.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Rise and decay nearer than this share are taken apart by it: the formulas divide by their difference.
+/// Relative difference to which rise and decay times are separated: the formulas divide by their difference.
 constexpr double kApart = 1e-6;
 
 core::InputError bad_time(const std::string& what, const std::string& hint) {
@@ -73,7 +73,7 @@ PhotonTime::PhotonTime(std::vector<EmissionTime> emission, double jitter_sigma_n
     if (!(part.decay_ns > 0.0) || !(part.rise_ns >= 0.0) || !(part.share > 0.0) ||
         !std::isfinite(part.decay_ns))
       throw bad_time("an emission with a decay that is not positive, or a negative rise time or share",
-                     "give decay above 0, rise of 0 or more, share above 0");
+                     "use a decay time above 0, a rise time of 0 or more, a share above 0");
     shares += part.share;
   }
   if (std::abs(shares - 1.0) > 1e-6)
@@ -81,7 +81,7 @@ PhotonTime::PhotonTime(std::vector<EmissionTime> emission, double jitter_sigma_n
                    "divide them by their sum");
   if (!(jitter_ns_ >= 0.0) || !std::isfinite(jitter_ns_))
     throw bad_time("a jitter of " + std::to_string(jitter_ns_) + " ns; expected 0 or more",
-                   "give it as one sigma");
+                   "use its standard deviation");
 }
 
 double PhotonTime::edge(double t_ns) const {
@@ -195,7 +195,7 @@ MostLikelyTime::MostLikelyTime(PhotonTime time)
     : time_(std::move(time)), information_(time_information(time_, 1.0)) {
   if (!std::isfinite(information_))
     throw bad_time("a most likely time without jitter of single photons",
-                   "give the jitter; without it the first photon says it all");
+                   "set the jitter; without it the first photon determines the time");
 }
 
 double MostLikelyTime::operator()(std::span<const double> photon_times_ns) const {

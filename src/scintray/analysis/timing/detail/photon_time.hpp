@@ -1,5 +1,5 @@
 #pragma once
-/// When the photons of an event are detected, as a density over time, and what that density allows at best.
+/// Density of the detection time of the photons of an event, and the lower bounds on timing from it.
 
 #include <cstddef>
 #include <span>
@@ -31,12 +31,12 @@ class PhotonTime {
 
   const std::vector<EmissionTime>& emission() const { return emission_; }
   double jitter_ns() const { return jitter_ns_; }
-  /// Times before and after which less than 1e-9 of the photons come.
+  /// Times before and after which less than 1e-9 of the photons are detected.
   double earliest_ns() const;
   double latest_ns() const;
 
  private:
-  /// The same three for one exponential alone.
+  /// The same three functions for one exponential alone.
   double one_density(double t_ns, double tau_ns) const;
   double one_before(double t_ns, double tau_ns) const;
   double edge(double t_ns) const;  ///< density of the jitter
@@ -50,29 +50,29 @@ class PhotonTime {
 ///
 ///     I = photons * integral of p'(t)^2 / p(t) Prob(fewer than `first` photons before t) dt
 ///
-/// That is the information of a Poisson process watched until its `first`-th point (D. L. Snyder and M. I.
+/// That is the information of a Poisson process observed until its `first`-th point (D. L. Snyder and M. I.
 /// Miller 1991, Random Point Processes in Time and Space: the log-likelihood of the points up to a
 /// stopping time); with `first` large it is photons times that of one photon, the bound of S. Seifert, H. T.
 /// van Dam and D. R. Schaart 2012, Phys. Med. Biol. 57, 1797. Integrals by GSL. Infinite without jitter: the
 /// density then starts with a corner or a step, and no bound of this kind exists.
 double time_information(const PhotonTime& time, double photons, std::size_t first);
-/// With all photons.
+/// Fisher information in all photons.
 double time_information(const PhotonTime& time, double photons);
-/// In the time of the n-th photon alone, whose density is
+/// Fisher information in the time of the n-th photon alone, whose density is
 /// photons p(t) exp(-m) m^(n - 1) / (n - 1)! with m = photons * (share before t).
 double time_information_of_photon(const PhotonTime& time, double photons, std::size_t n);
 
 /// FWHM of the difference of two independent event times that each have this information: no unbiased
-/// estimator does better (Cramer and Rao).
+/// estimator has less (Cramer and Rao).
 double coincidence_bound_fwhm_ns(double information);
 
 /// Expected time of the first of `photons` (Poisson) detected photons, given that there is one:
-/// integral of (exp(-m(t)) - exp(-photons)) / (1 - exp(-photons)) from time 0 on, less what comes before it.
+/// integral of (exp(-m(t)) - exp(-photons)) / (1 - exp(-photons)) from time 0 on, minus the part before it.
 /// For an instantaneous rise without jitter and many photons this is decay / photons; for a rise that is not
 /// instantaneous sqrt(pi rise decay / (2 photons)), since the share before t is then t^2 / (2 rise decay).
 double mean_first_photon_ns(const PhotonTime& time, double photons);
 
-/// Finds the event time at which detected photons are most likely: the maximum of the sum of
+/// Maximum-likelihood estimator of the event time: the maximum of the sum of
 /// ln p(t_i - time), by Fisher scoring with halved steps. With one decay the density is a convolution of
 /// log-concave ones and so log-concave itself: there is one maximum.
 class MostLikelyTime {

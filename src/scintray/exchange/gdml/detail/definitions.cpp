@@ -92,7 +92,7 @@ class Definitions::Evaluator {
     for (const auto& [name, value] : kUnits) set(name, value);
   }
 
-  /// Names that expressions cannot use are kept out: nothing can refer to them.
+  /// Names that expressions cannot use are left out: nothing can refer to them.
   void set(const std::string& name, double value) {
     try {
       parser_.DefineConst(name, value);
@@ -107,7 +107,7 @@ class Definitions::Evaluator {
     return found == values_.end() ? nullptr : &found->second;
   }
 
-  /// The value, or a message.
+  /// Evaluates the expression; returns a message when that fails, else empty.
   std::string evaluate(const std::string& expression, double& value) {
     std::string text = expression;
     for (std::size_t at = text.find("**"); at != std::string::npos; at = text.find("**"))
@@ -218,7 +218,7 @@ std::string Definitions::name(const std::string& text, Node where) const {
     const std::size_t close = result.find(']', open);
     if (close == std::string::npos) file_.reject(where, "\"" + text + "\" has a [ without its ]");
     const double value = evaluate(result.substr(open + 1, close - open - 1), where);
-    if (std::abs(value) > 1e9) file_.reject(where, "\"" + text + "\" has an index beyond all bounds");
+    if (std::abs(value) > 1e9) file_.reject(where, "\"" + text + "\" has an index above 1e9");
     result.replace(open, close - open + 1, "_" + std::to_string(std::lround(value)));
   }
   return result;
@@ -281,7 +281,7 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
     for (double value = from; value <= to + 1e-9 * step; value += step) {
       if (++evaluator_->iterations > kMostIterations)
-        file_.reject(child, "the loops of the file make over 200000 steps together");
+        file_.reject(child, "the loops of the file have over 200000 steps together");
       evaluator_->set(variable, value);
       evaluator_->loop_variables[variable] = value;
       for_each_child(child, action);

@@ -1,5 +1,5 @@
 #pragma once
-/// The <define> section of a GDML file, and everything in the file that is written as an expression.
+/// The <define> section of a GDML file, and the expressions in the file.
 
 #include <functional>
 #include <map>
@@ -19,11 +19,11 @@ struct Matrix {
   std::vector<double> values;
 };
 
-/// Variables of the loops around an element, as they were when it was met. What is evaluated later than that
-/// needs them back.
+/// Variables of the loops around an element, with the values that they had when it was read. A later
+/// evaluation restores them.
 using LoopVariables = std::map<std::string, double>;
 
-/// Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
+/// Definitions and expressions of a file. Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
 class Definitions {
  public:
   /// Reads <define>, loops expanded. Throws InputError at the first expression that cannot be evaluated.
@@ -34,12 +34,12 @@ class Definitions {
 
   /// Value of an expression: + - * / ^, parentheses, functions, names of constants, units ("2.034*eV").
   double evaluate(const std::string& expression, Node where) const;
-  /// An attribute's value, or the fallback when it is left out.
+  /// An attribute's value, or the fallback when it is absent.
   double number(Node node, const char* attribute, double fallback) const;
   double number(Node node, const char* attribute) const;
-  /// An attribute times the node's unit: `lunit` or `unit`, mm when left out.
+  /// An attribute times the node's unit: `lunit` or `unit`, mm when absent.
   double length(Node node, const char* attribute, double fallback = 0.0) const;
-  /// An attribute times the node's `aunit`, rad when left out.
+  /// An attribute times the node's `aunit`, rad when absent.
   double angle(Node node, const char* attribute, double fallback = 0.0) const;
   /// x, y, z of a node times its `unit`.
   core::Vec3 vector(Node node, const char* default_unit, double fallback = 0.0) const;
@@ -52,7 +52,7 @@ class Definitions {
   core::Vec3 rotation(Node node, const std::string& tag = "rotation") const;
   core::Vec3 scale(Node node) const;
   const core::Vec3& position_named(const std::string& name, Node where) const;
-  /// nullptr, or nothing, when there is none of that name.
+  /// nullptr, or empty, when there is none of that name.
   const Matrix* matrix(const std::string& name) const;
   std::optional<double> constant(const std::string& name) const;
 
@@ -74,7 +74,7 @@ class Definitions {
   std::map<std::string, Matrix> matrices_;
 };
 
-/// Puts loop variables back for as long as it lives.
+/// Restores loop variables during its lifetime.
 class LoopScope {
  public:
   LoopScope(const Definitions& definitions, const LoopVariables& variables)
@@ -90,7 +90,7 @@ class LoopScope {
   LoopVariables before_;
 };
 
-/// An element and the loop variables that it was met with.
+/// An element and the loop variables at the time it was read.
 struct LoopedNode {
   Node node;
   LoopVariables variables;

@@ -77,7 +77,7 @@ class FlatSolid : public SolidReader {
     return slanted(0.5 * size("z"), angle("theta"), angle("phi"), side, side);
   }
 
-  /// Its walls may be twisted: straight lines between corresponding points of both ends.
+  /// Its walls may be twisted: ruled surfaces between corresponding points of both ends.
   mesh::TriMesh arb8() const {
     constexpr int kSlices = 16;
     const double half = size("dz");

@@ -31,8 +31,8 @@ GdmlFile::GdmlFile(std::string content, std::string file)
     throw core::InputError(core::Problem{{file_}, "XML elements are nested more than 500 deep", ""});
   if (const std::size_t entity = content_.find("<!ENTITY"); entity != std::string::npos)
     throw core::InputError(core::Problem{location(file_, line_starts_, static_cast<std::ptrdiff_t>(entity)),
-                                         "the GDML file takes parts of itself from other files, by <!ENTITY>",
-                                         "put it together first, for example with: xmllint --noent FILE"});
+                                         "the GDML file includes other files, by <!ENTITY>",
+                                         "merge them first, for example with: xmllint --noent FILE"});
   const pugi::xml_parse_result parsed = document_.load_buffer(content_.data(), content_.size());
   if (!parsed)
     throw core::InputError(

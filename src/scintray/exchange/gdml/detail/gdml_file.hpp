@@ -16,11 +16,11 @@ using Node = pugi::xml_node;
 class GdmlFile {
  public:
   /// Parses the content; `file` is the name for messages. Throws InputError for XML that is not well-formed
-  /// or is nested more than 500 deep, for entities that pull in other files, and for a document without
+  /// or is nested more than 500 deep, for entities that include other files, and for a document without
   /// <solids> and <structure>.
   GdmlFile(std::string content, std::string file);
 
-  /// A section of the document (define, materials, solids, structure, setup); empty when it is left out.
+  /// A section of the document (define, materials, solids, structure, setup); empty when it is absent.
   Node section(const char* name) const;
   core::FileLocation where(Node node) const;
 

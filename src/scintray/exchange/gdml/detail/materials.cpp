@@ -37,9 +37,9 @@ double interpolated(const EnergyTable& table, double energy_eV) {
   return y[i - 1] + (y[i] - y[i - 1]) * (energy_eV - x[i - 1]) / (x[i] - x[i - 1]);
 }
 
-/// The same table with points between its own. Geant4 goes straight from point to point over energy, a curve
-/// here over wavelength. Half way between two points the energy is their arithmetic mean for one and the
-/// harmonic mean for the other: between energies 2 % apart the values differ by 0.5 % of their step.
+/// The same table with added points. Geant4 interpolates linearly over energy, a curve here over wavelength.
+/// Halfway between two points the energy is their arithmetic mean for one and the harmonic mean for the
+/// other: between energies 2 % apart the values differ by 0.5 % of their step.
 std::vector<double> refined(const std::vector<double>& energy_eV) {
   constexpr double kStep = 0.02;
   std::vector<double> fine;
@@ -221,13 +221,13 @@ EnergyTable property(Node owner, const std::string& name, const GdmlFile& file,
   const Matrix* matrix = definitions.matrix(reference);
   if (!matrix) file.reject(node, "no matrix is called \"" + reference + "\"", "define it in <define>");
   if (matrix->columns != 2)
-    file.reject(node, name + " needs a matrix of two columns, energy and value; \"" + reference + "\" has " +
-                          std::to_string(matrix->columns));
+    file.reject(node, name + " requires a matrix of two columns, energy and value; \"" + reference +
+                          "\" has " + std::to_string(matrix->columns));
   for (std::size_t i = 0; i < matrix->values.size(); i += 2) {
     const double energy = matrix->values[i] * kMeV_eV;
     if (!(energy > 0.0) || (!table.empty() && energy <= table.energy_eV.back()))
       file.reject(node, name + ": the energies of \"" + reference + "\" do not rise from above 0",
-                  "sort the matrix, and give every energy once");
+                  "sort the matrix, and list every energy once");
     table.energy_eV.push_back(energy);
     table.value.push_back(matrix->values[i + 1]);
   }

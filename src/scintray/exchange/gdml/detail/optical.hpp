@@ -11,23 +11,23 @@
 
 namespace scintray::exchange::gdml {
 
-/// A material as this project's media.
+/// A material as a medium of a scene.
 struct ImportedMedium {
   std::string material;            ///< name in the GDML file
-  std::string toml;                ///< the tables of [media.NAME], without their header; empty when opaque
-  bool opaque = false;             ///< no RINDEX: Geant4 ends light that enters it
-  bool scintillates = false;       ///< has yield, emission and decay
+  std::string toml;                ///< the keys of [media.NAME], without the header; empty when opaque
+  bool opaque = false;             ///< no RINDEX: Geant4 stops light that enters it
+  bool scintillates = false;       ///< has yield, emission and decay times
   std::vector<std::string> notes;  ///< what was not carried over
 };
 
-/// Every <material>, in file order. Tables of energies become tables of wavelengths, with points between
-/// theirs where they are coarse, since what is straight over energy is not over wavelength; outside its table
-/// Geant4 goes on with the value at the end, so tables are carried on flat over the range of all tables of
+/// Every <material>, in file order. Tables over energy become tables over wavelength, with added points where
+/// they are coarse, since linear interpolation over energy is not linear over wavelength; outside its table
+/// Geant4 uses the value at the end, so tables are extended at constant value over the range of all tables of
 /// the file. Absorption from ABSLENGTH, Rayleigh scattering from RAYLEIGH (none where they are left out),
 /// scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3 and their constants, or their names
 /// before Geant4 11. Emission: Geant4 samples the components per energy, S(E); here one spectrum per
 /// wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c). Throws InputError for
-/// tables that are not in energy order or are not of two columns.
+/// tables that are not in order of energy or do not have two columns.
 std::vector<ImportedMedium> import_materials(const GdmlFile& file, const Definitions& definitions);
 
 /// A table of an optical property: photon energies (eV) upwards, and the property.
@@ -40,8 +40,8 @@ struct EnergyTable {
 EnergyTable property(Node owner, const std::string& name, const GdmlFile& file,
                      const Definitions& definitions);
 
-/// { wavelength = [...], ... } of a table, or its one number when it has one value only; carried on flat to
-/// the two wavelengths when they lie beyond it (0: not).
+/// { wavelength = [...], ... } of a table, or its one number when it has one value only; extended at constant
+/// value to the two wavelengths when they lie beyond it (0: no extension).
 std::string curve_toml(const EnergyTable& table, const std::string& unit, double low_nm, double high_nm);
 
 struct ImportedSurface {
@@ -51,7 +51,8 @@ struct ImportedSurface {
 
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
 /// dielectric_dielectric and dielectric_metal, the six finishes polished to groundbackpainted, as presets
-/// geant4_... of the library. Tables (LUT, Davis, dichroic) are not in the file and cannot be carried over.
+/// geant4_... of the material database. Tables (LUT, Davis, dichroic) are not in the file and cannot be
+/// carried over.
 ImportedSurface import_surface(Node surface, const GdmlFile& file, const Definitions& definitions);
 
 }  // namespace scintray::exchange::gdml

@@ -227,7 +227,7 @@ class RoundSolid : public SolidReader {
     const Outline hole = meridian(half, radius(inner, inner_slope));
     for (std::size_t i = 0; i < std::min(outline.size(), hole.size()); ++i)
       if (!(radius(inner, inner_slope)(outline[i].y()) < outline[i].x()))
-        mesh::reject_shape("the inner wall meets the outer");
+        mesh::reject_shape("the inner wall touches the outer");
     outline.insert(outline.end(), hole.rbegin(), hole.rend());
     return revolve(outline);
   }

@@ -13,7 +13,7 @@
 
 namespace scintray::exchange::gdml {
 
-/// What the makers of solids have in common. Lengths in mm, angles in rad, by the solid's own units.
+/// Base of the readers of solids. Lengths in mm, angles in rad, converted from the solid's own units.
 class SolidReader {
  public:
   SolidReader(Node solid, const Definitions& definitions, const mesh::Tessellation& tessellation)
@@ -23,7 +23,7 @@ class SolidReader {
   double length(const char* attribute, double fallback = 0.0) const {
     return definitions_.length(solid_, attribute, fallback);
   }
-  /// A length that must be there and above 0.
+  /// A length that must be present and above 0.
   double size(const char* attribute) const {
     const double value = length(attribute);
     if (!(value > 0.0)) mesh::reject_shape(std::string("\"") + attribute + "\" is missing or not above 0");
@@ -34,10 +34,10 @@ class SolidReader {
   }
   double unit() const { return definitions_.number(solid_, "lunit", 1.0); }
 
-  /// Facets with corners in any order of rotation, welded and turned outwards.
+  /// Facets with corners in either sense of rotation, welded and oriented outwards.
   static mesh::TriMesh from_facets(const std::vector<std::vector<core::Vec3>>& facets);
 
-  /// Makes the solid by the member function that has its element's name, if any has.
+  /// The solid, from the member function with its element's name; empty when there is none.
   template <typename Maker, typename Kinds>
   static std::optional<mesh::TriMesh> make_one_of(const Maker& maker, const Kinds& kinds) {
     for (const auto& kind : kinds)
@@ -50,8 +50,8 @@ class SolidReader {
   const mesh::Tessellation& tessellation_;
 };
 
-/// A solid of flat faces or ruled walls, by the name of its element; nothing for other solids.
-/// Throws InputError for impossible measures.
+/// Mesh of a solid of flat faces or ruled walls, by the name of its element; empty for other solids.
+/// Throws InputError for impossible dimensions.
 std::optional<mesh::TriMesh> make_flat_solid(Node solid, const Definitions& definitions,
                                              const mesh::Tessellation& tessellation);
 

@@ -18,16 +18,16 @@ constexpr core::Word<mesh::BooleanOperation> kBooleans[] = {
     {"subtraction", mesh::BooleanOperation::subtract},
     {"intersection", mesh::BooleanOperation::intersect}};
 
-/// The mesh of a solid that is no boolean; nothing for a kind that is not made here. Measures mean what they
-/// mean in the GDML User's Guide (CERN), chapter "Solids".
-/// @throws InputError for impossible measures, without a place.
+/// The mesh of a solid that is not a boolean; empty for an unsupported kind. Dimensions are defined in the
+/// GDML User's Guide (CERN), chapter "Solids".
+/// @throws InputError for impossible dimensions, without a place.
 std::optional<mesh::TriMesh> make_simple_solid(Node solid, const Definitions& definitions,
                                                const mesh::Tessellation& tessellation) {
   std::optional<mesh::TriMesh> made = make_flat_solid(solid, definitions, tessellation);
   return made ? std::move(made) : make_round_solid(solid, definitions, tessellation);
 }
 
-/// As Geant4 places the solids of a boolean: turned by the rotation as it is, then moved.
+/// The placement of the second solid of a boolean in Geant4: rotated by the rotation itself, then moved.
 Eigen::Affine3d placement(const core::Vec3& position, const core::Vec3& angles_rad) {
   return Eigen::Translation3d(position) * Eigen::Affine3d(rotation_matrix(angles_rad));
 }
@@ -70,7 +70,7 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
   const auto& [solid, variables] = find(name, where);
   const LoopScope scope(definitions_, variables);
   if (std::find(in_the_making_.begin(), in_the_making_.end(), name) != in_the_making_.end())
-    file_.reject(solid, "solid \"" + name + "\" is made of itself");
+    file_.reject(solid, "solid \"" + name + "\" contains itself");
   constexpr std::size_t kDeepest = 500;
   if (in_the_making_.size() >= kDeepest) file_.reject(solid, "booleans are nested more than 500 deep");
   in_the_making_.push_back(name);

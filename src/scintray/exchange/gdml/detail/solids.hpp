@@ -12,23 +12,23 @@
 
 namespace scintray::exchange::gdml {
 
-/// Solids by name. Each is made when it is requested, once.
+/// Solids by name. Each is built once, on request.
 ///
-/// Made are: box, tube, cone, trd, trap, para, arb8, tet, tessellated, xtru, polycone, genericPolycone,
+/// Supported are: box, tube, cone, trd, trap, para, arb8, tet, tessellated, xtru, polycone, genericPolycone,
 /// polyhedra, genericPolyhedra, sphere, orb, torus, ellipsoid, eltube, elcone, paraboloid, hype, and union,
 /// subtraction, intersection of these. Curved walls have their corners on the true surface and the segments
-/// that the tessellation requests, in steps of doubling, so that bodies that touch along a cylinder mostly
-/// get the same.
+/// that the tessellation requires, in steps of factors of two, so that bodies that touch along a cylinder
+/// mostly get the same.
 class Solids {
  public:
   /// Throws InputError when two solids have one name.
   Solids(const GdmlFile& file, const Definitions& definitions, const mesh::Tessellation& tessellation);
 
-  /// Throws InputError, with the solid's name and place, for one that does not exist, is not made here, has
-  /// impossible measures, or is a boolean of itself.
+  /// The mesh of a solid. Throws InputError, with its name and place, for one that does not exist, is not
+  /// supported, has impossible dimensions, or is a boolean of itself.
   const mesh::TriMesh& mesh(const std::string& name, Node where);
 
-  /// The <opticalsurface> of this name, empty when there is none: they stand among the solids.
+  /// The <opticalsurface> of this name, an element of <solids>; empty when there is none.
   Node optical_surface(const std::string& name) const;
   /// The element of a solid; throws when there is none of this name.
   Node element(const std::string& name, Node where) const;

@@ -10,7 +10,7 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-/// What the elements of <structure> and of a volume are.
+/// Kinds of the elements of <structure> and of a volume.
 enum class Element { volume, assembly, skin, border, placement, replica, division };
 constexpr core::Word<Element> kElements[] = {
     {"volume", Element::volume},        {"assembly", Element::assembly}, {"skinsurface", Element::skin},
@@ -28,7 +28,7 @@ class StructureReader {
     definitions_.for_each_child(file_.section("structure"), [this](Node node) { remember(node); });
     const Node world = file_.section("setup").child("world");
     if (!world)
-      file_.reject(file_.section("structure"), "the file does not say which volume is the world",
+      file_.reject(file_.section("structure"), "the file does not state which volume is the world",
                    "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
     structure_.world_volume = reference(world);
     const Node volume = find(structure_.world_volume, world).node;
@@ -87,7 +87,7 @@ class StructureReader {
     if (const Node other = physvol.child("file"))
       file_.reject(other,
                    std::string("the volume is in another file, \"") + other.attribute("name").value() + "\"",
-                   "put both files together, or import each by itself");
+                   "merge both files, or import each by itself");
     const Node reference_node = child(physvol, "volumeref");
     const std::string volume = reference(reference_node);
     Eigen::Affine3d own = Eigen::Translation3d(definitions_.position(physvol)) *

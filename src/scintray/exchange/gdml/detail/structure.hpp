@@ -1,5 +1,5 @@
 #pragma once
-/// Which volumes of a GDML file stand where.
+/// The placed volumes of a GDML file.
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace scintray::exchange::gdml {
 
-/// Most volumes that a file may place, replicas counted one by one.
+/// Limit of the volumes that a file places, replicas counted one by one.
 inline constexpr std::size_t kMostPlaced = 200'000;
 
 /// One placed volume.
@@ -22,7 +22,7 @@ struct PlacedVolume {
   std::string solid;     ///< <solidref>
   Node element;          ///< the <volume>, for messages
   Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  ///< mm; may mirror
-  std::optional<std::size_t> mother;                       ///< nothing: the world
+  std::optional<std::size_t> mother;                       ///< empty: the world
   std::string sensitive;                                   ///< auxiliary "SensDet"
 };
 
@@ -36,16 +36,15 @@ struct SurfacePlacement {
 
 struct Structure {
   std::string world_volume, world_material, world_solid;
-  std::vector<PlacedVolume> placed;  ///< mothers before their daughters, the world left out
+  std::vector<PlacedVolume> placed;  ///< mothers before their daughters, without the world
   std::vector<SurfacePlacement> surfaces;
   std::vector<std::string> notes;
 };
 
-/// Walks the tree from the world of <setup>. A <physvol> is placed as Geant4 does: turned by the inverse of
-/// its rotation, moved by its position, after its scale. Assemblies are taken apart; replicas along x, y or z
-/// are placed one by one.
-/// Throws InputError for references that lead nowhere, a volume inside itself, volumes of other files, other
-/// replicas, and more than kMostPlaced volumes.
+/// Structure of the file from the world of <setup> on. A <physvol> is placed as in Geant4: rotated by the
+/// inverse of its rotation, moved by its position, after its scale. Assemblies are expanded; replicas along
+/// x, y or z are placed one by one. Throws InputError for references without a target, a volume inside
+/// itself, volumes of other files, other replicas, and more than kMostPlaced volumes.
 Structure read_structure(const GdmlFile& file, const Definitions& definitions);
 
 }  // namespace scintray::exchange::gdml

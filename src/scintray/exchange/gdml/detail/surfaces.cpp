@@ -19,7 +19,7 @@ constexpr std::array kTypes{"dielectric_metal", "dielectric_dielectric", "dielec
 constexpr std::array kFinishes{"polished", "polishedfrontpainted", "polishedbackpainted",
                                "ground",   "groundfrontpainted",   "groundbackpainted"};
 
-/// A word, from a word or the number that stands for it.
+/// A word, from itself or its number.
 template <std::size_t N>
 std::string word(Node node, const char* attribute, const std::array<const char*, N>& words) {
   const std::string text = node.attribute(attribute).value();
@@ -73,7 +73,7 @@ class SurfaceImporter {
     return "reflectance = " + (values.empty() ? "1.0" : curve_toml(values, "", 0.0, 0.0)) + "\n";
   }
 
-  /// What goes through goes straight on in Geant4, as it does here through a film.
+  /// Transmitted light continues straight in Geant4, as it does here through a film.
   bool lets_through_as_film() const {
     return polished() && (metallic() || finish_.ends_with("frontpainted"));
   }
@@ -126,7 +126,7 @@ class SurfaceImporter {
         return;
       }
       if (gap.value.size() > 1 && gap.value.front() != gap.value.back())
-        result_.notes.push_back("the dispersion of its gap: the index at the lowest energy is taken");
+        result_.notes.push_back("the dispersion of its gap: the index at the lowest energy is used");
       result_.toml = "base = \"geant4_" + finish_ + "\"\n" + facets() +
                      fmt::format("gap = {:.9g}\n", gap.value.front()) + reflectance();
       return;

@@ -17,7 +17,7 @@ namespace {
 
 using AssimpMatrix = aiMatrix4x4t<double>;
 
-/// Keeps assimp's warnings and errors: they tell what it skipped. The logger is one per process, so
+/// Collects assimp's warnings and errors, which list what it skipped. The logger is one per process, so
 /// imports take turns.
 class WarningCapture {
  public:
@@ -72,13 +72,13 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
   return std::strcmp(name.C_Str(), AI_DEFAULT_MATERIAL_NAME) == 0 ? std::string() : name.C_Str();
 }
 
-/// Empty for what the file leaves unnamed.
+/// Name of an object; empty when the file does not name it.
 std::string object_name(const aiScene& scene, const aiMesh& mesh, const aiNode& node) {
   const std::string material = material_name(scene, mesh);
   std::string object = mesh.mName.C_Str();
   // For the second and later materials of an OBJ object, assimp names the mesh after the material.
   if (object.empty() || object == material) object = node.mName.C_Str();
-  // Assimp's own names for what the file leaves unnamed.
+  // Assimp's own names for objects that the file does not name.
   if (object.starts_with("<") || object == "defaultobject") object.clear();
   return object;
 }
@@ -132,7 +132,7 @@ class SceneReader {
     for (unsigned v = 0; v < source.mNumVertices; ++v) {
       const aiVector3D& p = source.mVertices[v];
       const aiVector3t<double> given(p.x, p.y, p.z);
-      // A transform would spread one coordinate that is not finite over all three.
+      // A transform would spread a non-finite coordinate over all three.
       const aiVector3t<double> moved = identity ? given : transform * given;
       mesh.vertices.emplace_back(moved.x, moved.y, moved.z);
     }
@@ -187,9 +187,9 @@ RawMesh import_through_assimp(const MeshFile& file) {
     reason = error.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    reject_file(
-        path, "cannot read the mesh: " + (reason.empty() ? "assimp gives no reason" : reason),
-        "check that the content fits the ending " + path.extension().string() + ", and export it again");
+    reject_file(path, "cannot read the mesh: " + (reason.empty() ? "assimp reports no reason" : reason),
+                "check that the content matches the extension " + path.extension().string() +
+                    ", and export it again");
   }
   RawMesh raw = SceneReader(*scene, path).read();
   raw.notes.insert(raw.notes.end(), warnings.messages().begin(), warnings.messages().end());

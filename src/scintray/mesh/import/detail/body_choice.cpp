@@ -66,7 +66,7 @@ void choose_body(const std::filesystem::path& path, RawMesh& raw, const std::str
   if (wanted.empty()) {
     if (raw.bodies.size() > 1)
       raw.notes.push_back("the file has " + std::to_string(raw.bodies.size()) +
-                          " bodies, all taken together as one part: " + first_names(raw.bodies) +
+                          " bodies, all imported together as one part: " + first_names(raw.bodies) +
                           "; body = \"NAME\" takes one");
     return;
   }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostColladaTriangles = 20'000'000, kMostColladaNodes = 1'000'000;
 
-/// How a node is placed: its elements, which apply in their order, and the numbers that each has.
+/// Transform of a node: its elements, which apply in order, and the count of numbers of each.
 struct Transform {
   enum class Kind { translate, rotate, scale, matrix, not_read };
   Kind kind;
@@ -29,21 +29,21 @@ constexpr core::Word<Transform> kTransforms[] = {
     {"scale", {Transform::Kind::scale, 3}},         {"matrix", {Transform::Kind::matrix, 16}},
     {"lookat", {Transform::Kind::not_read, 9}},     {"skew", {Transform::Kind::not_read, 7}}};
 
-/// What stands in a node, and may hold meshes.
+/// Elements of a node that may hold meshes.
 enum class Child { node, instance_node, instance_geometry, instance_controller };
 constexpr core::Word<Child> kChildren[] = {{"node", Child::node},
                                            {"instance_node", Child::instance_node},
                                            {"instance_geometry", Child::instance_geometry},
                                            {"instance_controller", Child::instance_controller}};
 
-/// Of what a mesh is made.
+/// Primitives of a mesh.
 enum class Primitive { lines, triangles, polylist, polygons, strips, fans };
 constexpr core::Word<Primitive> kPrimitives[] = {
     {"lines", Primitive::lines},       {"linestrips", Primitive::lines},  {"triangles", Primitive::triangles},
     {"polylist", Primitive::polylist}, {"polygons", Primitive::polygons}, {"tristrips", Primitive::strips},
     {"trifans", Primitive::fans}};
 
-/// The group of a primitive's polygons, and whether their corners come in reverse order.
+/// Group of a primitive's polygons, and whether their corners are reversed.
 struct PrimitiveFaces {
   std::uint32_t group;
   bool mirrored;
@@ -72,7 +72,7 @@ class ColladaReader {
     raw_.fill_body();
     if (skins_ > 0)
       raw_.notes.push_back(std::to_string(skins_) +
-                           " skins and morphs left out: their meshes are taken unposed");
+                           " skins and morphs left out: their meshes are imported unposed");
     return std::move(raw_);
   }
 
@@ -268,7 +268,7 @@ class ColladaReader {
     }
   }
 
-  /// A primitive's material is a symbol, which the instance binds to one of the library.
+  /// A primitive's material is a symbol, which the instance binds to one of the file's library_materials.
   std::string material_of(Node instance, Node primitive) const {
     const std::string symbol = primitive.attribute("material").value();
     if (symbol.empty()) return {};
@@ -278,7 +278,7 @@ class ColladaReader {
     return symbol;
   }
 
-  /// Positions of the corners that a primitive's VERTEX input names, and where their indices stand.
+  /// Positions of the corners that a primitive's VERTEX input names, and the offset of their indices.
   std::vector<core::Vec3> positions(Node primitive, std::size_t& offset, std::size_t& stride) const {
     Node vertices;
     stride = 0;
@@ -290,7 +290,8 @@ class ColladaReader {
       offset = own;
     }
     if (!vertices) reject(std::string("<") + primitive.name() + "> has no input VERTEX");
-    if (stride > 1000) reject(std::string("<") + primitive.name() + "> has an input beyond all bounds");
+    if (stride > 1000)
+      reject(std::string("<") + primitive.name() + "> has an input with an offset of 1000 or more");
     for (const Node input : vertices.children("input"))
       if (std::string_view(input.attribute("semantic").value()) == "POSITION")
         return points_of(referred(input, "source"));
@@ -305,8 +306,8 @@ class ColladaReader {
                       offset = count(accessor, "offset", 0);
     if (stride < 3) reject("positions of fewer than three numbers");
     if (points > 0 && offset + points * stride > values.size())
-      reject("an accessor reaches for " + std::to_string(offset + points * stride) +
-             " numbers, but there are " + std::to_string(values.size()));
+      reject("an accessor needs " + std::to_string(offset + points * stride) + " numbers, but there are " +
+             std::to_string(values.size()));
     std::vector<core::Vec3> result;
     for (std::size_t p = 0; p < points; ++p) {
       const double* v = values.data() + offset + p * stride;

@@ -23,15 +23,15 @@ double resolve_unit(const std::filesystem::path& path, double given_mm, const Fi
     reject_file(path, "the mesh's unit is not a positive length", "give for example unit = \"mm\"");
   const bool known = unit.mm > 0.0;
   if (given_mm == 0.0 && !known)
-    reject_file(path, "the file does not say in which unit its coordinates are",
-                "say it beside the mesh, for example unit = \"mm\" (or \"um\", \"cm\", \"m\", \"inch\")");
+    reject_file(path, "the file does not state the unit of its coordinates",
+                "state it beside the mesh, for example unit = \"mm\" (or \"um\", \"cm\", \"m\", \"inch\")");
   const bool contradicts = known && given_mm > 0.0 && std::abs(given_mm - unit.mm) > kRounding * unit.mm;
   const std::string stated = unit.name + " (" + number(unit.mm) + " mm)";
   if (contradicts && unit.written)
-    reject_file(
-        path, "the file says that it is in " + stated + ", but the unit given is " + number(given_mm) + " mm",
-        "remove unit: the file's own is used. When the file is wrong, correct it with scale = " +
-            number(given_mm / unit.mm));
+    reject_file(path,
+                "the file states the unit " + stated + ", but the unit given is " + number(given_mm) + " mm",
+                "remove unit: the file's own is used. When the file is wrong, correct it with scale = " +
+                    number(given_mm / unit.mm));
   if (contradicts)
     notes.push_back("the unit given, " + number(given_mm) + " mm, replaces what the format prescribes, " +
                     stated);

@@ -15,7 +15,7 @@
 namespace scintray::mesh {
 namespace {
 
-/// Where an accessor's elements lie: count elements of `size` bytes, `stride` bytes apart.
+/// Location of an accessor's elements: count elements of `size` bytes, `stride` bytes apart.
 struct Elements {
   const unsigned char* data;
   std::size_t count, stride;
@@ -140,7 +140,7 @@ tinygltf::Model load(const std::filesystem::path& path, const std::string& conte
   while (!error.empty() && error.back() == '\n') error.pop_back();
   while (!warning.empty() && warning.back() == '\n') warning.pop_back();
   if (!good) {
-    reject_file(path, "cannot read the glTF file: " + (error.empty() ? "tinygltf gives no reason" : error),
+    reject_file(path, "cannot read the glTF file: " + (error.empty() ? "tinygltf reports no reason" : error),
                 "expected glTF 2.0; export it again");
   }
   if (!warning.empty()) notes.push_back("tinygltf: " + warning);
@@ -165,7 +165,7 @@ Eigen::Affine3d node_transform(const tinygltf::Node& node) {
 }
 
 /// Adds the scalar members of `extras` (glTF 2.0 specification, section 3.3), over those of the same name;
-/// objects and arrays in them are passed over.
+/// objects and arrays in them are skipped.
 void add_tags(const tinygltf::Value& extras, FaceTags& tags) {
   if (!extras.IsObject()) return;
   for (const std::string& key : extras.Keys()) {
@@ -190,7 +190,7 @@ class ModelReader {
   }
 
  private:
-  /// What a node hands down to its children and its mesh.
+  /// State that a node passes to its children and its mesh.
   struct Inherited {
     Eigen::Affine3d transform;
     FaceTags tags;
@@ -228,7 +228,7 @@ class ModelReader {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) {
       reject_file(path_, "node " + std::to_string(index) + " does not exist in the glTF file");
     }
-    // In a tree every node is met once; a second visit means a loop or a shared child.
+    // In a tree every node is visited once; a second visit means a loop or a shared child.
     if (!visited_.insert(index).second) {
       reject_file(path_, "node " + std::to_string(index) + " has more than one parent or is inside itself",
                   "the nodes of a glTF file must form a tree");
@@ -318,10 +318,10 @@ class ModelReader {
       if (count > 0) raw_.notes.push_back(std::to_string(count) + " " + what);
     };
     note(without_positions_, "primitives without POSITION left out");
-    note(leftover_indices_, "indices at the end of primitives left out: they make no whole triangle");
-    note(skins_, "skins left out: the mesh is taken unposed");
-    note(morphs_, "sets of morph targets left out: the mesh is taken undeformed");
-    note(model_.meshes.size() - used_meshes_.size(), "meshes left out: no node of the scene shows them");
+    note(leftover_indices_, "indices at the end of primitives left out: they form no complete triangle");
+    note(skins_, "skins left out: the mesh is imported unposed");
+    note(morphs_, "sets of morph targets left out: the mesh is imported undeformed");
+    note(model_.meshes.size() - used_meshes_.size(), "meshes left out: no node of the scene refers to them");
   }
 
   const tinygltf::Model& model_;

@@ -41,7 +41,7 @@ struct PlyHeader {
   std::size_t data_start = 0;  ///< first byte after the header's last line
 };
 
-/// Reads the header. Throws InputError with the line number for lines that PLY 1.0 does not know and for
+/// Reads the header. Throws InputError with the line number for lines that are not PLY 1.0 and for
 /// elements that announce more members than the content has bytes.
 class HeaderReader {
  public:
@@ -166,7 +166,7 @@ const core::Word<HeaderReader::Reader> HeaderReader::kKeywords[5] = {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Takes one number after the other from the data part.
+/// Reads one number after the other from the data part.
 class NumberReader {
  public:
   NumberReader(const std::string& content, std::size_t start, PlyFormat format)

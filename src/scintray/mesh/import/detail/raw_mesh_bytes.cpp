@@ -63,9 +63,9 @@ class ByteReader {
   }
   template <typename Element>
   void get(std::vector<Element>& list) {
-    // Every element takes a byte or more, so a count beyond what is left cannot be true.
+    // Every element takes a byte or more, so a count above the rest cannot be true.
     const std::size_t count = size();
-    if (count > bytes_.size()) throw core::InternalError("a mesh was cut on its way from another process");
+    if (count > bytes_.size()) throw core::InternalError("a mesh from another process was truncated");
     list.resize(count);
     for (Element& element : list) get(element);
   }
@@ -78,7 +78,7 @@ class ByteReader {
     return value;
   }
   std::string_view take(std::size_t count) {
-    if (count > bytes_.size()) throw core::InternalError("a mesh was cut on its way from another process");
+    if (count > bytes_.size()) throw core::InternalError("a mesh from another process was truncated");
     const std::string_view taken = bytes_.substr(0, count);
     bytes_.remove_prefix(count);
     return taken;
@@ -87,7 +87,7 @@ class ByteReader {
   std::string_view bytes_;
 };
 
-/// One list of the members for both ways.
+/// One list of the members for writing and reading.
 template <typename Raw, typename Action>
 void for_each_member(Raw& raw, Action action) {
   action(raw.mesh.vertices);
@@ -119,7 +119,7 @@ RawMesh from_bytes(std::string_view bytes) {
   ByteReader reader(bytes);
   RawMesh raw;
   for_each_member(raw, [&reader](auto& member) { reader.get(member); });
-  if (!reader.at_end()) throw core::InternalError("a mesh came with more than itself from another process");
+  if (!reader.at_end()) throw core::InternalError("a mesh from another process has bytes after its end");
   return raw;
 }
 

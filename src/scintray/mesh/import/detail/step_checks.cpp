@@ -11,14 +11,14 @@
 namespace scintray::mesh {
 namespace {
 
-/// The entities of a file by their number, and which they refer to.
+/// The entities of a file by number, and those that each refers to.
 struct StepReferences {
   std::unordered_map<std::uint64_t, std::size_t> index_of;
   std::vector<std::uint64_t> number;
   std::vector<std::vector<std::uint64_t>> refers_to;
 };
 
-/// Reads "#12 = NAME(#3, 'text', ...);" statements; text and comments are passed over.
+/// Reads "#12 = NAME(#3, 'text', ...);" statements; text and comments are skipped.
 class StepScanner {
  public:
   explicit StepScanner(std::string_view text) : text_(text) {}

@@ -68,7 +68,7 @@ std::string label_name(const TDF_Label& label) {
   return bytes;
 }
 
-/// What CAD programs write for faces without a name.
+/// Placeholder names that CAD programs write for faces without a name.
 bool is_no_name(const std::string& name) { return name.empty() || name == "NONE"; }
 
 core::Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -98,7 +98,7 @@ class ShapeReader {
   }
 
  private:
-  /// Products may refer to each other; the standard allows no loops, files do as they like.
+  /// Products may refer to each other; the standard allows no loops, but files may have them.
   void visit(const TDF_Label& label, const TopLoc_Location& placement, std::size_t depth) {
     if (depth > kDeepestNesting) reject_file(path_, "assemblies are nested more than 500 deep");
     TDF_Label product = label;
@@ -147,7 +147,7 @@ class ShapeReader {
     IMeshTools_Parameters settings;
     settings.Deflection = settings.DeflectionInterior = tessellation_.deviation_mm;
     settings.Angle = settings.AngleInterior = tessellation_.angle_rad;
-    // A tenth of the deviation when it is not set, at which small circles stay coarser than the angle.
+    // A tenth of the deviation when it is not set, at which small circles are coarser than the angle.
     settings.MinSize = Precision::Confusion();
     BRepMesh_IncrementalMesh(shape, settings);
   }
@@ -221,7 +221,7 @@ class ShapeReader {
     }
   }
 
-  /// How far the middles of triangles and of their edges are from the surface at the same parameters.
+  /// Distance of the middles of triangles and of their edges from the surface at the same parameters, mm.
   void measure(const Handle(Geom_Surface) & surface, const Poly_Triangulation& triangles) {
     if (surface.IsNull() || !triangles.HasUVNodes() ||
         GeomAdaptor_Surface(surface).GetType() == GeomAbs_Plane)
@@ -277,7 +277,7 @@ FileUnit read_unit(STEPControl_Reader& reader) {
   return {"mm", 1.0, false, 1.0};
 }
 
-/// Entities with missing or wrong parts: Open CASCADE goes on without them, and then follows null pointers.
+/// Entities with missing or wrong parts: Open CASCADE continues without them, and then follows null pointers.
 void refuse_what_did_not_load(STEPCAFControl_Reader& reader, const std::filesystem::path& path) {
   const Interface_CheckIterator checks = reader.Reader().WS()->ModelCheckList(false);
   std::size_t failures = 0;
@@ -298,13 +298,13 @@ void refuse_what_did_not_load(STEPCAFControl_Reader& reader, const std::filesyst
 RawMesh read_step(const std::filesystem::path& path, const std::string& content,
                   const Tessellation& tessellation) {
   try {
-    Message::DefaultMessenger()->ChangePrinters().Clear();  // libraries do not print
+    Message::DefaultMessenger()->ChangePrinters().Clear();  // a library does not print
     STEPCAFControl_Reader reader;
-    // Names that CAD programs give to single faces.
+    // Names of single faces, as CAD programs write them.
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
     std::istringstream stream(content);
     if (reader.ChangeReader().ReadStream(path.filename().c_str(), stream) != IFSelect_RetDone)
-      reject_step(path, "it is not in the form of such a file");
+      reject_step(path, "it does not have the form of such a file");
     refuse_what_did_not_load(reader, path);
     Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
     FileUnit unit = read_unit(reader.ChangeReader());
@@ -313,12 +313,12 @@ RawMesh read_step(const std::filesystem::path& path, const std::string& content,
     raw.unit = std::move(unit);
     return raw;
   } catch (const Standard_Failure& failure) {
-    reject_step(path, std::string("Open CASCADE says ") + failure.DynamicType()->Name() + " " +
+    reject_step(path, std::string("Open CASCADE reports ") + failure.DynamicType()->Name() + " " +
                           failure.GetMessageString());
   }
 }
 
-/// What the child answers: a mesh, or what is wrong with the file and what to do about it.
+/// Result of the child process: a mesh, or the error of the file with its hint.
 constexpr char kMesh = 'm', kProblem = 'p';
 
 std::string step_answer(const std::filesystem::path& path, const std::string& content,
@@ -347,7 +347,7 @@ RawMesh import_step(const MeshFile& file) {
       core::run_in_child([&] { return step_answer(file.path, file.content, file.tessellation); },
                          kAlways + kPerByte * file.content.size(), kMostSeconds);
   if (!answer.trouble.empty() || answer.bytes.empty())
-    reject_step(file.path, "Open CASCADE could not cope with it: " + answer.trouble);
+    reject_step(file.path, "Open CASCADE failed: " + answer.trouble);
   const std::string_view payload = std::string_view(answer.bytes).substr(1);
   if (answer.bytes.front() == kMesh) return from_bytes(payload);
   const std::size_t end = std::min(payload.find('\0'), payload.size() - 1);

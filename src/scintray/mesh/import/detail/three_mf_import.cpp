@@ -70,7 +70,7 @@ class ThreeMfReader {
  private:
   static constexpr const char* kExportAgain = "the file is damaged; export it again";
 
-  /// "3D/3dmodel.model" unless the relationships say otherwise.
+  /// Name of the model's entry: "3D/3dmodel.model" unless the relationships name another.
   std::string model_entry() const {
     pugi::xml_document relationships;
     const std::string text = archive_.read("_rels/.rels");
@@ -186,7 +186,7 @@ class ThreeMfReader {
 
   void place(const std::string& id, const Eigen::Affine3d& transform, std::size_t depth) {
     if (depth > kDeepestNesting)
-      reject_file(path_, "the objects of the 3MF file are made of themselves, or nested more than 500 deep");
+      reject_file(path_, "the objects of the 3MF file contain themselves, or are nested more than 500 deep");
     constexpr std::size_t kMostPlaced = 1'000'000;
     const ThreeMfObject& object = find_object(id);
     if (++placed_ > kMostPlaced || raw_.mesh.triangles.size() + object.triangles.size() > kMost3mfTriangles)

@@ -9,7 +9,7 @@ namespace scintray::mesh {
 std::vector<std::array<std::uint32_t, 3>> triangulate_hole(const std::vector<core::Vec3>& loop) {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
   std::vector<Point> points;
-  // CGAL's triangles run along the polyline; the hole's own sense is the reverse of its border's.
+  // CGAL's triangles run along the polyline; the hole's sense is the reverse of its border's.
   for (auto p = loop.rbegin(); p != loop.rend(); ++p) points.emplace_back(p->x(), p->y(), p->z());
   std::vector<CGAL::Triple<int, int, int>> found;
   CGAL::Polygon_mesh_processing::triangulate_hole_polyline(points, std::back_inserter(found));

@@ -13,7 +13,7 @@
 namespace scintray::mesh {
 namespace {
 
-/// Sets of numbers that were joined; the least of a set stands for it.
+/// Disjoint sets of numbers; the smallest of a set represents it.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : root_(count) {
@@ -58,7 +58,7 @@ double angle_about(const TriMesh& mesh, const EdgeUse& use, const core::Frame& f
 }
 
 /// Uses of one edge, counter-clockwise about it. Of those at the same angle, walls that two bodies share,
-/// the ones that run along the edge come first: they end a body where the others begin one.
+/// the ones that run along the edge come first: they end a body where the others begin the next.
 std::vector<EdgeUse> in_turn(const TriMesh& mesh, const std::vector<EdgeUse>& uses) {
   constexpr double kSameAngle_rad = 1e-6;
   const EdgeUse& any = uses.front();
@@ -73,7 +73,7 @@ std::vector<EdgeUse> in_turn(const TriMesh& mesh, const std::vector<EdgeUse>& us
   std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) {
     return std::pair(a.angle, a.use.triangle) < std::pair(b.angle, b.use.triangle);
   });
-  // Begin where nothing is, so that no two at the same angle stand at both ends.
+  // Begin in a gap, so that no two at the same angle are split between both ends.
   std::size_t start = 0;
   double widest = order.front().angle + core::kTwoPi - order.back().angle;
   for (std::size_t i = 1; i < order.size(); ++i) {
@@ -94,7 +94,7 @@ std::vector<EdgeUse> in_turn(const TriMesh& mesh, const std::vector<EdgeUse>& us
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// The triangles of one crowded edge, two by two; nothing when they do not pair up.
+/// The triangles of an edge of more than two, in pairs; empty when they do not pair up.
 std::optional<Pairs> pair_up(const TriMesh& mesh, const EdgeUse* first, const EdgeUse* last,
                              const std::vector<std::uint32_t>& piece) {
   Pairs pairs;
@@ -121,7 +121,7 @@ std::optional<Pairs> pair_up(const TriMesh& mesh, const EdgeUse* first, const Ed
   return pairs;
 }
 
-/// Takes triangles out and returns where they were.
+/// Removes triangles and returns their positions.
 Defects take_out(TriMesh& mesh, const std::vector<char>& unwanted) {
   Defects removed;
   std::vector<char> wanted;
@@ -147,7 +147,7 @@ Defects remove_duplicates(TriMesh& mesh) {
   std::vector<char> unwanted(mesh.triangles.size(), 0);
   for (const auto& [c, same] : by_corners) {
     if (same.size() < 2) continue;
-    int odd = 0;  // edges to which others than these bring an odd number of triangles
+    int odd = 0;  // edges with an odd number of triangles other than these
     for (const auto& edge : {std::pair(c[0], c[1]), std::pair(c[1], c[2]), std::pair(c[0], c[2])})
       odd += static_cast<int>((uses.at(edge) - same.size()) % 2);
     for (std::size_t i = odd >= 2 ? 1 : 0; i < same.size(); ++i) unwanted[same[i]] = 1;
@@ -161,7 +161,7 @@ Defects remove_fins(TriMesh& mesh) {
   const auto piece = pieces_of(mesh, uses, count);
   std::vector<double> area(count);
   for (std::size_t t = 0; t < piece.size(); ++t) area[piece[t]] += mesh.area_vector(t).norm();
-  // For every edge that is not of two triangles: how many each piece has there.
+  // For every edge that is not of two triangles: the number of each piece's triangles there.
   std::vector<std::map<std::uint32_t, std::size_t>> edges;
   std::vector<std::vector<std::size_t>> edges_of(count);
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
@@ -220,7 +220,7 @@ Defects part_touching_bodies(TriMesh& mesh) {
     for (const auto& [s, t] : together)
       for (const std::uint32_t v : {first->low, first->high}) corners.join(corner(s, v), corner(t, v));
   });
-  // The first set of corners at a vertex keeps it. Where there are open edges, holes may meet in a vertex.
+  // The first set of corners at a vertex keeps it. With open edges, holes may share a vertex.
   std::vector<char> open(mesh.vertices.size(), 0);
   for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
     if (last - first == 1) open[first->low] = open[first->high] = 1;

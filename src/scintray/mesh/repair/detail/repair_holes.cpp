@@ -11,7 +11,7 @@ namespace {
 
 using Loop = std::vector<std::uint32_t>;
 
-/// An open edge in the sense of its one triangle.
+/// An open edge in the direction of its one triangle.
 struct OpenEdge {
   std::uint32_t to;
   std::uint32_t triangle;
@@ -30,7 +30,7 @@ OpenEdges open_edges(const TriMesh& mesh) {
   return open;
 }
 
-/// Walks along open edges and takes out a loop whenever the walk meets itself.
+/// Loops of open edges: follows the edges and takes out a loop whenever the path returns to itself.
 std::vector<Loop> loops_of(OpenEdges open) {
   std::vector<Loop> loops;
   for (auto& [start, edges] : open) {
@@ -39,7 +39,7 @@ std::vector<Loop> loops_of(OpenEdges open) {
       std::map<std::uint32_t, std::size_t> at{{start, 0}};
       for (;;) {
         const auto next = open.find(path.back());
-        if (next == open.end() || next->second.empty()) break;  // ends at a crowded edge: no loop
+        if (next == open.end() || next->second.empty()) break;  // edge of over two triangles: no loop
         const std::uint32_t to = next->second.back().to;
         next->second.pop_back();
         const auto seen = at.find(to);
@@ -65,7 +65,7 @@ double diagonal(const TriMesh& mesh, const Loop& loop) {
   return box.diagonal().norm();
 }
 
-/// The mesh with its fills, by body.
+/// Filling of the holes of a mesh, by body.
 class Filler {
  public:
   explicit Filler(TriMesh& mesh) : mesh_(mesh), open_(open_edges(mesh)) {
@@ -109,7 +109,7 @@ class Filler {
     }
   }
 
-  /// A sheet closed over its own outline is a bag without content.
+  /// A sheet closed over its own outline encloses no volume.
   void undo_flat() {
     constexpr double kFlat = 1e-6;  // of a body's area^1.5; a cube has 0.068
     std::vector<double> volume(filled_.size()), area(filled_.size());

@@ -36,7 +36,7 @@ std::string figure(Plot plot, const std::string& caption) {
 
 using Analyses = std::vector<const analysis::SurfaceAnalysis*>;
 
-/// Facets are the same whatever lies behind them, so each surface is drawn once.
+/// Facets do not depend on the medium behind them, so each surface is drawn once.
 std::string slope_figure(const Analyses& analyses) {
   Plot plot = incidence_plot("Mean visible slope against incidence", "mean visible slope (deg)");
   std::vector<std::string> drawn;
@@ -85,12 +85,12 @@ std::string direction_maps(const Analyses& analyses) {
   return fmt::format(
              "<h3>Directions of reflected light at {:g} deg</h3>\n<p class=\"under\">The distance from the "
              "centre is the angle to the normal (circles at 30, 60 and 90 deg), forward is to the right, the "
-             "cross is where a flat face sends the light; shares per steradian.</p>\n",
+             "cross is the direction of light from a flat face; shares per steradian.</p>\n",
              incidence) +
          "<div class=\"grid\">\n" + maps + "</div>\n";
 }
 
-/// Studies in runs that `same` holds together.
+/// Groups of consecutive readings for which `same` is true.
 template <typename Same>
 std::vector<Analyses> grouped_by(const Analyses& analyses, Same&& same) {
   std::vector<Analyses> groups;

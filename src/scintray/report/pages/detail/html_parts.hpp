@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of HTML that sections are made of.
+/// Elements of HTML for sections.
 
 #include <cstddef>
 #include <string>
@@ -10,15 +10,15 @@ namespace scintray::report {
 /// <tag class="kind">escaped text</tag>.
 std::string cell(const std::string& text, const char* tag = "td", const char* kind = "");
 
-/// A cell set flush right.
+/// A right-aligned cell.
 std::string number_cell(const std::string& text);
 
-/// A table that scrolls when it is wide. `rows` is HTML. Columns from `first_number` on are set flush
-/// right, as numbers are.
+/// A table that scrolls when it is wide. `rows` is HTML. Columns from `first_number` on are right-aligned, as
+/// numbers are.
 std::string table(const std::vector<std::string>& head, const std::string& rows,
                   std::size_t first_number = 1);
 
-/// <section> with a heading.
+/// A <section> with a heading.
 std::string section(const std::string& title, const std::string& body);
 
 }  // namespace scintray::report

@@ -19,7 +19,7 @@ std::uint64_t total(const std::vector<std::uint64_t>& counts) {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
-/// One way for a photon to end, as the ledger lists them: media and surfaces by name.
+/// One fate as listed on the page, by name of its medium or surface.
 struct LedgerEntry {
   std::string name;
   std::string colour;                 ///< class of the bar
@@ -37,7 +37,7 @@ std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
     return [f](const tally::PointResult& point) { return point.count(f); };
   };
   add("detected", "f0", fate(core::Fate::detected));
-  add("unconverted", "f1", fate(core::Fate::not_detected));
+  add("not detected", "f1", fate(core::Fate::not_detected));
   for (std::size_t m = 0; m < run.header.media.size(); ++m)
     add("absorbed in " + run.header.media[m], "f2", [m](const tally::PointResult& point) {
       return m < point.absorbed_in_medium.size() ? point.absorbed_in_medium[m] : 0;
@@ -49,7 +49,7 @@ std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
   add("escaped", "f4", fate(core::Fate::escaped));
   add("cut: interactions", "f5", fate(core::Fate::cut_interactions));
   add("cut: time", "f5", fate(core::Fate::cut_time));
-  // What no photon met states nothing; that none was cut does.
+  // Media and surfaces without absorption carry no information; that none was cut does.
   std::erase_if(entries,
                 [](const LedgerEntry& entry) { return entry.colour != "f5" && total(entry.counts) == 0; });
   return entries;
@@ -71,7 +71,7 @@ std::string bar(const std::vector<LedgerEntry>& entries, const tally::PointResul
 
 std::string bars(const tally::RunResult& run, const std::vector<LedgerEntry>& entries) {
   std::string out = "<p class=\"key\">";
-  const char* const names[] = {"detected", "unconverted", "absorbed in media", "absorbed at surfaces",
+  const char* const names[] = {"detected", "not detected", "absorbed in media", "absorbed at surfaces",
                                "escaped",  "cut"};
   for (int i = 0; i < 6; ++i)
     out += "<span><i class=\"f" + std::to_string(i) + "\"></i>" + names[i] + "</span>";
@@ -143,7 +143,7 @@ std::string table_of(const LedgerTable& cells) {
   return table(cells.front(), rows);
 }
 
-/// Points whose histograms are drawn at once: the ends of each curve of a sweep, else the first few.
+/// Points whose histograms are shown first: the ends of each curve of a sweep, else the first few.
 std::vector<std::size_t> shown_points(const tally::RunResult& run) {
   std::vector<std::size_t> shown;
   if (const auto view = view_sweep(run)) {
@@ -224,7 +224,7 @@ std::string sweep_section(const tally::RunResult& run, const SweepView& view) {
   return section("Light output",
                  "<figure>" + svg_plot(plot) +
                      "<figcaption>Fraction of photons detected. Bars show one standard error; where "
-                     "none is seen it is smaller than the mark.</figcaption></figure>\n" +
+                     "none is visible it is smaller than the mark.</figcaption></figure>\n" +
                      table(head, rows));
 }
 
@@ -236,7 +236,7 @@ std::string headline(const tally::PointResult& point) {
 std::string fate_section(const tally::RunResult& run) {
   const auto entries = ledger(run);
   const LedgerTable cells = ledger_table(run, entries);
-  // A sweep grows downwards, a few points are read side by side.
+  // A sweep extends downwards, a few points are shown side by side.
   const std::string numbers = run.points.size() > kFewPoints ? table_of(cells) : table_of(transposed(cells));
   return section("Where every photon ended",
                  bars(run, entries) +
@@ -257,7 +257,7 @@ std::string sensor_section(const tally::RunResult& run) {
       "Sensors, face by face",
       "<details" + std::string(run.points.size() <= kFewPoints ? " open=\"open\"" : "") +
           "><summary>Counts</summary>\n" +
-          table({"point", "sensor", "face", "detected", "of all photons", "not converted"}, rows, 3) +
+          table({"point", "sensor", "face", "detected", "of all photons", "not detected"}, rows, 3) +
           "</details>\n");
 }
 
@@ -312,7 +312,7 @@ std::string path_section(const tally::RunResult& run) {
     }
     figures += "<figure>" + svg_plot(plot) + "<figcaption>Path length of detected photons" +
                (plot.series.size() == 1 ? ": " + escape_html(plot.series[0].label) : "") + "; " +
-               grouped(beyond) + " went 500 mm or more</figcaption></figure>\n";
+               grouped(beyond) + " travelled 500 mm or more</figcaption></figure>\n";
   }
   if (rows.empty()) return "";
   return section(

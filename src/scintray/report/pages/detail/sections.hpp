@@ -1,5 +1,5 @@
 #pragma once
-/// The sections of the page of a run, each as a piece of HTML, and what of them is printed on a terminal.
+/// The sections of the page of a run, as HTML, and their parts for a terminal.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ namespace scintray::report {
 std::string sweep_section(const tally::RunResult& run, const SweepView& view);
 /// Detected fraction of a single point, in large type.
 std::string headline(const tally::PointResult& point);
-/// Where every photon ended: bars and table.
+/// Fates of all photons: bars and table.
 std::string fate_section(const tally::RunResult& run);
 /// Photons per sensor and face.
 std::string sensor_section(const tally::RunResult& run);
@@ -27,17 +27,17 @@ std::string condition_section(const tally::RunResult& run);
 
 /// One line for each medium and surface that shifted light; empty when none did.
 std::string shift_lines(const tally::RunHeader& header, const tally::PointResult& point);
-/// A table of them over all points; empty when none did.
+/// A table of wavelength shifting over all points; empty when none occurred.
 std::string shift_section(const tally::RunResult& run);
 
-/// A figure or a table for every tally of every point; empty when there is none.
+/// A figure or a table for every tally of every point; empty without tallies.
 std::string tally_section(const tally::RunResult& run);
 
-/// One line a tally, for a terminal; empty when there is none.
+/// One line a tally, for a terminal; empty without tallies.
 std::string tally_lines(const tally::PointResult& point);
 
-/// A section for each bench: mean visible slope and reflectance against incidence, the latter beside
-/// Fresnel's for each medium behind the surfaces, and where reflected light goes. Empty without studies. The
+/// A section for each goniometer: mean visible slope and reflectance against incidence, the latter beside
+/// Fresnel's for each medium behind the surfaces, and where reflected light goes. Empty without readings. The
 /// page needs hemisphere_map_style().
 std::string goniometer_sections(const std::vector<analysis::SurfaceAnalysis>& analyses);
 

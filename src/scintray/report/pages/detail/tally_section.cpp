@@ -22,10 +22,10 @@ namespace {
 
 /// Rows and columns up to which a matrix is printed as numbers.
 constexpr std::size_t kMostCells = 16;
-/// Rows of a table of names that are shown at once.
+/// Rows of a table of names that are shown.
 constexpr std::size_t kMostRows = 400;
 
-/// How a tally is shown where its axes do not decide it.
+/// Form of a tally where its axes do not determine it.
 /// Hidden are companions of other tallies and exit angles, which have figures of their own.
 enum class TallyView { by_axes, crosstalk, etendue, hemisphere, hidden };
 constexpr core::Word<TallyView> kTallyViews[] = {
@@ -89,7 +89,7 @@ std::string etendue_text(const tally::TallyResult& tally) {
 
 GridMap map_of(const tally::TallyResult& tally) {
   GridMap map;
-  // The first axis runs to the right.
+  // The first axis is to the right.
   map.columns = tally.axes[0].bins();
   map.rows = tally.axes[1].bins();
   map.values.resize(tally.sum.size());
@@ -199,8 +199,7 @@ std::string drawing(const tally::TallyResult& tally, const tally::PointResult& p
 std::string figure(const tally::TallyResult& tally, const tally::PointResult& point) {
   std::string caption = point_label(point) + ": " + tally.name;
   const std::string drawn = drawing(tally, point, caption);
-  if (tally.outside > 0.0)
-    caption += " " + compact(tally.outside) + " " + tally.score + " fell beyond the axes.";
+  if (tally.outside > 0.0) caption += " " + compact(tally.outside) + " " + tally.score + " outside the axes.";
   return "<figure>" + drawn + "<figcaption>" + escape_html(caption) + "</figcaption></figure>\n";
 }
 

@@ -153,7 +153,7 @@ Plot timing_depth_plot(const analysis::TimingDepth& timing) {
 
 namespace {
 
-/// The timing of a study by one n; nothing when it has none.
+/// The timing of an analysis by one n; empty when it has none.
 const analysis::OrderTiming* timing_by(const std::vector<analysis::OrderTiming>& all, std::size_t n) {
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const analysis::OrderTiming& one) { return one.n == n; });

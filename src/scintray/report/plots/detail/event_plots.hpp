@@ -1,5 +1,5 @@
 #pragma once
-/// Plots of what the events of a point say.
+/// Plots of the analyses of a point's events.
 
 #include <string>
 #include <vector>
@@ -16,29 +16,29 @@
 
 namespace scintray::report {
 
-/// "photoelectrons" or "photons": what the light of a study counts.
+/// Unit of the light of an analysis: "photoelectrons" or "photons".
 std::string light_unit(const analysis::EventAnalysis& analysis);
 
-/// The spectrum, with the fitted photopeak over it where there is one. The study has a spectrum.
+/// The spectrum with the fitted photopeak, if there is one. Requires a spectrum.
 Plot spectrum_plot(const analysis::EventAnalysis& analysis);
 
 /// A depth curve relative to its reference, with its line dashed.
 Plot depth_plot(const analysis::DepthCurve& curve);
 
-/// Width (FWHM) and bias of the depth found, against depth.
+/// Width (FWHM) and bias of the estimated depth, against depth.
 Plot doi_plot(const analysis::DoiAnalysis& doi);
 
-/// Counts of a flood map, four of its cells in one: the segmentation wants finer ones than the eye.
+/// Counts of a flood map, four of its cells in one: the segmentation needs finer cells than a picture.
 GridMap flood_picture(const analysis::FloodMap& flood);
 
-/// A distribution of time differences with its Gaussian, in ps. The spread has fitted bins.
+/// A distribution of time differences with its Gaussian, in ps. Requires fitted bins.
 Plot difference_plot(const analysis::Spread& differences, const std::string& label);
 
 /// CTR against depth, and the delay against depth, both in ps.
 Plot timing_depth_plot(const analysis::TimingDepth& timing);
 
 /// CTR by the n-th photon and by the mean of the first n, in ps, and the bound by the first n where it is
-/// known. The study is not empty.
+/// known. Requires a non-empty analysis.
 Plot order_plot(const analysis::OrderAnalysis& orders, const std::optional<analysis::TimingBound>& bound);
 
 /// CTR against depth, in ps: by the first photon, by the n-th that is best in all, by the best mean of the

@@ -15,7 +15,7 @@ namespace scintray::report {
 
 namespace {
 
-/// Drawing: longest side of the grid, and room for ticks and labels.
+/// Drawing: longest side of the grid, and margins for ticks and labels.
 constexpr double kSide = 340.0, kLeft = 64.0, kBelow = 46.0, kMargin = 12.0;
 constexpr double kMostStretch = 4.0;
 constexpr std::uint32_t kPolarPixels = 320;

@@ -16,17 +16,17 @@ struct GridMap {
 };
 
 /// Colours (viridis) from 0 to the largest value, axes with ticks, and the scale below. Cells keep the
-/// proportions of the axes when these are within a factor of 4, so that a face looks like itself.
+/// proportions of the axes when these are within a factor of 4, so that a face keeps its shape.
 /// Throws std::invalid_argument when the values do not fill the grid.
 std::string grid_map(const GridMap& map);
 
-/// Directions over a hemisphere seen along the normal: distance from the centre is the polar angle
+/// Picture of directions over a hemisphere seen along the normal: distance from the centre is the polar angle
 /// (circles at 30, 60 and 90 deg), azimuth 0 to the right and rising counter-clockwise.
 /// @param values  rows of equal steps in the squared sine of the polar angle, columns of azimuth from
 ///                -180 to 180 deg
 std::string polar_map(const GridMap& map);
 
-/// CSS of both.
+/// CSS of both pictures.
 std::string grid_map_style();
 
 }  // namespace scintray::report

@@ -43,7 +43,7 @@ std::string picture(const std::vector<double>& share) {
 
 std::string circles() {
   std::string out;
-  // What lies beyond the horizon is covered.
+  // The area beyond the horizon is covered.
   out += fmt::format(
       "<path class=\"beyond\" fill-rule=\"evenodd\" d=\"M0 0H{0}V{0}H0Z M{1} {2}a{3} {3} 0 1 0 {4} 0a{3} {3} "
       "0 1 "

@@ -12,8 +12,8 @@ namespace scintray::report {
 /// 90 deg), forward is to the right. Colours (viridis) are the logarithm of the density per sr over three
 /// decades up to the largest of the map; cells with less, or without light, have the lowest colour.
 ///
-/// @param mark_rad  polar angle, forward, of a cross: where a flat face would send the light; below 0: none
-/// An SVG element with a PNG picture in it, and the scale below it as HTML.
+/// @param mark_rad  polar angle, forward, of a cross, the direction of light from a flat face; below 0: none
+/// @return an SVG element that contains a PNG picture, and the scale below it as HTML
 std::string hemisphere_map(const analysis::DirectionCounts& counts, std::uint64_t rays, double mark_rad,
                            const std::string& alternative);
 

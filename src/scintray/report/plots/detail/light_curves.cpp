@@ -35,7 +35,7 @@ std::string unit_of(const std::vector<analysis::EventAnalysis>& analyses) {
   return charge ? "photoelectrons" : "photons";
 }
 
-/// What light is divided by.
+/// Divisor of the light.
 double scale_of(const SweepView& view, const std::vector<analysis::EventAnalysis>& analyses,
                 const config::NameRef& reference, const LightOf& light) {
   if (reference.empty()) return 1.0;
@@ -51,10 +51,10 @@ core::Estimate scaled(const core::Estimate& light, double scale) {
   return {light.value / scale, light.error / scale};
 }
 
-/// Curves that one plot has room for.
+/// Limit of the curves in one plot.
 constexpr std::size_t kMostCurves = 6;
 
-/// The setting of the slowest key, where a run has more curves than one plot has room for; else nothing.
+/// The setting of the slowest key, where a run has more curves than fit in one plot; else empty.
 std::string group_of(const SweepView& view, const SweepSeries& series) {
   if (view.series.size() <= kMostCurves) return "";
   const auto comma = series.label.find(", ");

@@ -10,13 +10,14 @@
 
 namespace scintray::report {
 
-/// Light of an event of 511 keV: the light of all events over their energy, times that. It has no spread of
-/// energies in it, so it is surer than the photopeak of the same events, and stands for the same.
+/// Light of an event of 511 keV: the light of all events over their energy, times 511 keV. It does not
+/// contain the spread of energies, so it is more precise than the photopeak of the same events, for the same
+/// quantity.
 core::Estimate light_of(const analysis::EventAnalysis& analysis);
 
-/// Two plots with a table: that light, and the photopeak's position for the curves in which a fit locates it
-/// at every point. Empty when no point has events.
-/// @param studies    of the points of the run, in step with its points
+/// Two plots with a table: light at 511 keV, and the photopeak's position for the curves in which a fit
+/// locates it at every point. Empty when no point has events.
+/// @param analyses   of the points of the run, in step with its points
 /// @param reference  label of the curve whose first point counts as 1; empty: light in its own unit.
 ///                   @throws InputError when no curve has that label
 std::string light_section(const SweepView& view, const std::vector<analysis::EventAnalysis>& analyses,
@@ -27,7 +28,7 @@ std::vector<std::vector<std::string>> light_table(const SweepView& view,
                                                   const std::vector<analysis::EventAnalysis>& analyses,
                                                   const config::NameRef& reference);
 
-/// Rows for columns when there are more columns than `most`.
+/// The table transposed when it has more columns than `most`.
 std::vector<std::vector<std::string>> upright(const std::vector<std::vector<std::string>>& table,
                                               std::size_t most);
 

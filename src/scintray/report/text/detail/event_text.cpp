@@ -81,7 +81,7 @@ std::string doi_text(const analysis::DoiAnalysis& doi) {
 std::string flood_text(const analysis::FloodMap& flood) {
   std::string text = std::to_string(flood.peaks.size()) + " peaks";
   if (!flood.crystals.empty()) {
-    text += " for " + std::to_string(flood.crystals.size()) + " parts hit";
+    text += " for " + std::to_string(flood.crystals.size()) + " parts with interactions";
     if (flood.crystals_without_peak > 0)
       text += " (" + std::to_string(flood.crystals_without_peak) + " without a peak of their own)";
     text += ", " + percent_with_error(flood.share_right) + " of the events assigned rightly";

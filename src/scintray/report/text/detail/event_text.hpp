@@ -1,5 +1,5 @@
 #pragma once
-/// What studies of events found, in words, for captions and terminals.
+/// Results of the analyses of events, in words, for captions and terminals.
 
 #include <optional>
 #include <string>
@@ -15,7 +15,8 @@
 
 namespace scintray::report {
 
-/// "photopeak 812.40 ± 0.52 photons, resolution ..., chi-square ..."; why not, where it cannot be trusted.
+/// "photopeak 812.40 ± 0.52 photons, resolution ..., chi-square ..."; with the reason where it is not
+/// trusted.
 std::string peak_text(const analysis::EventAnalysis& analysis);
 /// "falls by 0.512 ± 0.011 % per mm ..."
 std::string depth_text(const analysis::DepthCurve& curve);
@@ -24,7 +25,7 @@ std::string flood_text(const analysis::FloodMap& flood);
 /// "FWHM 212.3 ± 4.1 ps (Gaussian), ... ps (quantiles), mean ... ps, 2131 pairs"
 std::string spread_text(const analysis::Spread& differences);
 std::string timing_depth_text(const analysis::TimingDepth& timing);
-/// The first photon, the best n, and the bound where it is known. The study is not empty.
+/// The first photon, the best n, and the bound where it is known. Requires a non-empty analysis.
 std::string order_text(const analysis::OrderAnalysis& orders,
                        const std::optional<analysis::TimingBound>& bound);
 /// "n = 1: 212.3 ± 4.1 ps (bound 150), n = 5: ..."
@@ -32,7 +33,7 @@ std::string order_list(const analysis::OrderAnalysis& orders,
                        const std::optional<analysis::TimingBound>& bound);
 /// "best photon at each depth: 2.1 mm: photon 3, 190.1 ± 6.0 ps ..."
 std::string order_depth_text(const analysis::EventAnalysis& analysis);
-/// "93.1 ± 0.2 % of the layers told rightly"
+/// "93.1 ± 0.2 % of the events assigned the right of 2 layers"
 std::string layers_text(const analysis::Confusion& confusion);
 /// In ps. NaN-free: "none" for a number that does not exist.
 std::string picoseconds(const core::Estimate& time_ns);

@@ -1,5 +1,5 @@
 #pragma once
-/// Reading of binary data that never reads beyond its end. Internal to the readers.
+/// Bounds-checked reading of binary data.
 
 #include <algorithm>
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace scintray::topography {
 
-/// A place in a block of bytes that moves on as numbers are taken. Every member throws InputError,
-/// which names the byte, when the block ends too early.
+/// A position in a block of bytes that advances as numbers are read. Every member throws InputError, with the
+/// byte, when the block ends too early.
 class Bytes {
  public:
-  /// `offset` is where the block begins in its file, for messages.
+  /// `offset` is the start of the block in its file, for messages.
   Bytes(std::string_view data, std::string file, std::size_t offset = 0,
         std::endian order = std::endian::little)
       : data_(data), file_(std::move(file)), offset_(offset), order_(order) {}
@@ -42,7 +42,7 @@ class Bytes {
     return result;
   }
 
-  /// Up to the next zero byte, which is taken too.
+  /// Text up to the next zero byte, which is consumed.
   std::string_view take_string() {
     const std::size_t end = data_.find('\0', at_);
     if (end == std::string_view::npos) fail("a text that ends");
@@ -53,11 +53,11 @@ class Bytes {
 
   void skip(std::size_t size) { take_view(size); }
   std::size_t left() const { return data_.size() - at_; }
-  /// Bytes from the beginning of the file.
+  /// Position in bytes from the beginning of the file.
   std::size_t place() const { return offset_ + at_; }
   const std::string& file() const { return file_; }
 
-  /// "<what> expected at byte N, found only M".
+  /// Throws InputError: "<what> expected at byte N, found only M".
   [[noreturn]] void fail(const std::string& what) const {
     throw core::InputError({{file_},
                             "the data end after " + std::to_string(left()) + " bytes at byte " +
@@ -72,7 +72,7 @@ class Bytes {
   std::endian order_;
 };
 
-/// How a number is stored.
+/// Storage type of a number.
 enum class SampleType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::size_t sample_size(SampleType type);

@@ -19,7 +19,7 @@ std::string letters_of(std::string_view name) {
   return result;
 }
 
-/// Takes one of `endings` off; true when there was one.
+/// Removes one of `endings`; true when there was one.
 template <std::size_t N>
 bool strip(std::string& name, const std::array<std::string_view, N>& endings) {
   for (const std::string_view ending : endings)
@@ -30,7 +30,7 @@ bool strip(std::string& name, const std::array<std::string_view, N>& endings) {
   return false;
 }
 
-/// How much a channel looks like the height map; less is better.
+/// Rank of a channel as the height map; less is better.
 struct Rank {
   int kind = 2;  ///< 0: height measured by a sensor, 1: height, 2: something else
   bool backward = false;
@@ -89,11 +89,11 @@ std::size_t by_rule(const std::vector<ChannelInfo>& channels, const std::vector<
     if (fitting.empty()) continue;
     throw core::InputError({{file},
                             "several channels may be the height map; the channels are " + listed(names),
-                            "say which: --channel " + core::in_quotes(names[fitting.front()])});
+                            "choose one: --channel " + core::in_quotes(names[fitting.front()])});
   }
   throw core::InputError({{file},
                           "no channel is in a unit of length; the channels are " + listed(names),
-                          "say which one is the height map: --channel NAME"});
+                          "choose the height map: --channel NAME"});
 }
 
 std::size_t by_name(const std::string& wanted, const std::vector<std::string>& names,
@@ -146,7 +146,7 @@ void require_channel(const std::string& name, const ReadRequest& request) {
   if (name.empty())
     throw core::InputError({{request.file},
                             "channel " + core::in_quotes(*request.channel) +
-                                " is asked for, but the file holds one height map and no names",
+                                " is requested, but the file holds one height map and no names",
                             "leave the channel out"});
   by_name(*request.channel, {name}, request.file);
 }

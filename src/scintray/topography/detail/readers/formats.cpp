@@ -17,7 +17,7 @@ constexpr std::array<Format, 9> kFormats{
      {"ISO 25178-72 (.x3p)", is_x3p, parse_x3p},
      {"profiler's matrix", is_profiler_matrix, parse_profiler_matrix},
      {"numbers as text (matrix, x y z list, Gwyddion's export)", is_number_text, parse_number_text},
-     // The mark of an Igor wave is weak, so it comes last.
+     // The magic number of an Igor wave is weak, so it comes last.
      {"Igor wave (.ibw)", is_ibw, parse_ibw}}};
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The height map formats that ScintRay reads itself. Internal to the readers.
+/// The height map formats that ScintRay reads itself.
 
 #include <filesystem>
 #include <span>
@@ -17,17 +17,17 @@ struct Format {
   RawMap (*parse)(std::string_view content, const ReadRequest& request);
 };
 
-/// All formats, the ones with a clear mark first.
+/// All formats, those with a distinctive magic number first.
 std::span<const Format> formats();
 
-/// The format of a file's content, or nothing.
+/// The format of a file's content; empty when unknown.
 const Format* find_format(std::string_view content);
 
-/// "Gwyddion (.gwy), ..., numbers as text".
+/// Names of all formats: "Gwyddion (.gwy), ..., numbers as text".
 std::string format_names();
 
-/// One pair per format; parsers throw InputError with the place of what is wrong, and allocate no
-/// more than a small multiple of what the content holds.
+/// One pair per format; parsers throw InputError with the place of the error, and allocate no more than a
+/// small multiple of the size of the content.
 bool is_gsf(std::string_view content);
 RawMap parse_gsf(std::string_view content, const ReadRequest& request);
 bool is_gwy(std::string_view content);
@@ -47,18 +47,18 @@ RawMap parse_profiler_matrix(std::string_view content, const ReadRequest& reques
 bool is_number_text(std::string_view content);
 RawMap parse_number_text(std::string_view content, const ReadRequest& request);
 
-/// A .gwy that Gwyddion made of another file: its masks mark what the file had no height for.
+/// Map of a .gwy that Gwyddion converted from another file: its masks mark points without a height.
 RawMap parse_converted_gwy(std::string_view content, const ReadRequest& request);
 
-/// Unpacks gzip data. InputError when damaged, when more than one file is inside, or when the
+/// Unpacked gzip data. InputError when damaged, when more than one file is inside, or when the
 /// size that the trailer declares, or what comes out, is more than most_unpacked or than `most` bytes.
 std::string gunzip(std::string_view packed, const std::string& file, std::size_t most);
 
-/// What came of asking the program.
+/// Result of running the program.
 enum class GwyddionAnswer {
   converted,
   not_installed,  ///< no `gwyddion` on PATH
-  refused,        ///< it does not know the format either, or the file is damaged
+  refused,        ///< it does not read the format either, or the file is damaged
   timed_out,
 };
 
@@ -67,9 +67,9 @@ struct GwyddionResult {
   std::optional<RawMap> map;
 };
 
-/// Lets `gwyddion --convert-to-gwy` convert the file into a folder of its own and reads what came
-/// out. The program is started without a shell, a display or input, and is ended when the time is over.
-/// InputError from reading what it wrote (a channel that is not there, for one).
+/// Runs `gwyddion --convert-to-gwy` on the file, into a folder of its own, and reads the result. The program
+/// is started without a shell, a display or input, and is killed after the time limit. InputError from
+/// reading its output (for example a channel that does not exist).
 GwyddionResult query_gwyddion(const std::filesystem::path& path, const ReadRequest& request,
                               std::chrono::milliseconds time_limit = std::chrono::minutes(1));
 

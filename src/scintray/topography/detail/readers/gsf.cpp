@@ -50,7 +50,7 @@ std::uint32_t resolution(const Fields& fields, const char* name, const std::stri
   return static_cast<std::uint32_t>(*value);
 }
 
-/// Lateral size in um, when the file gives both number and unit.
+/// Lateral size in um, when the file has both number and unit.
 std::optional<double> extent_um(const Fields& fields, const char* name, const std::string& file) {
   const auto real = fields.find(name), unit = fields.find("XYUnits");
   if (real == fields.end() || unit == fields.end()) return std::nullopt;

@@ -2,7 +2,7 @@
 /// version 2 ("GWYP") and, as found in files, version 1 ("GWYO"), whose container differs only in
 /// that a GLib type number stands before each key.
 ///
-/// Numbers are in base units whatever prefix the unit's text carries: the description states that
+/// Numbers are in base units whatever prefix the unit's text has: the description states that
 /// prefixes are ignored, and files with xreal = 8e-05 and "µm" for 80 um exist.
 
 #include <cmath>
@@ -136,7 +136,7 @@ struct Reader {
     return Bytes(found->content, file, found->place).take<T>();
   }
 
-  /// Text of a GwySIUnit, or nothing.
+  /// Text of a GwySIUnit; empty when there is none.
   std::string unit(const Components& field, std::string_view name) const {
     const Component* object = find(field, name, 'o');
     if (!object) return {};
@@ -146,7 +146,7 @@ struct Reader {
   }
 };
 
-/// The number N of a key "/N/data", or nothing.
+/// The number N of a key "/N/data"; empty for other keys.
 std::optional<long> field_number(std::string_view key) {
   constexpr std::string_view kEnd = "/data";
   if (!key.starts_with('/') || !key.ends_with(kEnd) || key.size() <= kEnd.size() + 1) return std::nullopt;
@@ -214,7 +214,7 @@ void read_field(const Reader& reader, const Components& field, RawMap& map) {
   }
 }
 
-/// What a mask states is the reader's to know: points to leave out, grains, or a scratch to examine.
+/// The meaning of a mask is up to the user: points to leave out, grains, or a scratch to examine.
 void read_mask(const Reader& reader, const Component& mask, bool marks_missing, RawMap& map) {
   if (!marks_missing) {
     map.notes.push_back("the mask in the file was not applied");

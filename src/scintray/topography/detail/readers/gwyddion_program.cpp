@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostConverted = std::uintmax_t{1} << 31;
 
-/// A folder that is gone when this goes out of scope.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -56,7 +56,7 @@ std::vector<char*> environment_without_display() {
   return result;
 }
 
-/// Starts a program of PATH in a process group of its own, silent; nothing when there is none.
+/// Starts a program of PATH in a process group of its own, without output; empty when there is none.
 std::optional<pid_t> start(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -81,7 +81,7 @@ std::optional<pid_t> start(std::vector<std::string> words) {
   throw core::SystemError("cannot start " + words[0] + ": " + std::strerror(error));
 }
 
-/// The exit status once the program ends; nothing when it had to be ended.
+/// The exit status once the program ends; empty when it was killed.
 std::optional<int> wait_for(pid_t child, std::chrono::milliseconds time_limit) {
   const auto deadline = std::chrono::steady_clock::now() + time_limit;
   int status = 0;

@@ -55,7 +55,7 @@ SampleType sample_type(std::int16_t code, const std::string& file) {
   if (found == kTypes.end())
     throw core::InputError({{file},
                             "wave of number type " + std::to_string(code) + "; expected real numbers",
-                            "complex and text waves are no height maps"});
+                            "complex and text waves are not height maps"});
   return found->second;
 }
 
@@ -72,7 +72,7 @@ std::map<std::string, std::string> parse_note(std::string_view note) {
   return result;
 }
 
-/// What stands behind the data.
+/// The parts after the data.
 struct Tail {
   std::size_t formula = 0, note = 0, unit = 0;
   std::array<std::size_t, kDimensions> units{}, labels{};
@@ -129,7 +129,7 @@ Wave parse_wave(std::string_view content, const std::string& file) {
                                 std::to_string(wave.points[1]) + " x " + std::to_string(wave.points[2]) +
                                 " x " + std::to_string(wave.points[3]) +
                                 " points; expected an image, or a stack of images",
-                            "curves are no height maps"});
+                            "curves are not height maps"});
   const std::size_t channels = std::max(1u, wave.points[2]);
   const std::size_t size = sample_size(wave.type);
   if (channels > bytes.left() / size)
@@ -141,7 +141,7 @@ Wave parse_wave(std::string_view content, const std::string& file) {
       checked_points(wave.points[0], wave.points[1], bytes.left() / channels, size, file);
   if (wave_size < kWaveHeader || wave_size - kWaveHeader != channels * points * size)
     throw core::InputError({{file},
-                            "the header says " + std::to_string(wave_size) + " bytes; expected " +
+                            "the header states " + std::to_string(wave_size) + " bytes; expected " +
                                 std::to_string(kWaveHeader + channels * points * size) + " for " +
                                 std::to_string(wave.points[0]) + " x " + std::to_string(wave.points[1]) +
                                 " x " + std::to_string(channels) + " points",
@@ -152,7 +152,7 @@ Wave parse_wave(std::string_view content, const std::string& file) {
 }
 
 /// Asylum's software writes metres into the wave's header even where a channel holds an angle. The
-/// note has "<name>Unit" for the user's inputs; else the name decides.
+/// note has "<name>Unit" for the user's inputs; else the name determines it.
 std::string channel_unit(const std::string& label, const Wave& wave) {
   std::string base = label;
   for (const std::string_view ending : {"Retrace", "Trace"})

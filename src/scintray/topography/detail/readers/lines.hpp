@@ -1,5 +1,5 @@
 #pragma once
-/// A text, line by line. Internal to the readers.
+/// A text, line by line.
 
 #include <algorithm>
 #include <optional>
@@ -7,12 +7,12 @@
 
 namespace scintray::topography {
 
-/// Splits a text into lines and knows their numbers.
+/// Splits a text into numbered lines.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text), size_(text.size()) {}
 
-  /// The next line without its end; nothing after the last.
+  /// The next line without its end; empty (nullopt) after the last.
   std::optional<std::string_view> next() {
     if (rest_.empty()) return std::nullopt;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -23,9 +23,9 @@ class Lines {
     return line;
   }
 
-  /// Of the line taken last, from 1.
+  /// Number of the last line read, from 1.
   long number() const { return number_; }
-  /// Bytes taken so far.
+  /// Bytes read so far.
   std::size_t place() const { return size_ - rest_.size(); }
 
  private:

@@ -1,4 +1,4 @@
-/// Bruker (Veeco, Digital Instruments) Nanoscope, version 4.3 or newer, as its users describe it:
+/// Bruker (Veeco, Digital Instruments) Nanoscope, version 4.3 or newer, as described by its users:
 /// http://www.physics.arizona.edu/~smanne/DI/software/fileformats.html
 ///
 /// height = number / 2^(8 bytes) * full scale (V) * sensitivity (nm/V).
@@ -43,7 +43,7 @@ class Header {
       if (line->starts_with(kEnd)) return;
       if (line->starts_with("\\*"))
         sections_.push_back({std::string(trimmed(line->substr(2))), lines.number(), {}});
-      else if (line->starts_with('\\') && !sections_.empty())  // others go on with a note
+      else if (line->starts_with('\\') && !sections_.empty())  // other lines continue a note
         add(line->substr(1), lines.number());
     }
     throw core::InputError(
@@ -115,14 +115,14 @@ double positive(const Header& header, const Entry& entry, const std::string& wor
   return *value;
 }
 
-/// What a full range of the stored numbers stands for.
+/// Physical range of the full range of the stored numbers.
 struct Scale {
   double full = 0.0;  ///< in `unit`
-  double step = 0.0;  ///< per stored unit, as the header rounds it; 0 when it does not state
+  double step = 0.0;  ///< per stored unit, as rounded in the header; 0 when not stated
   std::string unit;
 };
 
-/// How many `to` one `from` is, for the electric units that sensitivities are stated in.
+/// Factor from the unit `from` to `to`, for the electric units of sensitivities.
 std::optional<double> electric_factor(const std::string& from, const std::string& to) {
   static const std::map<std::string, double> kVolts{{"V", 1.0}, {"mV", 1e-3}, {"uV", 1e-6}};
   if (from == to) return 1.0;

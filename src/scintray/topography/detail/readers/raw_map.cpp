@@ -55,7 +55,7 @@ std::size_t checked_points(double columns, double rows, std::size_t bytes_there,
   const auto sound = [](double n) { return n >= 1.0 && n <= 1e12 && n == std::floor(n); };
   if (!sound(columns) || !sound(rows))
     throw core::InputError({{file},
-                            "the file says that it holds " + std::to_string(columns) + " x " +
+                            "the file states that it holds " + std::to_string(columns) + " x " +
                                 std::to_string(rows) + " points; expected whole numbers from 1",
                             "the header is damaged"});
   if (columns * rows > static_cast<double>(kMostPoints))

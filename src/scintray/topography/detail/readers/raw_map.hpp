@@ -1,5 +1,5 @@
 #pragma once
-/// What a height map file states, before units that it lacks are supplied. Internal to the readers.
+/// Content of a height map file, before missing units are supplied.
 
 #include <cstdint>
 #include <optional>
@@ -14,13 +14,13 @@ namespace scintray::topography {
 
 inline constexpr double kUmPerMetre = 1e6;
 
-/// Most points of a map that is read: 1 GiB of heights.
+/// Limit of the points of a map: 1 GiB of heights.
 inline constexpr std::size_t kMostPoints = std::size_t{1} << 27;
 
-/// What a parser is requested, and what the file is called in messages.
+/// Options of a parser, and the file's name in messages.
 struct ReadRequest {
   std::string file;
-  std::optional<std::string> channel;  ///< by name; nothing: the rule of choose_channel
+  std::optional<std::string> channel;  ///< by name; empty: the rule of choose_channel
 };
 
 struct RawMap {
@@ -29,19 +29,19 @@ struct RawMap {
   std::uint32_t columns = 0, rows = 0;
   std::vector<double> values;  ///< row-major, top row first, in the file's unit; NaN where missing
   std::optional<double> pitch_x_um, pitch_y_um;
-  double pitch_ratio = 1.0;              ///< pitch along y over x, known even where no unit is
+  double pitch_ratio = 1.0;              ///< pitch along y over x, known even without a unit
   std::optional<double> height_unit_um;  ///< um per unit of `values`
-  std::string height_unit;               ///< as the file writes it; empty when it writes none
-  std::string channel;                   ///< the channel taken; empty in a format without names
+  std::string height_unit;               ///< as in the file; empty when it has none
+  std::string channel;                   ///< the channel read; empty in a format without names
   std::vector<std::string> channels;     ///< all of them, by name
-  std::vector<std::string> notes;        ///< what was done or left, for the map's steps
+  std::vector<std::string> notes;        ///< processing done or left out, for the map's steps
 };
 
-/// um per length unit as instruments write it ("m", "µm" in UTF-8 or Latin-1, "~m", "nm", ...);
-/// nothing when it is no length.
+/// Length in um of a unit as instruments write it ("m", "µm" in UTF-8 or Latin-1, "~m", "nm", ...);
+/// empty when it is not a length.
 std::optional<double> length_unit_um(std::string_view unit);
 
-/// A number that is the whole of `text`, or nothing.
+/// The number that `text` consists of; empty when it is not one number.
 std::optional<double> whole_number(std::string_view text);
 
 std::string_view trimmed(std::string_view text);

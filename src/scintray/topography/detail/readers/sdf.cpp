@@ -32,7 +32,7 @@ SampleType sample_type(double code, const std::string& file) {
       {{file}, "DataType is " + std::to_string(code) + "; expected 0 to 7", "the header is damaged"});
 }
 
-/// The number that stands for a missing point, in the integer types of 16 and 32 bits.
+/// The number of a missing point, in the integer types of 16 and 32 bits.
 std::optional<double> missing_mark(SampleType type) {
   switch (type) {
     case SampleType::uint16:
@@ -133,7 +133,7 @@ SdfHeader text_header(Lines& lines, const std::string& file) {
           number("Zscale"),    number("Compression"), number("DataType")};
 }
 
-/// Numbers until the "*" behind them or the end; "BAD" stands for a missing one.
+/// Numbers until the "*" behind them or the end; "BAD" is a missing one.
 void read_numbers(Lines& lines, const std::string& file, RawMap& map) {
   constexpr std::string_view kBlanks = " \t\v\f,";
   const std::size_t points = std::size_t{map.columns} * map.rows;

@@ -18,7 +18,7 @@ constexpr double kTolerance = 0.01;
 /// Equally spaced positions along one axis.
 struct GridAxis {
   double first = 0.0, step = 0.0;
-  double count = 0.0;  ///< whole; beyond kMostPoints when the points lie on no grid
+  double count = 0.0;  ///< whole; beyond kMostPoints when the points do not lie on a grid
 
   /// Index of the position next to `value`.
   std::size_t index(double value) const {
@@ -30,7 +30,7 @@ struct GridAxis {
   }
 };
 
-/// The step is the mean over the gaps that are not rounding.
+/// The grid of sorted positions; the step is the mean over the gaps that are not rounding.
 GridAxis axis_of(std::vector<double> positions) {
   std::sort(positions.begin(), positions.end());
   GridAxis axis{positions.front(), 0.0, 1.0};
@@ -51,7 +51,7 @@ GridAxis axis_of(std::vector<double> positions) {
 /// narrow.
 bool is_xyz_list(const RawMap& matrix) { return matrix.columns == 3 && matrix.rows >= 4; }
 
-/// The height map whose points the list gives, in any order; points of the grid that it lacks are
+/// The height map of a list of points in any order; points of the grid that the list lacks are
 /// NaN. x and y have no unit, so only the ratio of the pitches is known. InputError unless the
 /// points lie, within 1 % of its step, on a regular grid of which they fill at least half.
 /// @param values x y z, x y z, ...
@@ -68,7 +68,7 @@ RawMap grid_of_xyz(const std::vector<double>& values, const std::string& file) {
   const auto refuse = [&](const std::string& what) {
     throw core::InputError(
         {{file},
-         "three numbers a line, taken as x y z, " + what + "; expected points of a regular grid",
+         "three numbers a line, read as x y z, " + what + "; expected points of a regular grid",
          "put them on a grid in Gwyddion (Rasterize) and save that as .gsf"});
   };
   if (!(x.step > 0.0) || !(y.step > 0.0) || !std::isfinite(y.step / x.step)) refuse("do not span a plane");
@@ -84,7 +84,7 @@ RawMap grid_of_xyz(const std::vector<double>& values, const std::string& file) {
     if (!x.holds(xs[k]) || !y.holds(ys[k])) refuse("do not lie at equal distances");
     // y points up, and the first row is the top one.
     const std::size_t at = (map.rows - 1 - y.index(ys[k])) * map.columns + x.index(xs[k]);
-    if (taken[at]) refuse("give a point twice (number " + std::to_string(k + 1) + ")");
+    if (taken[at]) refuse("contain a point twice (number " + std::to_string(k + 1) + ")");
     taken[at] = true;
     map.values[at] = values[3 * k + 2];
   }
@@ -93,7 +93,7 @@ RawMap grid_of_xyz(const std::vector<double>& values, const std::string& file) {
 
 constexpr std::string_view kBlanks = " \t\v\f;", kByteOrderMark = "\xEF\xBB\xBF";
 
-/// What a locale's decimal comma stands for.
+/// Treatment of a locale's decimal comma.
 enum class Comma { refused, decimal };
 
 std::optional<double> number_of(std::string_view word, Comma comma) {
@@ -129,7 +129,7 @@ std::uint32_t read_row(std::string_view line, const core::FileLocation& line_pla
   return count;
 }
 
-/// Reads rows of equal length until the end of the text. `first` is a line already taken.
+/// Reads rows of equal length until the end of the text. `first` is a line already read.
 void read_matrix(Lines& lines, std::optional<std::string_view> first, const std::string& file, Comma comma,
                  RawMap& map) {
   for (auto line = first; line; line = lines.next()) {
@@ -141,12 +141,12 @@ void read_matrix(Lines& lines, std::optional<std::string_view> first, const std:
       throw core::InputError({place,
                               "row with " + std::to_string(count) + " numbers; expected " +
                                   std::to_string(map.columns) + " as in the rows before",
-                              "the file is truncated, or is no height map"});
+                              "the file is truncated, or is not a height map"});
     ++map.rows;
   }
 }
 
-/// "12.34 um" in um; InputError when it is no length.
+/// "12.34 um" in um; InputError when it is not a length.
 double length_um(std::string_view text, const core::FileLocation& place) {
   text = trimmed(text);
   const std::size_t gap = text.find_first_of(kBlanks);
@@ -190,7 +190,7 @@ RawMap parse_commented_matrix(std::string_view content, const std::string& file)
   for (; line && (line->starts_with('#') || trimmed(*line).empty()); line = lines.next())
     if (line->starts_with('#')) read_gwyddion_line(*line, {file, lines.number()}, map, header);
   header.found = header.found || header.width_um || header.height_um;
-  // Gwyddion parts numbers by tabs, so that a comma inside one can only be a locale's decimal sign.
+  // Gwyddion separates numbers by tabs, so that a comma inside one can only be a locale's decimal sign.
   read_matrix(lines, line, file, header.found ? Comma::decimal : Comma::refused, map);
   if (map.rows == 0) throw core::InputError({{file}, "no numbers; expected a height map", ""});
   if (!header.found && is_xyz_list(map)) return grid_of_xyz(map.values, file);
@@ -230,7 +230,7 @@ RawMap parse_profiler(std::string_view content, const std::string& file) {
     throw core::InputError(
         {{file, lines.number()}, "pixel size without a length unit; expected \"pixel size=3.5e-7 m\"", ""});
   map.pitch_x_um = map.pitch_y_um = size * *unit;
-  header();  // the unit of the data, which the conversion factor takes to metres
+  header();  // the unit of the data, which the conversion factor converts to metres
   const std::string_view factor = header();
   map.height_unit_um = keyed_number(factor, "height conversion factor (-> m)=", {file, lines.number()}) * 1e6;
   read_matrix(lines, lines.next(), file, Comma::refused, map);
@@ -239,7 +239,7 @@ RawMap parse_profiler(std::string_view content, const std::string& file) {
     said << columns << " x " << rows;
     throw core::InputError({{file},
                             std::to_string(map.columns) + " x " + std::to_string(map.rows) +
-                                " points; the header says " + said.str(),
+                                " points; the header states " + said.str(),
                             "the file is truncated"});
   }
   return map;

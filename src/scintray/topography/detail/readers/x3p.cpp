@@ -33,7 +33,7 @@ class Document {
     if (!result)
       throw core::InputError(
           {{file},
-           name_ + " is no XML at byte " + std::to_string(result.offset) + ": " + result.description(),
+           name_ + " is not XML at byte " + std::to_string(result.offset) + ": " + result.description(),
            "the file is damaged"});
     root_ = document_.document_element();
   }
@@ -57,7 +57,7 @@ class Document {
                             std::string(path) + " in " + name_ + " is " +
                                 (value.empty() ? "missing" : core::in_quotes(value)) + "; expected " +
                                 expected,
-                            "the file is damaged, or holds something else than one height map"});
+                            "the file is damaged, or holds something other than one height map"});
   }
 
  private:
@@ -96,7 +96,7 @@ SampleType sample_type(const Document& document, const std::string& type) {
 /// Heights in the XML: one element a point, empty where it is missing.
 void read_list(const Document& document, std::size_t points, const std::string& file, RawMap& map) {
   for (const pugi::xml_node datum : document.find("Record3/DataList").children("Datum")) {
-    // With all coordinates, the height is the last of three.
+    // With all coordinates present, the height is the last of three.
     std::string_view text = trimmed(datum.text().get());
     if (const std::size_t last = text.rfind(';'); last != std::string_view::npos)
       text.remove_prefix(last + 1);
@@ -122,7 +122,7 @@ void read_valid_points(const std::string& bits, RawMap& map) {
     if ((static_cast<unsigned char>(bits[k / 8]) >> (k % 8) & 1) == 0) map.values[k] = std::nan("");
 }
 
-/// The entry that is main.xml, at the top or in a folder, but not what macOS puts beside it.
+/// The entry that is main.xml, at the top or in a folder, but not the copy that macOS adds.
 std::string main_entry(const core::ZipArchive& archive, const std::string& file) {
   std::string best;
   for (const std::string& name : archive.names()) {
@@ -170,7 +170,7 @@ void read_heights(const core::ZipArchive& archive, const Document& document, con
 }  // namespace
 
 bool is_x3p(std::string_view content) {
-  // Other instruments' formats are zip archives too; the names of entries stand there unpacked.
+  // Other instruments' formats are zip archives too; the names of entries are not compressed.
   return content.starts_with("PK\x03\x04") && content.find("main.xml") != std::string_view::npos;
 }
 
