@@ -33,25 +33,25 @@ TEST_CASE("An id is 32 bits of plain data, and mixes with no integer and no id o
 TEST_CASE("An id is none until it is given an index") {
   const Colour unset;
   CHECK_FALSE(unset.has_value());
-  CHECK((unset == Colour::none));
+  CHECK((unset == Colour::none()));
   const Colour red(0), green(1);
   CHECK(red.has_value());
   CHECK(green.index() == 1);
   CHECK((red != green));
-  CHECK((red != Colour::none));
+  CHECK((red != Colour::none()));
 }
 
 TEST_CASE("Ids are ordered by their index, none last, and can be hashed") {
   CHECK((Colour(0) < Colour(1)));
-  CHECK((Colour(4'000'000'000u) < Colour::none));
-  std::unordered_set<Colour> known{Colour(3), Colour::none, Colour(3), Colour(4)};
+  CHECK((Colour(4'000'000'000u) < Colour::none()));
+  std::unordered_set<Colour> known{Colour(3), Colour::none(), Colour(3), Colour(4)};
   CHECK(known.size() == 3);
-  CHECK(known.contains(Colour::none));
+  CHECK(known.contains(Colour::none()));
   CHECK_FALSE(known.contains(Colour(5)));
 }
 
 TEST_CASE("An id that was copied as bytes is the same id") {
-  for (const Colour id : {Colour(17), Colour::none}) {
+  for (const Colour id : {Colour(17), Colour::none()}) {
     Colour copy(1);
     std::memcpy(static_cast<void*>(&copy), &id, sizeof id);
     CHECK((copy == id));
@@ -71,7 +71,7 @@ TEST_CASE("An id vector is indexed by ids of its kind, which it gives out in ord
   CHECK(names.values() == std::vector<std::string>{"reddish", "ggggg"});
   CHECK(names.contains(green));
   CHECK_FALSE(names.contains(names.next_id()));
-  CHECK_FALSE(names.contains(Colour::none));
+  CHECK_FALSE(names.contains(Colour::none()));
 
   std::vector<std::uint32_t> indices;
   for (const Colour id : names.ids()) indices.push_back(id.index());

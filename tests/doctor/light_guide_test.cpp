@@ -56,7 +56,7 @@ TEST_CASE("A light guide over 64 crystals: one unequal mesh and conforming ones 
   std::size_t interfaces = 0;
   double area = 0.0;
   const Scene& scene = whole.built.scene;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+  for (const InterfaceId i : scene.interfaces.ids()) {
     const Interface& interface = scene.interfaces[i];
     const std::string &back = scene.region_names[interface.back],
                       &front = scene.region_names[interface.front];

@@ -39,7 +39,7 @@ ResponseMap two_cells(std::uint32_t low, std::uint32_t high) {
   map.delays_kept = 4;
   ResponseGrid grid;
   grid.part = "crystal";
-  grid.region = 1;
+  grid.region = RegionId(1);
   grid.pitch = Vec3(2, 2, 5);
   grid.cells = {1, 1, 2};
   grid.photons = {100, 100};
@@ -156,7 +156,7 @@ sensor = "perfect"
     const std::size_t x = cell / grid.cells[2] / grid.cells[1];
     const Vec3 centre =
         grid.low + grid.pitch.cwiseProduct(Vec3(0.5 + double(x), 0.5 + double(y), 0.5 + double(z)));
-    const double from_middle = (centre - Vec3(scene.built.scene.parts[0].bounds.center())).norm();
+    const double from_middle = (centre - Vec3(scene.built.scene.parts.front().bounds.center())).norm();
     if (grid.photons[cell] > 0) {
       ++filled;
       furthest_filled = std::max(furthest_filled, from_middle);
@@ -181,7 +181,7 @@ TEST_CASE("Maps that cannot be are refused in words") {
 
   const MappedScene other(two_ends(6.0, placed(1)));
   ResponseMap foreign = other.map({2.0, 10, 4});
-  foreign.grids[0].region += 1;
+  foreign.grids[0].region = RegionId(foreign.grids[0].region.index() + 1);
   check_contains(complaint_of([&] { scene.mapped(foreign); }),
                  "\"crystal\", which the response map does not cover");
 }

@@ -18,15 +18,16 @@ namespace scintray::core {
 template <typename Tag>
 class Id {
  public:
-  /// No thing. Comes after all others in the order.
-  static const Id none;
-
+  /// None.
   constexpr Id() = default;
   /// @param index  below 2^32 - 1
   template <std::integral Index>
   explicit constexpr Id(Index index) : index_(static_cast<std::uint32_t>(index)) {
     assert(std::cmp_greater_equal(index, 0) && std::cmp_less(index, kNone));
   }
+
+  /// No thing. Comes after all others in the order.
+  static constexpr Id none() { return {}; }
 
   constexpr bool has_value() const { return index_ != kNone; }
   /// @pre has_value()
@@ -42,9 +43,6 @@ class Id {
 
   std::uint32_t index_ = kNone;
 };
-
-template <typename Tag>
-inline constexpr Id<Tag> Id<Tag>::none{};
 
 }  // namespace scintray::core
 

@@ -76,6 +76,8 @@ class IdVector {
     assert(contains(id));
     return values_[id.index()];
   }
+  /// @throws std::out_of_range
+  const_reference at(IdType id) const { return values_.at(id.index()); }
   bool contains(IdType id) const { return id.has_value() && id.index() < values_.size(); }
 
   /// The id of what comes next.
@@ -93,6 +95,7 @@ class IdVector {
   void assign(std::size_t size, const T& value) { values_.assign(size, value); }
   void resize(std::size_t size, const T& value = T()) { values_.resize(size, value); }
   void reserve(std::size_t size) { values_.reserve(size); }
+  void pop_back() { values_.pop_back(); }
   void clear() { values_.clear(); }
 
   std::size_t size() const { return values_.size(); }

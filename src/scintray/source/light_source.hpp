@@ -55,7 +55,7 @@ class LightSource {
   virtual Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
                       core::Rng& rng) const = 0;
   /// Regions in which photons may start.
-  virtual std::vector<std::uint32_t> regions() const = 0;
+  virtual std::vector<core::RegionId> regions() const = 0;
 };
 
 /// Binds the [source] of a specification to a built scene. Throws InputError with what does not fit.

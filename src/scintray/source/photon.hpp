@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "scintray/core/ids.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/optics/medium.hpp"
 
@@ -18,7 +19,7 @@ struct Photon {
   double path_mm = 0.0;
   double optical_depth = 0.0;      ///< left until absorption or scattering in the bulk
   optics::MediumOptics optics;     ///< of the region's medium at this wavelength
-  std::uint32_t region = 0;        ///< index into Scene::regions
+  core::RegionId region;           ///< in which it is
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
 };

@@ -33,7 +33,8 @@ PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
 
 void merge(PointResult& total, const PointResult& block) {
   const auto add = [](auto& into, const auto& from) {
-    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
+    auto more = from.begin();
+    for (auto& value : into) value += *more++;
   };
   total.photons += block.photons;
   add(total.fates, block.fates);
@@ -86,8 +87,7 @@ void BlockTally::start(const source::Photon& emitted, std::uint64_t event, std::
 }
 
 void BlockTally::note_crossing(const transport::Step& step) {
-  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
-  for (const std::uint32_t tally : plan_.exit_angles_at[way]) {
+  for (const std::uint32_t tally : plan_.exit_angles_at[step.interface][step.from_back]) {
     const int bins = plan_.exit_angles[tally].bins;
     const Angles angles{angle_bin(step.cos_before, bins), angle_bin(step.cos_after, bins)};
     last_crossing_[tally] = angles;
@@ -103,10 +103,10 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
   if (history_) history_->step(photon, step);
   switch (step.event) {
     case core::StepEvent::absorbed_in_medium:
-      ++result_.absorbed_in_medium[step.where];
+      ++result_.absorbed_in_medium[step.medium];
       return finish(photon, core::Fate::absorbed_in_medium);
     case core::StepEvent::absorbed_at_surface:
-      ++result_.absorbed_at_surface[step.where];
+      ++result_.absorbed_at_surface[step.surface];
       return finish(photon, core::Fate::absorbed_at_surface);
     case core::StepEvent::escaped:
       return finish(photon, core::Fate::escaped);
@@ -117,8 +117,7 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
       return;  // no end: the run then finds a photon without a fate and states so
   }
   note_crossing(step);
-  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
-  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[way]];
+  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[step.interface][step.from_back].index()];
   if (step.event == core::StepEvent::not_detected) {
     ++at_face.not_detected;
     return finish(photon, core::Fate::not_detected);
@@ -169,8 +168,8 @@ void BlockTally::finish(const source::Photon& photon, core::Fate fate) {
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
   for (const source::PhotonShifts& shifts : records_.shifts())
-    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
-        shifts.count;
+    (shifts.surface.has_value() ? result_.shifted_at_surface[shifts.surface]
+                                : result_.shifted_in_medium[shifts.medium]) += shifts.count;
 }
 
 }  // namespace scintray::tally

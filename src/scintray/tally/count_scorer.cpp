@@ -9,9 +9,7 @@ namespace scintray::tally {
 
 namespace {
 
-bool among(const std::vector<bool>& set, std::int32_t part) {
-  return set.empty() || set[static_cast<std::size_t>(part + 1)];
-}
+bool among(const std::vector<bool>& set, core::PartId part) { return set.empty() || set[part_slot(part)]; }
 
 double azimuth(const core::Vec3& direction, const core::Vec3& normal) {
   const auto [x, y] = face_axes(normal);
@@ -46,7 +44,7 @@ void CountScorer::step(const source::Photon& photon, const transport::Step& step
     if (plan_.follows_regions) visited_.push_back(photon.region);
   }
   if (step.event == core::StepEvent::detected || step.event == core::StepEvent::not_detected)
-    moment.part = static_cast<std::int32_t>(step.where);
+    moment.part = step.sensor_part;
   happened(moment, &step);
   direction_before_ = photon.ray.direction;
   if (core::is_final(step.event)) end(step.event);
@@ -62,7 +60,7 @@ void CountScorer::happened(Moment& moment, const transport::Step* step) {
   for (const std::uint32_t number : plan_.counts_on[static_cast<std::size_t>(moment.event)])
     score(number, moment);
   if (!step || step->triangle == scene::kNoTriangle) return;
-  const auto& at_face = plan_.counts_at[2 * std::size_t{step->interface} + (step->from_back ? 1 : 0)];
+  const auto& at_face = plan_.counts_at[step->interface][step->from_back];
   if (at_face.empty()) return;
   const scene::Region& region = scene_.regions[step->region];
   const core::Vec3 outward = scene_.normal(region, step->triangle);
@@ -128,16 +126,17 @@ std::uint32_t CountScorer::bin_of(const CountRequest& count, const Moment& momen
   for (const CountAxis& axis : count.axes) {
     bin *= axis.bins;
     if (scene_file::is_category(axis.variable)) {
-      const std::size_t slot =
-          axis.variable == scene_file::TallyVariable::event  ? static_cast<std::size_t>(moment.event)
-          : axis.variable == scene_file::TallyVariable::face ? moment.face
-          : axis.variable == scene_file::TallyVariable::part ? static_cast<std::size_t>(moment.part + 1)
-                                                             : static_cast<std::size_t>(source_part_ + 1);
-      if (axis.bin_of[slot] == scene::kNone) {
+      const std::size_t slot = axis.variable == scene_file::TallyVariable::event
+                                   ? static_cast<std::size_t>(moment.event)
+                               : axis.variable == scene_file::TallyVariable::face ? moment.face.index()
+                               : axis.variable == scene_file::TallyVariable::part ? part_slot(moment.part)
+                                                                                  : part_slot(source_part_);
+      const BinId name = axis.bin_of[slot];
+      if (!name.has_value()) {
         named = false;
         return Contribution::kOutside;
       }
-      bin += static_cast<std::uint32_t>(axis.bin_of[slot]);
+      bin += name.index();
       continue;
     }
     double position = (value(axis.variable, axis.along, moment) - axis.low) * axis.per_bin;
@@ -172,8 +171,9 @@ void CountScorer::score(std::uint32_t number, const Moment& moment) {
 void CountScorer::end(core::Fate fate) {
   const auto keeps = [&](const Contribution& c) {
     const CountRequest& count = plan_.counts[c.count];
-    const auto seen = [&](const std::vector<bool>& set) {
-      return std::any_of(visited_.begin(), visited_.end(), [&](std::uint32_t region) { return set[region]; });
+    const auto seen = [&](const core::IdVector<core::RegionId, bool>& set) {
+      return std::any_of(visited_.begin(), visited_.end(),
+                         [&](core::RegionId region) { return set[region]; });
     };
     if (count.fates != 0 && (count.fates >> static_cast<unsigned>(fate) & 1u) == 0) return false;
     if (!count.visited.empty() && !seen(count.visited)) return false;

@@ -36,9 +36,9 @@ class CountScorer {
   /// One thing that happened.
   struct Moment {
     core::StepEvent event;
-    const source::Photon& photon;      ///< after it
-    std::int32_t part = scene::kNone;  ///< as TallyVariable::part
-    std::uint32_t face = 0;
+    const source::Photon& photon;  ///< after it
+    core::PartId part;             ///< as TallyVariable::part
+    core::FaceId face;
     core::Vec3 normal = core::Vec3::Zero();  ///< of the face, out of its part
   };
 
@@ -52,9 +52,9 @@ class CountScorer {
   const scene::Scene& scene_;
   const TallyPlan& plan_;
   std::vector<Contribution> contributions_, pending_;
-  std::vector<std::uint32_t> visited_;  ///< regions, when some count needs them
+  std::vector<core::RegionId> visited_;  ///< when some count needs them
   core::Vec3 start_ = core::Vec3::Zero(), direction_before_ = core::Vec3::Zero();
-  std::int32_t source_part_ = scene::kNone;
+  core::PartId source_part_;
   std::uint32_t crossings_ = 0;
 };
 

@@ -21,10 +21,18 @@ namespace scintray::tally {
 /// A histogram of crossing angles requested of a run.
 struct ExitAngleRequest {
   std::string name;
-  std::uint32_t face = 0;  ///< scene-wide face id
+  core::FaceId face;
   bool detected_only = false;
   int bins = 18;
 };
+
+/// A bin of an axis of names.
+using BinId = core::Id<struct BinTag>;
+
+/// Place of a part in a list of all parts that begins with the ambient space.
+inline std::size_t part_slot(core::PartId part) {
+  return part.has_value() ? std::size_t{part.index()} + 1 : 0;
+}
 
 /// An axis of a count, bound to the scene.
 struct CountAxis {
@@ -33,9 +41,8 @@ struct CountAxis {
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
   bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
-  /// Of names: bin of each part, face or event, kNone where it has none. Parts are shifted by one:
-  /// the first is the ambient space.
-  std::vector<std::int32_t> bin_of;
+  /// Of names: bin of each part (by part_slot), face or event, none where it has none.
+  std::vector<BinId> bin_of;
 };
 
 /// A condition on a number.
@@ -50,9 +57,9 @@ struct CountRequest {
   TallyResult empty;  ///< name, axes and zeros
   std::vector<CountAxis> axes;
   std::vector<CountRange> ranges;
-  std::vector<bool> parts, source_parts;   ///< per part, shifted by one; empty: all
-  std::vector<bool> visited, not_visited;  ///< per region; empty: no condition
-  std::uint32_t fates = 0;                 ///< bits of StepEvent; 0: any
+  std::vector<bool> parts, source_parts;                      ///< by part_slot; empty: all
+  core::IdVector<core::RegionId, bool> visited, not_visited;  ///< empty: no condition
+  std::uint32_t fates = 0;                                    ///< bits of StepEvent; 0: any
   scene_file::TallyEach each = scene_file::TallyEach::time;
   std::optional<scene_file::TallyVariable> score;
 };
@@ -63,10 +70,8 @@ struct TallyPlan {
   TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
 
   std::vector<ExitAngleRequest> exit_angles;
-  /// Per interface and way across it (index 2 * interface + from_back): tallies to fill, most have
-  /// none.
-  std::vector<std::vector<std::uint32_t>> exit_angles_at;
-  std::vector<std::uint32_t> sensor_faces;  ///< per interface and way: index into the result, or kNoSensor
+  PerCrossing<std::vector<std::uint32_t>> exit_angles_at;  ///< tallies to fill, most have none
+  PerCrossing<SensorFaceId> sensor_faces;                  ///< none where there is no sensor
   std::vector<SensorFaceCount> sensor_face_names;
   ReadoutChannels channels;
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
@@ -75,10 +80,10 @@ struct TallyPlan {
   /// A count to look at at an interaction with a face, and the face that it is bound to.
   struct CountAtFace {
     std::uint32_t count = 0;
-    std::uint32_t face = 0;
+    core::FaceId face;
     bool inwards = false;  ///< the light comes to the face from outside its part
   };
-  std::vector<std::vector<CountAtFace>> counts_at;  ///< per interface and way; empty without such counts
+  PerCrossing<std::vector<CountAtFace>> counts_at;  ///< empty without such counts
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
   /// Per event: counts that are bound to no face.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
@@ -86,12 +91,11 @@ struct TallyPlan {
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested
-  static constexpr std::uint32_t kNoSensor = 0xffffffffu;
 
  private:
   void bind_readout(const scene_file::SceneSpec& spec, const scene::Scene& scene);
   void bind_ways(const scene::Scene& scene);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sensor_index_;
+  std::map<std::pair<core::PartId, core::FaceId>, SensorFaceId> sensor_face_of_;
 };
 
 /// Binds one count to a scene. @throws InputError
@@ -100,6 +104,6 @@ CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<con
                         const scene::Scene& scene);
 
 /// The faces that a count is bound to, in their order. @throws InputError for a name without a face.
-std::vector<std::uint32_t> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
+std::vector<core::FaceId> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
 
 }  // namespace scintray::tally

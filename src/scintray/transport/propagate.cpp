@@ -19,10 +19,11 @@ core::Lanes rotate_back(const core::PlainMatrix3& m, core::Lanes v) {
   return combine(v, {m.row(0), 0.0}, {m.row(1), 0.0}, {m.row(2), 0.0});
 }
 
-/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.
-double critical_sin2(const scene::Scene& scene, std::uint32_t medium, const source::Photon& photon) {
+/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected, as for no
+/// medium.
+double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
   constexpr double kNever = 2.0;
-  if (medium == scene::kNotSmooth || scene.optics.is_opaque(medium)) return kNever;
+  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
   const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
   return ratio * ratio;
 }
@@ -177,10 +178,10 @@ template <typename State>
 [[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
                                                        const PropagationLimits& limits) {
   const scene::Region& region = scene.regions[photon.region];
-  const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
+  const scene::BoundaryLink* const links = scene.links_of(region);
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
-  std::uint32_t known_medium = scene::kNotSmooth;
+  core::MediumId known_medium;
   double least_sin2 = critical_sin2(scene, known_medium, photon);
   Propagation propagation;
   for (;;) {
@@ -199,8 +200,8 @@ template <typename State>
     }
     state.move(wall.distance_mm, depth);
     propagation.end = PropagationEnd::boundary;
-    const std::uint32_t medium = links[wall.triangle].smooth_to;
-    if (medium == scene::kNotSmooth) break;
+    const core::MediumId medium = links[wall.triangle].smooth_to;
+    if (!medium.has_value()) break;
     if (medium != known_medium) {
       known_medium = medium;
       least_sin2 = critical_sin2(scene, medium, photon);

@@ -60,8 +60,8 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   std::vector<std::uint32_t> part, face;
   std::vector<std::uint64_t> detected, not_detected;
   for (const tally::SensorFaceCount& count : faces) {
-    part.push_back(count.part);
-    face.push_back(count.face);
+    part.push_back(format::to_file(count.part));
+    face.push_back(format::to_file(count.face));
     detected.push_back(count.detected);
     not_detected.push_back(count.not_detected);
   }
@@ -77,7 +77,7 @@ void put_exit_angles(core::h5::Group& point, const std::vector<tally::ExitAngleT
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     core::h5::Group tally = group.create_group(format::numbered(i));
     tally.set_attribute("", "name", tallies[i].name);
-    tally.set_attribute("", "face", static_cast<std::int64_t>(tallies[i].face));
+    tally.set_attribute("", "face", std::int64_t{format::to_file(tallies[i].face)});
     tally.set_attribute("", "detected_only", static_cast<std::int64_t>(tallies[i].detected_only));
     format::put(tally, "inside", tallies[i].inside);
     format::put(tally, "outside", tallies[i].outside);
@@ -156,7 +156,7 @@ void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChanne
   std::vector<std::uint32_t> parts;
   for (const tally::ReadoutChannel& channel : channels) {
     names.push_back(channel.name);
-    parts.push_back(channel.part);
+    parts.push_back(format::to_file(channel.part));
   }
   format::put_text(group, "channel_name", names);
   format::put(group, "channel_part", parts);
@@ -176,10 +176,10 @@ void put_header(core::h5::Group& root, const tally::RunHeader& header) {
   format::put(root, "seed", header.seed);
   format::put_text(root, "scene", {header.scene_text});
   format::put_text(root, "sweep_keys", header.sweep_keys);
-  format::put_text(root, "media", header.media);
-  format::put_text(root, "surfaces", header.surfaces);
-  format::put_text(root, "parts", header.parts);
-  format::put_text(root, "faces", header.faces);
+  format::put_text(root, "media", header.media.values());
+  format::put_text(root, "surfaces", header.surfaces.values());
+  format::put_text(root, "parts", header.parts.values());
+  format::put_text(root, "faces", header.faces.values());
   std::vector<std::string> fates;
   for (int fate = 0; fate < core::kFateCount; ++fate)
     fates.emplace_back(core::fate_name(core::fate_at(fate)));
@@ -295,12 +295,12 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   format::put(group, "photons_requested", point.photons_requested);
   format::put(group, "photons_traced", point.photons);
   put_fates(group, point);
-  format::put(group, "absorbed_in_medium", point.absorbed_in_medium);
-  format::put(group, "absorbed_at_surface", point.absorbed_at_surface);
+  format::put(group, "absorbed_in_medium", point.absorbed_in_medium.values());
+  format::put(group, "absorbed_at_surface", point.absorbed_at_surface.values());
   put_shifts(group, "shifted_in_medium", "what the wavelength shifter of each medium did",
-             point.shifted_in_medium);
+             point.shifted_in_medium.values());
   put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
-             point.shifted_at_surface);
+             point.shifted_at_surface.values());
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, point.exit_angles);
   put_tallies(group, point.tallies);

@@ -30,7 +30,7 @@ class PhotonSource : public LightSource {
   Photon emit(const scene::Scene& scene, const EventLight&, std::uint64_t, core::Rng& rng) const override {
     return emit(scene, rng);
   }
-  std::vector<std::uint32_t> regions() const override { return origin_.regions(); }
+  std::vector<core::RegionId> regions() const override { return origin_.regions(); }
 
  private:
   void check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene);
