@@ -140,7 +140,7 @@ TEST_CASE("Layers are told by the ratio of the ends and by the flood map") {
   AnalysisSetup setup = detector.setup();
   std::vector<EventRecord> events = detector.events(6000, true);
   for (EventRecord& event : events)
-    if (event.position_mm[2] > 10.0F) event.part += 100;
+    if (event.position_mm[2] > 10.0F) event.part = PartId(event.part.index() + 100);
   for (std::uint32_t part = 0; part < 200; ++part) setup.layer_of_part[PartId(part)] = part < 100 ? 0 : 1;
   const EventAnalysis analysis = analyze_events(events, setup);
   REQUIRE(analysis.layers_by_ratio);

@@ -1,4 +1,4 @@
-#include "scintray/cli/failures.hpp"
+#include "scintray/cli/commands.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 #include "doctor/doctor_scenes.hpp"
 #include "scintray/mesh/boolean.hpp"
-#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "support/shared.hpp"
 

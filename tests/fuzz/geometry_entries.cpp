@@ -7,7 +7,7 @@
 
 #include "io/gdml_texts.hpp"
 #include "require.hpp"
-#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "support/zipped.hpp"
 #ifdef SCINTRAY_TESTS_STEP

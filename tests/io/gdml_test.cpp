@@ -6,7 +6,7 @@
 
 #include "io/gdml_texts.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
-#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"

@@ -1,4 +1,4 @@
-#include "scintray/simulation/response_file.hpp"
+#include "scintray/simulation/response.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,6 @@
 #include "scintray/core/h5.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/simulation/results_file.hpp"
-#include "scintray/simulation/simulate_mapped.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
 #include "support/words.hpp"

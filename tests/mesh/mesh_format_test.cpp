@@ -1,55 +1,11 @@
 // A mesh format from outside: nothing of ScintRay knows it but the list that the caller passes.
 #include "scintray/mesh/import/mesh_format.hpp"
 
-#include <sstream>
-
-#include "mesh/box_files.hpp"
+#include "mesh/toy_format.hpp"
 
 using namespace scintray;
 using namespace scintray::mesh;
 using namespace scintray::test;
-
-namespace {
-
-/// Lines "v X Y Z" in cm, "f A B C ..." with corners counted from 0, and "solid NAME".
-RawMesh read_lines_of_toy(const MeshFile& file) {
-  RawMesh raw;
-  raw.unit = {.name = "cm", .mm = 10.0, .written = true, .read_mm = 10.0};
-  raw.mesh.groups = {"default"};
-  std::istringstream lines(file.content);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string kind;
-    words >> kind;
-    if (kind == "v") {
-      core::Vec3 vertex;
-      words >> vertex.x() >> vertex.y() >> vertex.z();
-      raw.mesh.vertices.push_back(vertex);
-    } else if (kind == "f") {
-      std::vector<std::uint32_t> corners;
-      for (std::uint32_t corner = 0; words >> corner;) corners.push_back(corner);
-      raw.add_polygon(corners, 0, false);
-    } else if (kind == "solid") {
-      std::string name;
-      words >> name;
-      raw.begin_body(name);
-    } else {
-      throw core::InputError({{file.path.string(), 0, 0}, "a line that begins with \"" + kind + "\"", ""});
-    }
-  }
-  raw.fill_body();
-  return raw;
-}
-
-MeshFormats with_toy() {
-  MeshFormats formats;
-  formats.add({.extension = ".toy", .states_unit = true, .read = read_lines_of_toy});
-  return formats;
-}
-
-const std::string kToyBox = "solid crystal\n" + corner_lines("v ") + quad_lines("f ", 0);
-
-}  // namespace
 
 TEST_CASE("A mesh format from outside is read as the built-in ones are") {
   const MeshFormats formats = with_toy();

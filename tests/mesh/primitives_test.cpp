@@ -7,7 +7,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/combine.hpp"
+#include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/export/ply_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"

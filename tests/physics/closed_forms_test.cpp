@@ -5,7 +5,7 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/source/detail/photon_source.hpp"

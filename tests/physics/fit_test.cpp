@@ -8,7 +8,7 @@
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/simulation/fit_scene.hpp"
+#include "scintray/simulation/fit.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/shared.hpp"
 

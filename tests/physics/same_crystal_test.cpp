@@ -3,7 +3,7 @@
 
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
-#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "support/evidence.hpp"
 #include "support/long_run.hpp"

@@ -1,8 +1,7 @@
-#include "scintray/report/pages/goniometer_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <doctest/doctest.h>
 
-#include "scintray/report/pages/surface_page.hpp"
 #include "scintray/report/plots/detail/hemisphere_map.hpp"
 #include "scintray/report/plots/goniometer_plots.hpp"
 #include "scintray/report/plots/png_image.hpp"

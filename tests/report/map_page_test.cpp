@@ -1,4 +1,4 @@
-#include "scintray/report/pages/map_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,11 +4,10 @@
 #include <iostream>
 #include <memory>
 
-#include "scintray/cli/check_picture.hpp"
-#include "scintray/cli/check_report.hpp"
+#include "scintray/cli/check.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
-#include "scintray/contact/small_gaps.hpp"
+#include "scintray/contact/neighbours.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {

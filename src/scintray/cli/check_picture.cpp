@@ -1,4 +1,4 @@
-#include "scintray/cli/check_picture.hpp"
+#include "scintray/cli/check.hpp"
 
 #include <fmt/format.h>
 

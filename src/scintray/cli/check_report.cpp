@@ -1,14 +1,64 @@
-#include "scintray/cli/check_report.hpp"
+#include "scintray/cli/check.hpp"
 
 #include <fmt/format.h>
-
+#include <cctype>
+#include <cstddef>
 #include <iostream>
-
-#include "scintray/cli/alike.hpp"
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace scintray::cli {
-
 namespace {
+
+/// The name with what is in square brackets, else with the number at its end, made a star: "crystal[*]"
+/// for crystal[3,4], "pad*" for pad12, "crystal[*]:exit" for crystal[3,4]:exit.
+std::string pattern_of(const std::string& name) {
+  std::string pattern;
+  bool bracketed = false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const std::size_t close = name[i] == '[' ? name.find(']', i) : std::string::npos;
+    if (close == std::string::npos) {
+      pattern += name[i];
+      continue;
+    }
+    pattern += "[*]";
+    bracketed = true;
+    i = close;
+  }
+  if (bracketed) return pattern;
+  // "part:face": the number is the part's.
+  const std::size_t end = std::min(name.find(':'), name.size());
+  std::size_t begin = end;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1])) != 0) --begin;
+  if (begin == end || begin == 0) return name;
+  return name.substr(0, begin) + "*" + name.substr(end);
+}
+
+/// Things that share a line, in order of first appearance.
+template <typename Thing>
+class Alike {
+ public:
+  struct Line {
+    std::size_t count = 0;
+    Thing first;
+  };
+
+  /// The line of `key`, made with `first` when it is new, and counted.
+  Line& add(const std::string& key, const Thing& first) {
+    const auto [known, is_new] = index_.try_emplace(key, lines_.size());
+    if (is_new) lines_.push_back({0, first});
+    Line& line = lines_[known->second];
+    ++line.count;
+    return line;
+  }
+  const std::vector<Line>& lines() const { return lines_; }
+
+ private:
+  std::map<std::string, std::size_t> index_;
+  std::vector<Line> lines_;
+};
 
 std::string yes_no(bool value) { return value ? "yes" : "NO"; }
 

@@ -1,23 +1,50 @@
 #include "scintray/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <ostream>
 
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/cli/failures.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray::cli {
 
-// Each is defined in the file of its name.
-using CommandFunction = void(CLI::App& parent);
-CommandFunction add_run_command, add_check_command, add_import_command, add_repair_command,
-    add_report_command, add_analyze_command, add_map_command, add_table_command, add_goniometer_command,
-    add_replay_command, add_response_command, add_reweight_command, add_fit_command;
-CommandFunction add_map_describe_command, add_map_prepare_command, add_map_synthesize_command;
-CommandFunction add_table_list_command, add_table_compare_command, add_table_build_command,
-    add_table_stack_command, add_table_show_command, add_table_export_command, add_table_import_command;
+// The subcommands, a line each, in the order of the help: NAME stands for the function add_NAME_command that
+// NAME_command.cpp defines.
+#define SCINTRAY_COMMANDS(ADD) \
+  ADD(run)                     \
+  ADD(check)                   \
+  ADD(import)                  \
+  ADD(repair)                  \
+  ADD(report)                  \
+  ADD(analyze)                 \
+  ADD(map)                     \
+  ADD(table)                   \
+  ADD(goniometer)              \
+  ADD(replay)                  \
+  ADD(response)                \
+  ADD(reweight)                \
+  ADD(fit)
+
+// Those of `scintray map`.
+#define SCINTRAY_MAP_COMMANDS(ADD) \
+  ADD(map_describe)                \
+  ADD(map_prepare)                 \
+  ADD(map_synthesize)
+
+// Those of `scintray table`.
+#define SCINTRAY_TABLE_COMMANDS(ADD) \
+  ADD(table_list)                    \
+  ADD(table_compare)                 \
+  ADD(table_build)                   \
+  ADD(table_stack)                   \
+  ADD(table_show)                    \
+  ADD(table_export)                  \
+  ADD(table_import)
+
+#define SCINTRAY_DECLARE(name) void add_##name##_command(CLI::App& parent);
+SCINTRAY_COMMANDS(SCINTRAY_DECLARE)
+SCINTRAY_MAP_COMMANDS(SCINTRAY_DECLARE)
+SCINTRAY_TABLE_COMMANDS(SCINTRAY_DECLARE)
 
 namespace {
 
@@ -29,23 +56,11 @@ int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out
   return asked_for ? code : static_cast<int>(kBadUsage);
 }
 
-constexpr std::array<AddCommand, 13> kCommands{
-    add_run_command,        add_check_command,   add_import_command,   add_repair_command,
-    add_report_command,     add_analyze_command, add_map_command,      add_table_command,
-    add_goniometer_command, add_replay_command,  add_response_command, add_reweight_command,
-    add_fit_command,
-};
-
-constexpr std::array<AddCommand, 3> kMapCommands{
-    add_map_describe_command,
-    add_map_prepare_command,
-    add_map_synthesize_command,
-};
-
-constexpr std::array<AddCommand, 8> kTableCommands{
-    add_table_list_command,     add_table_compare_command, add_table_build_command,  add_table_stack_command,
-    add_table_show_command,     add_table_export_command,  add_table_import_command,
-    add_map_synthesize_command,  // as under `map`, where a table starts from no measurement
+#define SCINTRAY_ENTRY(name) add_##name##_command,
+constexpr AddCommand kCommands[] = {SCINTRAY_COMMANDS(SCINTRAY_ENTRY)};
+constexpr AddCommand kMapCommands[] = {SCINTRAY_MAP_COMMANDS(SCINTRAY_ENTRY)};
+constexpr AddCommand kTableCommands[] = {
+    SCINTRAY_TABLE_COMMANDS(SCINTRAY_ENTRY) add_map_synthesize_command  // as under `map`: from no measurement
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// The subcommands of the program: a file NAME_command.cpp each, and a line in a list of commands.cpp.
 
 #include <CLI/App.hpp>
+#include <functional>
 #include <iosfwd>
 #include <span>
 
@@ -23,5 +24,13 @@ std::span<const AddCommand> table_commands();
 /// @param out, err   of help, and of everything that explains a failure
 int run_program(std::span<const AddCommand> available, int argc, const char* const* argv, std::ostream& out,
                 std::ostream& err);
+
+/// The one place where exceptions become messages and exit codes: runs `command`; whatever it throws is
+/// explained on `err`. Returns an exit code (exit_codes.hpp).
+///
+/// InputError: every problem with its place and hint. SystemError and failures of the standard
+/// library: their text. InternalError and anything unknown: the text and a request to report it.
+/// CLI::ParseError is passed on: the caller has the application that explains it.
+int run_guarded(const std::function<void()>& command, std::ostream& err);
 
 }  // namespace scintray::cli

@@ -1,4 +1,4 @@
-#include "scintray/cli/failures.hpp"
+#include "scintray/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
 #include <exception>

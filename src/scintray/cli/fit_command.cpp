@@ -8,11 +8,10 @@
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/report/pages/fit_page.hpp"
 #include "scintray/report/pages/page.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/fit_text.hpp"
-#include "scintray/simulation/fit_file.hpp"
-#include "scintray/simulation/fit_scene.hpp"
+#include "scintray/simulation/fit.hpp"
 
 namespace scintray::cli {
 

@@ -11,9 +11,10 @@
 #include "scintray/analysis/goniometer/measured_profile.hpp"
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/report/pages/goniometer_page.hpp"
 #include "scintray/report/pages/page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 namespace scintray::cli {
 
@@ -23,7 +24,8 @@ constexpr std::uint64_t kRays = 1'000'000;
 
 struct GoniometerOptions {
   SampleOptions sample;
-  std::string surface, outside = "air", side = "inside", half_width = "5 deg", measured, page, csv, cells;
+  std::string surface, outside = "air", half_width = "5 deg", measured, page, csv, cells;
+  optics::Side side = optics::Side::inside;
   std::vector<std::string> angles;
   bool on_the_spot = false;
 };
@@ -103,7 +105,7 @@ void write(const std::string& path, const std::string& content) {
 
 void run_goniometer(const GoniometerOptions& options) {
   analysis::GoniometerSettings settings;
-  settings.side = options.side == "inside" ? optics::Side::inside : optics::Side::outside;
+  settings.side = options.side;
   settings.rays = options.sample.rays;
   settings.seed = options.sample.seed;
   settings.profile_half_width_rad = angle_rad(options.half_width);
@@ -158,9 +160,8 @@ void add_goniometer_command(CLI::App& app) {
       ->allow_extra_args(false);
   add_sample_options(*command, options->sample, kRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
-  command->add_option("--side", options->side, "Side that the light comes from")
-      ->check(CLI::IsMember({"inside", "outside"}))
-      ->capture_default_str();
+  add_word_option(*command, "--side", options->side, kSideWords, "Side that the light comes from")
+      ->default_str(core::word_of(kSideWords, options->side));
   command
       ->add_option("--half-width", options->half_width,
                    "Half-width of the in-plane profile, out of the plane of incidence")

@@ -4,7 +4,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 
 namespace scintray::cli {

@@ -5,6 +5,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/core/words.hpp"
 
 namespace scintray::cli {
 
@@ -12,15 +13,17 @@ namespace {
 
 constexpr double kUmPerMm = 1000.0;
 
+using LevelingKind = topography::Leveling::Kind;
+constexpr core::Word<topography::Leveling> kLevelings[] = {{"none", {LevelingKind::none, 0}},
+                                                           {"mean", {LevelingKind::mean, 0}},
+                                                           {"plane", {LevelingKind::plane, 1}}};
+
 topography::Leveling parse_leveling(const std::string& how) {
-  using Kind = topography::Leveling::Kind;
-  if (how == "none") return {Kind::none, 0};
-  if (how == "mean") return {Kind::mean, 0};
-  if (how == "plane") return {Kind::plane, 1};
+  if (const auto known = core::find_word(kLevelings, how)) return *known;
   constexpr std::string_view kPolynomial = "poly:";
   if (how.starts_with(kPolynomial) && how.size() == kPolynomial.size() + 1 && how.back() >= '0' &&
       how.back() <= '8')
-    return {Kind::polynomial, how.back() - '0'};
+    return {LevelingKind::polynomial, how.back() - '0'};
   throw core::InputError(
       {{}, "--level " + how + "; expected plane, mean, none or poly:N with N from 0 to 8", ""});
 }

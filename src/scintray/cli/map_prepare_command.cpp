@@ -6,7 +6,7 @@
 
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
-#include "scintray/report/pages/map_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/map_numbers.hpp"
 
 namespace scintray::cli {

@@ -6,6 +6,7 @@
 
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
+#include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/materials/power_spectrum.hpp"
@@ -16,8 +17,18 @@ namespace scintray::cli {
 
 namespace {
 
+enum class ReliefKind { ground, polished, gaussian, fracture, saw_cut, k_correlation, spectrum };
+constexpr core::Word<ReliefKind> kReliefKinds[] = {
+    {"ground", ReliefKind::ground},     {"polished", ReliefKind::polished},
+    {"gaussian", ReliefKind::gaussian}, {"fracture", ReliefKind::fracture},
+    {"saw_cut", ReliefKind::saw_cut},   {"k_correlation", ReliefKind::k_correlation},
+    {"spectrum", ReliefKind::spectrum}};
+
+const char* name_of(ReliefKind kind) { return core::word_of(kReliefKinds, kind); }
+
 struct SynthesisArguments {
-  std::string kind, output, pitch;
+  ReliefKind kind = ReliefKind::gaussian;
+  std::string output, pitch;
   std::string rms_height, correlation_length, lay_length, lay_angle;
   std::string spacing, rise, depth_spread;
   double exponent = 0.0, size_spread = -1.0;
@@ -35,10 +46,10 @@ void set(double& value_um, const std::string& text) {
 
 /// What a kind needs because no default gives it: the options and what they were given.
 using Given = std::vector<std::pair<const char*, bool>>;
-void need(const std::string& kind, const Given& given) {
+void need(ReliefKind kind, const Given& given) {
   core::Problems problems;
   for (const auto& [option, there] : given)
-    if (!there) problems.add({}, fmt::format("a map of kind {} without {}", kind, option));
+    if (!there) problems.add({}, fmt::format("a map of kind {} without {}", name_of(kind), option));
   problems.throw_if_any();
 }
 
@@ -47,20 +58,21 @@ void check_needs(const SynthesisArguments& a) {
   const Given gaussian{{"--rms-height", there(a.rms_height)},
                        {"--correlation-length", there(a.correlation_length)}};
   Given needs;
-  if (a.kind == "gaussian" || a.kind == "saw_cut" || a.kind == "fracture") needs = gaussian;
-  if (a.kind == "saw_cut") {
+  if (a.kind == ReliefKind::gaussian || a.kind == ReliefKind::saw_cut || a.kind == ReliefKind::fracture)
+    needs = gaussian;
+  if (a.kind == ReliefKind::saw_cut) {
     needs.emplace_back("--lay-length", there(a.lay_length));
     needs.emplace_back("--lay-angle", there(a.lay_angle));
   }
-  if (a.kind == "fracture") {
+  if (a.kind == ReliefKind::fracture) {
     needs.emplace_back("--spacing", there(a.spacing));
     needs.emplace_back("--rise", there(a.rise));
   }
-  if (a.kind == "k_correlation")
+  if (a.kind == ReliefKind::k_correlation)
     needs = {{"--rms-height", there(a.rms_height)},
              {"--knee-length", there(a.knee_length)},
              {"--exponent", a.exponent > 0.0}};
-  if (a.kind == "spectrum")
+  if (a.kind == ReliefKind::spectrum)
     needs = {{"--spectrum", there(a.spectrum)},
              {"--frequency-unit", there(a.frequency_unit)},
              {"--density-unit", there(a.density_unit)}};
@@ -69,16 +81,17 @@ void check_needs(const SynthesisArguments& a) {
 
 /// Options that a kind would not obey are errors.
 void check_meaning(const SynthesisArguments& a) {
-  const bool fractured = a.kind == "ground" || a.kind == "fracture", spectral = a.kind == "spectrum",
-             k_correlation = a.kind == "k_correlation";
+  const bool fractured = a.kind == ReliefKind::ground || a.kind == ReliefKind::fracture,
+             spectral = a.kind == ReliefKind::spectrum, k_correlation = a.kind == ReliefKind::k_correlation;
   core::Problems problems;
   const auto refuse = [&](bool given, bool meaningful, const char* option) {
-    if (given && !meaningful) problems.add({}, fmt::format("{} has no meaning for kind {}", option, a.kind));
+    if (given && !meaningful)
+      problems.add({}, fmt::format("{} has no meaning for kind {}", option, name_of(a.kind)));
   };
   refuse(!a.rms_height.empty(), !spectral, "--rms-height");
   refuse(!a.correlation_length.empty(), !spectral && !k_correlation, "--correlation-length");
-  refuse(!a.lay_length.empty(), a.kind == "saw_cut", "--lay-length");
-  refuse(!a.lay_angle.empty(), a.kind == "saw_cut", "--lay-angle");
+  refuse(!a.lay_length.empty(), a.kind == ReliefKind::saw_cut, "--lay-length");
+  refuse(!a.lay_angle.empty(), a.kind == ReliefKind::saw_cut, "--lay-angle");
   refuse(!a.spacing.empty(), fractured, "--spacing");
   refuse(!a.rise.empty(), fractured, "--rise");
   refuse(!a.depth_spread.empty(), fractured, "--depth-spread");
@@ -108,15 +121,15 @@ topography::SynthesisRecipe recipe_of(const SynthesisArguments& a) {
   check_needs(a);
   check_meaning(a);
   topography::SynthesisRecipe recipe;
-  if (a.kind == "ground") recipe = topography::ground_recipe();
-  if (a.kind == "polished") recipe = topography::polished_recipe();
-  recipe.name = a.kind;
+  if (a.kind == ReliefKind::ground) recipe = topography::ground_recipe();
+  if (a.kind == ReliefKind::polished) recipe = topography::polished_recipe();
+  recipe.name = name_of(a.kind);
   recipe.seed = a.seed;
   if (a.points > 0) recipe.columns = recipe.rows = a.points;
   set(recipe.pitch_um, a.pitch);
-  if (a.kind == "spectrum") {
+  if (a.kind == ReliefKind::spectrum) {
     recipe.spectrum = materials::read_power_spectrum(a.spectrum, a.frequency_unit, a.density_unit);
-  } else if (a.kind == "k_correlation") {
+  } else if (a.kind == ReliefKind::k_correlation) {
     set(recipe.k_correlation.rms_height_um, a.rms_height);
     set(recipe.k_correlation.knee_length_um, a.knee_length);
     recipe.k_correlation.exponent = a.exponent;
@@ -127,7 +140,7 @@ topography::SynthesisRecipe recipe_of(const SynthesisArguments& a) {
     if (!a.lay_angle.empty())
       recipe.gaussian.lay_angle_rad = core::parse_quantity(a.lay_angle, core::Dimension::angle);
   }
-  if (a.kind == "ground" || a.kind == "fracture") set_fracture(a, recipe.fracture);
+  if (a.kind == ReliefKind::ground || a.kind == ReliefKind::fracture) set_fracture(a, recipe.fracture);
   set_scratches(a, recipe.scratches);
   return recipe;
 }
@@ -203,10 +216,9 @@ void add_map_synthesize_command(CLI::App& map) {
   SynthesisArguments& a = *arguments;
   CLI::App* app =
       map.add_subcommand("synthesize", "Make a height map from a recipe and print its visible slopes");
-  app->add_option("kind", a.kind, "ground, polished, gaussian, fracture, saw_cut, k_correlation or spectrum")
-      ->required()
-      ->check(CLI::IsMember(
-          {"ground", "polished", "gaussian", "fracture", "saw_cut", "k_correlation", "spectrum"}));
+  add_word_option(*app, "kind", a.kind, kReliefKinds,
+                  "ground, polished, gaussian, fracture, saw_cut, k_correlation or spectrum")
+      ->required();
   app->add_option("-o,--output", a.output, "Height map to write (.gsf)")->required();
   app->add_option("--seed", a.seed, "Seed of the random numbers")->capture_default_str();
   app->add_option("--points", a.points, "Columns and rows, 514 unless given")->check(CLI::Range(2, 16384));

@@ -2,8 +2,7 @@
 #include <memory>
 
 #include "scintray/cli/exit_codes.hpp"
-#include "scintray/cli/repair_report.hpp"
-#include "scintray/cli/repair_scene.hpp"
+#include "scintray/cli/repair.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 

@@ -1,4 +1,4 @@
-#include "scintray/cli/repair_report.hpp"
+#include "scintray/cli/repair.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,7 @@
 #include <set>
 
 #include "scintray/mesh/export/gltf_writer.hpp"
-#include "scintray/mesh/export/ply_writer.hpp"
-#include "scintray/mesh/export/stl_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 
 namespace scintray::cli {

@@ -1,4 +1,4 @@
-#include "scintray/cli/repair_scene.hpp"
+#include "scintray/cli/repair.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "scintray/cli/repair_report.hpp"
 #include "scintray/cli/scene_text.hpp"
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/output_file.hpp"

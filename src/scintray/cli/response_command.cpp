@@ -9,8 +9,8 @@
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/simulation/response.hpp"
 #include "scintray/simulation/results_file.hpp"
-#include "scintray/simulation/simulate_mapped.hpp"
 
 namespace scintray::cli {
 

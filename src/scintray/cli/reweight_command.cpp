@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <iostream>
+#include <limits>
 #include <memory>
+#include <string>
 
-#include "scintray/cli/reweight_options.hpp"
+#include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/core/units.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/sweep_view.hpp"
@@ -15,6 +19,73 @@
 namespace scintray::cli {
 
 namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> items_of(const std::string& list) {
+  std::vector<std::string> items;
+  for (std::size_t start = 0; start <= list.size();) {
+    const std::size_t end = std::min(list.find(',', start), list.size());
+    items.push_back(trimmed(list.substr(start, end - start)));
+    start = end + 1;
+  }
+  return items;
+}
+
+/// In place of an absorption length.
+constexpr const char* kNoAbsorption = "none";
+
+/// What follows the number that `item` begins with.
+std::string unit_of(const std::string& item) {
+  char* end = nullptr;
+  std::strtod(item.c_str(), &end);
+  return trimmed(end);
+}
+
+/// "LSO=200 mm", "LSO=100,200,400 mm", "LSO=100 mm,none", "LSO=x0.5,x2"; "PTFE=0.95", "PTFE=90,95 %",
+/// "PTFE=x0.98".
+/// @param option  for messages: "--reflectance"
+/// @throws CLI::ValidationError for what is not of this form; values are not yet checked for their range
+simulation::PropertyScan parse_scan(const std::string& option, simulation::OpticalProperty property,
+                                    const std::string& text) {
+  const bool length = property == simulation::OpticalProperty::absorption_length;
+  const auto refuse = [&](const std::string& what) {
+    return CLI::ValidationError(option, "\"" + text + "\": " + what + "; write " +
+                                            (length ? "\"LSO=200 mm\", \"LSO=100,200 mm,none\" or \"LSO=x2\""
+                                                    : "\"PTFE=0.95\", \"PTFE=0.9,0.95\" or \"PTFE=x0.98\""));
+  };
+  simulation::PropertyScan scan;
+  scan.property = property;
+  const std::size_t equals = text.rfind('=');
+  scan.name = trimmed(text.substr(0, std::min(equals, text.size())));
+  if (equals == std::string::npos || scan.name.empty()) throw refuse("no name before a \"=\"");
+  const std::vector<std::string> items = items_of(text.substr(equals + 1));
+  scan.times = items.front().starts_with("x");
+  std::string unit;  // of those that have none of their own: the last one given
+  for (const std::string& item : items)
+    if (item != kNoAbsorption && !unit_of(item).empty()) unit = unit_of(item);
+  for (std::string item : items) {
+    if (item.starts_with("x") != scan.times) throw refuse("factors and values are mixed");
+    if (length && item == kNoAbsorption && !scan.times) {
+      scan.values.push_back(std::numeric_limits<double>::infinity());
+      continue;
+    }
+    if (scan.times) item.erase(0, 1);
+    if (!scan.times && unit_of(item).empty() && !unit.empty()) item += " " + unit;
+    try {
+      const bool is_length = length && !scan.times;
+      scan.values.push_back(
+          core::parse_quantity(item, is_length ? core::Dimension::length : core::Dimension::dimensionless));
+    } catch (const core::InputError& error) {
+      throw refuse(error.problems().front().what);
+    }
+  }
+  return scan;
+}
 
 struct ReweightOptions {
   std::filesystem::path results, output;

@@ -4,22 +4,23 @@
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 #include "scintray/cli/table_options.hpp"
+#include "scintray/cli/word_option.hpp"
 
 namespace scintray::cli {
 
 namespace {
 
+constexpr core::Word<topography::Tiling> kTilings[] = {{"auto", topography::Tiling::automatic},
+                                                       {"mirror", topography::Tiling::mirror},
+                                                       {"periodic", topography::Tiling::periodic}};
+
 struct BuildArguments {
   MapOptions map;
   PreparationOptions preparation;
   TracingOptions tracing;
-  std::string output, tiling = "auto";
+  std::string output;
+  topography::Tiling tiling = topography::Tiling::automatic;
 };
-
-topography::Tiling parse_tiling(const std::string& name) {
-  if (name == "mirror") return topography::Tiling::mirror;
-  return name == "periodic" ? topography::Tiling::periodic : topography::Tiling::automatic;
-}
 
 void build(const BuildArguments& arguments) {
   const std::vector<topography::SpectralPoint> spectrum = between(arguments.tracing).spectrum();
@@ -28,12 +29,11 @@ void build(const BuildArguments& arguments) {
   print_summary(map);
   print_warnings(map);
 
-  const topography::Tiling tiling = parse_tiling(arguments.tiling);
-  const optics::HeightField field = topography::make_height_field(map, tiling);
+  const optics::HeightField field = topography::make_height_field(map, arguments.tiling);
   optics::TableProvenance provenance;
   provenance.map = arguments.map.map;
   provenance.preparation = map.history();
-  provenance.tiling = topography::tiling_name(map, tiling);
+  provenance.tiling = topography::tiling_name(map, arguments.tiling);
   write_and_report(arguments.output, build_with_progress([&](const topography::TableProgress& progress) {
                      return topography::build_table(field, spectrum, settings_of(arguments.tracing),
                                                     provenance, progress);
@@ -49,9 +49,8 @@ void add_table_build_command(CLI::App& table) {
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   add_tracing_options(*app, arguments->tracing);
   add_preparation_options(*app, arguments->preparation);
-  app->add_option("--tiling", arguments->tiling, "How the map goes on beyond its edges")
-      ->check(CLI::IsMember({"auto", "mirror", "periodic"}))
-      ->capture_default_str();
+  add_word_option(*app, "--tiling", arguments->tiling, kTilings, "How the map goes on beyond its edges")
+      ->default_str(core::word_of(kTilings, arguments->tiling));
   app->callback([arguments] { build(*arguments); });
 }
 

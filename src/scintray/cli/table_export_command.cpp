@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/bsdf_text.hpp"
@@ -14,8 +15,15 @@ namespace scintray::cli {
 
 namespace {
 
+/// Whose file is written.
+enum class ExportFormat { davis, bsdf, csv };
+constexpr core::Word<ExportFormat> kExportFormats[] = {
+    {"davis", ExportFormat::davis}, {"bsdf", ExportFormat::bsdf}, {"csv", ExportFormat::csv}};
+
 struct ExportArguments {
-  std::string table, format, output, wavelength, side = "inside";
+  std::string table, output, wavelength;
+  ExportFormat format = ExportFormat::csv;
+  optics::Side side = optics::Side::inside;
   std::uint64_t rays = exchange::BsdfSettings{}.rays, seed = 1;
 };
 
@@ -26,9 +34,9 @@ std::size_t slice_of(const ExportArguments& arguments, const optics::SurfaceTabl
   return exchange::slice_at(table, wavelength);
 }
 
-void export_davis(const ExportArguments& arguments, const optics::SurfaceTable& table, optics::Side side) {
+void export_davis(const ExportArguments& arguments, const optics::SurfaceTable& table) {
   exchange::DavisSettings settings;
-  settings.side = side;
+  settings.side = arguments.side;
   settings.slice = slice_of(arguments, table);
   settings.seed = arguments.seed;
   const auto losses = exchange::write_davis(arguments.output, table, settings);
@@ -38,7 +46,7 @@ void export_davis(const ExportArguments& arguments, const optics::SurfaceTable& 
   for (const std::string& loss : losses) std::cout << "note         " << loss << "\n";
 }
 
-void export_bsdf(const ExportArguments& arguments, const optics::SurfaceTable& table, optics::Side side) {
+void export_bsdf(const ExportArguments& arguments, const optics::SurfaceTable& table) {
   const std::filesystem::path name = arguments.output;
   if (name.extension() != ".bsdf")
     throw core::InputError({{arguments.output},
@@ -46,7 +54,7 @@ void export_bsdf(const ExportArguments& arguments, const optics::SurfaceTable& t
                             "NAME.bsdf makes NAME_brdf.bsdf and NAME_btdf.bsdf"});
   for (const exchange::Leaving way : {exchange::Leaving::reflected, exchange::Leaving::transmitted}) {
     exchange::BsdfSettings settings;
-    settings.side = side;
+    settings.side = arguments.side;
     settings.slice = slice_of(arguments, table);
     settings.way = way;
     settings.rays = arguments.rays;
@@ -61,9 +69,14 @@ void export_bsdf(const ExportArguments& arguments, const optics::SurfaceTable& t
 
 void export_table(const ExportArguments& arguments) {
   const optics::SurfaceTable table = optics::read_table(arguments.table);
-  const optics::Side side = arguments.side == "inside" ? optics::Side::inside : optics::Side::outside;
-  if (arguments.format == "davis") return export_davis(arguments, table, side);
-  if (arguments.format == "bsdf") return export_bsdf(arguments, table, side);
+  switch (arguments.format) {
+    case ExportFormat::davis:
+      return export_davis(arguments, table);
+    case ExportFormat::bsdf:
+      return export_bsdf(arguments, table);
+    case ExportFormat::csv:
+      break;
+  }
   exchange::write_table_csv(arguments.output, table);
   std::cout << "written      " << arguments.output << "\n";
 }
@@ -74,20 +87,18 @@ void add_table_export_command(CLI::App& table) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* app = table.add_subcommand("export", "Write a surface table for other programs");
   app->add_option("table", arguments->table, "Table file (HDF5)")->required();
-  app->add_option(
-         "--format", arguments->format,
-         "davis: Geant4's LUTDAVIS pair; bsdf: tabulated BRDF and BTDF of Zemax and LightTools; csv: "
-         "densities of both sides")
-      ->required()
-      ->check(CLI::IsMember({"davis", "bsdf", "csv"}));
+  add_word_option(
+      *app, "--format", arguments->format, kExportFormats,
+      "davis: Geant4's LUTDAVIS pair; bsdf: tabulated BRDF and BTDF of Zemax and LightTools; csv: "
+      "densities of both sides")
+      ->required();
   app->add_option(
          "-o,--output", arguments->output,
          "Name to write: X_LUT.z or X_LUT.dat (with X_LUTR beside it), NAME.bsdf (NAME_brdf.bsdf and "
          "NAME_btdf.bsdf), or a CSV file")
       ->required();
-  app->add_option("--side", arguments->side, "Where the light comes from (davis, bsdf)")
-      ->check(CLI::IsMember({"inside", "outside"}))
-      ->capture_default_str();
+  add_word_option(*app, "--side", arguments->side, kSideWords, "Where the light comes from (davis, bsdf)")
+      ->default_str(core::word_of(kSideWords, arguments->side));
   app->add_option("--wavelength", arguments->wavelength,
                   "Which wavelength of a table of several, as \"420 nm\" (davis, bsdf)");
   app->add_option("--rays", arguments->rays, "Points of the distribution per angle (bsdf)")

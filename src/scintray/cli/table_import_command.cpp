@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/exchange/davis.hpp"
 #include "scintray/exchange/lbnl.hpp"
@@ -12,20 +13,27 @@ namespace scintray::cli {
 
 namespace {
 
+/// Whose file is read.
+enum class ImportFormat { davis, lbnl };
+constexpr core::Word<ImportFormat> kImportFormats[] = {{"davis", ImportFormat::davis},
+                                                       {"lbnl", ImportFormat::lbnl}};
+
 struct ImportArguments {
-  std::string file, format, output, from_outside, unreflected;
+  std::string file, output;
+  ImportFormat format = ImportFormat::davis;
+  std::optional<exchange::Unreflected> unreflected;
   std::optional<double> reflectance;
   exchange::ImportSettings settings;
 };
 
 void require_options_of_format(const ImportArguments& arguments) {
-  const bool davis = arguments.format == "davis";
+  const bool davis = arguments.format == ImportFormat::davis;
   if (davis && arguments.reflectance)
     throw core::InputError({{}, "--reflectance with --format davis", "the pair holds its own reflectances"});
-  if (!davis && !arguments.unreflected.empty())
+  if (!davis && arguments.unreflected)
     throw core::InputError(
         {{}, "--unreflected with --format lbnl", "light that it does not reflect is absorbed"});
-  if (davis && arguments.unreflected.empty())
+  if (davis && !arguments.unreflected)
     throw core::InputError(
         {{},
          "a Davis pair without --unreflected",
@@ -40,13 +48,9 @@ void require_options_of_format(const ImportArguments& arguments) {
 void import_table(ImportArguments arguments) {
   require_options_of_format(arguments);
   exchange::ImportSettings& settings = arguments.settings;
-  settings.from_outside = arguments.from_outside == "smooth"   ? exchange::FromOutside::smooth
-                          : arguments.from_outside == "mirror" ? exchange::FromOutside::mirror
-                                                               : exchange::FromOutside::absorb;
-  settings.unreflected = arguments.unreflected == "absorbed" ? exchange::Unreflected::absorbed
-                                                             : exchange::Unreflected::transmitted;
+  settings.unreflected = arguments.unreflected.value_or(exchange::Unreflected::transmitted);
   settings.reflectance = arguments.reflectance.value_or(1.0);
-  const optics::SurfaceTable table = arguments.format == "davis"
+  const optics::SurfaceTable table = arguments.format == ImportFormat::davis
                                          ? exchange::read_davis(arguments.file, settings)
                                          : exchange::read_lbnl(arguments.file, settings);
   optics::write_table(arguments.output, table);
@@ -62,23 +66,21 @@ void add_table_import_command(CLI::App& table) {
   app->add_option("file", arguments->file,
                   "davis: X_LUT.z or X_LUT.dat, with X_LUTR beside it; lbnl: one of the 21 finishes' files")
       ->required();
-  app->add_option("--format", arguments->format, "Geant4's LUTDAVIS pair or LBNL's table (model LUT)")
-      ->required()
-      ->check(CLI::IsMember({"davis", "lbnl"}));
+  add_word_option(*app, "--format", arguments->format, kImportFormats,
+                  "Geant4's LUTDAVIS pair or LBNL's table (model LUT)")
+      ->required();
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   app->add_option("--inside-index", arguments->settings.index.inside,
                   "Refractive index of the crystal that the table was made for: the files do not state it")
       ->required();
   app->add_option("--outside-index", arguments->settings.index.outside, "Refractive index outside")
       ->required();
-  app->add_option("--from-outside", arguments->from_outside,
+  add_word_option(*app, "--from-outside", arguments->settings.from_outside, exchange::kFromOutsideWords,
                   "What becomes of light incident from outside, of which the files state nothing: "
                   "smooth (Fresnel), mirror or absorb")
-      ->required()
-      ->check(CLI::IsMember({"smooth", "mirror", "absorb"}));
-  app->add_option("--unreflected", arguments->unreflected,
-                  "davis: what becomes of light that is not reflected")
-      ->check(CLI::IsMember({"transmitted", "absorbed"}));
+      ->required();
+  add_word_option(*app, "--unreflected", arguments->unreflected, exchange::kUnreflectedWords,
+                  "davis: what becomes of light that is not reflected");
   app->add_option("--reflectance", arguments->reflectance, "lbnl: Geant4's REFLECTIVITY of the surface");
   app->callback([arguments] { import_table(*arguments); });
 }

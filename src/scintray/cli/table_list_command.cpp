@@ -10,7 +10,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/report/pages/page.hpp"
-#include "scintray/report/pages/surface_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 namespace scintray::cli {
 

@@ -1,4 +1,4 @@
-#include "scintray/config/toml_difference.hpp"
+#include "scintray/config/toml_reader.hpp"
 
 #include <algorithm>
 #include <optional>

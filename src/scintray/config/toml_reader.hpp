@@ -17,11 +17,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "scintray/config/words.hpp"
 #include "scintray/core/curve.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/core/words.hpp"
 
 namespace scintray::config {
 
@@ -97,9 +97,9 @@ class TomlTable {
   std::optional<std::string> one_of(const std::vector<std::string>& choices, bool required) const;
   /// The same for keys that stand for values; nullptr when none is present.
   template <typename T, std::size_t N>
-  const Word<T>* one_of(const Word<T> (&choices)[N], bool required) const {
-    const std::optional<std::string> key = one_of(word_list(choices), required);
-    for (const Word<T>& known : choices)
+  const core::Word<T>* one_of(const core::Word<T> (&choices)[N], bool required) const {
+    const std::optional<std::string> key = one_of(core::word_list(choices), required);
+    for (const core::Word<T>& known : choices)
       if (key == known.word) return &known;
     return nullptr;
   }
@@ -131,12 +131,12 @@ class TomlTable {
                      const std::string& fallback) const;
   /// The value of one of the words; that of the first when wrong.
   template <typename T, std::size_t N>
-  T choice(const std::string& key, const Word<T> (&words)[N]) const {
-    return find_word(words, choice(key, word_list(words))).value_or(words[0].value);
+  T choice(const std::string& key, const core::Word<T> (&words)[N]) const {
+    return core::find_word(words, choice(key, core::word_list(words))).value_or(words[0].value);
   }
   template <typename T, std::size_t N>
-  T choice(const std::string& key, const Word<T> (&words)[N], std::type_identity_t<T> fallback) const {
-    return find_word(words, choice(key, word_list(words), "")).value_or(fallback);
+  T choice(const std::string& key, const core::Word<T> (&words)[N], std::type_identity_t<T> fallback) const {
+    return core::find_word(words, choice(key, core::word_list(words), "")).value_or(fallback);
   }
 
   /// Arrays. `count` 0 means any length, and one at least unless stated otherwise. Empty when wrong
@@ -208,5 +208,11 @@ class TomlTable {
   std::string path_;
   std::shared_ptr<Session> session_;
 };
+
+/// Path of the first key that only one document has or whose values differ as written, like
+/// "part.crystal.surface"; empty when there is none. The order of keys does not matter, that of arrays does.
+/// @param besides  keys of the outermost table that do not count, with all in them
+[[nodiscard]] std::string first_difference(const TomlNode& a, const TomlNode& b,
+                                           const std::vector<std::string>& besides);
 
 }  // namespace scintray::config

@@ -1,4 +1,4 @@
-#include "scintray/contact/conform_parts.hpp"
+#include "scintray/contact/neighbours.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/facing.hpp"
-#include "scintray/contact/detail/stitch_parts.hpp"
+#include "scintray/contact/detail/stitch.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 
 namespace scintray::contact {

@@ -9,7 +9,6 @@
 
 #include "scintray/contact/detail/clusters.hpp"
 #include "scintray/contact/detail/nesting.hpp"
-#include "scintray/contact/detail/overlap.hpp"
 #include "scintray/contact/detail/overlay.hpp"
 #include "scintray/core/error.hpp"
 

@@ -47,6 +47,7 @@ struct InterfaceTriangle {
 /// @param parts  the i-th has the id i
 /// @throws InputError naming both parts, the overlap volume and a point inside it, for parts that
 ///         overlap with volume; all such pairs are listed.
-std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm);
+[[nodiscard]] std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts,
+                                                              double tolerance_mm);
 
 }  // namespace scintray::contact

@@ -1,4 +1,4 @@
-#include "scintray/contact/cut_parts.hpp"
+#include "scintray/contact/neighbours.hpp"
 
 #include <fmt/format.h>
 

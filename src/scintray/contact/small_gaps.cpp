@@ -1,4 +1,4 @@
-#include "scintray/contact/small_gaps.hpp"
+#include "scintray/contact/neighbours.hpp"
 
 #include <algorithm>
 

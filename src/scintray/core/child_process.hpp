@@ -18,7 +18,7 @@ struct ChildAnswer {
 /// `most_seconds` of processor time. `work` must not throw, must not use threads that run already or locks
 /// that they may hold, and leaves nothing behind but its answer. Throws SystemError when no process can be
 /// made.
-ChildAnswer run_in_child(const std::function<std::string()>& work, std::size_t most_bytes,
-                         unsigned most_seconds);
+[[nodiscard]] ChildAnswer run_in_child(const std::function<std::string()>& work, std::size_t most_bytes,
+                                       unsigned most_seconds);
 
 }  // namespace scintray::core

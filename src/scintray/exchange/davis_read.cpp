@@ -155,11 +155,10 @@ optics::SurfaceTable davis_table(const DavisPair& pair, const ImportSettings& se
   check_indices(settings.index);
   optics::TableProvenance provenance;
   provenance.map = name + ", read as Geant4's LUTDAVIS model reads it";
-  provenance.preparation =
-      std::string("indices given on import; not reflected: ") +
-      (settings.unreflected == Unreflected::transmitted ? "transmitted" : "absorbed") +
-      "; from outside, of which the file says nothing: " + name_of(settings.from_outside) +
-      "; errors unknown";
+  provenance.preparation = std::string("indices given on import; not reflected: ") +
+                           (settings.unreflected == Unreflected::transmitted ? "transmitted" : "absorbed") +
+                           "; from outside, of which the file says nothing: " +
+                           core::word_of(kFromOutsideWords, settings.from_outside) + "; errors unknown";
   provenance.version = core::version();
   return optics::SurfaceTable(settings.index, inside_nodes(pair, settings.unreflected),
                               outside_nodes(settings.index, settings.from_outside), std::move(provenance));

@@ -35,11 +35,6 @@ optics::TableNode outside_node(double incidence_rad, const optics::IndexPair& in
 
 }  // namespace
 
-const char* name_of(FromOutside choice) {
-  if (choice == FromOutside::smooth) return "smooth";
-  return choice == FromOutside::mirror ? "mirror" : "absorb";
-}
-
 void check_indices(const optics::IndexPair& index) {
   for (const optics::Side side : {optics::Side::inside, optics::Side::outside})
     if (!(index.on(side) >= 1.0 && index.on(side) < 10.0))

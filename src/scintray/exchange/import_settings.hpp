@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/words.hpp"
 #include "scintray/optics/table.hpp"
 
 namespace scintray::exchange {
@@ -28,8 +29,11 @@ struct ImportSettings {
   double reflectance = 1.0;                            ///< LBNL: Geant4's REFLECTIVITY, in [0, 1]
 };
 
-/// "smooth", "mirror" or "absorb".
-const char* name_of(FromOutside choice);
+/// The words of the two choices.
+inline constexpr core::Word<FromOutside> kFromOutsideWords[] = {
+    {"smooth", FromOutside::smooth}, {"mirror", FromOutside::mirror}, {"absorb", FromOutside::absorb}};
+inline constexpr core::Word<Unreflected> kUnreflectedWords[] = {{"transmitted", Unreflected::transmitted},
+                                                                {"absorbed", Unreflected::absorbed}};
 
 /// InputError unless both indices are finite and at least 1.
 void check_indices(const optics::IndexPair& index);

@@ -123,10 +123,9 @@ optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSe
   }
   optics::TableProvenance provenance;
   provenance.map = name + ", read as Geant4's LUT model reads it";
-  provenance.preparation =
-      "indices and reflectance " + std::to_string(settings.reflectance) +
-      " given on import; from outside, of which the file says nothing: " + name_of(settings.from_outside) +
-      "; errors unknown";
+  provenance.preparation = "indices and reflectance " + std::to_string(settings.reflectance) +
+                           " given on import; from outside, of which the file says nothing: " +
+                           core::word_of(kFromOutsideWords, settings.from_outside) + "; errors unknown";
   provenance.version = core::version();
   return optics::SurfaceTable(settings.index, stepped_nodes(edges, steps),
                               outside_nodes(settings.index, settings.from_outside), std::move(provenance));

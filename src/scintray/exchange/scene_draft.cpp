@@ -8,7 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/mesh/export/ply_writer.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/import.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Union, difference and intersection of closed meshes. CGAL stays in the one file behind this header.
+/// Union, difference and intersection of closed meshes.
 
 #include <cstdint>
 #include <optional>
@@ -34,12 +34,20 @@ struct BooleanResult {
 ///
 /// Nothing when CGAL refuses: an operand crosses itself or bounds no volume, or the result would have
 /// an edge of more than two triangles. An empty mesh when nothing is left.
-std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second, BooleanOperation operation,
-                                     double clean_mm);
+[[nodiscard]] std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second,
+                                                   BooleanOperation operation, double clean_mm);
 
 /// Cuts the triangles of the first of two sound meshes along their intersection with the second; the solid
 /// stays what it is. Cleaned and numbered as the result of boolean(), all origins being in the first.
 /// Nothing when CGAL refuses.
-std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second, double clean_mm);
+[[nodiscard]] std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second,
+                                                   double clean_mm);
+
+/// Both bodies, `a` without `b`, or what they have in common. Triangles of the result keep the group and
+/// tags of the mesh that they come from. The result may be empty. Faces of the two that lie on each other
+/// are allowed.
+/// @throws InputError when either mesh is not closed, crosses itself or is inside out, and when the result
+///         would touch itself along an edge, which no closed surface of triangles can.
+[[nodiscard]] TriMesh combine(const TriMesh& a, const TriMesh& b, BooleanOperation operation);
 
 }  // namespace scintray::mesh

@@ -1,4 +1,4 @@
-#include "scintray/mesh/combine.hpp"
+#include "scintray/mesh/boolean.hpp"
 
 #include <algorithm>
 

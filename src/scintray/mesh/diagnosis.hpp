@@ -51,10 +51,11 @@ struct MeshDiagnosis {
 /// Examines a mesh. Self-intersections come from CGAL polygon mesh processing with exact predicates.
 /// Which bodies are inverted is only examined when the mesh is otherwise sound.
 /// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.
-MeshDiagnosis diagnose(const TriMesh& mesh);
+[[nodiscard]] MeshDiagnosis diagnose(const TriMesh& mesh);
 
 /// What makes a part unusable, each with its count, a place in mm, and a hint; empty for sound parts.
-std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis, const std::string& part_name);
+[[nodiscard]] std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis,
+                                                       const std::string& part_name);
 
 /// Makes all triangles agree with their neighbours (where the mesh permits) and turns normals out of
 /// the solid, nested shells included. Returns true when any triangle was turned round. Geometry,
@@ -65,6 +66,6 @@ bool orient_outwards(TriMesh& mesh);
 double rounding_length(const TriMesh& mesh);
 
 /// True when two vertices are the same or the height over the longest edge is at most `length_mm`.
-bool is_degenerate(const TriMesh& mesh, std::size_t triangle, double length_mm);
+[[nodiscard]] bool is_degenerate(const TriMesh& mesh, std::size_t triangle, double length_mm);
 
 }  // namespace scintray::mesh

@@ -34,7 +34,9 @@ struct BuiltScene {
 /// of the material database are read once (Library).
 class SceneBuilder {
  public:
-  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {});
+  /// @param formats  that mesh files of parts may have; must outlive the builder
+  explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {},
+                        const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
   /// Throws InputError with every problem: unsound meshes, faces without or with two surfaces,
   /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
@@ -52,6 +54,7 @@ class SceneBuilder {
   using OwnDefinitions = std::array<scene_file::InlineTables, 4>;  ///< media, surfaces, sensors, reflectors
 
   materials::SurfaceFactory surface_factory_;
+  const mesh::MeshFormats* formats_;
   std::optional<materials::MaterialDatabase> shipped_, database_;
   OwnDefinitions own_;  ///< of `database_`
 };

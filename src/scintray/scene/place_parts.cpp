@@ -161,8 +161,8 @@ void add_problems(const std::vector<core::Problem>& found, const scene_file::Par
 
 class PartPlacer {
  public:
-  PartPlacer(const scene_file::SceneSpec& spec, core::Problems& problems)
-      : spec_(spec), problems_(problems) {}
+  PartPlacer(const scene_file::SceneSpec& spec, core::Problems& problems, const mesh::MeshFormats& formats)
+      : spec_(spec), formats_(formats), problems_(problems) {}
 
   std::vector<contact::PlacedMesh> place_all() {
     auto group = spec_.groups.begin();
@@ -196,7 +196,7 @@ class PartPlacer {
     result.priority = part.priority;
     result.needs_surface =
         !part.liquid && part.sensor.empty() && part.medium.name != scene_file::kOpaqueMedium;
-    scene_file::ShapeMesh shape = scene_file::shape_mesh(part.shape);
+    scene_file::ShapeMesh shape = scene_file::shape_mesh(part.shape, formats_);
     result.notes = std::move(shape.notes);
     if (mesh::orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
     result.mesh = std::move(shape.mesh);
@@ -311,6 +311,7 @@ class PartPlacer {
   }
 
   const scene_file::SceneSpec& spec_;
+  const mesh::MeshFormats& formats_;
   core::Problems& problems_;
   std::vector<contact::PlacedMesh> placed_;
   std::map<std::string, Eigen::AlignedBox3d> bounds_;  ///< of parts and groups, world
@@ -318,8 +319,9 @@ class PartPlacer {
 
 }  // namespace
 
-std::vector<contact::PlacedMesh> place_parts(const scene_file::SceneSpec& spec, core::Problems& problems) {
-  return PartPlacer(spec, problems).place_all();
+std::vector<contact::PlacedMesh> place_parts(const scene_file::SceneSpec& spec, core::Problems& problems,
+                                             const mesh::MeshFormats& formats) {
+  return PartPlacer(spec, problems, formats).place_all();
 }
 
 }  // namespace scintray::scene

@@ -7,8 +7,8 @@ namespace {
 constexpr std::int64_t kMostSlices = 1000;
 constexpr std::int64_t kMostPeaks = 100'000;
 
-constexpr config::Word<bool> kLogRatio[] = {{"share", false}, {"logarithm", true}};
-constexpr config::Word<bool> kLinearCalibration[] = {{"monotone", false}, {"linear", true}};
+constexpr core::Word<bool> kLogRatio[] = {{"share", false}, {"logarithm", true}};
+constexpr core::Word<bool> kLinearCalibration[] = {{"monotone", false}, {"linear", true}};
 
 std::optional<DepthSpec> read_depth(const config::TomlTable& table) {
   const std::optional<config::TomlTable> depth = table.optional_table("depth");

@@ -19,8 +19,8 @@ enum class ContactKind {
   dry,     ///< an air gap of no thickness: each side keeps its surface to the ambient medium
 };
 
-inline constexpr config::Word<ContactKind> kContactKinds[] = {{"bonded", ContactKind::bonded},
-                                                              {"dry", ContactKind::dry}};
+inline constexpr core::Word<ContactKind> kContactKinds[] = {{"bonded", ContactKind::bonded},
+                                                            {"dry", ContactKind::dry}};
 
 struct ContactSpec {
   std::array<config::NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
@@ -29,7 +29,7 @@ struct ContactSpec {
   config::NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
   bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
   bool by_builder = false;  ///< made with a builder's parts: yields to what the file states, may find no pair
-  /// Faces this near to each other, curved ones too, are made one (conform_parts.hpp); nothing: only
+  /// Faces this near to each other, curved ones too, are made one (contact/neighbours.hpp); nothing: only
   /// those within the scene's contact tolerance.
   std::optional<double> tolerance_mm;
   core::FileLocation where;

@@ -21,7 +21,7 @@ void read_subject_curves(const config::TomlTable& table, CriterionSpec& criterio
   const bool two = compares(criterion.quantity);
   if (table.good("quantity") && two != table.has("over"))
     table.report("over",
-                 "\"" + std::string(config::word_of(kCriterionQuantities, criterion.quantity)) +
+                 "\"" + std::string(core::word_of(kCriterionQuantities, criterion.quantity)) +
                      (two ? "\" compares two curves" : "\" is of one curve"),
                  two ? "name the second one with over" : "remove over");
 }

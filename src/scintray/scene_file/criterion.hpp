@@ -26,7 +26,7 @@ enum class CriterionQuantity {
   lobe_width,    ///< rms width of the reflected light, in the plane of incidence, as the angle of that sine,
                  ///< rad
 };
-inline constexpr config::Word<CriterionQuantity> kCriterionQuantities[] = {
+inline constexpr core::Word<CriterionQuantity> kCriterionQuantities[] = {
     {"range", CriterionQuantity::range},
     {"fall", CriterionQuantity::fall},
     {"fall_difference", CriterionQuantity::fall_difference},

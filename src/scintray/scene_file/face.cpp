@@ -81,7 +81,7 @@ std::string selector_name(const FaceSelectorSpec& select) {
   if (select.normal && !select.box && !select.flat_region && !select.nearest)
     for (int axis = 0; axis < 3; ++axis)
       if (std::abs((*select.normal)[axis]) == 1.0)
-        return config::word_of(kBoxSides, BoxSide{axis, (*select.normal)[axis] > 0.0 ? +1 : -1});
+        return core::word_of(kBoxSides, BoxSide{axis, (*select.normal)[axis] > 0.0 ? +1 : -1});
   return "";
 }
 

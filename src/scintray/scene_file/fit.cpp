@@ -14,9 +14,9 @@ using Kind = config::TomlNode::Kind;
 
 constexpr std::uint64_t kRays = 100'000;
 
-constexpr config::Word<bool> kFromInside[] = {{"inside", true}, {"outside", false}};
-constexpr config::Word<bool> kFreeScale[] = {{"fixed", false}, {"free", true}};
-constexpr config::Word<bool> kErrorsFromScatter[] = {{"measured", false}, {"from_scatter", true}};
+constexpr core::Word<bool> kFromInside[] = {{"inside", true}, {"outside", false}};
+constexpr core::Word<bool> kFreeScale[] = {{"fixed", false}, {"free", true}};
+constexpr core::Word<bool> kErrorsFromScatter[] = {{"measured", false}, {"from_scatter", true}};
 
 /// A number with the unit behind it, as written.
 struct Written {
@@ -188,7 +188,7 @@ void check_unit(const config::TomlTable& table, const FitSpec& fit) {
 
 }  // namespace
 
-const char* quantity_name(FitQuantity quantity) { return config::word_of(kFitQuantities, quantity); }
+const char* quantity_name(FitQuantity quantity) { return core::word_of(kFitQuantities, quantity); }
 
 KeySetting FitParameterSpec::setting(double value) const { return {path, value_node(value, unit, where)}; }
 

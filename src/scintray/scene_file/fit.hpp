@@ -20,7 +20,7 @@ enum class FitQuantity {
   reflectance,        ///< of one surface on the goniometer, against the incidence angle
 };
 
-inline constexpr config::Word<FitQuantity> kFitQuantities[] = {
+inline constexpr core::Word<FitQuantity> kFitQuantities[] = {
     {"detected_fraction", FitQuantity::detected_fraction},
     {"light_per_keV", FitQuantity::light_per_keV},
     {"reflectance", FitQuantity::reflectance}};

@@ -10,15 +10,15 @@ namespace {
 /// Energies beyond this are mistakes of unit.
 constexpr double kGreatestDeposit_keV = 1e6;
 
-constexpr config::Word<OriginKind> kSpectrumOrigins[] = {{"region", OriginKind::region},
-                                                         {"position", OriginKind::position}};
-constexpr config::Word<OriginKind> kEmitterOrigins[] = {
+constexpr core::Word<OriginKind> kSpectrumOrigins[] = {{"region", OriginKind::region},
+                                                       {"position", OriginKind::position}};
+constexpr core::Word<OriginKind> kEmitterOrigins[] = {
     {"region", OriginKind::region}, {"position", OriginKind::position}, {"plane", OriginKind::plane}};
 
 /// The keys by which a file gives the energies of deposits.
 enum class EnergyForm { one, spectrum };
-constexpr config::Word<EnergyForm> kEnergyForms[] = {{"energy", EnergyForm::one},
-                                                     {"spectrum", EnergyForm::spectrum}};
+constexpr core::Word<EnergyForm> kEnergyForms[] = {{"energy", EnergyForm::one},
+                                                   {"spectrum", EnergyForm::spectrum}};
 
 SpectrumSpec read_spectrum(const config::TomlTable& table, const std::vector<std::string>& parts) {
   SpectrumSpec source;
@@ -26,7 +26,7 @@ SpectrumSpec read_spectrum(const config::TomlTable& table, const std::vector<std
     read_origin(table, kind->value, parts, source.origin);
     source.origin_where = table.where(kind->word);
   }
-  const config::Word<EnergyForm>* form = table.one_of(kEnergyForms, true);
+  const core::Word<EnergyForm>* form = table.one_of(kEnergyForms, true);
   if (form && form->value == EnergyForm::one) {
     source.energy_keV = table.quantity("energy", core::Dimension::energy);
     table.expect("energy", *source.energy_keV > 0.0 && *source.energy_keV <= kGreatestDeposit_keV,

@@ -45,11 +45,11 @@ enum class Emission {
   lutetium  ///< a decay of 176Lu, electrons included
 };
 
-inline constexpr config::Word<Emission> kEmissions[] = {{"gamma", Emission::gamma},
-                                                        {"pair", Emission::pair},
-                                                        {"Na22", Emission::sodium},
-                                                        {"Cs137", Emission::caesium},
-                                                        {"Lu176", Emission::lutetium}};
+inline constexpr core::Word<Emission> kEmissions[] = {{"gamma", Emission::gamma},
+                                                      {"pair", Emission::pair},
+                                                      {"Na22", Emission::sodium},
+                                                      {"Cs137", Emission::caesium},
+                                                      {"Lu176", Emission::lutetium}};
 
 /// What parts are made of, for gammas, where their medium does not state it.
 struct MatterSpec {
@@ -102,7 +102,7 @@ enum class GammaSourceType {
   hits,      ///< HitsSpec
 };
 /// Values of `source.type` that read_gamma_source reads.
-inline constexpr config::Word<GammaSourceType> kGammaSourceTypes[] = {
+inline constexpr core::Word<GammaSourceType> kGammaSourceTypes[] = {
     {"gamma_events", GammaSourceType::spectrum},
     {"gammas", GammaSourceType::emitter},
     {"hits", GammaSourceType::hits}};

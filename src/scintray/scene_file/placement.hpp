@@ -25,8 +25,8 @@ struct BoxSide {
   int sign = -1;  ///< -1 or +1
   bool operator==(const BoxSide&) const = default;
 };
-inline constexpr config::Word<BoxSide> kBoxSides[] = {{"-x", {0, -1}}, {"+x", {0, +1}}, {"-y", {1, -1}},
-                                                      {"+y", {1, +1}}, {"-z", {2, -1}}, {"+z", {2, +1}}};
+inline constexpr core::Word<BoxSide> kBoxSides[] = {{"-x", {0, -1}}, {"+x", {0, +1}}, {"-y", {1, -1}},
+                                                    {"+y", {1, +1}}, {"-z", {2, -1}}, {"+z", {2, +1}}};
 
 /// Puts a part against a side of another's bounding box, centred on it laterally.
 struct TouchSpec {

@@ -18,7 +18,7 @@ using Kind = config::TomlNode::Kind;
 
 /// The type of a [source] of photons.
 constexpr const char* kPhotonSource = "photons";
-constexpr config::Word<bool> kUnpolarised[] = {{"random", false}, {"unpolarised", true}};
+constexpr core::Word<bool> kUnpolarised[] = {{"random", false}, {"unpolarised", true}};
 
 InlineTables read_definitions(const config::TomlTable& scene, const std::string& key) {
   InlineTables definitions;
@@ -43,7 +43,7 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
   const config::TomlTable table = root.table("source");
   scene.source.where = table.where();
   std::vector<std::string> types{kPhotonSource};
-  for (const config::Word<GammaSourceType>& type : kGammaSourceTypes) types.emplace_back(type.word);
+  for (const core::Word<GammaSourceType>& type : kGammaSourceTypes) types.emplace_back(type.word);
   const std::string type = table.choice("type", types);
   if (table.has("type") && !table.good("type")) {
     table.skip();

@@ -13,13 +13,13 @@ constexpr std::int64_t kMostBits = 24;
 constexpr std::size_t kMostTimes = 100;
 
 /// The keys by which a file gives the distance of samples.
-constexpr config::Word<core::Dimension> kSamplings[] = {{"sampling", core::Dimension::frequency},
-                                                        {"period", core::Dimension::time}};
+constexpr core::Word<core::Dimension> kSamplings[] = {{"sampling", core::Dimension::frequency},
+                                                      {"period", core::Dimension::time}};
 /// The keys by which a file gives the kind of shaper.
 enum class Shaper { order, decay };
-constexpr config::Word<Shaper> kShapers[] = {{"order", Shaper::order}, {"decay", Shaper::decay}};
+constexpr core::Word<Shaper> kShapers[] = {{"order", Shaper::order}, {"decay", Shaper::decay}};
 
-constexpr config::Word<detector::TimePickoff> kTimePickoffs[] = {
+constexpr core::Word<detector::TimePickoff> kTimePickoffs[] = {
     {"leading_edge", detector::TimePickoff::leading_edge},
     {"peak_fraction", detector::TimePickoff::peak_fraction},
     {"cfd", detector::TimePickoff::cfd}};
@@ -59,7 +59,7 @@ void read_gate(const config::TomlTable& table, detector::ReadoutSpec& readout) {
 
 /// Time constants of the stages that the shaper consists of.
 std::vector<double> read_shaping(const config::TomlTable& table) {
-  const config::Word<Shaper>* form = table.one_of(kShapers, true);
+  const core::Word<Shaper>* form = table.one_of(kShapers, true);
   const bool decay = form && form->value == Shaper::decay;
   const auto read_time = [&](const std::string& key) {
     const double time_ns = table.quantity(key, core::Dimension::time);

@@ -17,9 +17,9 @@ enum class AcceleratorKind {
   planes,     ///< the nearest plane ahead, for closed regions: all must be convex with few planes
 };
 
-inline constexpr config::Word<AcceleratorKind> kAcceleratorKinds[] = {{"auto", AcceleratorKind::automatic},
-                                                                      {"embree", AcceleratorKind::embree},
-                                                                      {"planes", AcceleratorKind::planes}};
+inline constexpr core::Word<AcceleratorKind> kAcceleratorKinds[] = {{"auto", AcceleratorKind::automatic},
+                                                                    {"embree", AcceleratorKind::embree},
+                                                                    {"planes", AcceleratorKind::planes}};
 
 struct RunSpec {
   std::uint64_t seed = 1;

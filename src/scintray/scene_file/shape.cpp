@@ -55,7 +55,9 @@ MeshFileSpec read_mesh(const config::TomlTable& table) {
       for (const core::Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
     }
   } else if (!table.has("unit")) {
-    table.expect("mesh", mesh::states_its_unit(mesh::lower_extension(mesh.path)),
+    // Of a format from outside, its reader finds whether the file states a unit.
+    const mesh::MeshFormat* format = mesh::MeshFormats::built_in().find(mesh::lower_extension(mesh.path));
+    table.expect("mesh", !format || format->states_unit,
                  "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
                  "add the unit it was exported in, as unit = \"mm\"");
   }
@@ -116,8 +118,8 @@ CylinderSpec read_cylinder(const config::TomlTable& part) {
 
 /// The keys by which a file gives how wide a prism is.
 enum class PrismWidth { radius, flat_to_flat };
-constexpr config::Word<PrismWidth> kPrismWidths[] = {{"radius", PrismWidth::radius},
-                                                     {"flat_to_flat", PrismWidth::flat_to_flat}};
+constexpr core::Word<PrismWidth> kPrismWidths[] = {{"radius", PrismWidth::radius},
+                                                   {"flat_to_flat", PrismWidth::flat_to_flat}};
 
 PrismSpec read_prism(const config::TomlTable& part) {
   const config::TomlTable table = part.table("prism");
@@ -160,7 +162,7 @@ TaperedSpec read_tapered(const config::TomlTable& part) {
 
 /// The keys by which a file gives how wide a Winston cone opens.
 enum class WinstonOpening { acceptance, entrance_radius };
-constexpr config::Word<WinstonOpening> kWinstonOpenings[] = {
+constexpr core::Word<WinstonOpening> kWinstonOpenings[] = {
     {"acceptance", WinstonOpening::acceptance}, {"entrance_radius", WinstonOpening::entrance_radius}};
 
 WinstonSpec read_winston(const config::TomlTable& part) {
@@ -169,7 +171,7 @@ WinstonSpec read_winston(const config::TomlTable& part) {
   winston.where = table.where();
   mesh::WinstonShape& shape = winston.shape;
   shape.exit_radius = positive_length(table, "exit_radius", "Winston cone");
-  const config::Word<WinstonOpening>* opening = table.one_of(kWinstonOpenings, true);
+  const core::Word<WinstonOpening>* opening = table.one_of(kWinstonOpenings, true);
   if (opening && opening->value == WinstonOpening::acceptance) {
     shape.acceptance_rad = table.quantity("acceptance", core::Dimension::angle);
     table.expect("acceptance", shape.acceptance_rad > 0.0 && shape.acceptance_rad < 0.5 * core::kPi,
@@ -242,7 +244,7 @@ ShapeSpec shape_of(const config::TomlTable& part) {
   return Read(part);
 }
 
-constexpr config::Word<ShapeReader> kShapes[] = {
+constexpr core::Word<ShapeReader> kShapes[] = {
     {"mesh", shape_of<read_mesh>},         {"box", shape_of<read_box>},
     {"cylinder", shape_of<read_cylinder>}, {"prism", shape_of<read_prism>},
     {"tapered", shape_of<read_tapered>},   {"winston", shape_of<read_winston>},
@@ -251,7 +253,7 @@ constexpr config::Word<ShapeReader> kShapes[] = {
 }  // namespace
 
 ShapeSpec read_shape(const config::TomlTable& part) {
-  const config::Word<ShapeReader>* kind = part.one_of(kShapes, true);
+  const core::Word<ShapeReader>* kind = part.one_of(kShapes, true);
   for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
   ShapeSpec shape = kind ? kind->value(part) : BoxSpec{};
   read_chamfer(part, shape);

@@ -10,6 +10,7 @@
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/mesh/shapes/shapes.hpp"
 #include "scintray/mesh/tessellation.hpp"
 
@@ -83,7 +84,9 @@ struct ShapeMesh {
 };
 
 /// Makes or loads a shape. Throws InputError, without a place where the shape's own numbers are wrong.
-ShapeMesh shape_mesh(const ShapeSpec& shape);
+/// @param formats  that a mesh file may have
+ShapeMesh shape_mesh(const ShapeSpec& shape,
+                     const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
 /// The one shape that a [[part]] or an element gives, with its chamfer. A unit box when it is wrong.
 ShapeSpec read_shape(const config::TomlTable& part);

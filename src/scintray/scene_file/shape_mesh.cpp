@@ -6,31 +6,34 @@ namespace scintray::scene_file {
 
 namespace {
 
-ShapeMesh make(const MeshFileSpec& file) {
-  mesh::MeshImport imported =
-      mesh::import_mesh(file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation});
-  return {std::move(imported.mesh), std::move(imported.notes)};
-}
+/// Makes the mesh of each kind of shape.
+struct MeshMaker {
+  const mesh::MeshFormats& formats;
 
-ShapeMesh make(const BoxSpec& box) {
-  return {box.chamfer_mm > 0.0 ? mesh::make_chamfered_box(box.low, box.high, box.chamfer_mm)
-                               : mesh::make_box(box.low, box.high),
-          {}};
-}
-
-ShapeMesh make(const CylinderSpec& c) {
-  return {mesh::make_cylinder(c.radius_mm, c.height_mm, c.segments), {}};
-}
-
-ShapeMesh make(const PrismSpec& p) {
-  return {mesh::make_prism(p.sides, p.circumradius_mm, p.height_mm, p.chamfer_mm), {}};
-}
-
-ShapeMesh make(const TaperedSpec& t) { return {mesh::make_tapered(t.bottom, t.top, t.height_mm), {}}; }
-
-ShapeMesh make(const WinstonSpec& w) { return {mesh::make_winston(w.shape), {}}; }
-
-ShapeMesh make(const SphereSpec& s) { return {mesh::make_sphere(s.radius_mm, s.subdivisions), {}}; }
+  ShapeMesh operator()(const MeshFileSpec& file) const {
+    mesh::MeshImport imported = mesh::import_mesh(
+        file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation, &formats});
+    return {std::move(imported.mesh), std::move(imported.notes)};
+  }
+  ShapeMesh operator()(const BoxSpec& box) const {
+    return {box.chamfer_mm > 0.0 ? mesh::make_chamfered_box(box.low, box.high, box.chamfer_mm)
+                                 : mesh::make_box(box.low, box.high),
+            {}};
+  }
+  ShapeMesh operator()(const CylinderSpec& c) const {
+    return {mesh::make_cylinder(c.radius_mm, c.height_mm, c.segments), {}};
+  }
+  ShapeMesh operator()(const PrismSpec& p) const {
+    return {mesh::make_prism(p.sides, p.circumradius_mm, p.height_mm, p.chamfer_mm), {}};
+  }
+  ShapeMesh operator()(const TaperedSpec& t) const {
+    return {mesh::make_tapered(t.bottom, t.top, t.height_mm), {}};
+  }
+  ShapeMesh operator()(const WinstonSpec& w) const { return {mesh::make_winston(w.shape), {}}; }
+  ShapeMesh operator()(const SphereSpec& s) const {
+    return {mesh::make_sphere(s.radius_mm, s.subdivisions), {}};
+  }
+};
 
 }  // namespace
 
@@ -38,8 +41,8 @@ core::FileLocation shape_location(const ShapeSpec& shape) {
   return std::visit([](const auto& s) { return s.where; }, shape);
 }
 
-ShapeMesh shape_mesh(const ShapeSpec& shape) {
-  return std::visit([](const auto& s) { return make(s); }, shape);
+ShapeMesh shape_mesh(const ShapeSpec& shape, const mesh::MeshFormats& formats) {
+  return std::visit(MeshMaker{formats}, shape);
 }
 
 }  // namespace scintray::scene_file

@@ -8,10 +8,10 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
-constexpr config::Word<OriginKind> kPhotonOrigins[] = {{"region", OriginKind::region},
-                                                       {"position", OriginKind::position}};
-constexpr config::Word<DirectionKind> kDirectionShapes[] = {{"cone", DirectionKind::cone},
-                                                            {"lambertian", DirectionKind::lambertian}};
+constexpr core::Word<OriginKind> kPhotonOrigins[] = {{"region", OriginKind::region},
+                                                     {"position", OriginKind::position}};
+constexpr core::Word<DirectionKind> kDirectionShapes[] = {{"cone", DirectionKind::cone},
+                                                          {"lambertian", DirectionKind::lambertian}};
 
 bool is_word(const config::TomlTable& table, const std::string& key, const std::string& word) {
   const config::TomlNode* node = table.node()->find(key);
@@ -48,7 +48,7 @@ DirectionSpec read_direction(const config::TomlTable& table) {
     direction.axis = table.optional_direction("direction").value_or(core::Vec3::UnitZ());
   } else if (node && node->kind == Kind::table) {
     const config::TomlTable shape = table.table("direction");
-    const config::Word<DirectionKind>* kind = shape.one_of(kDirectionShapes, true);
+    const core::Word<DirectionKind>* kind = shape.one_of(kDirectionShapes, true);
     shape.has("half_angle");
     if (!kind) return direction;
     direction.kind = kind->value;

@@ -1,4 +1,4 @@
-#include "scintray/simulation/fit_file.hpp"
+#include "scintray/simulation/fit.hpp"
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"

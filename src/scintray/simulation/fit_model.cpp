@@ -1,4 +1,4 @@
-#include "scintray/simulation/fit_model.hpp"
+#include "scintray/simulation/fit.hpp"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -70,7 +70,7 @@ class SceneCurve : public FitModel {
         fit_(fit),
         measured_(measured),
         settings_(settings),
-        builder_(settings.run.surface_hooks) {
+        builder_(settings.run.surface_hooks, *settings.run.mesh_formats) {
     check();
   }
 

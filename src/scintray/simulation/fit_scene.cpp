@@ -1,4 +1,4 @@
-#include "scintray/simulation/fit_scene.hpp"
+#include "scintray/simulation/fit.hpp"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "scintray/simulation/response_file.hpp"
+#include "scintray/simulation/response.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "scintray/simulation/reweight_plan.hpp"
+#include "scintray/simulation/reweight.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "scintray/simulation/simulate_mapped.hpp"
+#include "scintray/simulation/response.hpp"
 
 #include <algorithm>
 
-#include "scintray/config/toml_difference.hpp"
+#include "scintray/config/toml_reader.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray::simulation {
@@ -89,6 +89,7 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
   run.threads = options.threads;
   run.seed = options.seed;
   run.surface_hooks = options.surface_hooks;
+  run.mesh_formats = options.mesh_formats;
   run.change = leave_photons_out;
   Simulation simulation(file, run);
   const auto point = simulation.point(0);

@@ -24,11 +24,14 @@ bool stopped(const SimulationHooks& hooks) { return hooks.stop && hooks.stop->lo
 Simulation::Simulation(scene_file::SceneFile file, SimulationOptions options)
     : file_(std::move(file)),
       options_(std::move(options)),
-      builder_(options_.surface_hooks),
+      builder_(options_.surface_hooks, *options_.mesh_formats),
       kept_(file_->points()) {}
 
 Simulation::Simulation(scene_file::SceneSpec scene, SimulationOptions options)
-    : scene_(std::move(scene)), options_(std::move(options)), builder_(options_.surface_hooks), kept_(1) {}
+    : scene_(std::move(scene)),
+      options_(std::move(options)),
+      builder_(options_.surface_hooks, *options_.mesh_formats),
+      kept_(1) {}
 
 std::size_t Simulation::points() const { return kept_.size(); }
 

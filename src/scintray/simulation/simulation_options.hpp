@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scintray/materials/surface_factory.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/scene_file/spec.hpp"
 #include "scintray/simulation/run_point.hpp"
 
@@ -20,6 +21,9 @@ struct SimulationOptions {
   std::function<void(scene_file::SceneSpec&)>
       change;                                      ///< applied to the scene of every point, after all others
   materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
+  /// That mesh files of parts may have; outlives the simulation. Elements of arrays are of built-in formats:
+  /// their size is needed when the scene file is read.
+  const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();
   /// Points of a sweep are kept from when they are built until they have been traced, as long as their parts
   /// have no more triangles than this: a block of 12 x 12 crystals takes 3 MB. Of the points beyond only the
   /// latest is kept, and the others are built again when they are traced.

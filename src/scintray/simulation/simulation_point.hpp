@@ -44,7 +44,7 @@ class SimulationPoint {
   /// Seed, limits, threads and random streams.
   const RunSettings& settings() const { return settings_; }
 
-  /// When one photon of an event is detected, where it is one for all light (trace/light_timing.hpp).
+  /// When one photon of an event is detected, where it is one for all light.
   std::optional<tally::LightTiming> timing() const;
 
   /// Traces all photons. Indices in what it returns and in what hooks receive are those of scene().

@@ -38,7 +38,7 @@ class CountScorer {
     core::StepEvent event;
     const source::Photon& photon;  ///< after it
     core::PartId part;             ///< as TallyVariable::part
-    core::FaceId face;
+    core::FaceId face = {};
     core::Vec3 normal = core::Vec3::Zero();  ///< of the face, out of its part
   };
 

@@ -55,11 +55,11 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
   }
   counts_at.resize(scene.interfaces.size());
-  const auto bind = [&](std::vector<CountAtFace>& counts, core::FaceId face, scene_file::FaceWay seen) {
+  const auto bind = [&](std::vector<CountAtFace>& at_crossing, core::FaceId face, scene_file::FaceWay seen) {
     if (!face.has_value()) return;
     for (const auto& [count, wanted] : counts_of_face[face])
       if (wanted == seen || wanted == scene_file::FaceWay::both)
-        counts.push_back({count, face, seen == scene_file::FaceWay::in});
+        at_crossing.push_back({count, face, seen == scene_file::FaceWay::in});
   };
   for (const core::InterfaceId id : scene.interfaces.ids()) {
     const scene::Interface& interface = scene.interfaces[id];

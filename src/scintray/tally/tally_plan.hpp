@@ -12,6 +12,7 @@
 #include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"
+#include "scintray/tally/per_crossing.hpp"
 #include "scintray/tally/photon_history.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"

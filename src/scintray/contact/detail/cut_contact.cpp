@@ -1,4 +1,4 @@
-#include "scintray/contact/detail/cut_contact.hpp"
+#include "scintray/contact/detail/stitch.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-/// Which part lies inside which, and which parts overlap.
+/// Which part lies inside which, and which parts overlap and by how much.
 
 #include <cstdint>
 #include <vector>
@@ -27,7 +27,22 @@ struct Nesting {
 
 /// Decides for every near pair whether the bodies are apart (touching or not), nested or overlapping.
 /// What reaches less than `tolerance_mm` into the other body counts as touching it.
-Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
-                     double tolerance_mm);
+[[nodiscard]] Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
+                                   double tolerance_mm);
+
+/// How much two parts overlap.
+struct OverlapVolume {
+  double volume_mm3 = 0.0;
+  core::Vec3 inside = core::Vec3::Zero();  ///< a point inside both, mm; where none was found, the middle of
+                                           ///< the common part of their boxes
+  bool exact = true;                       ///< false: counted on a grid of points
+};
+
+/// Points of the grid that large meshes are counted on.
+inline constexpr int kOverlapGridPoints = 32 * 32 * 32;
+
+/// The volume common to two bodies. Exact to rounding while the product of their numbers of triangles
+/// is at most 200,000; beyond, counted on a regular grid over the common part of their boxes.
+[[nodiscard]] OverlapVolume overlap_volume(const PlacedPart& a, const PlacedPart& b);
 
 }  // namespace scintray::contact

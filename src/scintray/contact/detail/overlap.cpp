@@ -1,4 +1,4 @@
-#include "scintray/contact/detail/overlap.hpp"
+#include "scintray/contact/detail/nesting.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scintray/contact/detail/stitch_outlines.hpp"
+#include "scintray/contact/detail/stitch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,24 +54,24 @@ class Outline {
 /// Makes one outline of two.
 class OutlineStitcher {
  public:
-  OutlineStitcher(CutPart& reference, CutPart& conforming, const Loop& reference_loop,
-                  const Loop& conforming_loop, double tolerance)
-      : reference_(reference),
-        conforming_(conforming),
+  OutlineStitcher(OutlineStitching& parts, const Loop& reference_loop, const Loop& conforming_loop)
+      : reference_(parts.reference),
+        conforming_(parts.conforming),
+        merged_(parts.merged),
+        moved_(parts.moved),
         reference_loop_(reference_loop.rbegin(),
                         reference_loop.rend()),  // the other way round, as seen from here
         conforming_loop_(conforming_loop),
-        outline_(reference.mesh, reference_loop_),
-        reach_(kContactPush * tolerance),
-        same_(kSame * tolerance) {}
+        outline_(reference_.mesh, reference_loop_),
+        reach_(kContactPush * parts.tolerance),
+        same_(kSame * parts.tolerance) {}
 
   /// The common outline; nothing where the two run too far apart or in another order. Moves the conforming
-  /// side's corners and cuts edges of both; `merged` states which of the conforming side's vertices become
-  /// others.
-  std::optional<std::vector<Knot>> stitch(std::map<std::uint32_t, std::uint32_t>& merged, double& moved) {
-    if (!place_corners(moved)) return std::nullopt;
+  /// side's corners and cuts edges of both.
+  std::optional<std::vector<Knot>> stitch() {
+    if (!place_corners()) return std::nullopt;
     make_knots();
-    if (!move_conforming(merged, moved)) return std::nullopt;
+    if (!move_conforming()) return std::nullopt;
     cut_reference();
     return knots_;
   }
@@ -79,11 +79,11 @@ class OutlineStitcher {
  private:
   /// Finds the places of the conforming side's corners along the reference side's outline, each after the one
   /// before.
-  bool place_corners(double& moved) {
+  bool place_corners() {
     for (const std::uint32_t v : conforming_loop_) {
       const Outline::Place place = outline_.nearest(conforming_.mesh.vertices[v]);
       if (place.distance > reach_) return false;
-      moved = std::max(moved, place.distance);
+      moved_ = std::max(moved_, place.distance);
       places_.push_back(snapped(place.along));
     }
     double turn = 0.0;
@@ -134,7 +134,7 @@ class OutlineStitcher {
     return best;
   }
 
-  bool move_conforming(std::map<std::uint32_t, std::uint32_t>& merged, double& moved) {
+  bool move_conforming() {
     std::vector<std::size_t> knot_of;
     for (const double along : places_) knot_of.push_back(knot_at(along));
     const std::vector<core::Vec3> before = conforming_.mesh.vertices;
@@ -143,7 +143,7 @@ class OutlineStitcher {
       if (knot.of_conforming == ~0U)
         knot.of_conforming = conforming_loop_[i];
       else if (knot.of_conforming != conforming_loop_[i])
-        merged[conforming_loop_[i]] = knot.of_conforming;
+        merged_[conforming_loop_[i]] = knot.of_conforming;
       conforming_.mesh.vertices[conforming_loop_[i]] = knot.position;
     }
     for (std::size_t i = 0; i < conforming_loop_.size(); ++i) {
@@ -155,7 +155,7 @@ class OutlineStitcher {
         const double off =
             mesh::distance_to_segment(knots_[k].position, before[conforming_loop_[i]], before[last]);
         if (off > reach_ || knots_[k].of_conforming != ~0U) return false;
-        moved = std::max(moved, off);
+        moved_ = std::max(moved_, off);
         knots_[k].of_conforming = add_vertex(conforming_.mesh, knots_[k].position);
         split_edge(conforming_, from, last, knots_[k].of_conforming);
         from = knots_[k].of_conforming;
@@ -176,6 +176,8 @@ class OutlineStitcher {
   }
 
   CutPart &reference_, &conforming_;
+  std::map<std::uint32_t, std::uint32_t>& merged_;
+  double& moved_;
   Loop reference_loop_, conforming_loop_;
   Outline outline_;
   double reach_, same_;
@@ -185,13 +187,9 @@ class OutlineStitcher {
 
 }  // namespace
 
-std::optional<std::vector<Knot>> stitch_outlines(CutPart& reference, CutPart& conforming,
-                                                 const Loop& reference_loop, const Loop& conforming_loop,
-                                                 double tolerance,
-                                                 std::map<std::uint32_t, std::uint32_t>& merged,
-                                                 double& moved) {
-  return OutlineStitcher(reference, conforming, reference_loop, conforming_loop, tolerance)
-      .stitch(merged, moved);
+std::optional<std::vector<Knot>> stitch_outlines(OutlineStitching& parts, const Loop& reference_loop,
+                                                 const Loop& conforming_loop) {
+  return OutlineStitcher(parts, reference_loop, conforming_loop).stitch();
 }
 
 std::optional<std::vector<std::size_t>> outline_pairs(const CutPart& reference, const CutPart& conforming) {

@@ -1,4 +1,4 @@
-#include "scintray/contact/detail/stitch_parts.hpp"
+#include "scintray/contact/detail/stitch.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "scintray/contact/detail/cut_contact.hpp"
 #include "scintray/contact/detail/facing.hpp"
-#include "scintray/contact/detail/stitch_outlines.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/weld.hpp"
 
@@ -111,18 +109,17 @@ std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, double toleran
   const auto pairs = outline_pairs(*reference_cut, *conforming_cut);
   if (!pairs) return "the outlines of their contact do not fit each other";
 
-  double moved = 0.0;
-  std::map<std::uint32_t, std::uint32_t> merged;
+  OutlineStitching outlines{*reference_cut, *conforming_cut, tolerance_mm, {}};
   std::vector<Knot> knots;
   const std::vector<Loop> reference_loops = reference_cut->outlines,
                           conforming_loops = conforming_cut->outlines;
   for (std::size_t i = 0; i < pairs->size(); ++i) {
-    const auto joined = stitch_outlines(*reference_cut, *conforming_cut, reference_loops[(*pairs)[i]],
-                                        conforming_loops[i], tolerance_mm, merged, moved);
+    const auto joined = stitch_outlines(outlines, reference_loops[(*pairs)[i]], conforming_loops[i]);
     if (!joined) return "the outlines of their contact run too far apart";
     knots.insert(knots.end(), joined->begin(), joined->end());
   }
-  CutPart rest = without_contact(*conforming_cut, merged);
+  double moved = outlines.moved;
+  CutPart rest = without_contact(*conforming_cut, outlines.merged);
   if (!add_contact(*reference_cut, conforming_side, knots, kContactPush * tolerance_mm, rest, moved))
     return "a face would move by more than twice the tolerance";
 

@@ -1,4 +1,4 @@
-#include "scintray/exchange/gdml/gdml_scene.hpp"
+#include "scintray/exchange/scene_draft.hpp"
 
 #include <fmt/format.h>
 

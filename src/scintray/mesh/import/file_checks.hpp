@@ -16,7 +16,7 @@ namespace scintray::mesh {
 std::string lower_extension(const std::filesystem::path& path);
 
 /// Whole content. Throws InputError when the file is missing, a folder, unreadable or empty.
-std::string read_mesh_file(const std::filesystem::path& path);
+[[nodiscard]] std::string read_mesh_file(const std::filesystem::path& path);
 
 /// Refuses files whose own counts cannot be true, since parsers allocate by them before they read:
 /// element counts of OFF and binary STL against the file's size; and text in UTF-16. Throws InputError.

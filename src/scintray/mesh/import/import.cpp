@@ -7,8 +7,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnosis.hpp"
-#include "scintray/mesh/import/detail/body_choice.hpp"
-#include "scintray/mesh/import/detail/file_unit.hpp"
+#include "scintray/mesh/import/detail/import_steps.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/weld.hpp"
 

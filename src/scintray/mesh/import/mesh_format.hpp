@@ -40,7 +40,7 @@ class MeshFormats {
   void add(MeshFormat format);
 
   /// The format of an extension (with the dot, lower case), or nullptr.
-  const MeshFormat* find(const std::string& extension) const;
+  [[nodiscard]] const MeshFormat* find(const std::string& extension) const;
   /// All extensions, built-in ones first.
   const std::vector<std::string>& extensions() const { return extensions_; }
 

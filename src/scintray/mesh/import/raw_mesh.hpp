@@ -41,7 +41,8 @@ struct RawMesh {
 
   /// Adds a polygon over vertices of `mesh`, cut in triangles, with its corners in reverse order when
   /// `mirrored`. Returns false when it has more than kMostCorners corners.
-  bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group, bool mirrored);
+  [[nodiscard]] bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group,
+                                 bool mirrored);
 };
 
 /// The group of triangles of an object in a material: "object:material", the one of them that has a name, or

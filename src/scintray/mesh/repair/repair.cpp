@@ -9,9 +9,7 @@
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/detail/cgal_checks.hpp"
 #include "scintray/mesh/detail/edges.hpp"
-#include "scintray/mesh/repair/detail/repair_edges.hpp"
-#include "scintray/mesh/repair/detail/repair_holes.hpp"
-#include "scintray/mesh/repair/detail/untangle.hpp"
+#include "scintray/mesh/repair/detail/passes.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/mesh/weld.hpp"
 

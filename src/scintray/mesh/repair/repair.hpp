@@ -33,6 +33,6 @@ struct RepairedMesh {
 /// local self-intersections. Bodies that do not cross stay separate. What could not be mended is what
 /// `after` still finds; a sound mesh comes back as it is.
 /// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.
-RepairedMesh repair_mesh(TriMesh mesh, const RepairSettings& settings = {});
+[[nodiscard]] RepairedMesh repair_mesh(TriMesh mesh, const RepairSettings& settings = {});
 
 }  // namespace scintray::mesh

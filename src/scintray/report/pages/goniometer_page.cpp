@@ -1,4 +1,4 @@
-#include "scintray/report/pages/goniometer_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <fmt/format.h>
 

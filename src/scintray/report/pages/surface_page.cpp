@@ -1,4 +1,4 @@
-#include "scintray/report/pages/surface_page.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include "scintray/core/text.hpp"
 #include "scintray/report/pages/page.hpp"

@@ -5,6 +5,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
+#include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"

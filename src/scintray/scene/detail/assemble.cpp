@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "scintray/core/pattern.hpp"
-#include "scintray/scene/detail/regions.hpp"
 
 namespace scintray::scene {
 

@@ -1,4 +1,4 @@
-#include "scintray/scene/detail/regions.hpp"
+#include "scintray/scene/detail/assemble.hpp"
 
 #include <algorithm>
 #include <array>

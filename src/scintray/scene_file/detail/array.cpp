@@ -13,9 +13,9 @@ using Kind = config::TomlNode::Kind;
 
 /// The keys by which a file gives the distance of neighbours.
 enum class Spacing { pitch, gap };
-constexpr config::Word<Spacing> kSpacings[] = {{"pitch", Spacing::pitch}, {"gap", Spacing::gap}};
+constexpr core::Word<Spacing> kSpacings[] = {{"pitch", Spacing::pitch}, {"gap", Spacing::gap}};
 
-constexpr config::Word<int> kCheckers[] = {{"even", 1}, {"odd", 2}};
+constexpr core::Word<int> kCheckers[] = {{"even", 1}, {"odd", 2}};
 
 std::string mm_text(double mm) {
   std::string text = std::to_string(mm);
@@ -51,7 +51,7 @@ void read_element(const config::TomlTable& owner, LayerSpec& layer) {
 /// Pitch along x and y from "pitch" or "gap". A single element has no use for it.
 void read_pitch(const config::TomlTable& table, LayerSpec& layer) {
   const bool needed = layer.count[0] > 1 || layer.count[1] > 1;
-  const config::Word<Spacing>* kind = table.one_of(kSpacings, needed);
+  const core::Word<Spacing>* kind = table.one_of(kSpacings, needed);
   if (!kind) return;
   const std::string key = kind->word;
   const bool pitch = kind->value == Spacing::pitch;
@@ -269,7 +269,7 @@ WrapSpec read_wrap(const config::TomlTable& table, InlineTables& surfaces) {
   table.expect("gap", wrap.gap_mm >= 0.0, "a gap below 0 would make the parts overlap",
                "give a length of 0 or more");
   for (const std::string& side : table.strings("sides")) {
-    const auto box_side = config::find_word(kBoxSides, side);
+    const auto box_side = core::find_word(kBoxSides, side);
     table.expect("sides", box_side.has_value(), "\"" + side + "\" is not a side",
                  "the sides are \"-x\", \"+x\", \"-y\", \"+y\", \"-z\", \"+z\"");
     if (box_side) wrap.sides.push_back(*box_side);

@@ -167,9 +167,8 @@ class ArrayExpander {
         (sign < 0 ? high : low)[axis] = sign < 0 ? inner.min()[axis] : inner.max()[axis];
         (sign < 0 ? low : high)[axis] = (sign < 0 ? high : low)[axis] + sign * wrap.thickness_mm;
         outer.extend(sheet);
-        body_.parts.push_back(
-            box_part(name_ + "_wrap[" + config::word_of(kBoxSides, BoxSide{axis, sign}) + "]", sheet,
-                     wrap.sheet.medium, wrap.where));
+        body_.parts.push_back(box_part(name_ + "_wrap[" + core::word_of(kBoxSides, BoxSide{axis, sign}) + "]",
+                                       sheet, wrap.sheet.medium, wrap.where));
         body_.parts.back().surface = wrap.sheet.surface;
       }
       inner = outer;

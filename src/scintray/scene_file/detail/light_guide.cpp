@@ -9,7 +9,7 @@ namespace scintray::scene_file {
 
 namespace {
 
-constexpr config::Word<bool> kFromTop[] = {{"top", true}, {"bottom", false}};
+constexpr core::Word<bool> kFromTop[] = {{"top", true}, {"bottom", false}};
 
 std::array<double, 2> read_end(const config::TomlTable& table, const std::string& key) {
   if (!table.has(key))

@@ -9,15 +9,15 @@ namespace scintray::scene_file {
 namespace {
 
 /// What is between a sheet and its neighbours, the usual one first.
-constexpr config::Word<ContactKind> kSheetContacts[] = {{"dry", ContactKind::dry},
-                                                        {"bonded", ContactKind::bonded}};
+constexpr core::Word<ContactKind> kSheetContacts[] = {{"dry", ContactKind::dry},
+                                                      {"bonded", ContactKind::bonded}};
 
 using Kind = config::TomlNode::Kind;
 
 /// The keys by which a file gives what a sheet does to light.
 enum class SheetOptics { surface, reflector };
-constexpr config::Word<SheetOptics> kSheetOptics[] = {{"surface", SheetOptics::surface},
-                                                      {"reflector", SheetOptics::reflector}};
+constexpr core::Word<SheetOptics> kSheetOptics[] = {{"surface", SheetOptics::surface},
+                                                    {"reflector", SheetOptics::reflector}};
 
 config::TomlNode string_node(const std::string& key, const std::string& text,
                              const core::FileLocation& where) {

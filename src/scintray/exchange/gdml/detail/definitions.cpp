@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "scintray/config/words.hpp"
+#include "scintray/core/words.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -137,11 +137,11 @@ Definitions::Definitions(const GdmlFile& file) : file_(file), evaluator_(std::ma
 
 void Definitions::define(Node node) {
   enum class Kind { number, quantity, expression, position, rotation, scale, matrix };
-  static constexpr config::Word<Kind> kKinds[] = {
+  static constexpr core::Word<Kind> kKinds[] = {
       {"constant", Kind::number},       {"variable", Kind::number},   {"quantity", Kind::quantity},
       {"expression", Kind::expression}, {"position", Kind::position}, {"rotation", Kind::rotation},
       {"scale", Kind::scale},           {"matrix", Kind::matrix}};
-  const std::optional<Kind> kind = config::find_word(kKinds, node.name());
+  const std::optional<Kind> kind = core::find_word(kKinds, node.name());
   const std::string own = name(node.attribute("name").value(), node);
   if (kind == Kind::number) {
     evaluator_->set(own, number(node, "value"));

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "scintray/config/words.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/exchange/gdml/detail/solid_reader.hpp"
-#include "scintray/mesh/combine.hpp"
+#include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 
@@ -13,7 +13,7 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-constexpr config::Word<mesh::BooleanOperation> kBooleans[] = {
+constexpr core::Word<mesh::BooleanOperation> kBooleans[] = {
     {"union", mesh::BooleanOperation::unite},
     {"subtraction", mesh::BooleanOperation::subtract},
     {"intersection", mesh::BooleanOperation::intersect}};
@@ -91,7 +91,7 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
 }
 
 mesh::TriMesh Solids::make(Node solid) {
-  if (config::find_word(kBooleans, solid.name())) return make_boolean(solid);
+  if (core::find_word(kBooleans, solid.name())) return make_boolean(solid);
   std::optional<mesh::TriMesh> mesh = make_simple_solid(solid, definitions_, tessellation_);
   if (!mesh)
     throw core::InputError(
@@ -117,7 +117,7 @@ mesh::TriMesh Solids::make_boolean(Node solid) {
                                                     definitions_.rotation(solid, "firstrotation")));
   const mesh::TriMesh second = mesh::transformed(
       operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
-  mesh::TriMesh result = mesh::combine(first, second, *config::find_word(kBooleans, solid.name()));
+  mesh::TriMesh result = mesh::combine(first, second, *core::find_word(kBooleans, solid.name()));
   if (result.triangles.empty())
     throw core::InputError(
         core::Problem{{}, "nothing is left of the boolean", "check where its two solids lie"});

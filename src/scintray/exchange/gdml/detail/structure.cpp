@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "scintray/config/words.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
 
 namespace scintray::exchange::gdml {
@@ -12,12 +12,12 @@ namespace {
 
 /// What the elements of <structure> and of a volume are.
 enum class Element { volume, assembly, skin, border, placement, replica, division };
-constexpr config::Word<Element> kElements[] = {
+constexpr core::Word<Element> kElements[] = {
     {"volume", Element::volume},        {"assembly", Element::assembly}, {"skinsurface", Element::skin},
     {"bordersurface", Element::border}, {"physvol", Element::placement}, {"replicavol", Element::replica},
     {"divisionvol", Element::division}, {"paramvol", Element::division}};
 
-std::optional<Element> element_of(Node node) { return config::find_word(kElements, node.name()); }
+std::optional<Element> element_of(Node node) { return core::find_word(kElements, node.name()); }
 
 class StructureReader {
  public:

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/body_choice.hpp"
+#include "scintray/mesh/import/detail/import_steps.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -2,20 +2,52 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <string_view>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 
 namespace scintray::mesh {
 namespace {
 
 constexpr std::size_t kMostColladaTriangles = 20'000'000, kMostColladaNodes = 1'000'000;
+
+/// How a node is placed: its elements, which apply in their order, and the numbers that each has.
+struct Transform {
+  enum class Kind { translate, rotate, scale, matrix, not_read };
+  Kind kind;
+  std::size_t numbers;
+};
+constexpr core::Word<Transform> kTransforms[] = {
+    {"translate", {Transform::Kind::translate, 3}}, {"rotate", {Transform::Kind::rotate, 4}},
+    {"scale", {Transform::Kind::scale, 3}},         {"matrix", {Transform::Kind::matrix, 16}},
+    {"lookat", {Transform::Kind::not_read, 9}},     {"skew", {Transform::Kind::not_read, 7}}};
+
+/// What stands in a node, and may hold meshes.
+enum class Child { node, instance_node, instance_geometry, instance_controller };
+constexpr core::Word<Child> kChildren[] = {{"node", Child::node},
+                                           {"instance_node", Child::instance_node},
+                                           {"instance_geometry", Child::instance_geometry},
+                                           {"instance_controller", Child::instance_controller}};
+
+/// Of what a mesh is made.
+enum class Primitive { lines, triangles, polylist, polygons, strips, fans };
+constexpr core::Word<Primitive> kPrimitives[] = {
+    {"lines", Primitive::lines},       {"linestrips", Primitive::lines},  {"triangles", Primitive::triangles},
+    {"polylist", Primitive::polylist}, {"polygons", Primitive::polygons}, {"tristrips", Primitive::strips},
+    {"trifans", Primitive::fans}};
+
+/// The group of a primitive's polygons, and whether their corners come in reverse order.
+struct PrimitiveFaces {
+  std::uint32_t group;
+  bool mirrored;
+};
 
 class ColladaReader {
  public:
@@ -141,29 +173,32 @@ class ColladaReader {
   Eigen::Affine3d transform_of(Node node) const {
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     for (const Node step : node.children()) {
-      const std::string_view kind = step.name();
-      constexpr std::array<std::pair<std::string_view, std::size_t>, 6> kKinds{
-          {{"translate", 3}, {"rotate", 4}, {"scale", 3}, {"matrix", 16}, {"lookat", 9}, {"skew", 7}}};
-      const auto known =
-          std::find_if(kKinds.begin(), kKinds.end(), [kind](const auto& k) { return k.first == kind; });
-      if (known == kKinds.end()) continue;
+      const std::optional<Transform> known = core::find_word(kTransforms, step.name());
+      if (!known) continue;
       const std::vector<double> v = numbers(step);
-      if (v.size() != known->second)
-        reject("<" + std::string(kind) + "> has " + std::to_string(v.size()) + " numbers; expected " +
-               std::to_string(known->second));
-      if (kind == "translate") {
-        transform.translate(core::Vec3(v[0], v[1], v[2]));
-      } else if (kind == "rotate") {
-        const core::Vec3 axis(v[0], v[1], v[2]);
-        if (axis.norm() > 0.0) transform.rotate(Eigen::AngleAxisd(v[3] * core::kDegree, axis.normalized()));
-      } else if (kind == "scale") {
-        transform.scale(core::Vec3(v[0], v[1], v[2]));
-      } else if (kind == "matrix") {
-        Eigen::Affine3d step_matrix = Eigen::Affine3d::Identity();
-        step_matrix.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
-        transform = transform * step_matrix;
-      } else {
-        reject("a node is placed by <" + std::string(kind) + ">, which is not read");
+      if (v.size() != known->numbers)
+        reject(std::string("<") + step.name() + "> has " + std::to_string(v.size()) + " numbers; expected " +
+               std::to_string(known->numbers));
+      switch (known->kind) {
+        case Transform::Kind::translate:
+          transform.translate(core::Vec3(v[0], v[1], v[2]));
+          break;
+        case Transform::Kind::rotate: {
+          const core::Vec3 axis(v[0], v[1], v[2]);
+          if (axis.norm() > 0.0) transform.rotate(Eigen::AngleAxisd(v[3] * core::kDegree, axis.normalized()));
+          break;
+        }
+        case Transform::Kind::scale:
+          transform.scale(core::Vec3(v[0], v[1], v[2]));
+          break;
+        case Transform::Kind::matrix: {
+          Eigen::Affine3d step_matrix = Eigen::Affine3d::Identity();
+          step_matrix.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
+          transform = transform * step_matrix;
+          break;
+        }
+        case Transform::Kind::not_read:
+          reject(std::string("a node is placed by <") + step.name() + ">, which is not read");
       }
     }
     return transform;
@@ -174,11 +209,22 @@ class ColladaReader {
     if (++visited_ > kMostColladaNodes) reject("instances of nodes multiply to over a million");
     const Eigen::Affine3d transform = parent * transform_of(node);
     for (const Node child : node.children()) {
-      const std::string_view kind = child.name();
-      if (kind == "node") visit(child, transform, depth + 1);
-      if (kind == "instance_node") visit(referred(child, "url"), transform, depth + 1);
-      if (kind == "instance_geometry") place(node, child, referred(child, "url"), transform);
-      if (kind == "instance_controller") place(node, child, posed(referred(child, "url")), transform);
+      const std::optional<Child> kind = core::find_word(kChildren, child.name());
+      if (!kind) continue;
+      switch (*kind) {
+        case Child::node:
+          visit(child, transform, depth + 1);
+          break;
+        case Child::instance_node:
+          visit(referred(child, "url"), transform, depth + 1);
+          break;
+        case Child::instance_geometry:
+          place(node, child, referred(child, "url"), transform);
+          break;
+        case Child::instance_controller:
+          place(node, child, posed(referred(child, "url")), transform);
+          break;
+      }
     }
   }
 
@@ -208,14 +254,15 @@ class ColladaReader {
     raw_.begin_body(name_of(node).empty() ? name_of(geometry) : name_of(node));
     const bool mirrored = transform.linear().determinant() < 0.0;
     for (const Node primitive : mesh.children()) {
-      const std::string_view kind = primitive.name();
-      if (kind == "lines" || kind == "linestrips") raw_.points_and_lines += count(primitive, "count", 1);
-      if (kind != "triangles" && kind != "polylist" && kind != "polygons" && kind != "tristrips" &&
-          kind != "trifans")
+      const std::optional<Primitive> kind = core::find_word(kPrimitives, primitive.name());
+      if (!kind) continue;
+      if (*kind == Primitive::lines) {
+        raw_.points_and_lines += count(primitive, "count", 1);
         continue;
+      }
       const std::uint32_t group =
           raw_.mesh.group_index(group_name(name_of(geometry), material_of(instance, primitive)));
-      append(primitive, transform, group, mirrored);
+      append(primitive, *kind, transform, {group, mirrored});
       if (std::max(raw_.mesh.triangles.size(), raw_.mesh.vertices.size()) > kMostColladaTriangles)
         reject("instances of geometries multiply to more than 20 million triangles");
     }
@@ -268,7 +315,7 @@ class ColladaReader {
     return result;
   }
 
-  void append(Node primitive, const Eigen::Affine3d& transform, std::uint32_t group, bool mirrored) {
+  void append(Node primitive, Primitive kind, const Eigen::Affine3d& transform, const PrimitiveFaces& faces) {
     std::size_t offset = 0, stride = 1;
     const std::vector<core::Vec3> points = positions(primitive, offset, stride);
     const auto first = static_cast<std::uint32_t>(raw_.mesh.vertices.size());
@@ -284,35 +331,44 @@ class ColladaReader {
                  ", which does not exist");
         corners.push_back(first + static_cast<std::uint32_t>(all[i]));
       }
-      append_polygons(primitive.name(), sizes ? indices(sizes) : std::vector<std::size_t>{}, corners, group,
-                      mirrored);
+      append_polygons(kind, sizes ? indices(sizes) : std::vector<std::size_t>{}, corners, faces);
     }
   }
 
-  void append_polygons(std::string_view kind, const std::vector<std::size_t>& sizes,
-                       const std::vector<std::uint32_t>& corners, std::uint32_t group, bool mirrored) {
+  void append_polygons(Primitive kind, const std::vector<std::size_t>& sizes,
+                       const std::vector<std::uint32_t>& corners, const PrimitiveFaces& faces) {
     const auto add = [&](std::vector<std::uint32_t> polygon) {
-      if (!raw_.add_polygon(polygon, group, mirrored)) reject("a polygon has more corners than can be read");
+      if (!raw_.add_polygon(polygon, faces.group, faces.mirrored))
+        reject("a polygon has more corners than can be read");
     };
     const std::size_t n = corners.size();
-    if (kind == "triangles") {
-      for (std::size_t i = 0; i + 2 < n; i += 3) add({corners[i], corners[i + 1], corners[i + 2]});
-    } else if (kind == "polylist") {
-      std::size_t start = 0;
-      for (const std::size_t size : sizes) {
-        if (size > n - start) reject("the polygons of a <polylist> have more corners than it lists");
-        add({corners.begin() + static_cast<std::ptrdiff_t>(start),
-             corners.begin() + static_cast<std::ptrdiff_t>(start + size)});
-        start += size;
+    switch (kind) {
+      case Primitive::lines:
+        break;
+      case Primitive::triangles:
+        for (std::size_t i = 0; i + 2 < n; i += 3) add({corners[i], corners[i + 1], corners[i + 2]});
+        break;
+      case Primitive::polylist: {
+        std::size_t start = 0;
+        for (const std::size_t size : sizes) {
+          if (size > n - start) reject("the polygons of a <polylist> have more corners than it lists");
+          add({corners.begin() + static_cast<std::ptrdiff_t>(start),
+               corners.begin() + static_cast<std::ptrdiff_t>(start + size)});
+          start += size;
+        }
+        break;
       }
-    } else if (kind == "polygons") {
-      add(corners);
-    } else if (kind == "tristrips") {
-      for (std::size_t i = 0; i + 2 < n; ++i)
-        add(i % 2 == 0 ? std::vector{corners[i], corners[i + 1], corners[i + 2]}
-                       : std::vector{corners[i + 1], corners[i], corners[i + 2]});
-    } else {
-      for (std::size_t i = 1; i + 1 < n; ++i) add({corners[0], corners[i], corners[i + 1]});
+      case Primitive::polygons:
+        add(corners);
+        break;
+      case Primitive::strips:
+        for (std::size_t i = 0; i + 2 < n; ++i)
+          add(i % 2 == 0 ? std::vector{corners[i], corners[i + 1], corners[i + 2]}
+                         : std::vector{corners[i + 1], corners[i], corners[i + 2]});
+        break;
+      case Primitive::fans:
+        for (std::size_t i = 1; i + 1 < n; ++i) add({corners[0], corners[i], corners[i + 1]});
+        break;
     }
   }
 

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/file_unit.hpp"
+#include "scintray/mesh/import/detail/import_steps.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -3,13 +3,166 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <sstream>
 #include <string_view>
 
-#include "scintray/mesh/import/detail/ply_header.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 
 namespace scintray::mesh {
 namespace {
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+struct PlyType {
+  enum class Kind { signed_integer, unsigned_integer, floating };
+  Kind kind = Kind::floating;
+  std::size_t bytes = 4;
+};
+
+struct PlyProperty {
+  std::string name;
+  PlyType type;
+  bool is_list = false;
+  PlyType count_type;  ///< of the number before a list
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t data_start = 0;  ///< first byte after the header's last line
+};
+
+/// Reads the header. Throws InputError with the line number for lines that PLY 1.0 does not know and for
+/// elements that announce more members than the content has bytes.
+class HeaderReader {
+ public:
+  HeaderReader(const std::filesystem::path& path, const std::string& content)
+      : path_(path), content_(content) {}
+
+  PlyHeader read() {
+    if (next_line() != "ply") reject("a PLY file begins with the line \"ply\"");
+    for (std::string line = next_line(); line != "end_header"; line = next_line()) {
+      std::istringstream words(line);
+      std::string keyword;
+      words >> keyword;
+      if (keyword.empty()) continue;
+      const std::optional<Reader> reader = core::find_word(kKeywords, keyword);
+      if (!reader) reject("unknown keyword \"" + keyword.substr(0, 40) + "\" in the PLY header");
+      (this->**reader)(words);
+    }
+    if (!has_format_) reject("the PLY header has no \"format\" line");
+    header_.data_start = at_;
+    return std::move(header_);
+  }
+
+ private:
+  using Reader = void (HeaderReader::*)(std::istringstream& words);
+  static const core::Word<Reader> kKeywords[5];  ///< and what reads the line that each begins
+
+  [[noreturn]] void reject(const std::string& what) const {
+    throw core::InputError(
+        core::Problem{{path_.string(), line_, 0}, what, "the file is damaged; export it again"});
+  }
+
+  /// Lines end with LF or CR LF.
+  std::string next_line() {
+    ++line_;
+    const std::size_t end = content_.find('\n', at_);
+    if (end == std::string::npos) reject("the PLY header does not end with \"end_header\"");
+    std::string line = content_.substr(at_, end - at_);
+    at_ = end + 1;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+  }
+
+  void skip_line(std::istringstream& /*words*/) {}
+
+  void read_format(std::istringstream& words) {
+    static constexpr core::Word<PlyFormat> kFormats[] = {{"ascii", PlyFormat::ascii},
+                                                         {"binary_little_endian", PlyFormat::little_endian},
+                                                         {"binary_big_endian", PlyFormat::big_endian}};
+    std::string name, version;
+    words >> name >> version;
+    const std::optional<PlyFormat> format = core::find_word(kFormats, name);
+    if (!format || version != "1.0") {
+      reject("the PLY format \"" + name.substr(0, 40) + " " + version.substr(0, 10) +
+             "\" is unknown; expected ascii, binary_little_endian or binary_big_endian, version 1.0");
+    }
+    header_.format = *format;
+    has_format_ = true;
+  }
+
+  void read_element(std::istringstream& words) {
+    PlyElement element;
+    std::string count;
+    words >> element.name >> count;
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (error != std::errc() || end != count.data() + count.size()) {
+      reject("element \"" + element.name.substr(0, 40) + "\" has no whole number after it");
+    }
+    if (element.count > content_.size()) {
+      reject("the file announces " + count + " elements \"" + element.name.substr(0, 40) + "\" but is only " +
+             std::to_string(content_.size()) + " bytes long");
+    }
+    header_.elements.push_back(std::move(element));
+  }
+
+  void read_property(std::istringstream& words) {
+    if (header_.elements.empty()) reject("a property stands before the first element of the PLY header");
+    PlyProperty property;
+    std::string type;
+    words >> type;
+    if (type == "list") {
+      property.is_list = true;
+      words >> type;
+      property.count_type = type_named(type);
+      if (property.count_type.kind == PlyType::Kind::floating) reject("a list is counted in a floating type");
+      words >> type;
+    }
+    property.type = type_named(type);
+    if (!(words >> property.name)) reject("a property of the PLY header has no name");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  PlyType type_named(const std::string& name) const {
+    using Kind = PlyType::Kind;
+    static constexpr core::Word<PlyType> kTypes[] = {
+        {"char", {Kind::signed_integer, 1}},  {"uchar", {Kind::unsigned_integer, 1}},
+        {"short", {Kind::signed_integer, 2}}, {"ushort", {Kind::unsigned_integer, 2}},
+        {"int", {Kind::signed_integer, 4}},   {"uint", {Kind::unsigned_integer, 4}},
+        {"int8", {Kind::signed_integer, 1}},  {"uint8", {Kind::unsigned_integer, 1}},
+        {"int16", {Kind::signed_integer, 2}}, {"uint16", {Kind::unsigned_integer, 2}},
+        {"int32", {Kind::signed_integer, 4}}, {"uint32", {Kind::unsigned_integer, 4}},
+        {"float", {Kind::floating, 4}},       {"float32", {Kind::floating, 4}},
+        {"double", {Kind::floating, 8}},      {"float64", {Kind::floating, 8}}};
+    const std::optional<PlyType> type = core::find_word(kTypes, name);
+    if (!type) reject("the type \"" + name.substr(0, 40) + "\" in the PLY header is unknown");
+    return *type;
+  }
+
+  const std::filesystem::path& path_;
+  const std::string& content_;
+  PlyHeader header_;
+  bool has_format_ = false;
+  std::size_t at_ = 0;
+  long line_ = 0;
+};
+
+const core::Word<HeaderReader::Reader> HeaderReader::kKeywords[5] = {
+    {"comment", &HeaderReader::skip_line},
+    {"obj_info", &HeaderReader::skip_line},
+    {"format", &HeaderReader::read_format},
+    {"element", &HeaderReader::read_element},
+    {"property", &HeaderReader::read_property}};
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -66,24 +219,21 @@ class PlyReader {
  public:
   PlyReader(const std::filesystem::path& path, const std::string& content)
       : path_(path),
-        header_(read_ply_header(path, content)),
+        header_(HeaderReader(path, content).read()),
         numbers_(content, header_.data_start, header_.format) {}
 
   RawMesh read() {
     for (const PlyElement& element : header_.elements) {
-      if (element.name == "vertex") {
-        read_vertices(element);
-      } else if (element.name == "face") {
-        read_faces(element);
-      } else {
-        skip(element);
-      }
+      (this->*core::find_word(kElements, element.name).value_or(&PlyReader::skip))(element);
     }
     add_faces();
     return std::move(raw_);
   }
 
  private:
+  using Reader = void (PlyReader::*)(const PlyElement& element);
+  static const core::Word<Reader> kElements[2];  ///< and what reads them; others are skipped
+
   [[noreturn]] void reject_member(const PlyElement& element, std::uint64_t member,
                                   const std::string& what) const {
     reject_file(path_,
@@ -184,6 +334,9 @@ class PlyReader {
   std::vector<double> corners_;
   std::vector<std::size_t> corners_end_;  ///< per face, end of its part of corners_
 };
+
+const core::Word<PlyReader::Reader> PlyReader::kElements[2] = {{"vertex", &PlyReader::read_vertices},
+                                                               {"face", &PlyReader::read_faces}};
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/raw_mesh_bytes.hpp"
+#include "scintray/mesh/import/detail/step_isolation.hpp"
 
 #include <array>
 #include <cstring>

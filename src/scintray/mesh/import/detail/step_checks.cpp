@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/step_checks.hpp"
+#include "scintray/mesh/import/detail/step_isolation.hpp"
 
 #include <charconv>
 #include <cstdint>

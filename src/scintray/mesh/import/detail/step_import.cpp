@@ -46,8 +46,7 @@
 #include "scintray/core/child_process.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/face_selection.hpp"
-#include "scintray/mesh/import/detail/raw_mesh_bytes.hpp"
-#include "scintray/mesh/import/detail/step_checks.hpp"
+#include "scintray/mesh/import/detail/step_isolation.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/triangle_distance.hpp"
 

@@ -1,4 +1,4 @@
-#include "scintray/mesh/repair/detail/repair_edges.hpp"
+#include "scintray/mesh/repair/detail/passes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,10 @@
-#include "scintray/mesh/repair/detail/repair_holes.hpp"
+#include "scintray/mesh/repair/detail/passes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "scintray/mesh/detail/edges.hpp"
-#include "scintray/mesh/repair/detail/hole.hpp"
 
 namespace scintray::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/mesh/repair/detail/untangle.hpp"
+#include "scintray/mesh/repair/detail/passes.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>

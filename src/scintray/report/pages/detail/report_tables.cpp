@@ -98,13 +98,16 @@ std::vector<double> as_doubles(const std::vector<std::uint64_t>& counts) {
   return {counts.begin(), counts.end()};
 }
 
+/// The column of the sum over all entries.
+constexpr const char* kSum = "sum";
+
 /// Cells with their head row and head column.
 using LedgerTable = std::vector<std::vector<std::string>>;
 
 LedgerTable ledger_table(const tally::RunResult& run, const std::vector<LedgerEntry>& entries) {
   LedgerTable cells{{"point"}};
   for (const LedgerEntry& entry : entries) cells[0].push_back(entry.name);
-  cells[0].insert(cells[0].end(), {"sum", "lost photons"});
+  cells[0].insert(cells[0].end(), {kSum, "lost photons"});
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const tally::PointResult& point = run.points[i];
     std::vector<std::string> row{point_label(point)};
@@ -132,7 +135,7 @@ LedgerTable transposed(const LedgerTable& cells) {
 std::string table_of(const LedgerTable& cells) {
   std::string rows;
   for (std::size_t r = 1; r < cells.size(); ++r) {
-    rows += cells[r].front() == "sum" ? "<tr class=\"sum\">" : "<tr>";
+    rows += cells[r].front() == kSum ? "<tr class=\"sum\">" : "<tr>";
     for (std::size_t i = 0; i < cells[r].size(); ++i)
       rows += i == 0 ? cell(cells[r][i], "th") : number_cell(cells[r][i]);
     rows += "</tr>\n";

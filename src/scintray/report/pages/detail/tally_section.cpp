@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "scintray/analysis/light_analysis.hpp"
-#include "scintray/config/words.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/plots/detail/grid_map.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
@@ -26,13 +26,13 @@ constexpr std::size_t kMostRows = 400;
 
 /// How a tally is shown where its axes do not decide it.
 enum class TallyView { by_axes, crosstalk, etendue, hemisphere, hidden };
-constexpr config::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
-                                                   {"etendue", TallyView::etendue},
-                                                   {"angles", TallyView::hemisphere},
-                                                   {"emitted", TallyView::hidden}};
+constexpr core::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
+                                                 {"etendue", TallyView::etendue},
+                                                 {"angles", TallyView::hemisphere},
+                                                 {"emitted", TallyView::hidden}};
 
 TallyView view_of(const tally::TallyResult& tally) {
-  return config::find_word(kTallyViews, tally.type).value_or(TallyView::by_axes);
+  return core::find_word(kTallyViews, tally.type).value_or(TallyView::by_axes);
 }
 
 bool is_angle(const tally::TallyAxis& axis) { return axis.unit == "rad"; }

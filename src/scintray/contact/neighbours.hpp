@@ -1,0 +1,64 @@
+#pragma once
+/// Placed parts beside each other: curved contacts closed, overlaps that are meant cut, small gaps found.
+
+#include <string>
+#include <vector>
+
+#include "scintray/contact/placed_mesh.hpp"
+#include "scintray/core/error.hpp"
+
+namespace scintray::contact {
+
+/// Two parts, by name, whose faces are made one where they lie within a tolerance of each other.
+struct ConformingContact {
+  std::string first, second;
+  double tolerance_mm = 0.0;
+  core::FileLocation where;
+};
+
+/// For every contact, gives one of its parts the other's faces where both lie
+/// within that tolerance of each other, facing each other.
+///
+/// Two tessellations of one curved surface leave slivers, now gap, now overlap. One part takes all of
+/// them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
+/// neighbouring faces, and the other part is then cut out of it, pushed outwards itself where it ends
+/// flush. So the contact is the other part's own triangles, and nothing moves by more than the tolerance, or
+/// twice that at a sharp rim. The first part keeps its shape, unless only it is covered by
+/// the second.
+///
+/// Where on either part a triangle lies partly within the tolerance and partly beyond it, each part's face
+/// ends within the other's: then both are stitched together there (detail/stitch.hpp), the first one keeping
+/// its shape.
+///
+/// What was done is in the notes of the part that changed. Adds to `problems`: contacts without facing
+/// triangles, and parts whose change CGAL refuses or leaves unsound. Faces flat on each other within
+/// `flat_mm` need none of this, and are left to the resolving of contacts.
+void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
+                      double flat_mm, core::Problems& problems);
+
+/// Cuts every part by the parts of higher priority that it overlaps with. Faces born in a cut are named
+/// "cut:NAME" after the part that cut, and have the finish of the cut part itself. Parts that lie wholly
+/// one inside the other, or merely touch within `tolerance_mm`, are left alone, as are overlaps of equal
+/// priority, which resolving contacts refuses. What was done is added to the notes of the cut part.
+///
+/// Adds to `problems`: cuts that CGAL refuses or that leave an unsound part, parts of which nothing is
+/// left, and cut faces without a surface.
+void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Problems& problems);
+
+/// Two parts whose faces face each other across a gap that may be a mistake.
+struct SmallGap {
+  std::string a, b;
+  double gap_mm = 0.0;                    ///< at its narrowest
+  core::Vec3 place = core::Vec3::Zero();  ///< there, mm
+};
+
+/// A gap is small below this share of the smaller part's diagonal.
+inline constexpr double kSmallGapShare = 1e-3;
+
+/// Pairs of parts with nearly parallel faces that overlap, seen along their normals, across a gap wider
+/// than `tolerance_mm` (nearer ones touch) and narrower than `share` of the diagonal of the smaller part.
+/// Gaps that a third part fills are none.
+[[nodiscard]] std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
+                                                    double share = kSmallGapShare);
+
+}  // namespace scintray::contact

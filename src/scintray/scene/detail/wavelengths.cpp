@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <set>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/core/pattern.hpp"
+#include "scintray/scene/detail/build_steps.hpp"
+
+namespace scintray::scene {
+
+namespace {
+
+/// Stands for the wavelengths of a scene with a mistake, until all mistakes are found.
+constexpr WavelengthRange kNoLight{400.0, 400.0, 400.0};
+
+/// The part of an emission spectrum that is not zero.
+WavelengthRange range_of(const core::Curve& emission) {
+  WavelengthRange range;
+  const auto &x = emission.x(), &y = emission.y();
+  std::size_t first = 0, last = x.size() - 1;
+  while (first + 1 < x.size() && y[first + 1] == 0.0) ++first;
+  while (last > 0 && y[last - 1] == 0.0) --last;
+  range.low_nm = x[std::min(first, last)];
+  range.high_nm = x[last];
+  range.reference_nm = core::CurveSampler(emission).mean();
+  return range;
+}
+
+/// Wavelengths that the parts of a name or pattern emit. Parts of an energy source that do not
+/// scintillate are left out, of a source of photons they are mistakes.
+WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
+                            const config::NameRef& parts, const materials::MaterialDatabase& database,
+                            core::Problems& problems) {
+  std::optional<WavelengthRange> found;
+  for (const contact::PlacedMesh& part : placed) {
+    if (!core::matches_pattern(parts.name, part.name) || part.medium.empty() ||
+        part.medium.name == scene_file::kOpaqueMedium)
+      continue;
+    try {
+      const optics::Medium& medium = database.medium(part.medium.name, part.medium.where);
+      const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
+      if (emits) {
+        const WavelengthRange range = range_of(medium.emission);
+        if (!found) found = range;
+        found->low_nm = std::min(found->low_nm, range.low_nm);
+        found->high_nm = std::max(found->high_nm, range.high_nm);
+      } else if (!spec.energy_source) {
+        problems.add(spec.source.wavelength_where,
+                     "medium \"" + medium.name + "\" has no emission spectrum to draw wavelengths from",
+                     "give a wavelength, as wavelength = \"420 nm\", or an emission in the medium's file");
+        return kNoLight;
+      }
+    } catch (const core::InputError&) {
+      // reported where the part is added
+    }
+  }
+  if (!found && spec.energy_source && problems.empty())
+    problems.add(spec.energy_source->where, "no part scintillates, so energy makes no light",
+                 "give a part's medium [yield], [emission] and [[decay]], or use one that has them, as "
+                 "\"LSO\"");
+  return found.value_or(kNoLight);
+}
+
+WavelengthRange wavelengths_of_source(const scene_file::SceneSpec& spec,
+                                      const std::vector<contact::PlacedMesh>& placed,
+                                      const materials::MaterialDatabase& database, core::Problems& problems) {
+  if (spec.energy_source) return emission_of(spec, placed, {"*", {}}, database, problems);
+  if (spec.source.wavelength_nm) {
+    const double nm = *spec.source.wavelength_nm;
+    return {nm, nm, nm};
+  }
+  if (const auto* region = std::get_if<scene_file::RegionSpec>(&spec.source.origin))
+    return emission_of(spec, placed, region->part, database, problems);
+  problems.add(spec.source.wavelength_where,
+               "wavelength = \"emission\" needs a source region with a part, since a point may lie anywhere",
+               "give a wavelength, as wavelength = \"420 nm\"");
+  return kNoLight;
+}
+
+/// Where an emission spectrum ends: the last point, or the first of the zeros at its end.
+double end_of(const core::Curve& emission) {
+  std::size_t last = emission.y().size() - 1;
+  while (last > 0 && emission.y()[last - 1] == 0.0) --last;
+  return emission.x()[last];
+}
+
+double longest_of(const materials::SurfaceSpec& surface) {
+  double longest = surface.gap_shifter ? end_of(surface.gap_shifter->emission()) : 0.0;
+  for (const materials::ShareSpec& part : surface.mixture)
+    longest = std::max(longest, longest_of(*part.surface));
+  return longest;
+}
+
+/// The longest wavelength (nm) that a wavelength shifter of the scene re-emits. 0 when there is no shifter.
+double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
+                          const materials::MaterialDatabase& database) {
+  std::set<std::string> media{spec.ambient.name}, surfaces;
+  for (const contact::PlacedMesh& part : placed) {
+    if (!part.medium.empty() && part.medium.name != scene_file::kOpaqueMedium) media.insert(part.medium.name);
+    surfaces.insert(part.surface.name);
+    for (const contact::PlacedFace& face : part.faces) surfaces.insert(face.surface.name);
+  }
+  for (const scene_file::ContactSpec& contact : spec.contacts) surfaces.insert(contact.surface.name);
+  surfaces.erase("");
+
+  double longest = 0.0;
+  const auto look_up = [&](const auto& of_definition) {
+    try {
+      longest = std::max(longest, of_definition());
+    } catch (const core::InputError&) {
+      // reported where the part is added
+    }
+  };
+  for (const std::string& name : media)
+    look_up([&] {
+      const optics::Medium& medium = database.medium(name);
+      return medium.shifter ? end_of(medium.shifter->emission()) : 0.0;
+    });
+  for (const std::string& name : surfaces) look_up([&] { return longest_of(database.surface(name)); });
+  return longest;
+}
+
+}  // namespace
+
+WavelengthRange find_wavelengths(const scene_file::SceneSpec& spec,
+                                 const std::vector<contact::PlacedMesh>& placed,
+                                 const materials::MaterialDatabase& database, core::Problems& problems) {
+  WavelengthRange range = wavelengths_of_source(spec, placed, database, problems);
+  range.high_nm = std::max(range.high_nm, longest_shifted_nm(spec, placed, database));
+  return range;
+}
+
+}  // namespace scintray::scene
