@@ -2,7 +2,7 @@
 /// Scenes of the doctor's tests, and what is asked of them.
 
 #include "physics/traced.hpp"
-#include "scintray/source/detail/photon_source.hpp"
+#include "support/photon_source.hpp"
 #include "support/words.hpp"
 
 namespace scintray::test {
@@ -51,7 +51,7 @@ inline double area_between(const scene::Scene& scene, const std::string& a, cons
 inline void check_propagation(const scene::Scene& scene, const scene_file::SourceSpec& spec,
                               std::uint64_t photons) {
   constexpr double kShort_mm = 0.01;  // shorter flights hold nothing about sides
-  const source::PhotonSource source(spec, scene);
+  const PhotonSource source(spec, scene);
   std::size_t propagations = 0, astray = 0;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {
     std::optional<source::Photon> before;

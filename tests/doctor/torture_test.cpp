@@ -1,6 +1,6 @@
 #include "doctor/doctor_scenes.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "support/long_run.hpp"
+#include "support/photon_source.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;

@@ -8,8 +8,8 @@
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/optics/fresnel.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;

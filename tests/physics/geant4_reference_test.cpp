@@ -5,12 +5,14 @@
 
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
+#include "scintray/analysis/light_analysis.hpp"
 #include "support/evidence.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::tally;
+using namespace scintray::analysis;
 using namespace scintray::test;
 using nlohmann::json;
 
@@ -167,8 +169,9 @@ void compare_run(const json& run, const std::string& name, const std::string& sc
   c.number("interactions", result.interactions.mean(), mean_of(run, "boundary_interactions_mean"));
   c.number("path of detected", result.detected_path_mm.mean(), mean_of(run, "detected_path_mm_mean"));
   c.number("time of detected", result.detected_time_ns.mean(), mean_of(run, "detected_time_ns_mean"));
-  c.histogram("angle in crystal", result.exit_angles[0].inside, run["theta_crystal_hist"]);
-  c.histogram("angle in grease", result.exit_angles[0].outside, run["theta_grease_hist"]);
+  const std::vector<CrossingAngles> angles = crossing_angles(result);
+  c.histogram("angle in crystal", angles.at(0).inside, run["theta_crystal_hist"]);
+  c.histogram("angle in grease", angles.at(0).outside, run["theta_grease_hist"]);
   c.report("geant4");
 }
 

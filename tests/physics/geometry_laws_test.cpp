@@ -8,8 +8,8 @@
 #include "scintray/mesh/shapes/shapes.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/scene/place_parts.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

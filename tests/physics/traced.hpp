@@ -70,8 +70,10 @@ struct Traced {
 };
 
 /// Scene text plus the library above, with `photons` from `[source]`.
-inline scene_file::SceneSpec scene_spec(const std::string& text) {
-  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string()).spec(0);
+inline scene_file::SceneSpec scene_spec(const std::string& text, const scene_file::TallyVariables& variables =
+                                                                     scene_file::TallyVariables::built_in()) {
+  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string(), variables)
+      .spec(0);
 }
 
 /// A scene ready to be traced, with surface tables of its own.
@@ -82,8 +84,9 @@ inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::Scen
   return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 
-inline Traced trace(const std::string& text, int threads = 0) {
-  scene_file::SceneSpec spec = scene_spec(text);
+inline Traced trace(const std::string& text, int threads = 0,
+                    const scene_file::TallyVariables& variables = scene_file::TallyVariables::built_in()) {
+  scene_file::SceneSpec spec = scene_spec(text, variables);
   if (threads > 0) spec.run.threads = threads;
   Traced traced{.point = ready(std::move(spec)), .result = {}, .events = {}};
   simulation::RunHooks hooks;

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "physics/traced.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

@@ -19,6 +19,7 @@
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::tally;
+using namespace scintray::analysis;
 using namespace scintray::report;
 using namespace scintray::test;
 
@@ -85,7 +86,12 @@ TEST_CASE("Text from scenes is escaped everywhere") {
   run.header.sweep_keys[0] = run.header.sweep_keys[1] = evil;
   for (PointResult& point : run.points) {
     point.parameters[0] += evil;
-    for (ExitAngleTally& tally : point.exit_angles) tally.name = evil;
+    std::vector<TallyResult> renamed;
+    for (CrossingAngles& angles : crossing_angles(point)) {
+      angles.name = evil;
+      for (TallyResult& tally : tallies_of(angles)) renamed.push_back(std::move(tally));
+    }
+    point.tallies = std::move(renamed);
   }
   const std::string page = html_report(run);
   CHECK_FALSE(contains(page, "<b>&\""));

@@ -20,6 +20,13 @@ using namespace scintray::test;
 
 namespace {
 
+/// The one exit angle tally of a scene.
+const TallySpec& exit_angle_of(const SceneSpec& scene) {
+  const auto is = [](const TallySpec& tally) { return tally.type == kExitAngle; };
+  REQUIRE(std::count_if(scene.tallies.begin(), scene.tallies.end(), is) == 1);
+  return *std::find_if(scene.tallies.begin(), scene.tallies.end(), is);
+}
+
 std::string documentation() { return read_text_file(source_file("docs/scene_files.md")); }
 
 std::string documented_example() {
@@ -128,9 +135,10 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(scene.run.max_time_ns.value_or(0.0) == 500.0);
   CHECK(scene.run.threads.value_or(0) == 4);
   CHECK(scene.run.contact_tolerance_mm == doctest::Approx(1e-4));
-  REQUIRE(scene.exit_angles.size() == 1);
-  CHECK(scene.exit_angles[0].detected_only);
-  CHECK(scene.exit_angles[0].face.name == "exit");
+  const TallySpec& angles = exit_angle_of(scene);
+  CHECK(angles.detected_only());
+  REQUIRE(angles.faces.size() == 1);
+  CHECK(angles.faces[0].name == "crystal:exit");
   CHECK(scene.media.count("glass") == 1);
   CHECK(scene.surfaces.count("lso_ground") == 1);
   CHECK(scene.sensors.count("R6231") == 1);
@@ -169,9 +177,10 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK(scene.run.accelerator == AcceleratorKind::automatic);
   CHECK_FALSE(scene.run.photon_list);
   CHECK_FALSE(scene.run.photon_history);
-  REQUIRE(scene.exit_angles.size() == 1);
-  CHECK(scene.exit_angles[0].bins == 18);
-  CHECK(scene.exit_angles[0].name == "crystal:exit");
+  const TallySpec& angles = exit_angle_of(scene);
+  REQUIRE(angles.axes.size() == 1);
+  CHECK(angles.axes[0].bins == 18);
+  CHECK(angles.name == "crystal:exit");
 }
 
 TEST_CASE("a sweep gives its value to every key that it names") {

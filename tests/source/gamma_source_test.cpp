@@ -1,4 +1,4 @@
-#include "scintray/source/detail/gamma/gamma_source.hpp"
+#include "scintray/source/detail/event_sources.hpp"
 
 #include "event_scene.hpp"
 #include "scintray/core/statistics.hpp"

@@ -2,7 +2,7 @@
 
 #include "event_scene.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/source/detail/hits_source.hpp"
+#include "scintray/source/detail/event_sources.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;

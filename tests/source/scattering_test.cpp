@@ -1,4 +1,4 @@
-#include "scintray/source/detail/gamma/scattering.hpp"
+#include "scintray/source/detail/gamma/cross_sections.hpp"
 
 #include <xraylib/xraylib.h>
 

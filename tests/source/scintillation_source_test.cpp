@@ -103,7 +103,7 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
     RegionId region_;
   };
   const RegionId crystal = scene.locate(Vec3::Zero());
-  const ScintillationSource source(std::make_unique<TwoDeposits>(crystal), scene, false);
+  const ScintillationSource source(std::make_unique<TwoDeposits>(crystal), scene);
   EventLight light;
   Rng event_rng(1, StreamKind::event, 0);
   source.begin(scene, 0, event_rng, light);
@@ -157,7 +157,7 @@ model = "smooth"
     RegionId region_;
   };
   const RegionId crystal = scene.locate(Vec3::Zero());
-  const ScintillationSource source(std::make_unique<OneDeposit>(crystal), scene, false, true);
+  const ScintillationSource source(std::make_unique<OneDeposit>(crystal), scene, {.cherenkov = true});
   const CherenkovEmitter alone(scene.media[scene.regions[crystal].medium].medium(), scene.low_nm,
                                scene.high_nm);
   double photons = 0.0;

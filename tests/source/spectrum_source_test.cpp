@@ -1,4 +1,4 @@
-#include "scintray/source/detail/spectrum_source.hpp"
+#include "scintray/source/detail/event_sources.hpp"
 
 #include <fstream>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "scintray/tally/result.hpp"
+#include "scintray/analysis/light_analysis.hpp"
 
 namespace scintray::test {
 
@@ -33,18 +33,18 @@ inline tally::PointResult made_up_point(std::vector<std::string> parameters, dou
       {core::PartId(1), core::FaceId(2), detected - detected / 40, point.count(core::Fate::not_detected)},
       {core::PartId(1), core::FaceId(1), detected / 40, 0}};
   for (const bool detected_only : {false, true}) {
-    tally::ExitAngleTally tally;
-    tally.name = detected_only ? "exit face, detected" : "exit face, all";
-    tally.face = core::FaceId(0);
-    tally.detected_only = detected_only;
+    analysis::CrossingAngles angles;
+    angles.name = detected_only ? "exit face, detected" : "exit face, all";
+    angles.face = "crystal:exit";
+    angles.detected_only = detected_only;
     for (int bin = 0; bin < 90; ++bin) {
       const double angle = (bin + 0.5) * 3.14159265358979 / 180.0;
       const double shape = std::sin(2.0 * angle) * std::exp(-std::pow(angle / 0.9, 4.0)) + 0.01;
       const double beyond = std::sin(2.0 * angle) * (bin > 60 ? 1.6 : 1.0);
-      tally.inside.push_back(share((detected_only ? 0.01 : 0.02) * shape));
-      tally.outside.push_back(share((detected_only ? 0.008 : 0.016) * beyond));
+      angles.inside.push_back(share((detected_only ? 0.01 : 0.02) * shape));
+      angles.outside.push_back(share((detected_only ? 0.008 : 0.016) * beyond));
     }
-    point.exit_angles.push_back(tally);
+    for (tally::TallyResult& tally : analysis::tallies_of(angles)) point.tallies.push_back(std::move(tally));
   }
   for (int i = 0; i < 1000; ++i) {
     point.interactions.add(std::fmod(i * 7.3, 40.0));

@@ -238,6 +238,28 @@ axes = [{ variable = "path", from = "2 mm", to = "3 mm", bins = 2 }]
   CHECK(tally_of(traced).outside == 100.0);
 }
 
+TEST_CASE("An axis ends where the scene says, and holds what lies on the ends of its variable") {
+  const Traced slanted = trace(kTwoBlocks + beam(R"(["-1.5 mm", "0.5 mm", "3 mm"])", "[3, 0, -4]") + R"(
+[[tally]]
+type = "count"
+name = "36.87 deg"
+at = "detected"
+face = "right:exit"
+axes = [{ variable = "angle_before", from = "40 deg", to = "90 deg", bins = 5 }]
+)");
+  CHECK(total(tally_of(slanted)) == 0.0);
+  CHECK(tally_of(slanted).outside == 100.0);
+
+  const Traced straight = trace(kTwoBlocks + beam(R"(["-1 mm", "0 mm", "1 mm"])", "[0, 0, -1]") + R"(
+[[tally]]
+type = "count"
+name = "cosine 1"
+at = "detected"
+axes = [{ variable = "direction", along = [0, 0, -1], bins = 4 }]
+)");
+  CHECK(tally_of(straight).sum == std::vector<double>{0.0, 0.0, 0.0, 100.0});
+}
+
 TEST_CASE("Counts are the same to the bit for any number of threads") {
   const std::string scene = kTwoBlocks + kIsotropic + R"(
 [[tally]]

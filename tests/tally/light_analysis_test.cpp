@@ -67,7 +67,7 @@ pixels = [4, 6]
   check_law("etendue of a face that radiates by Lambert's law", etendue.filled_mm2_sr, {whole, 0.0});
   CHECK(etendue.filled_mm2_sr.error < 0.01 * whole);
 
-  const Divergence spread = divergence(traced.result.exit_angles[0].inside);
+  const Divergence spread = divergence(crossing_angles(traced.result).at(0).inside);
   check_law("half-angle of half of the light, rad", spread.half_rad, {0.25 * kPi, 0.0});
   check_law("half-angle of nine tenths, rad", spread.ninety_rad, {std::asin(std::sqrt(0.9)), 0.0});
   check_law("mean cosine", spread.mean_cosine, {2.0 / 3.0, 0.0});

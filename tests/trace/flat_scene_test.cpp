@@ -2,8 +2,8 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

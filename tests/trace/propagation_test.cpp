@@ -1,7 +1,7 @@
 #include "physics/traced.hpp"
 #include "scintray/simulation/run_point.hpp"
-#include "scintray/source/detail/photon_source.hpp"
 #include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

@@ -102,7 +102,7 @@ TEST_CASE("Probabilities are linear between centres of cells, constant beyond, a
 TEST_CASE("Delays come from the cells around as often as light detected from them does") {
   const ResponseMap map = two_cells(10, 30);
   std::vector<PlaceResponse> response;
-  MappedResponse(map).at({1, RegionId(1), 5.0}, 1, response);
+  MappedResponse(map).at({1, 1, 5.0}, RegionId(1), response);
   Rng rng(1, StreamKind::other, 0);
   std::uint64_t late = 0;
   constexpr std::uint64_t kDraws = 20'000;
@@ -113,7 +113,7 @@ TEST_CASE("Delays come from the cells around as often as light detected from the
 TEST_CASE("The first of many photons comes as early as the earliest of times drawn one by one") {
   const ResponseMap map = two_cells(10, 30);
   std::vector<PlaceResponse> response;
-  MappedResponse(map).at({1, RegionId(1), 5.0}, 1, response);
+  MappedResponse(map).at({1, 1, 5.0}, RegionId(1), response);
   const std::vector<DecayComponent> decay{{40.0, 0.5, 0.7}, {3.0, 0.0, 0.3}};
   for (const std::uint64_t photons : {1u, 3u, 200u}) {
     CAPTURE(photons);

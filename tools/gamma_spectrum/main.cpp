@@ -11,7 +11,7 @@
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/gamma_source.hpp"
 #include "scintray/scene_file/read_scene.hpp"
-#include "scintray/source/make_event_source.hpp"
+#include "scintray/source/event.hpp"
 
 namespace {
 

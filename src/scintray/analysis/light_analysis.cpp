@@ -6,6 +6,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::analysis {
 
@@ -14,6 +15,12 @@ namespace {
 core::InputError wrong_tally(const tally::TallyResult& tally, const std::string& what) {
   return core::InputError(
       core::Problem{{}, "the tally \"" + tally.name + "\" " + what, "name a tally of that type"});
+}
+
+std::vector<std::uint64_t> counts_of(const tally::TallyResult& tally) {
+  std::vector<std::uint64_t> counts;
+  for (const double count : tally.sum) counts.push_back(static_cast<std::uint64_t>(count));
+  return counts;
 }
 
 /// Angle below which a share of the histogram lies, and its error.
@@ -92,6 +99,46 @@ Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& nam
     crosstalk.share.push_back(std::move(shares));
   }
   return crosstalk;
+}
+
+std::vector<CrossingAngles> crossing_angles(const tally::PointResult& point) {
+  std::vector<CrossingAngles> all;
+  for (const tally::TallyResult& inside : point.tallies) {
+    if (inside.type != scene_file::kExitAngle) continue;
+    const auto beyond =
+        std::find_if(point.tallies.begin(), point.tallies.end(), [&](const tally::TallyResult& other) {
+          return other.type == scene_file::kExitAngleBeyond &&
+                 other.name == scene_file::beyond_name(inside.name);
+        });
+    if (beyond == point.tallies.end())
+      throw core::InternalError("the exit angle tally \"" + inside.name + "\" has no second histogram");
+    all.push_back(
+        {inside.name, inside.faces.front(), inside.detected_only, counts_of(inside), counts_of(*beyond)});
+  }
+  return all;
+}
+
+std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles) {
+  const auto tally_of = [&](const char* type, const std::string& name, const char* variable,
+                            const std::vector<std::uint64_t>& counts) {
+    tally::TallyResult tally;
+    tally.name = name;
+    tally.type = type;
+    tally.score = "photons";
+    tally.unit = "1";
+    tally.faces = {angles.face};
+    tally.detected_only = angles.detected_only;
+    tally.axes.push_back({variable, "rad", {}, {}, {}});
+    for (std::size_t i = 0; i <= counts.size(); ++i)
+      tally.axes[0].edges.push_back(0.5 * core::kPi * static_cast<double>(i) /
+                                    static_cast<double>(counts.size()));
+    tally.sum.assign(counts.begin(), counts.end());
+    tally.sum_of_squares = tally.sum;
+    return tally;
+  };
+  return {tally_of(scene_file::kExitAngleBeyond, scene_file::beyond_name(angles.name), "angle_after",
+                   angles.outside),
+          tally_of(scene_file::kExitAngle, angles.name, "angle_before", angles.inside)};
 }
 
 Divergence divergence(const std::vector<std::uint64_t>& counts) {

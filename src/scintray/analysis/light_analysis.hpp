@@ -21,6 +21,22 @@ struct Crosstalk {
 /// @throws InputError when the point has no such tally.
 Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& name);
 
+/// Crossings of a face by their angle to its normal, from the two histograms of an exit angle tally.
+struct CrossingAngles {
+  std::string name;
+  std::string face;            ///< "part:face"
+  bool detected_only = false;  ///< counts each detected photon's last crossing; else every crossing
+  std::vector<std::uint64_t>
+      inside;  ///< in equal bins of 0 to 90 deg: angle in the medium of the face's part
+  std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
+};
+
+/// Of all exit angle tallies of a point, in their order.
+std::vector<CrossingAngles> crossing_angles(const tally::PointResult& point);
+/// The tallies whose crossings they are. They count each crossing as a photon of its own: of several
+/// crossings of one photon the sums of squares do not know.
+std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles);
+
 /// Half-angles of a cone about the normal that holds a share of the light.
 struct Divergence {
   core::Estimate half_rad;    ///< half of the light

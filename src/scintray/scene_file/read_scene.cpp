@@ -7,7 +7,6 @@
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene_file/detail/bodies.hpp"
 #include "scintray/scene_file/detail/names.hpp"
-#include "scintray/scene_file/detail/read_tallies.hpp"
 #include "scintray/scene_file/readout.hpp"
 
 namespace scintray::scene_file {
@@ -98,7 +97,7 @@ void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& 
   }
 }
 
-SceneSpec read_from(const config::TomlTable& root, const std::string& text) {
+SceneSpec read_from(const config::TomlTable& root, const std::string& text, const TallyVariables& variables) {
   SceneSpec scene;
   scene.file = root.where().file;
   scene.folder = scene.file.parent_path();
@@ -120,7 +119,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text) {
   scene.analysis = read_analysis(root);
   scene.criteria = read_criteria(root);
   scene.goniometers = read_goniometers(root);
-  read_tallies(root, scene);
+  scene.tallies = read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), variables);
   scene.media = read_definitions(root, "media");
   scene.surfaces = read_definitions(root, "surfaces");
   scene.surfaces.merge(bodies.surfaces);
@@ -133,9 +132,10 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text) {
 
 }  // namespace
 
-SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems) {
+SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems,
+                     const TallyVariables& variables) {
   const config::TomlTable root(document, problems);
-  SceneSpec scene = read_from(root, text);
+  SceneSpec scene = read_from(root, text, variables);
   root.finish();
   return scene;
 }
@@ -143,16 +143,18 @@ SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& tex
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document) {
   core::Problems ignored;
   const config::TomlTable root(document, ignored);
-  read_from(root, "");
+  read_from(root, "", TallyVariables::built_in());
   return root.known_keys();
 }
 
-SceneFile SceneFile::load(const std::filesystem::path& path) {
-  return from_text(config::read_text_file(path), path.string());
+SceneFile SceneFile::load(const std::filesystem::path& path, const TallyVariables& variables) {
+  return from_text(config::read_text_file(path), path.string(), variables);
 }
 
-SceneFile SceneFile::from_text(const std::string& text, const std::string& file) {
+SceneFile SceneFile::from_text(const std::string& text, const std::string& file,
+                               const TallyVariables& variables) {
   SceneFile scene;
+  scene.variables_ = variables;
   scene.text_ = text;
   scene.document_ = config::parse_toml(text, file);
   DistinctProblems found;
@@ -218,7 +220,7 @@ SceneSpec SceneFile::read_point(std::size_t point, const std::vector<KeySetting>
   for (std::size_t i = 0; i < sweeps_.size(); ++i)
     edited = with_value(edited, {sweeps_[i].path, value_at(point, i)}, problems);
   for (const KeySetting& setting : settings) edited = with_value(edited, setting, problems);
-  return read_scene(std::make_shared<const config::TomlNode>(std::move(edited)), text_, problems);
+  return read_scene(std::make_shared<const config::TomlNode>(std::move(edited)), text_, problems, variables_);
 }
 
 SceneSpec SceneFile::spec(std::size_t point) const { return spec(point, {}); }

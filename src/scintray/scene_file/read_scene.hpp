@@ -12,7 +12,9 @@ namespace scintray::scene_file {
 
 /// Instantiates a parsed scene (its sweeps are checked but not applied). `text` is the file's.
 /// Everything wrong is added to `problems`; the result may be used only when there is nothing.
-SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems);
+/// @param variables  that its tallies may name
+SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems,
+                     const TallyVariables& variables = TallyVariables::built_in());
 
 /// Every key that read_scene looks for in the tables of this document, as "part.place.gap", sorted.
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
@@ -22,9 +24,12 @@ class SceneFile {
  public:
   /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws
   /// InputError with every distinct problem.
-  static SceneFile load(const std::filesystem::path& path);
+  /// @param variables  that its tallies may name
+  static SceneFile load(const std::filesystem::path& path,
+                        const TallyVariables& variables = TallyVariables::built_in());
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
-  static SceneFile from_text(const std::string& text, const std::string& file);
+  static SceneFile from_text(const std::string& text, const std::string& file,
+                             const TallyVariables& variables = TallyVariables::built_in());
 
   /// Product of the numbers of swept values; 1 without a sweep.
   std::size_t points() const;
@@ -48,6 +53,7 @@ class SceneFile {
 
   config::TomlNodePtr document_;
   std::vector<SweepSpec> sweeps_;
+  TallyVariables variables_;
   std::string text_;
 };
 

@@ -17,7 +17,7 @@
 #include "scintray/scene_file/part.hpp"
 #include "scintray/scene_file/run.hpp"
 #include "scintray/scene_file/source.hpp"
-#include "scintray/scene_file/tally_spec.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::scene_file {
 
@@ -37,7 +37,6 @@ struct SceneSpec {
   std::vector<CriterionSpec> criteria;
   std::vector<GoniometerSpec> goniometers;
   std::optional<FitSpec> fit;  ///< [fit]
-  std::vector<ExitAngleTallySpec> exit_angles;
   std::vector<TallySpec> tallies;
   InlineTables media;            ///< [media.NAME], as materials/media/NAME.toml
   InlineTables surfaces;         ///< [surfaces.NAME]

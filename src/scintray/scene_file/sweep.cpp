@@ -30,9 +30,12 @@ std::vector<std::string> segments_of(const std::string& path) {
   return segments;
 }
 
+/// Arrays of tables whose entries are called by another key than `name`.
+constexpr core::Word<const char*> kNameKeys[] = {{"mixture", "surface"}};
+
 /// What an entry of an array of tables is called in a path.
 std::string name_of(const config::TomlNode& array, const config::TomlNode& entry) {
-  const config::TomlNode* name = entry.find(array.key == "mixture" ? "surface" : "name");
+  const config::TomlNode* name = entry.find(core::find_word(kNameKeys, array.key).value_or("name"));
   return name && name->kind == Kind::string ? name->text : "";
 }
 

@@ -107,7 +107,6 @@ class SceneCurve : public FitModel {
     settings.push_back(fit_.position(measured_.points[point].x, measured_.points[point].where));
     scene_file::SceneSpec spec = with_options(file_.spec(0, settings), settings_.run);
     spec.tallies.clear();
-    spec.exit_angles.clear();
     spec.run.photon_list = !energy();
     return spec;
   }

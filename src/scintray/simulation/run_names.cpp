@@ -38,7 +38,6 @@ void Renumbering::apply(tally::PointResult& result) const {
     count.part = parts_[count.part];
     count.face = faces_[count.face];
   }
-  for (tally::ExitAngleTally& tally : result.exit_angles) tally.face = faces_[tally.face];
 }
 
 std::vector<tally::ReadoutChannel> Renumbering::applied(std::vector<tally::ReadoutChannel> channels) const {

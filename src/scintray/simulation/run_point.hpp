@@ -8,7 +8,7 @@
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
-#include "scintray/transport/propagate.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
 

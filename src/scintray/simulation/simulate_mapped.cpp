@@ -62,14 +62,12 @@ void bind_grids(ResponseMap& map, const scene::Scene& scene, const std::string& 
 }
 
 bool counts_photons(const scene_file::SceneSpec& spec) {
-  return !spec.tallies.empty() || !spec.exit_angles.empty() || spec.run.photon_list ||
-         spec.run.photon_history;
+  return !spec.tallies.empty() || spec.run.photon_list || spec.run.photon_history;
 }
 
 /// What can only be had of photons that are traced.
 void leave_photons_out(scene_file::SceneSpec& spec) {
   spec.tallies.clear();
-  spec.exit_angles.clear();
   spec.run.photon_list = spec.run.photon_history = false;
 }
 

@@ -2,10 +2,13 @@
 /// What makes scintillation light: energy left in matter.
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "scintray/core/philox.hpp"
 #include "scintray/scene/scene.hpp"
+#include "scintray/scene_file/gamma_source.hpp"
 
 namespace scintray::source {
 
@@ -37,5 +40,13 @@ class EventSource {
   /// @param rng     the event's own stream
   virtual Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const = 0;
 };
+
+/// Binds a specification to a built scene. Throws InputError with what does not fit: a region of no
+/// volume, media of unknown composition, nothing that scintillates where the energy is put, hits that
+/// are not hits.
+/// @param notes  takes what a user should know, none of which stops a run: hits out of order or outside
+///               every part
+std::unique_ptr<EventSource> make_event_source(const scene_file::GammaSpec& spec, const scene::Scene& scene,
+                                               std::vector<std::string>* notes = nullptr);
 
 }  // namespace scintray::source

@@ -1,17 +1,34 @@
 #pragma once
-/// What a run traces: photons, event by event.
+/// What a run traces: photons, and what emits them, event by event.
 
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "scintray/optics/fresnel.hpp"
+#include "scintray/optics/medium.hpp"
 #include "scintray/scene_file/spec.hpp"
 #include "scintray/source/event.hpp"
-#include "scintray/source/photon.hpp"
 
 namespace scintray::source {
+
+/// The state of one photon, as plain data: what only some scenes add lies beside it, in PhotonRecords.
+struct Photon {
+  core::PlainVec3 position;  ///< world, mm
+  optics::Ray ray;           ///< direction and polarisation
+  double wavelength_nm = 0.0;
+  double time_ns = 0.0;
+  double path_mm = 0.0;
+  double optical_depth = 0.0;      ///< left until absorption or scattering in the bulk
+  optics::MediumOptics optics;     ///< of the region's medium at this wavelength
+  core::RegionId region;           ///< in which it is
+  std::uint32_t interactions = 0;  ///< boundary interactions so far
+  std::uint32_t scatterings = 0;   ///< bulk scatterings so far
+};
+static_assert(std::is_trivially_copyable_v<Photon>);
 
 /// Photons of one event, to be traced one after the other.
 struct PhotonSpan {

@@ -1,8 +1,5 @@
-#include "scintray/source/make_event_source.hpp"
-
-#include "scintray/source/detail/gamma/gamma_source.hpp"
-#include "scintray/source/detail/hits_source.hpp"
-#include "scintray/source/detail/spectrum_source.hpp"
+#include "scintray/source/detail/event_sources.hpp"
+#include "scintray/source/event.hpp"
 
 namespace scintray::source {
 

@@ -1,18 +1,12 @@
 #include "scintray/tally/block_tally.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace scintray::tally {
 
 namespace {
 
 constexpr double kPathBin_mm = 10.0;
-
-int angle_bin(double cosine, int bins) {
-  const double angle = std::acos(std::clamp(cosine, 0.0, 1.0));
-  return std::min(bins - 1, static_cast<int>(angle / (0.5 * core::kPi) * bins));
-}
 
 /// What a block counts itself; contributions to counts go to the total one by one.
 PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
@@ -22,12 +16,6 @@ PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
   result.shifted_in_medium.resize(scene.media.size());
   result.shifted_at_surface.resize(scene.surfaces.size());
   result.sensor_faces = plan.sensor_face_names;
-  for (const ExitAngleRequest& request : plan.exit_angles) {
-    ExitAngleTally tally{request.name, request.face, request.detected_only, {}, {}};
-    tally.inside.assign(static_cast<std::size_t>(request.bins), 0);
-    tally.outside = tally.inside;
-    result.exit_angles.push_back(tally);
-  }
   return result;
 }
 
@@ -45,10 +33,6 @@ void merge(PointResult& total, const PointResult& block) {
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
     total.sensor_faces[i].detected += block.sensor_faces[i].detected;
     total.sensor_faces[i].not_detected += block.sensor_faces[i].not_detected;
-  }
-  for (std::size_t i = 0; i < total.exit_angles.size(); ++i) {
-    add(total.exit_angles[i].inside, block.exit_angles[i].inside);
-    add(total.exit_angles[i].outside, block.exit_angles[i].outside);
   }
   total.interactions.merge(block.interactions);
   total.detected_path_mm.merge(block.detected_path_mm);
@@ -69,10 +53,7 @@ PointResult empty_result(const scene::Scene& scene, const TallyPlan& plan) {
 }
 
 BlockTally::BlockTally(const scene::Scene& scene, const TallyPlan& plan)
-    : plan_(plan),
-      result_(empty_block(scene, plan)),
-      records_(plan.history.has_value()),
-      last_crossing_(plan.exit_angles.size()) {
+    : plan_(plan), result_(empty_block(scene, plan)), records_(plan.history.has_value()) {
   if (!plan.counts.empty()) scorer_.emplace(scene, plan);
   if (plan.history) history_.emplace(scene, *plan.history);
 }
@@ -83,18 +64,6 @@ void BlockTally::start(const source::Photon& emitted, std::uint64_t event, std::
   records_.clear();
   if (scorer_) scorer_->start(emitted);
   if (history_) history_->start(emitted);
-  std::fill(last_crossing_.begin(), last_crossing_.end(), Angles{});
-}
-
-void BlockTally::note_crossing(const transport::Step& step) {
-  for (const std::uint32_t tally : plan_.exit_angles_at[step.interface][step.from_back]) {
-    const int bins = plan_.exit_angles[tally].bins;
-    const Angles angles{angle_bin(step.cos_before, bins), angle_bin(step.cos_after, bins)};
-    last_crossing_[tally] = angles;
-    if (plan_.exit_angles[tally].detected_only) continue;
-    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
-    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
-  }
 }
 
 void BlockTally::end(const source::Photon& photon, const transport::Step& step, std::uint32_t point) {
@@ -116,7 +85,6 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
     default:
       return;  // no end: the run then finds a photon without a fate and states so
   }
-  note_crossing(step);
   SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[step.interface][step.from_back].index()];
   if (step.event == core::StepEvent::not_detected) {
     ++at_face.not_detected;
@@ -128,12 +96,6 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
   result_.detected_interactions.add(photon.interactions);
   const auto last = result_.detected_path_histogram.size() - 1;
   ++result_.detected_path_histogram[std::min(last, static_cast<std::size_t>(photon.path_mm / kPathBin_mm))];
-  for (std::size_t tally = 0; tally < last_crossing_.size(); ++tally) {
-    const Angles& angles = last_crossing_[tally];
-    if (!plan_.exit_angles[tally].detected_only || angles.inside < 0) continue;
-    ++result_.exit_angles[tally].inside[static_cast<std::size_t>(angles.inside)];
-    ++result_.exit_angles[tally].outside[static_cast<std::size_t>(angles.outside)];
-  }
   if (history_) history_->keep(point, event_, photon_, records_.reflections());
   if (plan_.photon_list) {
     const core::PlainVec3 &p = photon.position, &d = photon.ray.direction;

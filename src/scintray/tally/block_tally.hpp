@@ -5,12 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "scintray/source/photon.hpp"
 #include "scintray/source/photon_records.hpp"
 #include "scintray/tally/count_scorer.hpp"
 #include "scintray/tally/result.hpp"
 #include "scintray/tally/tally_plan.hpp"
-#include "scintray/transport/step_record.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 
@@ -26,13 +25,12 @@ class BlockTally {
   source::PhotonRecords& records() { return records_; }
   /// A total reflection passed on the way to the next step. Only for those who want them.
   void pass(const source::Photon& photon, const transport::Step& step) { scorer_->step(photon, step); }
-  bool wants_reflections() const { return scorer_.has_value(); }
+  bool wants_reflections() const { return plan_.follows_reflections; }
   /// A step that did not end it.
   void record(const source::Photon& photon, const transport::Step& step) {
     count_step(step);
     if (scorer_) scorer_->step(photon, step);
     if (history_) history_->step(photon, step);
-    if (step.event == core::StepEvent::transmitted) note_crossing(step);
   }
   /// Its end: by a last step, or by a limit.
   void end(const source::Photon& photon, const transport::Step& step, std::uint32_t point);
@@ -46,21 +44,16 @@ class BlockTally {
   void add_to(PointResult& total) const;
 
  private:
-  struct Angles {
-    int inside = -1, outside = -1;
-  };
   void count_step(const transport::Step& step) {
     result_.segments += step.segments;
     result_.resolved_misses += step.resolved;
   }
-  void note_crossing(const transport::Step& step);
   void finish(const source::Photon& photon, core::Fate fate);
 
   const TallyPlan& plan_;
   PointResult result_;
   source::PhotonRecords records_;
   std::vector<DetectedPhoton> photons_;
-  std::vector<Angles> last_crossing_;       ///< per exit-angle tally, of the photon under way
   std::optional<CountScorer> scorer_;       ///< when the plan has counts
   std::optional<HistoryRecorder> history_;  ///< when the plan has histories
   std::uint64_t event_ = 0, photon_ = 0;

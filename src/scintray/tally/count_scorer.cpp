@@ -2,146 +2,113 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "scintray/tally/detail/face_axes.hpp"
+#include <limits>
 
 namespace scintray::tally {
 
 namespace {
 
-bool among(const std::vector<bool>& set, core::PartId part) { return set.empty() || set[part_slot(part)]; }
-
-double azimuth(const core::Vec3& direction, const core::Vec3& normal) {
-  const auto [x, y] = face_axes(normal);
-  return std::atan2(direction.dot(y), direction.dot(x));
-}
-
-double sine_squared(const core::Vec3& direction, const core::Vec3& normal) {
-  const double cosine = direction.dot(normal);
-  return std::max(0.0, 1.0 - cosine * cosine);
-}
-
-double angle(const core::Vec3& direction, const core::Vec3& normal) {
-  return std::acos(std::min(1.0, std::abs(direction.dot(normal))));
+bool among(const std::vector<bool>& set, core::PartId part) {
+  return set.empty() || set[scene_file::place_of(part)];
 }
 
 }  // namespace
 
+CountScorer::CountScorer(const scene::Scene& scene, const TallyPlan& plan) : scene_(scene), plan_(plan) {
+  view_.direction_before.setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
 void CountScorer::start(const source::Photon& photon) {
-  start_ = photon.position;
-  direction_before_ = photon.ray.direction;
-  source_part_ = scene_.regions[photon.region].part;
-  crossings_ = 0;
+  const core::PartId part = scene_.regions[photon.region].part;
+  view_.start = photon.position;
+  view_.source_part = part;
+  view_.crossings = 0;
+  if (plan_.follows_reflections) view_.direction_before = photon.ray.direction;
   visited_.assign(plan_.follows_regions ? 1 : 0, photon.region);
-  Moment moment{core::StepEvent::emitted, photon, source_part_};
-  happened(moment, nullptr);
+  score_anywhere(photon, core::StepEvent::emitted, part);
 }
 
 void CountScorer::step(const source::Photon& photon, const transport::Step& step) {
-  Moment moment{step.event, photon, scene_.regions[photon.region].part};
+  core::PartId part = scene_.regions[photon.region].part;
   if (photon.region != step.region) {
-    ++crossings_;
+    ++view_.crossings;
     if (plan_.follows_regions) visited_.push_back(photon.region);
   }
   if (step.event == core::StepEvent::detected || step.event == core::StepEvent::not_detected)
-    moment.part = step.sensor_part;
-  happened(moment, &step);
-  direction_before_ = photon.ray.direction;
+    part = step.sensor_part;
+  score_anywhere(photon, step.event, part);
+  if (step.triangle != scene::kNoTriangle) score_at_faces(photon, step, part);
+  if (plan_.follows_reflections) view_.direction_before = photon.ray.direction;
   if (core::is_final(step.event)) end(step.event);
 }
 
 void CountScorer::cut(const source::Photon& photon, core::Fate fate) {
-  Moment moment{fate, photon, scene_.regions[photon.region].part};
-  happened(moment, nullptr);
+  score_anywhere(photon, fate, scene_.regions[photon.region].part);
   end(fate);
 }
 
-void CountScorer::happened(Moment& moment, const transport::Step* step) {
-  for (const std::uint32_t number : plan_.counts_on[static_cast<std::size_t>(moment.event)])
-    score(number, moment);
-  if (!step || step->triangle == scene::kNoTriangle) return;
-  const auto& at_face = plan_.counts_at[step->interface][step->from_back];
-  if (at_face.empty()) return;
-  const scene::Region& region = scene_.regions[step->region];
-  const core::Vec3 outward = scene_.normal(region, step->triangle);
-  for (const TallyPlan::CountAtFace& count : at_face) {
-    if ((plan_.events_of[count.count] >> static_cast<unsigned>(moment.event) & 1u) == 0) continue;
-    moment.face = count.face;
-    moment.normal = count.inwards ? core::Vec3(-outward) : outward;
-    score(count.count, moment);
+void CountScorer::look_at(const source::Photon& photon, core::StepEvent event, core::PartId part) {
+  view_.event = event;
+  view_.wavelength_nm = photon.wavelength_nm;
+  view_.time_ns = photon.time_ns;
+  view_.path_mm = photon.path_mm;
+  view_.interactions = photon.interactions;
+  view_.scatterings = photon.scatterings;
+  view_.position = photon.position;
+  view_.direction = photon.ray.direction;
+  view_.part = part;
+}
+
+void CountScorer::score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part) {
+  const std::vector<std::uint32_t>& counts = plan_.counts_on[static_cast<std::size_t>(event)];
+  if (counts.empty()) return;
+  look_at(photon, event, part);
+  for (const std::uint32_t number : counts) score(number);
+}
+
+void CountScorer::score_at_faces(const source::Photon& photon, const transport::Step& step,
+                                 core::PartId part) {
+  const auto& at_faces = plan_.counts_at[step.interface][step.from_back];
+  const auto counts = [&](const TallyPlan::CountAtFace& at) {
+    return (plan_.events_of[at.count] >> static_cast<unsigned>(step.event) & 1u) != 0;
+  };
+  if (std::none_of(at_faces.begin(), at_faces.end(), counts)) return;
+  look_at(photon, step.event, part);
+  view_.cos_before = step.cos_before;
+  const core::Vec3 outward = scene_.normal(scene_.regions[step.region], step.triangle);
+  for (const TallyPlan::CountAtFace& at : at_faces) {
+    if (!counts(at)) continue;
+    view_.face = at.face;
+    view_.normal = at.inwards ? core::Vec3(-outward) : outward;
+    score(at.count);
   }
 }
 
-double CountScorer::value(scene_file::TallyVariable variable, const core::Vec3& along,
-                          const Moment& moment) const {
-  const source::Photon& photon = moment.photon;
-  switch (variable) {
-    case scene_file::TallyVariable::wavelength:
-      return photon.wavelength_nm;
-    case scene_file::TallyVariable::time:
-      return photon.time_ns;
-    case scene_file::TallyVariable::path:
-      return photon.path_mm;
-    case scene_file::TallyVariable::interactions:
-      return photon.interactions;
-    case scene_file::TallyVariable::scatterings:
-      return photon.scatterings;
-    case scene_file::TallyVariable::crossings:
-      return crossings_;
-    case scene_file::TallyVariable::position:
-      return along.dot(photon.position.vec());
-    case scene_file::TallyVariable::start:
-      return along.dot(start_);
-    case scene_file::TallyVariable::direction:
-      return along.dot(photon.ray.direction.vec());
-    case scene_file::TallyVariable::angle_before:
-      return angle(direction_before_, moment.normal);
-    case scene_file::TallyVariable::angle_after:
-      return angle(photon.ray.direction, moment.normal);
-    case scene_file::TallyVariable::sin2_before:
-      return sine_squared(direction_before_, moment.normal);
-    case scene_file::TallyVariable::sin2_after:
-      return sine_squared(photon.ray.direction, moment.normal);
-    case scene_file::TallyVariable::azimuth_before:
-      return azimuth(direction_before_, moment.normal);
-    case scene_file::TallyVariable::azimuth_after:
-      return azimuth(photon.ray.direction, moment.normal);
-    default:
-      throw core::InternalError(std::string("the number ") + scene_file::tally_variable_name(variable) +
-                                " is a name");
-  }
-}
-
-bool CountScorer::accepts(const CountRequest& count, const Moment& moment) const {
-  if (!among(count.parts, moment.part) || !among(count.source_parts, source_part_)) return false;
+bool CountScorer::accepts(const CountRequest& count) const {
+  if (!among(count.parts, view_.part) || !among(count.source_parts, view_.source_part)) return false;
   return std::all_of(count.ranges.begin(), count.ranges.end(), [&](const CountRange& range) {
-    const double x = value(range.variable, range.along, moment);
+    const double x = range.variable->number(view_, range.along);
     return x >= range.low && x < range.high;
   });
 }
 
-std::uint32_t CountScorer::bin_of(const CountRequest& count, const Moment& moment, bool& named) const {
+std::uint32_t CountScorer::bin_of(const CountRequest& count, bool& named) const {
   std::uint32_t bin = 0;
   bool inside = true;
   for (const CountAxis& axis : count.axes) {
     bin *= axis.bins;
-    if (scene_file::is_category(axis.variable)) {
-      const std::size_t slot = axis.variable == scene_file::TallyVariable::event
-                                   ? static_cast<std::size_t>(moment.event)
-                               : axis.variable == scene_file::TallyVariable::face ? moment.face.index()
-                               : axis.variable == scene_file::TallyVariable::part ? part_slot(moment.part)
-                                                                                  : part_slot(source_part_);
-      const BinId name = axis.bin_of[slot];
-      if (!name.has_value()) {
+    if (axis.variable->is_name()) {
+      const BinId of_name = axis.bin_of[axis.variable->place(view_)];
+      if (!of_name.has_value()) {
         named = false;
         return Contribution::kOutside;
       }
-      bin += name.index();
+      bin += of_name.index();
       continue;
     }
-    double position = (value(axis.variable, axis.along, moment) - axis.low) * axis.per_bin;
-    if (axis.to_the_edge || scene_file::needs_face(axis.variable))  // ends that nothing can lie beyond
-      position = std::clamp(position, 0.0, std::nextafter(static_cast<double>(axis.bins), 0.0));
+    double position = (axis.variable->number(view_, axis.along) - axis.low) * axis.per_bin;
+    if (axis.ends_low) position = std::max(position, 0.0);
+    if (axis.ends_high) position = std::min(position, std::nextafter(static_cast<double>(axis.bins), 0.0));
     if (position >= 0.0 && position < axis.bins)
       bin += static_cast<std::uint32_t>(position);
     else
@@ -150,13 +117,13 @@ std::uint32_t CountScorer::bin_of(const CountRequest& count, const Moment& momen
   return inside ? bin : Contribution::kOutside;
 }
 
-void CountScorer::score(std::uint32_t number, const Moment& moment) {
+void CountScorer::score(std::uint32_t number) {
   const CountRequest& count = plan_.counts[number];
-  if (!accepts(count, moment)) return;
+  if (!accepts(count)) return;
   bool named = true;
-  const std::uint32_t bin = bin_of(count, moment, named);
+  const std::uint32_t bin = bin_of(count, named);
   if (!named) return;
-  const double what = count.score ? value(*count.score, core::Vec3::Zero(), moment) : 1.0;
+  const double what = count.score ? count.score->number(view_, core::Vec3::Zero()) : 1.0;
   if (count.each != scene_file::TallyEach::time) {
     const auto known = std::find_if(pending_.begin(), pending_.end(),
                                     [&](const Contribution& c) { return c.count == number; });
@@ -179,9 +146,11 @@ void CountScorer::end(core::Fate fate) {
     if (!count.visited.empty() && !seen(count.visited)) return false;
     return count.not_visited.empty() || !seen(count.not_visited);
   };
-  std::stable_sort(pending_.begin(), pending_.end(), [](const Contribution& a, const Contribution& b) {
+  const auto before = [](const Contribution& a, const Contribution& b) {
     return a.count != b.count ? a.count < b.count : a.bin < b.bin;
-  });
+  };
+  if (!std::is_sorted(pending_.begin(), pending_.end(), before))
+    std::stable_sort(pending_.begin(), pending_.end(), before);
   const std::size_t first = contributions_.size();
   for (const Contribution& c : pending_) {
     if (!keeps(c)) continue;

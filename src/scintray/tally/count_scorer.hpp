@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scintray/source/photon.hpp"
 #include "scintray/tally/tally_plan.hpp"
-#include "scintray/transport/step_record.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 
@@ -22,7 +21,7 @@ struct Contribution {
 /// may request its fate and the error of a bin for all that one photon gave to it.
 class CountScorer {
  public:
-  CountScorer(const scene::Scene& scene, const TallyPlan& plan) : scene_(scene), plan_(plan) {}
+  CountScorer(const scene::Scene& scene, const TallyPlan& plan);
 
   void start(const source::Photon& photon);
   /// A step and the photon after it; `cut` in place of a step where a limit ended it.
@@ -33,29 +32,21 @@ class CountScorer {
   const std::vector<Contribution>& contributions() const { return contributions_; }
 
  private:
-  /// One thing that happened.
-  struct Moment {
-    core::StepEvent event;
-    const source::Photon& photon;  ///< after it
-    core::PartId part;             ///< as TallyVariable::part
-    core::FaceId face = {};
-    core::Vec3 normal = core::Vec3::Zero();  ///< of the face, out of its part
-  };
-
-  void happened(Moment& moment, const transport::Step* step);
-  void score(std::uint32_t number, const Moment& moment);
-  double value(scene_file::TallyVariable variable, const core::Vec3& along, const Moment& moment) const;
-  bool accepts(const CountRequest& count, const Moment& moment) const;
-  std::uint32_t bin_of(const CountRequest& count, const Moment& moment, bool& named) const;
+  /// Scores the counts that an event at no face has, and those that it has at the faces of its interface.
+  void score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part);
+  void score_at_faces(const source::Photon& photon, const transport::Step& step, core::PartId part);
+  void score(std::uint32_t number);
+  /// Completes the view of the photon under way with an event in a part; none: the ambient space.
+  void look_at(const source::Photon& photon, core::StepEvent event, core::PartId part);
+  bool accepts(const CountRequest& count) const;
+  std::uint32_t bin_of(const CountRequest& count, bool& named) const;
   void end(core::Fate fate);
 
   const scene::Scene& scene_;
   const TallyPlan& plan_;
   std::vector<Contribution> contributions_, pending_;
   std::vector<core::RegionId> visited_;  ///< when some count needs them
-  core::Vec3 start_ = core::Vec3::Zero(), direction_before_ = core::Vec3::Zero();
-  core::PartId source_part_;
-  std::uint32_t crossings_ = 0;
+  scene_file::StepView view_;            ///< of the photon under way
 };
 
 /// Adds contributions to the sums of `total`, one for each count of the plan.

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "scintray/scene/scene.hpp"
-#include "scintray/source/photon.hpp"
-#include "scintray/transport/step_record.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 

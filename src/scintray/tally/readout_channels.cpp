@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "scintray/tally/detail/face_axes.hpp"
+#include "scintray/core/face_axes.hpp"
 
 namespace scintray::tally {
 
@@ -44,7 +44,7 @@ class ChannelFaces {
       if (channel.area_mm2 > 0.0) channel.position = moments_[i] / channel.area_mm2;
       // Light that comes from all sides has no mean direction: the channel keeps z.
       if (vectors_[i].norm() > 1e-6 * channel.area_mm2) channel.normal = vectors_[i].normalized();
-      const std::array<core::Vec3, 2> across = face_axes(channel.normal);
+      const std::array<core::Vec3, 2> across = core::face_axes(channel.normal);
       channel.x = across[0];
       channel.y = across[1];
     }

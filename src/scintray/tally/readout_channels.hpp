@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scintray/tally/per_crossing.hpp"
-#include "scintray/transport/step_record.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 

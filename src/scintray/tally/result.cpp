@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::tally {
 
@@ -18,7 +19,7 @@ core::Estimate TallyResult::at(std::size_t bin, std::uint64_t photons) const {
   const double n = static_cast<double>(photons);
   // Sum of n independent scores: n times their variance, which is at least that of one count.
   const double variance = std::max(sum_of_squares[bin] - sum[bin] * sum[bin] / n, 0.0);
-  const bool counts = score == "photons" && sum[bin] == 0.0;
+  const bool counts = score == scene_file::kPhotonScore && sum[bin] == 0.0;
   return {sum[bin], counts ? 1.0 : std::sqrt(variance)};
 }
 

@@ -24,18 +24,7 @@ struct SensorFaceCount {
   std::uint64_t detected = 0;
   std::uint64_t not_detected = 0;
 };
-
 using SensorFaceId = core::Id<SensorFaceCount>;
-
-/// Histogram of crossing angles at a face: the angle of travel to the face's outward normal, before
-/// and after the crossing, 0 to 90 deg in equal bins.
-struct ExitAngleTally {
-  std::string name;
-  core::FaceId face;
-  bool detected_only = false;          ///< counts each detected photon's last crossing; else every crossing
-  std::vector<std::uint64_t> inside;   ///< angle in the medium of the face's part
-  std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
-};
 
 /// An axis of a tally: bins of a number between edges, or names.
 struct TallyAxis {
@@ -54,6 +43,9 @@ struct TallyResult {
   std::string type;   ///< "count", "crosstalk", "irradiance", ...
   std::string score;  ///< "photons", or the number that is summed
   std::string unit;   ///< of the score, "1" for photons
+  /// "part:face" of the faces that it is bound to. Of results files, only exit angles have them.
+  std::vector<std::string> faces;
+  bool detected_only = false;  ///< only the last event of each photon that is detected in the end; likewise
   std::vector<TallyAxis> axes;
   std::vector<double> sum;             ///< per bin
   std::vector<double> sum_of_squares;  ///< per bin, of what each photon gave it
@@ -101,7 +93,6 @@ struct PointResult {
   core::IdVector<core::MediumId, optics::ShiftCount> shifted_in_medium;
   core::IdVector<core::SurfaceId, optics::ShiftCount> shifted_at_surface;
   std::vector<SensorFaceCount> sensor_faces;
-  std::vector<ExitAngleTally> exit_angles;
   std::vector<TallyResult> tallies;
   core::Moments interactions;      ///< boundary interactions per photon
   core::Moments detected_path_mm;  ///< path length of detected photons

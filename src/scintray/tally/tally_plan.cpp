@@ -6,15 +6,13 @@ namespace scintray::tally {
 
 namespace {
 
-core::FaceId find_face(const scene_file::ExitAngleTallySpec& spec, const scene::Scene& scene) {
-  const std::string wanted = spec.part.name + ":" + spec.face.name;
-  std::vector<std::string> names;
-  for (const core::FaceId id : scene.faces.ids()) {
-    if (scene.faces[id].name == wanted) return id;
-    names.push_back(scene.faces[id].name);
-  }
-  throw core::unknown_name(spec.face.where.file.empty() ? spec.where : spec.face.where, "face", wanted,
-                           names);
+/// Total reflections count themselves, or something is measured that they change.
+bool needs_reflections(const scene_file::TallySpec& tally) {
+  const auto needs = [](const auto& measured) { return measured.variable->direction_before; };
+  return std::find(tally.at.begin(), tally.at.end(), core::StepEvent::reflected) != tally.at.end() ||
+         std::any_of(tally.axes.begin(), tally.axes.end(), needs) ||
+         std::any_of(tally.ranges.begin(), tally.ranges.end(), needs) ||
+         (tally.score && tally.score->direction_before);
 }
 
 /// Parts in which light is stated to start; empty: not stated by part.
@@ -33,8 +31,6 @@ std::vector<config::NameRef> source_parts(const scene_file::SceneSpec& spec) {
 TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec)
     : channels(scene), photon_list(spec.run.photon_list) {
   if (spec.run.photon_history) history.emplace(scene);
-  for (const scene_file::ExitAngleTallySpec& tally : spec.exit_angles)
-    exit_angles.push_back({tally.name, find_face(tally, scene), tally.detected_only, tally.bins});
   bind_ways(scene);
   bind_readout(spec, scene);
   if (spec.tallies.empty()) return;
@@ -52,6 +48,7 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     events_of.push_back(events);
     for (const core::FaceId face : faces_of(tally, scene))
       counts_of_face[face].emplace_back(number, tally.way);
+    follows_reflections = follows_reflections || needs_reflections(tally);
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
   }
   counts_at.resize(scene.interfaces.size());
@@ -91,20 +88,17 @@ void TallyPlan::bind_readout(const scene_file::SceneSpec& spec, const scene::Sce
 }
 
 void TallyPlan::bind_ways(const scene::Scene& scene) {
-  exit_angles_at.resize(scene.interfaces.size());
   sensor_faces.resize(scene.interfaces.size());
   for (const core::InterfaceId id : scene.interfaces.ids()) {
     const scene::Interface& interface = scene.interfaces[id];
     for (const bool from_back : {false, true}) {
-      const core::FaceId left_face = from_back ? interface.back_face : interface.front_face;
-      for (std::uint32_t tally = 0; tally < exit_angles.size(); ++tally)
-        if (left_face == exit_angles[tally].face) exit_angles_at[id][from_back].push_back(tally);
-
       const core::SensorId sensor = from_back ? interface.front_sensor : interface.back_sensor;
       if (!sensor.has_value()) continue;
       const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
       const core::FaceId own = from_back ? interface.front_face : interface.back_face;
-      const core::FaceId face = own.has_value() ? own : left_face;
+      const core::FaceId face = own.has_value() ? own
+                                : from_back     ? interface.back_face
+                                                : interface.front_face;
       const auto [known, is_new] =
           sensor_face_of_.try_emplace({part, face}, SensorFaceId(sensor_face_names.size()));
       if (is_new) sensor_face_names.push_back({part, face, 0, 0});

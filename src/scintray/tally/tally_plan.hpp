@@ -19,36 +19,25 @@
 
 namespace scintray::tally {
 
-/// A histogram of crossing angles requested of a run.
-struct ExitAngleRequest {
-  std::string name;
-  core::FaceId face;
-  bool detected_only = false;
-  int bins = 18;
-};
-
 /// A bin of an axis of names.
 using BinId = core::Id<struct BinTag>;
 
-/// Place of a part in a list of all parts that begins with the ambient space.
-inline std::size_t part_slot(core::PartId part) {
-  return part.has_value() ? std::size_t{part.index()} + 1 : 0;
-}
-
 /// An axis of a count, bound to the scene.
 struct CountAxis {
-  scene_file::TallyVariable variable = scene_file::TallyVariable::part;
+  scene_file::TallyVariablePtr variable;
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
-  bool to_the_edge = false;  ///< the ends are a face's own: rounding may not carry a photon beyond them
-  /// Of names: bin of each part (by part_slot), face or event, none where it has none.
+  /// Nothing lies below or above: the end is the variable's own bound, or a face's, and what rounding carries
+  /// beyond it counts within.
+  bool ends_low = false, ends_high = false;
+  /// Of names: bin of each place (TallyVariable::place), none where it has none.
   std::vector<BinId> bin_of;
 };
 
 /// A condition on a number.
 struct CountRange {
-  scene_file::TallyVariable variable = scene_file::TallyVariable::wavelength;
+  scene_file::TallyVariablePtr variable;
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, high = 0.0;
 };
@@ -58,11 +47,11 @@ struct CountRequest {
   TallyResult empty;  ///< name, axes and zeros
   std::vector<CountAxis> axes;
   std::vector<CountRange> ranges;
-  std::vector<bool> parts, source_parts;                      ///< by part_slot; empty: all
+  std::vector<bool> parts, source_parts;                      ///< by place_of; empty: all
   core::IdVector<core::RegionId, bool> visited, not_visited;  ///< empty: no condition
   std::uint32_t fates = 0;                                    ///< bits of StepEvent; 0: any
   scene_file::TallyEach each = scene_file::TallyEach::time;
-  std::optional<scene_file::TallyVariable> score;
+  scene_file::TallyVariablePtr score;  ///< null: photons
 };
 
 struct TallyPlan {
@@ -70,9 +59,7 @@ struct TallyPlan {
   /// be: a grid on a face that is not flat, more bins than can be kept.
   TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
 
-  std::vector<ExitAngleRequest> exit_angles;
-  PerCrossing<std::vector<std::uint32_t>> exit_angles_at;  ///< tallies to fill, most have none
-  PerCrossing<SensorFaceId> sensor_faces;                  ///< none where there is no sensor
+  PerCrossing<SensorFaceId> sensor_faces;  ///< none where there is no sensor
   std::vector<SensorFaceCount> sensor_face_names;
   ReadoutChannels channels;
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
@@ -88,7 +75,8 @@ struct TallyPlan {
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
   /// Per event: counts that are bound to no face.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
-  bool follows_regions = false;  ///< some count needs which regions a photon visited
+  bool follows_regions = false;      ///< some count needs which regions a photon visited
+  bool follows_reflections = false;  ///< some count needs every total reflection that is passed
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested

@@ -4,10 +4,117 @@
 #include <cmath>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/transport/detail/propagation_states.hpp"
 
 namespace scintray::transport {
 
 namespace {
+
+enum class PropagationEnd {
+  bulk,      ///< the photon is where its medium absorbs or scatters it
+  escape,    ///< it leaves the scene
+  boundary,  ///< it is at a boundary, which decides what happens
+  total,     ///< it was totally reflected, and the limits are reached
+};
+
+/// How a propagation ended.
+struct Propagation {
+  PropagationEnd end = PropagationEnd::escape;
+  std::uint32_t triangle = scene::kNoTriangle;  ///< at a boundary: of the region's accelerator
+  double cosine = 0.0;                          ///< of incidence, at a smooth boundary
+  std::uint32_t segments = 0;                   ///< straight segments
+  std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
+};
+
+/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected, as for no
+/// medium.
+double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
+  constexpr double kNever = 2.0;
+  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
+  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
+  return ratio * ratio;
+}
+
+/// What a total reflection at this boundary of the photon's region is as a step.
+Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
+                      double cosine) {
+  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
+  Step step;
+  step.event = core::StepEvent::reflected;
+  step.from_back = link.from_back;
+  step.region = photon.region;
+  step.interface = link.interface;
+  step.triangle = triangle;
+  step.cos_before = step.cos_after = cosine;
+  return step;
+}
+
+/// From wall to wall until something other than a total reflection decides. Inlined: it is in every step.
+template <typename State>
+[[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
+                                                       const PropagationLimits& limits) {
+  const scene::Region& region = scene.regions[photon.region];
+  const scene::BoundaryLink* const links = scene.links_of(region);
+  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  State state(scene, region, photon);
+  core::MediumId known_medium;
+  double least_sin2 = critical_sin2(scene, known_medium, photon);
+  Propagation propagation;
+  for (;;) {
+    ++propagation.segments;
+    const Wall wall = state.next_wall();
+    propagation.resolved += wall.resolved ? 1 : 0;
+    propagation.triangle = wall.triangle;
+    if (wall.triangle == scene::kNoTriangle) [[unlikely]] {
+      propagation.end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
+      break;
+    }
+    const double depth = attenuation * wall.distance_mm;
+    if (depth > state.depth_left()) {
+      propagation.end = PropagationEnd::bulk;
+      break;
+    }
+    state.move(wall.distance_mm, depth);
+    propagation.end = PropagationEnd::boundary;
+    const core::MediumId medium = links[wall.triangle].smooth_to;
+    if (!medium.has_value()) break;
+    if (medium != known_medium) {
+      known_medium = medium;
+      least_sin2 = critical_sin2(scene, medium, photon);
+    }
+    propagation.cosine = state.incidence(wall);
+    if (!(1.0 - propagation.cosine * propagation.cosine >= least_sin2)) break;
+
+    state.reflect_at(wall, propagation.cosine);
+    propagation.end = PropagationEnd::total;
+    if (!state.allowed_by(limits)) break;
+    if (limits.passed) [[unlikely]] {
+      state.store(photon);
+      limits.passed(photon, total_reflection(scene, photon, wall.triangle, propagation.cosine));
+    }
+    if (!state.goes_on()) break;
+    state.turn();
+  }
+  state.store(photon);
+  return propagation;
+}
+
+[[gnu::noinline]] void go_on_with_embree(const scene::Scene& scene, source::Photon& photon,
+                                         const PropagationLimits& limits, Propagation& propagation) {
+  const Propagation first = propagation;
+  propagation = propagate_as<EmbreePropagation>(scene, photon, limits);
+  propagation.segments += first.segments;
+  propagation.resolved += first.resolved;
+}
+
+/// Moves the photon through the region that it is in, up to the next event. Depends on nothing but its
+/// arguments.
+Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
+  Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
+  if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
+    go_on_with_embree(scene, photon, limits, propagation);
+  return propagation;
+}
 
 /// Turns the photon with the dipole pattern about its polarisation; for unpolarised light with
 /// 3/4 (1 + cos^2) (Born & Wolf, section 14.5.2).
@@ -102,21 +209,38 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   return index;
 }
 
-/// Lets the photon interact with a surface in which its wavelength may change; `index` follows it.
-[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(
-    const scene::Scene& scene, const scene::Interface& interface, bool at_back, optics::Side side,
-    const core::Vec3& outward, InterfaceIndex& index, source::Photon& photon, core::Rng& rng,
-    source::PhotonRecords* records) {
-  const core::SurfaceId id = at_back ? interface.back_surface : interface.front_surface;
+/// What a photon comes to at an interface.
+struct InterfaceApproach {
+  const scene::Scene& scene;
+  const scene::Interface& interface;
+  bool from_back = false;  ///< the region that it comes from
+  core::Vec3 normal;       ///< of unit length, out of the back region
+  InterfaceIndex index;    ///< at the photon's wavelength, and follows it
+};
+
+/// How a photon comes to one of an interface's surfaces.
+struct SurfaceApproach {
+  bool at_back = false;  ///< the back region's surface, else the front region's
+  optics::Side side = optics::Side::inside;
+  core::Vec3 outward;  ///< of unit length, out of the region of the surface
+};
+
+/// Lets the photon interact with a surface in which its wavelength may change; the indices follow it.
+[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(InterfaceApproach& at,
+                                                                        const SurfaceApproach& to,
+                                                                        source::Photon& photon,
+                                                                        core::Rng& rng,
+                                                                        source::PhotonRecords* records) {
+  const core::SurfaceId id = to.at_back ? at.interface.back_surface : at.interface.front_surface;
   optics::ShiftingLight light;
   light.wavelength_nm = photon.wavelength_nm;
   const auto index_at = [&](double wavelength_nm) {
-    index = indices_at(scene, interface, wavelength_nm);
-    return index.around(at_back);
+    at.index = indices_at(at.scene, at.interface, wavelength_nm);
+    return at.index.around(to.at_back);
   };
   light.index = index_at;
-  const optics::SurfaceOutcome outcome = scene.surfaces[id].interact(
-      photon.ray, side, outward, light, rng, records ? records->reflection_log() : nullptr);
+  const optics::SurfaceOutcome outcome = at.scene.surfaces[id].interact(
+      photon.ray, to.side, to.outward, light, rng, records ? records->reflection_log() : nullptr);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
   if (records && light.count.absorbed > 0) records->shifts_of(id) += light.count;
@@ -125,29 +249,29 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
 
 /// Lets the photon interact with the interface's surfaces from the back region to the front region and to and
 /// fro between them until it is in one of the regions or absorbed.
-InterfaceOutcome interact_at_interface(const scene::Scene& scene, const scene::Interface& interface,
-                                       bool from_back, const core::Vec3& normal, InterfaceIndex index,
-                                       source::Photon& photon, core::Rng& rng,
+InterfaceOutcome interact_at_interface(InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
                                        source::PhotonRecords* records) {
-  const bool has_back = interface.back_surface.has_value(), has_front = interface.front_surface.has_value();
-  bool at_back = from_back ? has_back : !has_front;  // which of the two surfaces comes next
-  bool came_from_back = from_back;
+  const bool has_back = at.interface.back_surface.has_value(),
+             has_front = at.interface.front_surface.has_value();
+  SurfaceApproach to;
+  to.at_back = at.from_back ? has_back : !has_front;  // which of the two surfaces comes next
+  bool came_from_back = at.from_back;
   for (;;) {
-    const core::SurfaceId id = at_back ? interface.back_surface : interface.front_surface;
-    const optics::Surface& surface = scene.surfaces[id];
+    const core::SurfaceId id = to.at_back ? at.interface.back_surface : at.interface.front_surface;
+    const optics::Surface& surface = at.scene.surfaces[id];
     // A surface's inside is the region of the part it belongs to.
-    const core::Vec3 outward = at_back ? normal : core::Vec3(-normal);
-    const optics::Side side = came_from_back == at_back ? optics::Side::inside : optics::Side::outside;
+    to.outward = to.at_back ? at.normal : core::Vec3(-at.normal);
+    to.side = came_from_back == to.at_back ? optics::Side::inside : optics::Side::outside;
     const optics::SurfaceOutcome outcome =
         surface.shifts()
-            ? interact_with_shift(scene, interface, at_back, side, outward, index, photon, rng, records)
-            : surface.interact(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
-                               records ? records->reflection_log() : nullptr);
+            ? interact_with_shift(at, to, photon, rng, records)
+            : surface.interact(photon.ray, to.side, to.outward, at.index.around(to.at_back),
+                               photon.wavelength_nm, rng, records ? records->reflection_log() : nullptr);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
-    if (outcome == optics::SurfaceOutcome::inside) return {!at_back, core::SurfaceId::none()};
-    if (!index.dry) return {at_back, core::SurfaceId::none()};
-    came_from_back = at_back;  // in the gap, on the way from this surface to the other
-    at_back = !at_back;
+    if (outcome == optics::SurfaceOutcome::inside) return {!to.at_back, core::SurfaceId::none()};
+    if (!at.index.dry) return {to.at_back, core::SurfaceId::none()};
+    came_from_back = to.at_back;  // in the gap, on the way from this surface to the other
+    to.at_back = !to.at_back;
   }
 }
 
@@ -181,8 +305,8 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
-    const InterfaceOutcome outcome = interact_at_interface(scene, interface, link.from_back, normal,
-                                                           {back, front, gap, dry}, photon, rng, records);
+    InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
+    const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (outcome.absorbed_by.has_value()) {
       result.event = core::StepEvent::absorbed_at_surface;

@@ -2,6 +2,7 @@
 #include <array>
 #include <map>
 
+#include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
@@ -92,8 +93,8 @@ class PointReader {
     point.shifted_at_surface = core::IdVector<core::SurfaceId, optics::ShiftCount>(
         shifts("shifted_at_surface", header_.surfaces.size()));
     point.sensor_faces = sensor_faces();
-    point.exit_angles = exit_angles();
     if (group_.has("tallies")) point.tallies = tallies();
+    add_exit_angles(point.tallies);
     point.interactions = get_moments(group_, "interactions_per_photon");
     point.detected_path_mm = get_moments(group_, "detected_path");
     point.detected_time_ns = get_moments(group_, "detected_time");
@@ -182,23 +183,21 @@ class PointReader {
     return counts;
   }
 
-  std::vector<tally::ExitAngleTally> exit_angles() const {
+  void add_exit_angles(std::vector<tally::TallyResult>& tallies) const {
     const core::h5::Group group = group_.open_group("exit_angles");
-    std::vector<tally::ExitAngleTally> tallies;
     for (const std::string& member : group.members()) {
       const core::h5::Group from = group.open_group(member);
-      tally::ExitAngleTally tally;
-      tally.name = from.string_attribute("", "name");
+      analysis::CrossingAngles angles;
+      angles.name = from.string_attribute("", "name");
       const std::int64_t face = from.integer_attribute("", "face");
       require(face >= 0 && static_cast<std::size_t>(face) < header_.faces.size(),
               "an exit angle tally names a face that does not exist");
-      tally.face = core::FaceId(face);
-      tally.detected_only = from.integer_attribute("", "detected_only") != 0;
-      tally.inside = from.read<std::uint64_t>("inside");
-      tally.outside = from.read<std::uint64_t>("outside");
-      tallies.push_back(std::move(tally));
+      angles.face = header_.faces[core::FaceId(face)];
+      angles.detected_only = from.integer_attribute("", "detected_only") != 0;
+      angles.inside = from.read<std::uint64_t>("inside");
+      angles.outside = from.read<std::uint64_t>("outside");
+      for (tally::TallyResult& tally : analysis::tallies_of(angles)) tallies.push_back(std::move(tally));
     }
-    return tallies;
   }
 
   tally::TallyAxis axis(const core::h5::Group& group) const {

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <map>
 #include <optional>
 
+#include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
@@ -9,6 +11,7 @@
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::results {
 
@@ -72,13 +75,17 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   format::put(group, "unconverted", not_detected);
 }
 
-void put_exit_angles(core::h5::Group& point, const std::vector<tally::ExitAngleTally>& tallies) {
+/// @param faces  of the run, to one of which each tally is bound
+void put_exit_angles(core::h5::Group& point, const std::vector<analysis::CrossingAngles>& tallies,
+                     const core::IdVector<core::FaceId, std::string>& faces) {
   core::h5::Group group = point.create_group("exit_angles");
   group.set_attribute("", "description", std::string("histograms of crossing angles, one group a tally"));
   for (std::size_t i = 0; i < tallies.size(); ++i) {
     core::h5::Group tally = group.create_group(format::numbered(i));
     tally.set_attribute("", "name", tallies[i].name);
-    tally.set_attribute("", "face", std::int64_t{format::to_file(tallies[i].face)});
+    const auto face = std::find(faces.begin(), faces.end(), tallies[i].face);
+    if (face == faces.end()) throw core::InternalError("exit angles at a face that the run does not have");
+    tally.set_attribute("", "face", static_cast<std::int64_t>(face - faces.begin()));
     tally.set_attribute("", "detected_only", static_cast<std::int64_t>(tallies[i].detected_only));
     format::put(tally, "inside", tallies[i].inside);
     format::put(tally, "outside", tallies[i].outside);
@@ -97,12 +104,14 @@ void put_axis(core::h5::Group& tally, const std::string& name, const tally::Tall
   }
 }
 
+/// Those that are no exit angles.
 void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& tallies) {
   core::h5::Group group = point.create_group("tallies");
   group.set_attribute("", "description", std::string("counts that the scene asked for, one group a tally"));
-  for (std::size_t i = 0; i < tallies.size(); ++i) {
-    const tally::TallyResult& from = tallies[i];
-    core::h5::Group tally = group.create_group(format::numbered(i));
+  std::size_t number = 0;
+  for (const tally::TallyResult& from : tallies) {
+    if (from.type == scene_file::kExitAngle || from.type == scene_file::kExitAngleBeyond) continue;
+    core::h5::Group tally = group.create_group(format::numbered(number++));
     tally.set_attribute("", "name", from.name);
     tally.set_attribute("", "type", from.type);
     tally.set_attribute("", "score", from.score);
@@ -201,6 +210,7 @@ void refuse_foreign_file(const std::filesystem::path& path) {
 struct ResultsWriter::State {
   core::h5::File file;
   core::h5::Group root, points;
+  core::IdVector<core::FaceId, std::string> faces;
   std::string note;
   std::size_t point_count = 0;
   format::RowWriter<tally::DetectedPhoton> photons;
@@ -219,7 +229,8 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const tally::Run
   put_header(root, header);
   core::h5::Group points = root.create_group("points");
   points.set_attribute("", "description", std::string("results, one group a point of the sweep"));
-  state_.reset(new State{std::move(file), root, points, header.note, 0, {}, {}, {}, {}, {}, {}, {}});
+  state_.reset(
+      new State{std::move(file), root, points, header.faces, header.note, 0, {}, {}, {}, {}, {}, {}, {}});
   if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
 }
 
@@ -303,7 +314,7 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   put_shifts(group, "shifted_at_surface", "what the wavelength shifter in the gap of each surface did",
              point.shifted_at_surface.values());
   put_sensor_faces(group, point.sensor_faces);
-  put_exit_angles(group, point.exit_angles);
+  put_exit_angles(group, analysis::crossing_angles(point), state_->faces);
   put_tallies(group, point.tallies);
   put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
               point.interactions);

@@ -25,6 +25,18 @@ config::NameRef read_name(const config::TomlTable& table, const std::string& key
   return name;
 }
 
+std::vector<config::NameRef> read_names(const config::TomlTable& table, const std::string& key,
+                                        bool required) {
+  std::vector<config::NameRef> names;
+  const config::TomlNode* node = table.node()->find(key);
+  if (node && node->kind == config::TomlNode::Kind::array) {
+    for (const std::string& name : table.strings(key, 0, required)) names.push_back({name, table.where(key)});
+  } else if (const config::NameRef one = read_name(table, key, required); !one.empty()) {
+    names.push_back(one);
+  }
+  return names;
+}
+
 void expect_part(const config::TomlTable& table, const std::string& key, const config::NameRef& name,
                  const std::vector<std::string>& parts) {
   if (parts.empty()) return;

@@ -13,6 +13,10 @@ namespace scintray::scene_file {
 /// A string that names something, with its place; empty when absent and not required.
 config::NameRef read_name(const config::TomlTable& table, const std::string& key, bool required);
 
+/// One name or a list of them, each with its place; none when absent and not required.
+std::vector<config::NameRef> read_names(const config::TomlTable& table, const std::string& key,
+                                        bool required);
+
 /// Reports a new name that holds characters with a meaning elsewhere.
 void expect_plain_name(const config::TomlTable& table, const std::string& key, const std::string& name);
 

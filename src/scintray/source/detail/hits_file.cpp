@@ -1,4 +1,4 @@
-#include "scintray/source/detail/hits_file.hpp"
+#include "scintray/source/detail/event_sources.hpp"
 
 #include <fmt/format.h>
 #include <array>

@@ -1,4 +1,4 @@
-#include "scintray/source/detail/hits_source.hpp"
+#include "scintray/source/detail/event_sources.hpp"
 
 #include <fmt/format.h>
 

@@ -21,14 +21,14 @@ std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_k
 }
 
 ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, const scene::Scene& scene,
-                                         bool unpolarised, bool cherenkov)
-    : events_(std::move(events)), unpolarised_(unpolarised) {
+                                         const LightOptions& options)
+    : events_(std::move(events)), unpolarised_(options.unpolarised) {
   for (const scene::SceneMedium& medium : scene.media)
     emission_.push_back(medium.medium().yield_per_keV > 0.0 ? core::CurveSampler(medium.medium().emission)
                                                             : core::CurveSampler());
   for (const core::RegionId region : scene.regions.ids())
     if (scintillates(scene, region)) regions_.push_back(region);
-  if (!cherenkov) return;
+  if (!options.cherenkov) return;
   for (const scene::SceneMedium& medium : scene.media) {
     cherenkov_.emplace_back();
     if (medium.medium().yield_per_keV > 0.0)

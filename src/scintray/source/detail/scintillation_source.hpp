@@ -11,15 +11,21 @@
 
 namespace scintray::source {
 
+/// What light there is, and how it is polarised.
+struct LightOptions {
+  bool unpolarised = false;  ///< else each photon is polarised, at random
+  bool cherenkov =
+      false;  ///< adds Cherenkov light of the wavelengths in use, of electrons of the deposits' energies
+};
+
 /// Photons of the deposits of events, as the media there make them: their number from the yield, its
 /// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay;
 /// directions isotropic. Cherenkov light comes at once. Immutable.
 class ScintillationSource : public LightSource {
  public:
-  /// @param cherenkov  adds Cherenkov light of the wavelengths in use, as of electrons of the deposits'
-  ///                   energies; throws InputError, without a place, for a scintillator without composition
-  ScintillationSource(std::unique_ptr<EventSource> events, const scene::Scene& scene, bool unpolarised,
-                      bool cherenkov = false);
+  /// @throws InputError without a place, with Cherenkov light, for a scintillator without composition
+  ScintillationSource(std::unique_ptr<EventSource> events, const scene::Scene& scene,
+                      const LightOptions& options = {});
 
   std::uint64_t events() const override { return events_->events(); }
   bool has_energy() const override { return true; }

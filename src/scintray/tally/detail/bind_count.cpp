@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/core/face_axes.hpp"
 #include "scintray/core/pattern.hpp"
-#include "scintray/tally/detail/face_axes.hpp"
 #include "scintray/tally/tally_plan.hpp"
 
 namespace scintray::tally {
@@ -35,7 +35,7 @@ std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std
   return result;
 }
 
-/// By part_slot; empty without patterns.
+/// By place (scene_file::place_of); empty without patterns.
 std::vector<bool> picked_parts(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
                                const core::FileLocation& where) {
   if (patterns.empty()) return {};
@@ -51,7 +51,8 @@ core::IdVector<core::RegionId, bool> picked_regions(const std::vector<config::Na
   const std::vector<bool> parts = picked_parts(patterns, scene, where);
   if (parts.empty()) return {};
   core::IdVector<core::RegionId, bool> regions;
-  for (const scene::Region& region : scene.regions) regions.push_back(parts[part_slot(region.part)]);
+  for (const scene::Region& region : scene.regions)
+    regions.push_back(parts[scene_file::place_of(region.part)]);
   return regions;
 }
 
@@ -79,8 +80,10 @@ class CountBinder {
     count.empty.name = spec_.name;
     count.empty.type = spec_.type;
     count.score = spec_.score;
-    count.empty.score = spec_.score ? scene_file::tally_variable_name(*spec_.score) : "photons";
-    count.empty.unit = spec_.score ? unit_of(*spec_.score) : "1";
+    count.empty.score = spec_.score ? spec_.score->name : scene_file::kPhotonScore;
+    count.empty.unit = spec_.score ? spec_.score->unit() : "1";
+    for (const core::FaceId face : faces_) count.empty.faces.push_back(scene_.faces[face].name);
+    count.empty.detected_only = spec_.detected_only();
     count.parts = picked_parts(spec_.parts, scene_, spec_.where);
     count.source_parts = picked_parts(spec_.source_parts, scene_, spec_.where);
     count.visited = picked_regions(spec_.visited, scene_, spec_.where);
@@ -91,7 +94,7 @@ class CountBinder {
       count.ranges.push_back({range.variable, range.along, range.low, range.high});
     double bins = 1.0;
     for (const scene_file::TallyAxisSpec& axis : spec_.axes) {
-      scene_file::is_category(axis.variable) ? bind_names(axis, count) : bind_numbers(axis, count);
+      axis.variable->is_name() ? bind_names(axis, count) : bind_numbers(axis, count);
       bins *= static_cast<double>(count.empty.axes.back().bins());
     }
     if (bins > kMostBins)
@@ -106,37 +109,18 @@ class CountBinder {
   }
 
  private:
-  static const char* unit_of(scene_file::TallyVariable variable) {
-    switch (variable) {
-      case scene_file::TallyVariable::wavelength:
-        return "nm";
-      case scene_file::TallyVariable::time:
-        return "ns";
-      case scene_file::TallyVariable::path:
-      case scene_file::TallyVariable::position:
-      case scene_file::TallyVariable::start:
-        return "mm";
-      case scene_file::TallyVariable::angle_before:
-      case scene_file::TallyVariable::angle_after:
-      case scene_file::TallyVariable::azimuth_before:
-      case scene_file::TallyVariable::azimuth_after:
-        return "rad";
-      default:
-        return "1";
-    }
-  }
-
   void bind_names(const scene_file::TallyAxisSpec& axis, CountRequest& count) {
     CountAxis bound;
     bound.variable = axis.variable;
     TallyAxis made;
-    made.variable = scene_file::tally_variable_name(axis.variable);
+    made.variable = axis.variable->name;
     const auto add = [&](std::size_t slot, const std::string& name) {
       bound.bin_of[slot] = BinId(made.names.size());
       made.names.push_back(name);
     };
     const core::FileLocation where = axis.where.file.empty() ? spec_.where : axis.where;
-    if (axis.variable == scene_file::TallyVariable::event) {
+    const scene_file::VariableKind kind = axis.variable->kind;
+    if (kind == scene_file::VariableKind::event) {
       bound.bin_of.resize(core::kStepEventCount);
       for (const core::StepEvent event : spec_.at) {
         if (event ==
@@ -144,20 +128,20 @@ class CountBinder {
           bound.bin_of[static_cast<std::size_t>(event)] =
               bound.bin_of[static_cast<std::size_t>(core::StepEvent::cut_interactions)];
         else
-          add(static_cast<std::size_t>(event), scene_file::event_word(event));
+          add(static_cast<std::size_t>(event), core::word_of(scene_file::kEventWords, event));
       }
-    } else if (axis.variable == scene_file::TallyVariable::face) {
+    } else if (kind == scene_file::VariableKind::face) {
       bound.bin_of.resize(scene_.faces.size());
       for (const core::FaceId face : faces_) add(face.index(), scene_.faces[face].name);
     } else {
-      bound.bin_of.resize(part_slot(scene_.parts.next_id()));
-      const std::vector<config::NameRef> patterns =
-          axis.names.empty() ? usual_parts(axis.variable) : axis.names;
+      bound.bin_of.resize(scene_file::place_of(scene_.parts.next_id()));
+      const std::vector<config::NameRef> patterns = axis.names.empty() ? usual_parts(kind) : axis.names;
       const std::vector<bool> parts = picked_parts(patterns, scene_, where);
-      if (patterns.empty() && axis.variable == scene_file::TallyVariable::part)
-        add(part_slot(core::PartId::none()), kAmbientName);
+      if (patterns.empty() && kind == scene_file::VariableKind::part)
+        add(scene_file::place_of(core::PartId::none()), kAmbientName);
       for (const core::PartId part : scene_.parts.ids())
-        if (parts.empty() || parts[part_slot(part)]) add(part_slot(part), scene_.parts[part].name);
+        if (parts.empty() || parts[scene_file::place_of(part)])
+          add(scene_file::place_of(part), scene_.parts[part].name);
     }
     if (made.names.empty())
       throw core::InputError(
@@ -168,8 +152,8 @@ class CountBinder {
   }
 
   /// The parts of an axis that names none; empty: all.
-  std::vector<config::NameRef> usual_parts(scene_file::TallyVariable variable) const {
-    if (variable == scene_file::TallyVariable::source_part) return source_parts_;
+  std::vector<config::NameRef> usual_parts(scene_file::VariableKind kind) const {
+    if (kind == scene_file::VariableKind::source_part) return source_parts_;
     const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](core::StepEvent event) {
       return event == core::StepEvent::detected || event == core::StepEvent::not_detected;
     });
@@ -179,14 +163,17 @@ class CountBinder {
   void bind_numbers(const scene_file::TallyAxisSpec& axis, CountRequest& count) {
     CountAxis bound;
     bound.variable = axis.variable;
-    bound.along =
-        axis.across_face ? face_axes(plane_normal())[static_cast<std::size_t>(axis.across)] : axis.along;
+    bound.along = axis.across_face ? core::face_axes(plane_normal())[static_cast<std::size_t>(axis.across)]
+                                   : axis.along;
     double low = axis.low.value_or(0.0), high = axis.high.value_or(0.0);
+    bound.ends_low = axis.variable->low && axis.variable->low == axis.low;
+    bound.ends_high = axis.variable->high && axis.variable->high == axis.high;
     if (!axis.low || !axis.high) {
       const auto [least, most] = extent(bound.along);
       low = axis.low.value_or(least);
       high = axis.high.value_or(most);
-      bound.to_the_edge = true;
+      bound.ends_low = !axis.low;
+      bound.ends_high = !axis.high;
     }
     bound.bins = static_cast<std::uint32_t>(axis.bins);
     if (axis.pixel_mm) {
@@ -203,8 +190,8 @@ class CountBinder {
     bound.low = low;
     bound.per_bin = bound.bins / (high - low);
     TallyAxis made;
-    made.variable = scene_file::tally_variable_name(axis.variable);
-    made.unit = unit_of(axis.variable);
+    made.variable = axis.variable->name;
+    made.unit = axis.variable->unit();
     made.along = {bound.along.x(), bound.along.y(), bound.along.z()};
     for (std::uint32_t i = 0; i <= bound.bins; ++i)
       made.edges.push_back(i == bound.bins ? high : low + i / bound.per_bin);
@@ -214,17 +201,11 @@ class CountBinder {
 
   /// Index of the one medium that directions are in, or 0.
   double medium_index() const {
-    bool before = false, any = false;
-    for (const scene_file::TallyAxisSpec& axis : spec_.axes) {
-      if (!scene_file::needs_face(axis.variable) || axis.variable == scene_file::TallyVariable::face)
-        continue;
-      any = true;
-      before = axis.variable == scene_file::TallyVariable::angle_before ||
-               axis.variable == scene_file::TallyVariable::sin2_before ||
-               axis.variable == scene_file::TallyVariable::azimuth_before;
-    }
-    if (!any || spec_.way == scene_file::FaceWay::both) return 0.0;
-    const bool in_part = (spec_.way == scene_file::FaceWay::out) == before;
+    scene_file::FaceSide side = scene_file::FaceSide::none;
+    for (const scene_file::TallyAxisSpec& axis : spec_.axes)
+      if (axis.variable->side != scene_file::FaceSide::none) side = axis.variable->side;
+    if (side == scene_file::FaceSide::none || spec_.way == scene_file::FaceWay::both) return 0.0;
+    const bool in_part = (spec_.way == scene_file::FaceWay::out) == (side == scene_file::FaceSide::before);
     core::MediumId medium;
     for (const scene::Interface& interface : scene_.interfaces)
       for (const core::FaceId face : faces_)

@@ -158,7 +158,7 @@ std::vector<std::size_t> shown_points(const tally::RunResult& run) {
 }
 
 /// "31.2 ± 0.1° inside and 40.1 ± 0.2° outside".
-std::string half_angles(const tally::ExitAngleTally& tally) {
+std::string half_angles(const analysis::CrossingAngles& tally) {
   const auto text = [](const std::vector<std::uint64_t>& counts) {
     const core::Estimate half = analysis::divergence(counts).half_rad;
     return with_error({half.value / core::kDegree, half.error / core::kDegree}) + "°";
@@ -166,13 +166,13 @@ std::string half_angles(const tally::ExitAngleTally& tally) {
   return text(tally.inside) + " inside and " + text(tally.outside) + " outside";
 }
 
-std::string angle_figures(const tally::RunResult& run, const tally::PointResult& point) {
+std::string angle_figures(const tally::PointResult& point) {
   std::string figures;
-  for (const tally::ExitAngleTally& tally : point.exit_angles) {
+  for (const analysis::CrossingAngles& tally : analysis::crossing_angles(point)) {
     if (total(tally.inside) + total(tally.outside) == 0) continue;
     Plot plot;
     plot.title = point_label(point) + ": " + tally.name;
-    plot.x_label = "angle to the outward normal of " + run.header.faces.at(tally.face) + " (deg)";
+    plot.x_label = "angle to the outward normal of " + tally.face + " (deg)";
     plot.y_label = "crossings per bin";
     plot.width = 560.0;
     plot.height = 300.0;
@@ -266,7 +266,7 @@ std::string angle_section(const tally::RunResult& run) {
   std::string first, others;
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const bool drawn_at_once = std::find(shown.begin(), shown.end(), i) != shown.end();
-    (drawn_at_once ? first : others) += angle_figures(run, run.points[i]);
+    (drawn_at_once ? first : others) += angle_figures(run.points[i]);
   }
   if (first.empty() && others.empty()) return "";
   std::string body = "<div class=\"grid\">\n" + first + "</div>\n";

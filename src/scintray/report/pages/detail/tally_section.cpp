@@ -14,6 +14,7 @@
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/sweep_view.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::report {
 
@@ -25,11 +26,12 @@ constexpr std::size_t kMostCells = 16;
 constexpr std::size_t kMostRows = 400;
 
 /// How a tally is shown where its axes do not decide it.
+/// Hidden are companions of other tallies and exit angles, which have figures of their own.
 enum class TallyView { by_axes, crosstalk, etendue, hemisphere, hidden };
-constexpr core::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
-                                                 {"etendue", TallyView::etendue},
-                                                 {"angles", TallyView::hemisphere},
-                                                 {"emitted", TallyView::hidden}};
+constexpr core::Word<TallyView> kTallyViews[] = {
+    {"crosstalk", TallyView::crosstalk},         {"etendue", TallyView::etendue},
+    {"angles", TallyView::hemisphere},           {"emitted", TallyView::hidden},
+    {scene_file::kExitAngle, TallyView::hidden}, {scene_file::kExitAngleBeyond, TallyView::hidden}};
 
 TallyView view_of(const tally::TallyResult& tally) {
   return core::find_word(kTallyViews, tally.type).value_or(TallyView::by_axes);
@@ -222,7 +224,7 @@ std::string tally_section(const tally::RunResult& run) {
 
 std::string tally_lines(const tally::PointResult& point) {
   std::string lines;
-  for (const tally::ExitAngleTally& tally : point.exit_angles) {
+  for (const analysis::CrossingAngles& tally : analysis::crossing_angles(point)) {
     const auto within = [](const std::vector<std::uint64_t>& counts) {
       const analysis::Divergence d = analysis::divergence(counts);
       const auto degrees = [](const core::Estimate& e) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scintray/analysis/event_analysis.hpp"
+#include "scintray/config/name_ref.hpp"
 #include "scintray/report/text/sweep_view.hpp"
-#include "scintray/scene_file/tally_spec.hpp"
 
 namespace scintray::report {
 

@@ -5,7 +5,6 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/source/detail/gamma/scattering.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 
 namespace scintray::source {

@@ -1,31 +1,27 @@
-#include "scintray/transport/propagate.hpp"
-
-#include <cmath>
+#pragma once
+/// A photon on its way through a region, for each kind of ray query.
 
 #include "scintray/core/lanes.hpp"
+#include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
 
-namespace {
+/// Moves the photon straight on. Time advances with the group velocity.
+inline void advance(source::Photon& photon, double distance_mm) {
+  photon.position += distance_mm * photon.ray.direction;
+  photon.path_mm += distance_mm;
+  photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / core::kSpeedOfLight_mm_per_ns);
+}
 
 /// The sum of three vectors times the first three numbers of v, whose fourth number stays.
-core::Lanes combine(core::Lanes v, core::Lanes x, core::Lanes y, core::Lanes z) {
+inline core::Lanes combine(core::Lanes v, core::Lanes x, core::Lanes y, core::Lanes z) {
   return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
 }
-core::Lanes rotate(const core::PlainMatrix3& m, core::Lanes v) {
+inline core::Lanes rotate(const core::PlainMatrix3& m, core::Lanes v) {
   return combine(v, {m.column(0), 0.0}, {m.column(1), 0.0}, {m.column(2), 0.0});
 }
-core::Lanes rotate_back(const core::PlainMatrix3& m, core::Lanes v) {
+inline core::Lanes rotate_back(const core::PlainMatrix3& m, core::Lanes v) {
   return combine(v, {m.row(0), 0.0}, {m.row(1), 0.0}, {m.row(2), 0.0});
-}
-
-/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected, as for no
-/// medium.
-double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
-  constexpr double kNever = 2.0;
-  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
-  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
-  return ratio * ratio;
 }
 
 /// Where a ray leaves the region that it is in.
@@ -172,85 +168,5 @@ class EmbreePropagation {
   double cosine_ = 0.0;
   bool sure_ = true;  ///< the last wall is Embree's own
 };
-
-/// From wall to wall until something other than a total reflection decides. Inlined: it is in every step.
-template <typename State>
-[[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
-                                                       const PropagationLimits& limits) {
-  const scene::Region& region = scene.regions[photon.region];
-  const scene::BoundaryLink* const links = scene.links_of(region);
-  const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  State state(scene, region, photon);
-  core::MediumId known_medium;
-  double least_sin2 = critical_sin2(scene, known_medium, photon);
-  Propagation propagation;
-  for (;;) {
-    ++propagation.segments;
-    const Wall wall = state.next_wall();
-    propagation.resolved += wall.resolved ? 1 : 0;
-    propagation.triangle = wall.triangle;
-    if (wall.triangle == scene::kNoTriangle) [[unlikely]] {
-      propagation.end = attenuation > 0.0 ? PropagationEnd::bulk : PropagationEnd::escape;
-      break;
-    }
-    const double depth = attenuation * wall.distance_mm;
-    if (depth > state.depth_left()) {
-      propagation.end = PropagationEnd::bulk;
-      break;
-    }
-    state.move(wall.distance_mm, depth);
-    propagation.end = PropagationEnd::boundary;
-    const core::MediumId medium = links[wall.triangle].smooth_to;
-    if (!medium.has_value()) break;
-    if (medium != known_medium) {
-      known_medium = medium;
-      least_sin2 = critical_sin2(scene, medium, photon);
-    }
-    propagation.cosine = state.incidence(wall);
-    if (!(1.0 - propagation.cosine * propagation.cosine >= least_sin2)) break;
-
-    state.reflect_at(wall, propagation.cosine);
-    propagation.end = PropagationEnd::total;
-    if (!state.allowed_by(limits)) break;
-    if (limits.passed) [[unlikely]] {
-      state.store(photon);
-      limits.passed(photon, total_reflection(scene, photon, wall.triangle, propagation.cosine));
-    }
-    if (!state.goes_on()) break;
-    state.turn();
-  }
-  state.store(photon);
-  return propagation;
-}
-
-[[gnu::noinline]] void go_on_with_embree(const scene::Scene& scene, source::Photon& photon,
-                                         const PropagationLimits& limits, Propagation& propagation) {
-  const Propagation first = propagation;
-  propagation = propagate_as<EmbreePropagation>(scene, photon, limits);
-  propagation.segments += first.segments;
-  propagation.resolved += first.resolved;
-}
-
-}  // namespace
-
-Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
-                      double cosine) {
-  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
-  Step step;
-  step.event = core::StepEvent::reflected;
-  step.from_back = link.from_back;
-  step.region = photon.region;
-  step.interface = link.interface;
-  step.triangle = triangle;
-  step.cos_before = step.cos_after = cosine;
-  return step;
-}
-
-Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
-  Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
-  if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
-    go_on_with_embree(scene, photon, limits, propagation);
-  return propagation;
-}
 
 }  // namespace scintray::transport

@@ -1,9 +1,13 @@
-#include "scintray/source/detail/photon_source.hpp"
+#include "scintray/source/light_source.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "scintray/core/curve.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/decay_time.hpp"
+#include "scintray/source/detail/origin.hpp"
+#include "scintray/source/detail/scintillation_source.hpp"
 
 namespace scintray::source {
 
@@ -12,7 +16,37 @@ namespace {
 /// Photons traced as one piece of work; part of what makes results reproducible.
 constexpr std::uint64_t kBlockPhotons = 1024;
 
-}  // namespace
+/// Photons without events of their own; each depends on its random stream only. Immutable.
+class PhotonSource : public LightSource {
+ public:
+  /// Binds a specification to a built scene. A pattern of parts is the union of those that have some
+  /// of the source's box. Throws InputError when the region is empty, no part has that name, the media
+  /// there differ, or have no emission or decay that was requested.
+  PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene);
+
+  std::uint64_t events() const override;
+  bool has_energy() const override { return false; }
+  std::uint64_t blocks() const override;
+  std::vector<PhotonSpan> block(std::uint64_t number) const override;
+  std::uint64_t photons() const override { return photons_; }
+  void begin(const scene::Scene& scene, std::uint64_t event, core::Rng& rng,
+             EventLight& light) const override;
+  Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
+              core::Rng& rng) const override;
+  std::vector<core::RegionId> regions() const override { return origin_.regions(); }
+
+ private:
+  void check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene);
+
+  Origin origin_;
+  scene_file::DirectionSpec direction_;
+  double wavelength_nm_ = 0.0;
+  std::optional<core::CurveSampler> emission_;
+  double time_ns_ = 0.0;
+  std::vector<optics::DecayComponent> decay_;
+  bool unpolarised_ = false;
+  std::uint64_t photons_ = 0, photons_per_event_ = 1;
+};
 
 PhotonSource::PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene)
     : origin_(spec.origin, scene),
@@ -75,7 +109,7 @@ void PhotonSource::begin(const scene::Scene&, std::uint64_t event, core::Rng&, E
   light.photons = std::min(photons_per_event_, photons_ - std::min(photons_, event * photons_per_event_));
 }
 
-Photon PhotonSource::emit(const scene::Scene& scene, core::Rng& rng) const {
+Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uint64_t, core::Rng& rng) const {
   Photon photon;
   const Place place = origin_.sample(scene, rng);
   photon.position = place.position;
@@ -88,6 +122,26 @@ Photon PhotonSource::emit(const scene::Scene& scene, core::Rng& rng) const {
   photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
   photon.optical_depth = core::sample_exponential(rng);
   return photon;
+}
+
+}  // namespace
+
+std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec, const scene::Scene& scene,
+                                               std::vector<std::string>* notes) {
+  if (!spec.energy_source) return std::make_unique<PhotonSource>(spec.source, scene);
+  const scene_file::GammaSpec& source = *spec.energy_source;
+  try {
+    return std::make_unique<ScintillationSource>(make_event_source(source, scene, notes), scene,
+                                                 LightOptions{source.unpolarised, source.cherenkov});
+  } catch (const core::InputError& error) {
+    core::Problems problems;
+    for (core::Problem problem : error.problems()) {
+      if (problem.where.file.empty()) problem.where = source.where;
+      problems.add(problem);
+    }
+    problems.throw_if_any();
+    throw;
+  }
 }
 
 }  // namespace scintray::source

@@ -1,0 +1,79 @@
+#pragma once
+/// [[tally]]: what is counted beside the fates of all photons.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/config/name_ref.hpp"
+#include "scintray/core/step_event.hpp"
+#include "scintray/core/words.hpp"
+#include "scintray/scene_file/part.hpp"
+#include "scintray/scene_file/tally_axis.hpp"
+
+namespace scintray::scene_file {
+
+/// Words for step events in scene files and in the names of bins. "cut" stands for both events of photons
+/// that were cut.
+inline constexpr core::Word<core::StepEvent> kEventWords[] = {
+    {"emitted", core::StepEvent::emitted},
+    {"scattered", core::StepEvent::scattered},
+    {"shifted", core::StepEvent::re_emitted},
+    {"returned", core::StepEvent::reflected},
+    {"crossed", core::StepEvent::transmitted},
+    {"detected", core::StepEvent::detected},
+    {"unconverted", core::StepEvent::not_detected},
+    {"absorbed_in_medium", core::StepEvent::absorbed_in_medium},
+    {"absorbed_at_surface", core::StepEvent::absorbed_at_surface},
+    {"escaped", core::StepEvent::escaped},
+    {"cut", core::StepEvent::cut_interactions}};
+
+/// How often a photon counts.
+enum class TallyEach { time, first, last };
+inline constexpr core::Word<TallyEach> kTallyEach[] = {
+    {"time", TallyEach::time}, {"first", TallyEach::first}, {"last", TallyEach::last}};
+
+/// Direction of incidence on a face, seen from its part.
+enum class FaceWay { out, in, both };
+inline constexpr core::Word<FaceWay> kFaceWays[] = {
+    {"out", FaceWay::out}, {"in", FaceWay::in}, {"both", FaceWay::both}};
+
+/// A count of step events over axes, of photons that fulfil conditions. Names of parts and faces may have
+/// wildcards.
+struct TallySpec {
+  std::string name;
+  std::string type;  ///< the word it was written with: "count", "crosstalk", "irradiance", ...
+  std::vector<core::StepEvent> at;
+  std::vector<config::NameRef> faces;  ///< "part:face"; empty: not bound to faces
+  FaceWay way = FaceWay::out;
+  std::vector<config::NameRef> parts;         ///< condition on the variable part
+  std::vector<config::NameRef> source_parts;  ///< condition on the variable source_part
+  std::vector<TallyRangeSpec> ranges;
+  std::vector<config::NameRef> visited, not_visited;  ///< parts the photon was in, at any time of its life
+  std::vector<core::StepEvent> fate;                  ///< of the photon in the end; empty: any
+  TallyEach each = TallyEach::time;
+  std::optional<core::Vec3> normal;  ///< of the plane of a grid across faces; nothing: the faces'
+  TallyVariablePtr score;            ///< sum of this number; null: photons
+  std::vector<TallyAxisSpec> axes;
+  core::FileLocation where;
+
+  /// Counts only the last event of each photon that is detected in the end.
+  bool detected_only() const;
+};
+
+/// What a tally sums that has no score: one a photon.
+inline constexpr const char* kPhotonScore = "photons";
+
+/// Type and name of the second histogram of an exit angle tally: angles behind the face. The first, of the
+/// angles before it, has the type "exit_angle" and the tally's name.
+inline constexpr const char* kExitAngle = "exit_angle";
+inline constexpr const char* kExitAngleBeyond = "exit_angle_beyond";
+inline std::string beyond_name(const std::string& name) { return name + ": beyond"; }
+
+/// [[tally]] of a scene.
+/// @param parts  whose faces are known now
+/// @param names  of all parts
+std::vector<TallySpec> read_tallies(const config::TomlTable& root, const std::vector<PartSpec>& parts,
+                                    const std::vector<std::string>& names, const TallyVariables& variables);
+
+}  // namespace scintray::scene_file

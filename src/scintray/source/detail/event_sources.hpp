@@ -1,0 +1,112 @@
+#pragma once
+/// What makes the events of each kind of [source] of energy.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scintray/source/detail/gamma/decay.hpp"
+#include "scintray/source/detail/gamma/transport.hpp"
+#include "scintray/source/detail/origin.hpp"
+#include "scintray/source/event.hpp"
+
+namespace scintray::source {
+
+/// Each event is one deposit, uniform over the origin, at time 0, of the spectrum's energy: the way of
+/// E. Roncali and S. R. Cherry 2013, Phys. Med. Biol. 58 2185, section 2.2. Immutable.
+class SpectrumEventSource : public EventSource {
+ public:
+  /// Throws InputError as Origin does, and when a medium of the origin does not scintillate.
+  SpectrumEventSource(const scene_file::SpectrumSpec& spec, std::uint64_t events, const scene::Scene& scene);
+
+  std::uint64_t events() const override { return events_; }
+  Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
+
+ private:
+  Origin origin_;
+  double energy_keV_ = 0.0;
+  std::optional<core::CurveSampler> spectrum_;
+  std::uint64_t events_ = 0;
+};
+
+/// Events of gammas that start somewhere and leave energy where transport takes them. Immutable.
+class GammaEventSource : public EventSource {
+ public:
+  /// Throws InputError as Origin and GammaTransport do, and when 176Lu is to decay where there is no
+  /// lutetium, or no part scintillates.
+  GammaEventSource(const scene_file::EmitterSpec& spec, std::uint64_t events, const scene::Scene& scene);
+
+  std::uint64_t events() const override { return events_; }
+  Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
+
+  /// How an event starts.
+  struct Start {
+    Place place;
+    std::vector<Gamma> gammas;
+    double local_keV = 0.0;  ///< left there by electrons
+  };
+  Start start(const scene::Scene& scene, core::Rng& rng) const;
+
+ private:
+  Place sample_place(const scene::Scene& scene, core::Rng& rng) const;
+  void add_pair(Gamma gamma, core::Rng& rng, std::vector<Gamma>& gammas) const;
+  void check_lutetium(const scene_file::EmitterSpec& spec, const scene::Scene& scene) const;
+
+  std::optional<Origin> origin_;
+  scene_file::PlaneSpec plane_;  ///< where there is no origin
+  scene_file::Emission emission_;
+  double energy_keV_ = 0.0;
+  scene_file::DirectionSpec direction_;
+  double acollinearity_sigma_rad_ = 0.0;
+  DecaySampler decay_;
+  GammaTransport transport_;
+  std::uint64_t events_ = 0;
+};
+
+/// One row of a list of hits.
+struct Hit {
+  std::uint64_t event = 0;
+  core::Vec3 position = core::Vec3::Zero();  ///< world, mm
+  double energy_keV = 0.0;
+  double time_ns = 0.0;   ///< as the file has it; 0 when it has no times
+  std::uint64_t row = 0;  ///< line of a CSV file; place in the columns of an HDF5 file, from 0
+};
+
+/// Reads the columns that the specification names, in the file's order. Throws InputError with the first
+/// rows that are no hits (an event number that is not a whole number from 0 on, a negative energy), and
+/// for missing columns and columns of unequal length.
+std::vector<Hit> read_hits_file(const scene_file::HitsSpec& spec);
+
+/// What came of the rows of a list of hits.
+struct HitsReport {
+  std::uint64_t rows = 0;
+  std::uint64_t outside = 0;       ///< hits in no part; their energy counts as non-scintillating
+  std::uint64_t out_of_order = 0;  ///< hits of an event that came after hits of another; they join it
+  std::vector<std::string> first_outside, first_out_of_order;  ///< the first few, by name
+};
+
+/// Events of a list of hits, in the order of their numbers there. Times count from an event's first hit.
+/// Hits outside every part, and in parts that do not scintillate, count as non-scintillating. Immutable.
+class HitsEventSource : public EventSource {
+ public:
+  /// @param most  events to take; 0 for all
+  /// Throws InputError as read_hits_file does, and when no hit lies in a part that scintillates.
+  HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most, const scene::Scene& scene);
+
+  std::uint64_t events() const override { return events_.size(); }
+  Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
+
+  const HitsReport& report() const { return report_; }
+  /// The report in words; empty when all is well.
+  std::vector<std::string> notes() const;
+
+ private:
+  void count_out_of_order(const std::vector<Hit>& hits);
+  void add(const Hit& hit, const scene::Scene& scene);
+
+  std::vector<Event> events_;
+  HitsReport report_;
+};
+
+}  // namespace scintray::source
