@@ -215,32 +215,34 @@ struct InterfaceApproach {
   const scene::Interface& interface;
   bool from_back = false;  ///< the region that it comes from
   core::Vec3 normal;       ///< of unit length, out of the back region
-  InterfaceIndex index;    ///< at the photon's wavelength, and follows it
+  InterfaceIndex index;    ///< at the photon's wavelength
 };
 
-/// How a photon comes to one of an interface's surfaces.
+/// What it comes to at one of the interface's surfaces.
 struct SurfaceApproach {
+  const scene::Scene& scene;
+  const scene::Interface& interface;
   bool at_back = false;  ///< the back region's surface, else the front region's
   optics::Side side = optics::Side::inside;
-  core::Vec3 outward;  ///< of unit length, out of the region of the surface
+  const core::Vec3& outward;  ///< of unit length, out of the region of the surface
+  InterfaceIndex& index;      ///< follows the photon's wavelength
 };
 
-/// Lets the photon interact with a surface in which its wavelength may change; the indices follow it.
-[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(InterfaceApproach& at,
-                                                                        const SurfaceApproach& to,
+/// Lets the photon interact with a surface in which its wavelength may change.
+[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(const SurfaceApproach& at,
                                                                         source::Photon& photon,
                                                                         core::Rng& rng,
                                                                         source::PhotonRecords* records) {
-  const core::SurfaceId id = to.at_back ? at.interface.back_surface : at.interface.front_surface;
+  const core::SurfaceId id = at.at_back ? at.interface.back_surface : at.interface.front_surface;
   optics::ShiftingLight light;
   light.wavelength_nm = photon.wavelength_nm;
   const auto index_at = [&](double wavelength_nm) {
     at.index = indices_at(at.scene, at.interface, wavelength_nm);
-    return at.index.around(to.at_back);
+    return at.index.around(at.at_back);
   };
   light.index = index_at;
   const optics::SurfaceOutcome outcome = at.scene.surfaces[id].interact(
-      photon.ray, to.side, to.outward, light, rng, records ? records->reflection_log() : nullptr);
+      photon.ray, at.side, at.outward, light, rng, records ? records->reflection_log() : nullptr);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
   if (records && light.count.absorbed > 0) records->shifts_of(id) += light.count;
@@ -249,29 +251,29 @@ struct SurfaceApproach {
 
 /// Lets the photon interact with the interface's surfaces from the back region to the front region and to and
 /// fro between them until it is in one of the regions or absorbed.
-InterfaceOutcome interact_at_interface(InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
+InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
                                        source::PhotonRecords* records) {
-  const bool has_back = at.interface.back_surface.has_value(),
-             has_front = at.interface.front_surface.has_value();
-  SurfaceApproach to;
-  to.at_back = at.from_back ? has_back : !has_front;  // which of the two surfaces comes next
+  const scene::Interface& interface = at.interface;
+  const bool has_back = interface.back_surface.has_value(), has_front = interface.front_surface.has_value();
+  bool at_back = at.from_back ? has_back : !has_front;  // which of the two surfaces comes next
   bool came_from_back = at.from_back;
+  InterfaceIndex index = at.index;
   for (;;) {
-    const core::SurfaceId id = to.at_back ? at.interface.back_surface : at.interface.front_surface;
+    const core::SurfaceId id = at_back ? interface.back_surface : interface.front_surface;
     const optics::Surface& surface = at.scene.surfaces[id];
     // A surface's inside is the region of the part it belongs to.
-    to.outward = to.at_back ? at.normal : core::Vec3(-at.normal);
-    to.side = came_from_back == to.at_back ? optics::Side::inside : optics::Side::outside;
+    const core::Vec3 outward = at_back ? at.normal : core::Vec3(-at.normal);
+    const optics::Side side = came_from_back == at_back ? optics::Side::inside : optics::Side::outside;
     const optics::SurfaceOutcome outcome =
         surface.shifts()
-            ? interact_with_shift(at, to, photon, rng, records)
-            : surface.interact(photon.ray, to.side, to.outward, at.index.around(to.at_back),
-                               photon.wavelength_nm, rng, records ? records->reflection_log() : nullptr);
+            ? interact_with_shift({at.scene, interface, at_back, side, outward, index}, photon, rng, records)
+            : surface.interact(photon.ray, side, outward, index.around(at_back), photon.wavelength_nm, rng,
+                               records ? records->reflection_log() : nullptr);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
-    if (outcome == optics::SurfaceOutcome::inside) return {!to.at_back, core::SurfaceId::none()};
-    if (!at.index.dry) return {to.at_back, core::SurfaceId::none()};
-    came_from_back = to.at_back;  // in the gap, on the way from this surface to the other
-    to.at_back = !to.at_back;
+    if (outcome == optics::SurfaceOutcome::inside) return {!at_back, core::SurfaceId::none()};
+    if (!index.dry) return {at_back, core::SurfaceId::none()};
+    came_from_back = at_back;  // in the gap, on the way from this surface to the other
+    at_back = !at_back;
   }
 }
 
@@ -305,7 +307,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
-    InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
+    const InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (outcome.absorbed_by.has_value()) {
