@@ -87,7 +87,7 @@ struct MadeUp {
 
 std::string refusal(const std::filesystem::path& path, const std::vector<PropertyScan>& scans) {
   try {
-    reweight_results(path, read_results(path), scans);
+    static_cast<void>(reweight_results(path, read_results(path), scans));
   } catch (const InputError& error) {
     return error.what();
   }
