@@ -104,7 +104,7 @@ TEST_CASE("An analysis that does not apply has the reason") {
     CHECK_FALSE(analysis.doi);
   }
   SUBCASE("dark counts, which have no position") {
-    for (std::size_t i = 0; i < events.size(); i += 2) events[i].part = EventRecord::kNoPart;
+    for (std::size_t i = 0; i < events.size(); i += 2) events[i].part = PartId::none();
     const EventAnalysis analysis = analyze_events(events, setup);
     CHECK(analysis.pulses > 2980);
     REQUIRE(analysis.flood);
@@ -140,8 +140,8 @@ TEST_CASE("Layers are classified by the ratio of the ends and by the flood map")
   AnalysisSetup setup = detector.setup();
   std::vector<EventRecord> events = detector.events(6000, true);
   for (EventRecord& event : events)
-    if (event.position_mm[2] > 10.0F) event.part += 100;
-  for (std::uint32_t part = 0; part < 200; ++part) setup.layer_of_part[part] = part < 100 ? 0 : 1;
+    if (event.position_mm[2] > 10.0F) event.part = PartId(event.part.index() + 100);
+  for (std::uint32_t part = 0; part < 200; ++part) setup.layer_of_part[PartId(part)] = part < 100 ? 0 : 1;
   const EventAnalysis analysis = analyze_events(events, setup);
   REQUIRE(analysis.layers_by_ratio);
   CHECK(analysis.layers_by_ratio->confusion.share_right().value > 0.9);

@@ -21,13 +21,13 @@ using Position = std::array<double, 2>;
 
 /// Gaussian spots on a square grid of pitch 1 mm.
 void spots(std::size_t side, double sigma, std::size_t events_each, std::vector<Position>& positions,
-           std::vector<std::uint32_t>& parts, std::uint64_t stream) {
+           std::vector<PartId>& parts, std::uint64_t stream) {
   Rng rng = toy_rng(stream);
   for (std::size_t k = 0; k < side * side; ++k)
     for (std::size_t i = 0; i < events_each; ++i) {
       positions.push_back({static_cast<double>(k % side) + sigma * sample_normal(rng),
                            static_cast<double>(k / side) + sigma * sample_normal(rng)});
-      parts.push_back(static_cast<std::uint32_t>(10 + k));
+      parts.emplace_back(10 + k);
     }
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("The basins of a small map are the expected ones") {
 
 TEST_CASE("Well separated spots are all found and all events assigned correctly") {
   std::vector<Position> positions;
-  std::vector<std::uint32_t> parts;
+  std::vector<PartId> parts;
   spots(6, 0.08, 100, positions, parts, 40);
   const FloodMap known = flood_map(positions, parts, {256, 36});
   CHECK(known.peaks.size() == 36);
@@ -80,7 +80,7 @@ TEST_CASE("Well separated spots are all found and all events assigned correctly"
   std::uint64_t events = 0;
   for (const FloodPeak& peak : known.peaks) {
     events += peak.events;
-    const std::size_t crystal = known.crystals[peak.owner] - 10;
+    const std::size_t crystal = known.crystals[peak.owner].index() - 10;
     CHECK(peak.position_mm[0] == Approx(static_cast<double>(crystal % 6)).epsilon(0.1).scale(1.0));
     CHECK(peak.position_mm[1] == Approx(static_cast<double>(crystal / 6)).epsilon(0.1).scale(1.0));
   }
@@ -93,7 +93,7 @@ TEST_CASE("Well separated spots are all found and all events assigned correctly"
 TEST_CASE(
     "Law: spots of width sigma at distance d are resolved with probability (2 Phi(d / 2 sigma) - 1)^2") {
   std::vector<Position> positions;
-  std::vector<std::uint32_t> parts;
+  std::vector<PartId> parts;
   const double sigma = 0.3;
   spots(5, sigma, 1500, positions, parts, 41);
   const FloodMap map = flood_map(positions, parts, {256, 25});
@@ -125,7 +125,7 @@ TEST_CASE("12 x 12 crystals on 4 x 4 channels are resolved by their light") {
   std::vector<Position> channels;
   for (int k = 0; k < 16; ++k) channels.push_back({1.0 + 3.0 * (k % 4), 1.0 + 3.0 * (k / 4)});
   std::vector<Position> positions;
-  std::vector<std::uint32_t> parts;
+  std::vector<PartId> parts;
   for (std::uint32_t crystal = 0; crystal < 144; ++crystal) {
     const Position at{static_cast<double>(crystal % 12), static_cast<double>(crystal / 12)};
     std::vector<double> expected;
@@ -145,7 +145,7 @@ TEST_CASE("12 x 12 crystals on 4 x 4 channels are resolved by their light") {
       // Plain weights fold the corners: light of the outermost crystals is spread more evenly than that of
       // the next ones, which draws it to the middle.
       positions.push_back(*anger_position(light, channels, {2.0, 0.0}));
-      parts.push_back(crystal);
+      parts.emplace_back(crystal);
     }
   }
   const FloodMap map = flood_map(positions, parts, {256, 144});
@@ -156,7 +156,7 @@ TEST_CASE("12 x 12 crystals on 4 x 4 channels are resolved by their light") {
 
 TEST_CASE("Blurred crystals that merge are counted as lost, not hidden") {
   std::vector<Position> positions;
-  std::vector<std::uint32_t> parts;
+  std::vector<PartId> parts;
   spots(4, 0.8, 500, positions, parts, 43);
   const FloodMap map = flood_map(positions, parts, {256, 16});
   CHECK(map.peaks.size() < 16);
@@ -170,6 +170,5 @@ TEST_CASE("A flood map of nothing, or on a line, is refused") {
                    flood_map(std::vector<Position>(200, Position{1.0, 2.0}), {});
                  }),
                  "one line"));
-  CHECK_THROWS_AS(flood_map(std::vector<Position>(200), std::vector<std::uint32_t>(3)),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(flood_map(std::vector<Position>(200), std::vector<PartId>(3)), std::invalid_argument);
 }

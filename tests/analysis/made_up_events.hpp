@@ -49,7 +49,7 @@ struct MadeUpDetector {
     const double z = kLength_mm * rng.uniform();
     const core::Vec3 at = crystal_mm(crystal, z);
     event.position_mm = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())};
-    event.part = static_cast<std::uint32_t>(crystal + 1);
+    event.part = core::PartId(crystal + 1);
     // Six in ten deposit everything, the others up to the Compton edge.
     const double energy = rng.uniform() < 0.6 ? 511.0 : 341.0 * rng.uniform();
     event.energy_keV = static_cast<float>(energy);

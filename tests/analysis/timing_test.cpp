@@ -251,7 +251,7 @@ TEST_CASE("Recorded orders have the CTR of their photons, overall and by depth, 
   for (std::size_t i = 0; i < events.size(); ++i) {
     EventRecord event;
     event.event = i;
-    event.part = 0;
+    event.part = PartId(0);
     event.position_mm = {0.0F, 0.0F, static_cast<float>(i % 20)};
     ChannelRecord channel;
     channel.detected = static_cast<std::uint32_t>(events[i].size());

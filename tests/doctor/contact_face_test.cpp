@@ -21,9 +21,8 @@ std::string in_a_corner(const std::string& contacts) {
 
 const Interface* between(const Scene& scene, const std::string& face) {
   for (const Interface& interface : scene.interfaces)
-    for (const std::int32_t id : {interface.back_face, interface.front_face})
-      if (interface.back_face != kNone && interface.front_face != kNone &&
-          scene.faces[static_cast<std::size_t>(id)].name == face)
+    for (const core::FaceId id : {interface.back_face, interface.front_face})
+      if (interface.back_face.has_value() && interface.front_face.has_value() && scene.faces[id].name == face)
         return &interface;
   return nullptr;
 }
@@ -43,8 +42,8 @@ kind = "bonded"
                   *below = between(traced.built.scene, "crystal:-z");
   REQUIRE(side != nullptr);
   REQUIRE(below != nullptr);
-  CHECK(side->gap_medium != kNone);
-  CHECK(below->gap_medium == kNone);
+  CHECK(side->gap_medium.has_value());
+  CHECK(!below->gap_medium.has_value());
 }
 
 TEST_CASE("A contact of one face comes before that of the whole part") {
@@ -58,8 +57,8 @@ between = ["crystal:-z", "corner:cut:crystal"]
 kind = "bonded"
 )")))
                           .scene;
-  CHECK(between(scene, "crystal:-x")->gap_medium != kNone);
-  CHECK(between(scene, "crystal:-z")->gap_medium == kNone);
+  CHECK(between(scene, "crystal:-x")->gap_medium.has_value());
+  CHECK(!between(scene, "crystal:-z")->gap_medium.has_value());
 }
 
 TEST_CASE("A contact of one part comes before that of many parts by a pattern") {
@@ -76,7 +75,7 @@ TEST_CASE("A contact of one part comes before that of many parts by a pattern") 
   for (int i = 0; i < 3; ++i) {
     const Interface* interface = between(scene, fmt::format("crystal[{}]:other", i));
     REQUIRE(interface != nullptr);
-    CHECK((interface->gap_medium != kNone) == (i != 1));
+    CHECK(interface->gap_medium.has_value() == (i != 1));
   }
 }
 

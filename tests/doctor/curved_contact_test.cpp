@@ -74,8 +74,9 @@ TEST_CASE(
     CAPTURE(turn);
     const Traced traced = trace(rod_in_bore(0.0, 10.0, "20 um", turn));
     const Scene& scene = traced.built.scene;
-    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
-    CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
+    CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
+    CHECK(scene.parts[PartId(1)].volume_mm3 ==
+          doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
     CHECK(area_between(scene, "rod", "holder") ==
           doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
     REQUIRE(traced.built.parts[1].notes.size() == 1);
@@ -88,14 +89,14 @@ TEST_CASE(
 TEST_CASE("A rod that sticks out of the bore on both sides") {
   const Traced traced = trace(rod_in_bore(-2.0, 14.0, "20 um"));
   const Scene& scene = traced.built.scene;
-  CHECK(scene.parts[1].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
+  CHECK(scene.parts[PartId(1)].volume_mm3 == doctest::Approx(1440.0 - 10.0 * polygon_area(48)).epsilon(1e-6));
   CHECK(area_between(scene, "rod", "holder") == doctest::Approx(10.0 * polygon_perimeter(48)).epsilon(1e-6));
 }
 
 TEST_CASE("A rod that ends within the bore conforms to the bore's sides") {
   const Traced traced = trace(rod_in_bore(2.0, 6.0, "20 um"));
   const Scene& scene = traced.built.scene;
-  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(6.0 * polygon_area(64)).epsilon(1e-6));
+  CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(6.0 * polygon_area(64)).epsilon(1e-6));
   CHECK(area_between(scene, "rod", "holder") == doctest::Approx(6.0 * polygon_perimeter(64)).epsilon(1e-6));
 }
 
@@ -114,7 +115,7 @@ TEST_CASE("A ball in a hollow of other triangles") {
                                             within("ball", "block", "60 um"),
                                         "ball", 2000));
   const Scene& scene = traced.built.scene;
-  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(ball.volume()).epsilon(1e-6));
+  CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(ball.volume()).epsilon(1e-6));
   // The cap of a sphere below z = -1: 2 pi r (r - 1), less what a tessellation lacks.
   CHECK(area_between(scene, "ball", "block") ==
         doctest::Approx(kTwoPi * kRadius * (kRadius - 1.0)).epsilon(0.02));
@@ -126,15 +127,15 @@ TEST_CASE("A rod that enters a bore halfway: each face ends within the other, an
     const Traced traced = trace(half_entered(turn));
     const Scene& scene = traced.built.scene;
     // The rod keeps its shape, and the contact is its sides from z = 0 to 5.
-    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
+    CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(10.0 * polygon_area(48)).epsilon(1e-9));
     CHECK(area_between(scene, "rod", "holder") == doctest::Approx(5.0 * polygon_perimeter(48)).epsilon(1e-6));
     CHECK(area_between(scene, "rod", "ambient") ==
           doctest::Approx(5.0 * polygon_perimeter(48) + 2.0 * polygon_area(48)).epsilon(1e-6));
     // Below, the bore leans from its own 64 sides to the rod's 48: its area there lies between the two.
     const double above = 1440.0 - 5.0 * polygon_area(48);
     const double smaller = std::min(polygon_area(48), polygon_area(64)), larger = kPi * kRadius * kRadius;
-    CHECK(scene.parts[1].volume_mm3 > above - 5.0 * larger);
-    CHECK(scene.parts[1].volume_mm3 < above - 5.0 * smaller);
+    CHECK(scene.parts[PartId(1)].volume_mm3 > above - 5.0 * larger);
+    CHECK(scene.parts[PartId(1)].volume_mm3 < above - 5.0 * smaller);
     REQUIRE(traced.built.parts[1].notes.size() == 1);
     CHECK(contains(traced.built.parts[1].notes[0], "stitched to \"rod\""));
     CHECK(contains(traced.built.parts[1].notes[0], "moved by up to 0.011 mm"));

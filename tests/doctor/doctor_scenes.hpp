@@ -39,7 +39,7 @@ inline std::string refusal(const std::string& text) {
 /// Area of all interfaces between two regions, mm2.
 inline double area_between(const scene::Scene& scene, const std::string& a, const std::string& b) {
   double area = 0.0;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+  for (const core::InterfaceId i : scene.interfaces.ids()) {
     const std::string &back = scene.region_names[scene.interfaces[i].back],
                       &front = scene.region_names[scene.interfaces[i].front];
     if ((back == a && front == b) || (back == b && front == a)) area += scene.interface_area_mm2[i];

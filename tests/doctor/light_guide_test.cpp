@@ -57,7 +57,7 @@ TEST_CASE(
   std::size_t interfaces = 0;
   double area = 0.0;
   const Scene& scene = whole.built.scene;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+  for (const InterfaceId i : scene.interfaces.ids()) {
     const Interface& interface = scene.interfaces[i];
     const std::string &back = scene.region_names[interface.back],
                       &front = scene.region_names[interface.front];

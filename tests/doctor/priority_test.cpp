@@ -31,14 +31,14 @@ TEST_CASE("The part with the higher priority keeps the space, and the cut is a f
     CAPTURE(skew);
     const Traced traced = trace(plate_and_rod(skew ? turned : "", "priority = 2\n" + (skew ? turned : "")));
     const Scene& scene = traced.built.scene;
-    CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0 - 16.0).epsilon(1e-9));
-    CHECK(scene.parts[1].volume_mm3 == doctest::Approx(40.0).epsilon(1e-9));
+    CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(400.0 - 16.0).epsilon(1e-9));
+    CHECK(scene.parts[PartId(1)].volume_mm3 == doctest::Approx(40.0).epsilon(1e-9));
     CHECK(area_of(scene, "plate:cut:rod") == doctest::Approx(4.0 * 2.0 * 4.0).epsilon(1e-9));
     CHECK(traced.built.parts[0].notes.size() == 1);
     CHECK(contains(traced.built.parts[0].notes[0], "cut by \"rod\""));
     double contact = 0.0;
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-      if (scene.interfaces[i].back == 1 && scene.interfaces[i].front == 2)
+    for (const InterfaceId i : scene.interfaces.ids())
+      if (scene.interfaces[i].back == RegionId(1) && scene.interfaces[i].front == RegionId(2))
         contact += scene.interface_area_mm2[i];
     CHECK(contact == doctest::Approx(32.0).epsilon(1e-9));
   }
@@ -46,8 +46,8 @@ TEST_CASE("The part with the higher priority keeps the space, and the cut is a f
 
 TEST_CASE("The other way round the plate cuts the rod in two") {
   const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("priority = 1\n", ""))).scene;
-  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0));
-  CHECK(scene.parts[1].volume_mm3 == doctest::Approx(24.0).epsilon(1e-12));
+  CHECK(scene.parts[PartId(0)].volume_mm3 == doctest::Approx(400.0));
+  CHECK(scene.parts[PartId(1)].volume_mm3 == doctest::Approx(24.0).epsilon(1e-12));
   CHECK(area_of(scene, "rod:cut:plate") == doctest::Approx(8.0).epsilon(1e-12));
 }
 
@@ -63,8 +63,9 @@ TEST_CASE("Three parts: each is cut by all above it") {
   const std::string third = part_text("post", corners({0, -2, 1}, {2, 2, 9}) + "priority = 1\n", "n15");
   const Scene scene = SceneBuilder().build(scene_spec(plate_and_rod("", "priority = 2\n" + third))).scene;
   // post 2 x 4 x 8 less the rod's 1 x 2 x 6; plate less the rod and what is left of the post in it.
-  CHECK(scene.parts[2].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
-  CHECK(scene.parts[0].volume_mm3 == doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
+  CHECK(scene.parts[PartId(2)].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
+  CHECK(scene.parts[PartId(0)].volume_mm3 ==
+        doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
 }
 
 TEST_CASE("A part wholly inside another is nested, whatever the priorities") {

@@ -83,7 +83,7 @@ TEST_CASE("Crystals glued in rows: pads between neighbours, dry on one side, one
   for (const Interface& interface : built.interfaces) {
     const std::string &back = built.region_names[interface.back],
                       &front = built.region_names[interface.front];
-    CHECK((interface.gap_medium != kNone) == (back == "crystal0" && front == "frame"));
+    CHECK(interface.gap_medium.has_value() == (back == "crystal0" && front == "frame"));
   }
   CHECK(area_between(built, "crystal1", "frame") == doctest::Approx(2.0 * 18.0 + 4.0));
   check_propagation(traced.built.scene, scene_spec(text).source, 200);

@@ -41,7 +41,7 @@ std::vector<ReadoutChannel> channels() {
   std::vector<ReadoutChannel> list(kChannels);
   for (std::uint32_t i = 0; i < kChannels; ++i) {
     list[i].name = "sensor" + std::to_string(i);
-    list[i].part = 1;
+    list[i].part = PartId(1);
     list[i].position = Vec3(i, 2.0 * i, -1.0);
     list[i].normal = Vec3(0, 0, -1);
     list[i].area_mm2 = 4.0 + i;
@@ -59,7 +59,7 @@ EventRecord made_up_event(std::uint32_t point, std::uint64_t number, bool read_o
   event.escaped_keV = 1.5F * x;
   event.non_scintillating_keV = 0.25F;
   event.position_mm = {x, -x, 0.5F};
-  event.part = 1;
+  event.part = PartId(1);
   event.emitted = 1000 + number;
   event.channels.resize(kChannels);
   for (std::uint32_t i = 0; i < kChannels; ++i) {

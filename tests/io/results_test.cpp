@@ -49,8 +49,8 @@ std::vector<DetectedPhoton> made_up_photons(std::uint64_t count) {
     photon = {static_cast<std::uint32_t>(i % 15),
               i << 33,
               ~i,
-              1,
-              2,
+              PartId(1),
+              FaceId(2),
               {x, -x, 0.1f * x},
               {0.6f, 0, 0.8f},
               420.5f,
@@ -240,7 +240,7 @@ TEST_CASE("A result whose parts contradict each other is refused") {
   check_contains(message_of([&] { read_results(folder / "media.h5"); }),
                  {"absorbed_in_medium", "not match", "media"});
   run = test::made_up_run();
-  run.points[1].sensor_faces[0].face = 3;
+  run.points[1].sensor_faces[0].face = FaceId(3);
   write(folder / "face.h5", run, {});
   const auto message = message_of([&] { read_results(folder / "face.h5"); });
   CHECK(contains(message, "in point 0001"));

@@ -130,7 +130,8 @@ photons = 1
       chord.add(photon.path_mm);
     }
     CAPTURE(shape);
-    check_law("mean chord, mm", chord.mean(), {4.0 * built.scene.parts[0].volume_mm3 / boundary.area(), 0.0});
+    check_law("mean chord, mm", chord.mean(),
+              {4.0 * built.scene.parts.front().volume_mm3 / boundary.area(), 0.0});
   }
 }
 
@@ -280,9 +281,9 @@ photons = 1
   const Scene& scene = built.scene;
   const PhotonSource source(spec.source, scene);
   // Volume of the regions: what is nested in a part is not its own.
-  std::vector<double> weight(scene.regions.size(), 0.0);
+  IdVector<RegionId, double> weight(scene.regions.size(), 0.0);
   for (const PartInfo& part : scene.parts) {
-    const std::uint32_t medium = scene.regions[part.region].medium;
+    const MediumId medium = scene.regions[part.region].medium;
     if (scene.optics.is_opaque(medium)) continue;
     double volume = part.volume_mm3;
     for (const PartInfo& other : scene.parts) {
@@ -299,9 +300,9 @@ photons = 1
 
   constexpr std::uint64_t kPhotons = 20'000;
   constexpr double kPath_mm = 150.0;
-  std::vector<std::uint64_t> found(scene.regions.size(), 0);
+  IdVector<RegionId, std::uint64_t> found(scene.regions.size(), 0);
   std::uint64_t ended = 0;  // nothing absorbs
-  const Eigen::AlignedBox3d bounds = scene.parts[0].bounds;
+  const Eigen::AlignedBox3d bounds = scene.parts.front().bounds;
   for (std::uint64_t i = 0; i < kPhotons; ++i) {
     Rng rng(13, StreamKind::photon, i);
     Photon photon = source.emit(scene, rng);
@@ -310,12 +311,12 @@ photons = 1
       for (int axis = 0; axis < 3; ++axis)
         photon.position[axis] = bounds.min()[axis] + rng.uniform() * bounds.sizes()[axis];
       photon.region = scene.locate(photon.position);
-      const std::uint32_t medium = scene.regions[photon.region].medium;
+      const MediumId medium = scene.regions[photon.region].medium;
       if (scene.optics.is_opaque(medium)) continue;
       photon.optics = scene.optics.at(medium, photon.wavelength_nm);
       if (rng.uniform() < std::pow(photon.optics.index / 1.82, 2)) break;
     }
-    std::uint32_t region = photon.region;
+    RegionId region = photon.region;
     while (photon.path_mm < kPath_mm && ended == 0) {
       region = photon.region;
       const StepEvent event = step(scene, photon, rng).event;
@@ -324,7 +325,7 @@ photons = 1
     ++found[region];
   }
   CHECK(ended == 0);
-  for (std::size_t r = 0; r < scene.regions.size(); ++r) {
+  for (const RegionId r : scene.regions.ids()) {
     if (weight[r] == 0.0) {
       CHECK(found[r] == 0);
       continue;

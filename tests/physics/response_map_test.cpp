@@ -138,7 +138,7 @@ photon_list = true
   light.trace(hooks);
 
   Rng rng(1, StreamKind::other, 0);
-  const PartInfo& crystal = scene.built.scene.parts.at(0);
+  const PartInfo& crystal = scene.built.scene.parts.front();
   std::vector<PlaceResponse> seen;
   for (int i = 0; i < 300'000; ++i) {
     const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();

@@ -66,11 +66,11 @@ photons = 200_000
          medium;
 }
 
-std::size_t medium_number(const Scene& scene, const std::string& name) {
-  for (std::size_t i = 0; i < scene.media.size(); ++i)
-    if (scene.media[i].medium().name == name) return i;
+MediumId medium_id(const Scene& scene, const std::string& name) {
+  for (const MediumId id : scene.media.ids())
+    if (scene.media[id].medium().name == name) return id;
   FAIL("no medium " << name);
-  return 0;
+  return MediumId::none();
 }
 
 Estimate detected_in(const Traced& traced, const std::string& part) {
@@ -105,7 +105,7 @@ TEST_CASE("Law: a slab with a dye, re-emitted light leaves through both faces by
   constexpr double kThickness = 3.0, kClear = 0.1;
   const Traced traced = trace(slab_scene(kThickness, dye(kClear)));
   const double passes = std::exp(-kThickness / kLength_mm);
-  const ShiftCount& shifted = traced.result.shifted_in_medium[medium_number(traced.built.scene, "dye")];
+  const ShiftCount& shifted = traced.result.shifted_in_medium[medium_id(traced.built.scene, "dye")];
   check_law("absorbed by the dye", binomial_estimate(shifted.absorbed, traced.result.photons),
             {1.0 - passes, 0.0});
   check_law("re-emitted", binomial_estimate(shifted.emitted, traced.result.photons),
@@ -118,11 +118,11 @@ TEST_CASE("Law: a slab with a dye, re-emitted light leaves through both faces by
 TEST_CASE("Every photon that a shifter absorbs is re-emitted or absorbed, and so is its energy") {
   const Traced traced = trace(slab_scene(3.0, dye(0.0)));
   const PointResult& result = traced.result;
-  const std::size_t number = medium_number(traced.built.scene, "dye");
-  const ShiftCount& shifted = result.shifted_in_medium[number];
+  const MediumId dyed = medium_id(traced.built.scene, "dye");
+  const ShiftCount& shifted = result.shifted_in_medium[dyed];
   // Nothing else absorbs, and no photon is absorbed twice.
-  CHECK(shifted.absorbed - shifted.emitted == result.absorbed_in_medium[number]);
-  CHECK(result.count(Fate::absorbed_in_medium) == result.absorbed_in_medium[number]);
+  CHECK(shifted.absorbed - shifted.emitted == result.absorbed_in_medium[dyed]);
+  CHECK(result.count(Fate::absorbed_in_medium) == result.absorbed_in_medium[dyed]);
   CHECK(result.shifted().absorbed == shifted.absorbed);
   const double energy = photon_energy_eV(400.0);
   // The same for any number of threads, to the last bit.
@@ -256,8 +256,9 @@ max_interactions = 1000
   const Traced traced = trace(scene);
   const PointResult& result = traced.result;
   ShiftCount phosphor;
-  for (std::size_t i = 0; i < result.shifted_at_surface.size(); ++i)
-    if (traced.built.scene.surfaces[i].name.starts_with("phosphor")) phosphor += result.shifted_at_surface[i];
+  for (const SurfaceId id : result.shifted_at_surface.ids())
+    if (traced.built.scene.surfaces[id].name.starts_with("phosphor"))
+      phosphor += result.shifted_at_surface[id];
   CHECK(phosphor.absorbed > 2'000);
   CHECK(phosphor.emitted < phosphor.absorbed);
   CHECK(result.shifted().absorbed == phosphor.absorbed);

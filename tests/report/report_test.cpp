@@ -79,8 +79,10 @@ TEST_CASE("Text from scenes is escaped everywhere") {
   const std::string evil = "<b>&\"'";
   run.header.title = run.header.scene_file = run.header.note = run.header.scene_text = evil;
   run.header.version = run.partial_reason = evil;
-  for (auto* names : {&run.header.media, &run.header.surfaces, &run.header.parts, &run.header.faces})
-    for (std::string& name : *names) name = evil;
+  for (std::string& name : run.header.media) name = evil;
+  for (std::string& name : run.header.surfaces) name = evil;
+  for (std::string& name : run.header.parts) name = evil;
+  for (std::string& name : run.header.faces) name = evil;
   run.header.sweep_keys[0] = run.header.sweep_keys[1] = evil;
   for (PointResult& point : run.points) {
     point.parameters[0] += evil;

@@ -142,11 +142,9 @@ contact = ")" + (bonded ? "bonded" : "dry") + "\"\n",
                             .scene;
     const Between contact = between(scene, "block[0,0]", "block_septum_y[0]");
     CHECK(contact.area_mm2 == exactly(20.0));
-    CHECK((contact.interface.gap_medium == kNone) == bonded);
-    const std::int32_t surface =
-        bonded ? std::max(contact.interface.back_surface, contact.interface.front_surface)
-               : contact.interface.front_surface;
-    CHECK(scene.surfaces[static_cast<std::size_t>(surface)].name.rfind("sheet of white", 0) == 0);
+    CHECK(contact.interface.gap_medium.has_value() != bonded);
+    const SurfaceId back = contact.interface.back_surface, front = contact.interface.front_surface;
+    CHECK(scene.surfaces[bonded && back.has_value() ? back : front].name.rfind("sheet of white", 0) == 0);
   }
 }
 
@@ -163,9 +161,9 @@ height = ["3 mm", "10 mm"]
   check_bounds(parts.at("block_filler"), Vec3(-3.1, -2.05, 0), Vec3(3.1, 2.05, 10));
   const Between glued = between(scene, "block[1,0]", "block_filler");
   CHECK(glued.area_mm2 == exactly(3.0 * 20.0));  // its fourth side is flush with the block's
-  CHECK(glued.interface.gap_medium == kNone);
+  CHECK(!glued.interface.gap_medium.has_value());
   const Between wet = between(scene, "block_septum_y[0]", "block_filler");
-  CHECK(wet.interface.gap_medium == kNone);
+  CHECK(!wet.interface.gap_medium.has_value());
   CHECK(scene.regions[parts.at("block_filler").region].medium != scene.regions[kAmbientRegion].medium);
 }
 
@@ -298,9 +296,9 @@ kind = "bonded"
 surface = "ground"
 )";
   const Scene scene = built(scene_with(touching, "block[0,1]")).scene;
-  CHECK(between(scene, "block[0,0]", "block[1,0]").interface.gap_medium != kNone);
-  CHECK(between(scene, "block[0,0]", "block[0,1]").interface.gap_medium != kNone);
-  CHECK(between(scene, "block[1,0]", "block[1,1]").interface.gap_medium == kNone);
+  CHECK(between(scene, "block[0,0]", "block[1,0]").interface.gap_medium.has_value());
+  CHECK(between(scene, "block[0,0]", "block[0,1]").interface.gap_medium.has_value());
+  CHECK(!between(scene, "block[1,0]", "block[1,1]").interface.gap_medium.has_value());
 }
 
 TEST_CASE("A sweep goes over the elements that a pattern matches") {

@@ -67,7 +67,7 @@ struct Between {
 inline Between between(const scene::Scene& scene, const std::string& a, const std::string& b) {
   Between found;
   double largest = 0.0;
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+  for (const core::InterfaceId i : scene.interfaces.ids()) {
     const std::string &back = scene.region_names[scene.interfaces[i].back],
                       &front = scene.region_names[scene.interfaces[i].front];
     if (!(back == a && front == b) && !(back == b && front == a)) continue;

@@ -55,7 +55,7 @@ TEST_CASE("The joint between segments and base has no effect on light, whatever 
   const Between joint = between(scene, "guide_base", "guide[1,1]");
   CHECK(joint.area_mm2 > 10.0);
   CHECK(joint.interface.plain);
-  CHECK(joint.interface.gap_medium == kNone);
+  CHECK(!joint.interface.gap_medium.has_value());
   const auto faces = faces_by_name(scene);
   CHECK(faces.at("guide_base:-z").surface == "flat");
   CHECK(faces.at("guide[1,1]:+z").surface == "flat");
@@ -80,5 +80,5 @@ TEST_CASE("Slits from below, slits right through, and sheets in slits") {
   CHECK(volume == to_rounding(kWhole));
   const Between dry = between(filled, "guide[0,0]", "guide_slit_x[0,0]");
   CHECK(dry.area_mm2 > 1.0);
-  CHECK(dry.interface.gap_medium != kNone);
+  CHECK(dry.interface.gap_medium.has_value());
 }

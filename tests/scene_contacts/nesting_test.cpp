@@ -27,13 +27,13 @@ TEST_CASE("A part within a part borders it, to any depth and in any order") {
   for (const bool reversed : {false, true}) {
     const std::vector<PlacedPart> parts =
         reversed ? std::vector{inner, middle, outer} : std::vector{outer, middle, inner};
-    const std::int32_t o = reversed ? 2 : 0, i = reversed ? 0 : 2;
+    const PartId o(reversed ? 2 : 0), i(reversed ? 0 : 2);
     const auto interfaces = resolve_contacts(parts, kTolerance);
     CHECK(area_between(interfaces, o, kAmbient) == doctest::Approx(600.0).epsilon(1e-14));
-    CHECK(area_between(interfaces, o, 1) == doctest::Approx(216.0).epsilon(1e-14));
-    CHECK(area_between(interfaces, 1, i) == doctest::Approx(24.0).epsilon(1e-14));
+    CHECK(area_between(interfaces, o, PartId(1)) == doctest::Approx(216.0).epsilon(1e-14));
+    CHECK(area_between(interfaces, PartId(1), i) == doctest::Approx(24.0).epsilon(1e-14));
     CHECK(area_between(interfaces, i, kAmbient) == 0.0);
-    for (const InterfaceTriangle& t : interfaces) CHECK(t.front_face == kNoFace);
+    for (const InterfaceTriangle& t : interfaces) CHECK(t.front_face == FaceId::none());
     check_laws(parts, interfaces, reversed ? std::vector{8.0, 208.0, 784.0} : std::vector{784.0, 208.0, 8.0});
   }
 }
@@ -45,12 +45,13 @@ TEST_CASE("A nested part flush with a face of its container reaches the outside 
         box("core", {3, 4, 8}, {4, 5, 10}, 12), box("pad", {2.5, 3.5, 10}, {8, 8, 11}, 18)};
     if (turned) move(parts, skew_rotation(), Vec3(-3, 2, 1));
     const auto interfaces = resolve_contacts(parts, kTolerance);
-    CHECK(area_between(interfaces, 0, 1) == doctest::Approx(12.0 + 2 * 4 * 7).epsilon(1e-12));
-    CHECK(area_between(interfaces, 1, 2) == doctest::Approx(1.0 + 4 * 2).epsilon(1e-12));
-    CHECK(area_between(interfaces, 2, 3) == doctest::Approx(1.0).epsilon(1e-12));
-    CHECK(area_between(interfaces, 1, 3) == doctest::Approx(2.5 * 3.5 - 1.0).epsilon(1e-12));
-    CHECK(area_between(interfaces, 1, kAmbient) == doctest::Approx(12.0 - 2.5 * 3.5).epsilon(1e-12));
-    CHECK(area_between(interfaces, 0, 3) == doctest::Approx(5.5 * 4.5 - 2.5 * 3.5).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(12.0 + 2 * 4 * 7).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(1), PartId(2)) == doctest::Approx(1.0 + 4 * 2).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(2), PartId(3)) == doctest::Approx(1.0).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(1), PartId(3)) == doctest::Approx(2.5 * 3.5 - 1.0).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(1), kAmbient) == doctest::Approx(12.0 - 2.5 * 3.5).epsilon(1e-12));
+    CHECK(area_between(interfaces, PartId(0), PartId(3)) ==
+          doctest::Approx(5.5 * 4.5 - 2.5 * 3.5).epsilon(1e-12));
     check_laws(parts, interfaces, {1000.0 - 48.0, 46.0, 2.0, 24.75});
   }
 }
@@ -61,7 +62,8 @@ TEST_CASE("The face under a flush plug belongs to the plug alone") {
   const auto interfaces = resolve_contacts(parts, kTolerance);
   double plug_top = 0.0;
   for (const InterfaceTriangle& t : interfaces)
-    if (t.back == 1 && t.front == kAmbient && t.back_face == 11 && t.front_face == kNoFace)
+    if (t.back == PartId(1) && t.front == kAmbient && t.back_face == FaceId(11) &&
+        t.front_face == FaceId::none())
       plug_top += area(t);
   CHECK(plug_top == doctest::Approx(12.0).epsilon(1e-13));
 }
@@ -71,9 +73,9 @@ TEST_CASE("Neighbours inside one container touch each other and it") {
                                       box("a", {0, 0, 0}, {2, 2, 2}, 6),
                                       box("b", {2, 0, 0}, {4, 2, 2}, 12, 3)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_between(interfaces, 1, 2) == doctest::Approx(4.0).epsilon(1e-13));
-  CHECK(area_between(interfaces, 0, 1) == doctest::Approx(20.0).epsilon(1e-13));
-  CHECK(area_between(interfaces, 0, 2) == doctest::Approx(20.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(1), PartId(2)) == doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(20.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(2)) == doctest::Approx(20.0).epsilon(1e-13));
   check_laws(parts, interfaces, {96.0 - 16.0, 8.0, 8.0});
 }
 
@@ -99,9 +101,9 @@ TEST_CASE("A cavity in a part belongs to what fills it, else to the ambient medi
 
   const std::vector<PlacedPart> parts{hollow, box("half filling", {1, 1, 1}, {3, 3, 2}, 12, 3)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_between(interfaces, 0, 1) == doctest::Approx(4.0 + 8.0).epsilon(1e-13));
-  CHECK(area_between(interfaces, 1, kAmbient) == doctest::Approx(4.0).epsilon(1e-13));
-  CHECK(area_between(interfaces, 0, kAmbient) == doctest::Approx(96.0 + 12.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(4.0 + 8.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(1), kAmbient) == doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), kAmbient) == doctest::Approx(96.0 + 12.0).epsilon(1e-13));
   check_laws(parts, interfaces, {56.0, 4.0});
 
   // What reaches through the wall overlaps with the wall alone.

@@ -74,8 +74,7 @@ TEST_CASE("In random packings of a cube every contact has its exact area") {
     for (std::size_t i = 0; i < pieces.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const double expected = area_of_contact(pieces[i], pieces[j]);
-        const double found =
-            area_between(interfaces, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+        const double found = area_between(interfaces, PartId(i), PartId(j));
         worst = std::max(worst, std::abs(found - expected));
         expected_total += expected;
       }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "scintray/core/id_vector.hpp"
+
 namespace scintray::test {
 
 contact::PlacedPart box(const std::string& name, const core::Vec3& low, const core::Vec3& high,
@@ -35,7 +37,8 @@ contact::PlacedPart box(const std::string& name, const core::Vec3& low, const co
           if (other_diagonal) std::rotate(quad.begin(), quad.begin() + 1, quad.end());
           part.triangles.push_back({quad[0], quad[1], quad[2]});
           part.triangles.push_back({quad[0], quad[2], quad[3]});
-          part.face.insert(part.face.end(), 2, first_face + static_cast<std::uint32_t>(2 * axis + end));
+          part.face.insert(part.face.end(), 2,
+                           core::FaceId(first_face + static_cast<std::uint32_t>(2 * axis + end)));
         }
     }
   return part;
@@ -50,7 +53,7 @@ contact::PlacedPart prism(const std::string& name, const std::vector<Eigen::Vect
     for (const auto& p : outline) part.vertices.emplace_back(p.x(), p.y(), z);
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t face) {
     part.triangles.push_back({a, b, c});
-    part.face.push_back(first_face + face);
+    part.face.emplace_back(first_face + face);
   };
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t j = (i + 1) % n;
@@ -85,16 +88,16 @@ core::Vec3 area_vector(const contact::InterfaceTriangle& t) {
 
 double area(const contact::InterfaceTriangle& triangle) { return area_vector(triangle).norm(); }
 
-double area_between(const std::vector<contact::InterfaceTriangle>& interfaces, std::int32_t a,
-                    std::int32_t b) {
+double area_between(const std::vector<contact::InterfaceTriangle>& interfaces, core::PartId a,
+                    core::PartId b) {
   double sum = 0.0;
   for (const contact::InterfaceTriangle& t : interfaces)
     if ((t.back == a && t.front == b) || (t.back == b && t.front == a)) sum += area(t);
   return sum;
 }
 
-std::map<std::int32_t, Boundary> boundaries(const std::vector<contact::InterfaceTriangle>& interfaces) {
-  std::map<std::int32_t, Boundary> result;
+std::map<core::PartId, Boundary> boundaries(const std::vector<contact::InterfaceTriangle>& interfaces) {
+  std::map<core::PartId, Boundary> result;
   if (interfaces.empty()) return result;
   const core::Vec3 origin = interfaces.front().vertex[0];
   for (const contact::InterfaceTriangle& t : interfaces)
@@ -120,16 +123,15 @@ void check_laws(const std::vector<contact::PlacedPart>& parts,
   // A face is known to some roundings of the largest coordinate.
   const double rounding = 256.0 * std::numeric_limits<double>::epsilon() * largest;
 
-  std::vector<std::set<std::int32_t>> faces;
+  core::IdVector<core::PartId, std::set<core::FaceId>> faces;
   for (const contact::PlacedPart& part : parts) faces.emplace_back(part.face.begin(), part.face.end());
   bool sides_differ = true, has_face = true, faces_belong = true;
   for (const contact::InterfaceTriangle& t : interfaces) {
     sides_differ = sides_differ && t.back != t.front;
-    has_face = has_face && t.back_face != contact::kNoFace;
+    has_face = has_face && t.back_face.has_value();
     for (const auto& [region, face] : {std::pair(t.back, t.back_face), std::pair(t.front, t.front_face)})
-      if (face != contact::kNoFace)
-        faces_belong = faces_belong && region != contact::kAmbient &&
-                       faces[static_cast<std::size_t>(region)].contains(face);
+      if (face.has_value())
+        faces_belong = faces_belong && region != contact::kAmbient && faces[region].contains(face);
   }
   CHECK(sides_differ);
   CHECK(has_face);
@@ -140,14 +142,13 @@ void check_laws(const std::vector<contact::PlacedPart>& parts,
   for (const auto& row : all) {
     const auto& region = row.first;
     const auto& boundary = row.second;
-    CAPTURE(region);
+    CAPTURE(region.has_value() ? static_cast<int>(region.index()) : -1);
     CHECK(boundary.area_vector.norm() <= rounding * std::sqrt(boundary.area * interfaces.size()));
     if (region == contact::kAmbient) continue;
-    CHECK(std::abs(boundary.volume - volumes[static_cast<std::size_t>(region)]) <=
+    CHECK(std::abs(boundary.volume - volumes[region.index()]) <=
           boundary.area * (slack_mm + rounding) + rounding * extent * std::sqrt(boundary.area));
   }
-  for (std::size_t i = 0; i < volumes.size(); ++i)
-    CHECK(all.contains(static_cast<std::int32_t>(i)) == (volumes[i] > 0.0));
+  for (std::size_t i = 0; i < volumes.size(); ++i) CHECK(all.contains(core::PartId(i)) == (volumes[i] > 0.0));
 }
 
 }  // namespace scintray::test

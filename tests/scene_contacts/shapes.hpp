@@ -34,8 +34,8 @@ void round_to_float(std::vector<contact::PlacedPart>& parts);
 double area(const contact::InterfaceTriangle& triangle);
 
 /// Area (mm2) between two regions, whichever is back or front.
-double area_between(const std::vector<contact::InterfaceTriangle>& interfaces, std::int32_t a,
-                    std::int32_t b);
+double area_between(const std::vector<contact::InterfaceTriangle>& interfaces, core::PartId a,
+                    core::PartId b);
 
 /// What the boundary of a region sums to: its outward area vectors (zero when closed) and its volume.
 struct Boundary {
@@ -43,7 +43,7 @@ struct Boundary {
   double area = 0.0;
   double volume = 0.0;
 };
-std::map<std::int32_t, Boundary> boundaries(const std::vector<contact::InterfaceTriangle>& interfaces);
+std::map<core::PartId, Boundary> boundaries(const std::vector<contact::InterfaceTriangle>& interfaces);
 
 /// Checks the laws of every result: each region is closed, no triangle has one region on both sides, face
 /// ids belong to the part on their side, and the volumes are those given (by part, nested ones taken off).

@@ -10,8 +10,8 @@ using namespace scintray::test;
 namespace {
 
 /// Area of a back-front pair in this order, with these face ids.
-double area_of(const std::vector<InterfaceTriangle>& interfaces, std::int32_t back, std::int32_t front,
-               std::int32_t back_face, std::int32_t front_face) {
+double area_of(const std::vector<InterfaceTriangle>& interfaces, PartId back, PartId front, FaceId back_face,
+               FaceId front_face) {
   double sum = 0.0;
   for (const InterfaceTriangle& t : interfaces)
     if (t.back == back && t.front == front && t.back_face == back_face && t.front_face == front_face)
@@ -26,10 +26,10 @@ TEST_CASE("A lone box borders the ambient medium with its own triangles") {
   const auto interfaces = resolve_contacts(parts, kTolerance);
   REQUIRE(interfaces.size() == 12);
   for (std::size_t i = 0; i < 12; ++i) {
-    CHECK(interfaces[i].back == 0);
+    CHECK(interfaces[i].back == PartId(0));
     CHECK(interfaces[i].front == kAmbient);
-    CHECK(interfaces[i].back_face == static_cast<std::int32_t>(parts[0].face[i]));
-    CHECK(interfaces[i].front_face == kNoFace);
+    CHECK(interfaces[i].back_face == parts[0].face[i]);
+    CHECK(interfaces[i].front_face == FaceId::none());
     for (std::size_t k = 0; k < 3; ++k)
       CHECK(interfaces[i].vertex[k] == parts[0].vertices[parts[0].triangles[i][k]]);
   }
@@ -44,10 +44,11 @@ TEST_CASE("Two boxes share a whole face, whatever the triangulations") {
       const std::vector<PlacedPart> parts{box("a", {0, 0, 0}, {2, 2, 5}, 0),
                                           box("b", {0, 0, 5}, {2, 2, 6}, 10, cuts, diagonal)};
       const auto interfaces = resolve_contacts(parts, kTolerance);
-      CHECK(area_of(interfaces, 0, 1, 5, 14) == doctest::Approx(4.0).epsilon(1e-14));
-      CHECK(area_between(interfaces, 0, 1) == doctest::Approx(4.0).epsilon(1e-14));
-      CHECK(area_between(interfaces, 0, kAmbient) == doctest::Approx(44.0).epsilon(1e-14));
-      CHECK(area_between(interfaces, 1, kAmbient) == doctest::Approx(12.0).epsilon(1e-14));
+      CHECK(area_of(interfaces, PartId(0), PartId(1), FaceId(5), FaceId(14)) ==
+            doctest::Approx(4.0).epsilon(1e-14));
+      CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(4.0).epsilon(1e-14));
+      CHECK(area_between(interfaces, PartId(0), kAmbient) == doctest::Approx(44.0).epsilon(1e-14));
+      CHECK(area_between(interfaces, PartId(1), kAmbient) == doctest::Approx(12.0).epsilon(1e-14));
       check_laws(parts, interfaces, {20.0, 4.0});
     }
 }
@@ -56,8 +57,10 @@ TEST_CASE("A box on part of a larger face leaves the rest to the ambient medium"
   const std::vector<PlacedPart> parts{box("plate", {-5, -5, -1}, {5, 5, 0}, 0, 3),
                                       box("pad", {-1, 0.3, 0}, {1.7, 2, 1}, 10)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_of(interfaces, 0, 1, 5, 14) == doctest::Approx(2.7 * 1.7).epsilon(1e-13));
-  CHECK(area_of(interfaces, 0, kAmbient, 5, kNoFace) == doctest::Approx(100 - 2.7 * 1.7).epsilon(1e-13));
+  CHECK(area_of(interfaces, PartId(0), PartId(1), FaceId(5), FaceId(14)) ==
+        doctest::Approx(2.7 * 1.7).epsilon(1e-13));
+  CHECK(area_of(interfaces, PartId(0), kAmbient, FaceId(5), FaceId::none()) ==
+        doctest::Approx(100 - 2.7 * 1.7).epsilon(1e-13));
   check_laws(parts, interfaces, {100.0, 2.7 * 1.7});
 }
 
@@ -76,7 +79,7 @@ TEST_CASE("64 crystals under one light guide each border it with their whole fac
     if (turned) move(parts, skew_rotation(), Vec3(3, 4, 5));
     const auto interfaces = resolve_contacts(parts, kTolerance);
     for (std::int32_t c = 1; c <= 64; ++c)
-      CHECK(area_between(interfaces, 0, c) == doctest::Approx(4.0).epsilon(1e-12));
+      CHECK(area_between(interfaces, PartId(0), PartId(c)) == doctest::Approx(4.0).epsilon(1e-12));
     check_laws(parts, interfaces, volumes);
   }
 }
@@ -86,9 +89,11 @@ TEST_CASE("Crystal, grease and detector of one cross-section form a chain") {
                                       box("grease", {0, 0, -0.1}, {2, 2, 0}, 6, 1, true),
                                       box("detector", {0, 0, -0.6}, {2, 2, -0.1}, 12, 3)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_of(interfaces, 0, 1, 4, 11) == doctest::Approx(4.0).epsilon(1e-13));
-  CHECK(area_of(interfaces, 1, 2, 10, 17) == doctest::Approx(4.0).epsilon(1e-13));
-  CHECK(area_between(interfaces, 0, 2) == 0.0);
+  CHECK(area_of(interfaces, PartId(0), PartId(1), FaceId(4), FaceId(11)) ==
+        doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(area_of(interfaces, PartId(1), PartId(2), FaceId(10), FaceId(17)) ==
+        doctest::Approx(4.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(2)) == 0.0);
   check_laws(parts, interfaces, {80.0, 0.4, 2.0});
 }
 
@@ -97,9 +102,9 @@ TEST_CASE("Two parts on one face that also touch each other") {
                                       box("left", {0, 0, -3}, {2.2, 4, 0}, 6),
                                       box("right", {2.2, 0, -2}, {4, 4, 0}, 12, 2)};
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_between(interfaces, 0, 1) == doctest::Approx(8.8).epsilon(1e-13));
-  CHECK(area_between(interfaces, 0, 2) == doctest::Approx(7.2).epsilon(1e-13));
-  CHECK(area_between(interfaces, 1, 2) == doctest::Approx(8.0).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(8.8).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(0), PartId(2)) == doctest::Approx(7.2).epsilon(1e-13));
+  CHECK(area_between(interfaces, PartId(1), PartId(2)) == doctest::Approx(8.0).epsilon(1e-13));
   check_laws(parts, interfaces, {16.0, 26.4, 14.4});
 }
 
@@ -112,7 +117,7 @@ TEST_CASE("Parts that touch along an edge or at a corner share nothing") {
     if (turned) move(parts, skew_rotation(), Vec3::Zero());
     const auto interfaces = resolve_contacts(parts, kTolerance);
     for (std::int32_t a = 0; a < 4; ++a)
-      for (std::int32_t b = 0; b < a; ++b) CHECK(area_between(interfaces, a, b) == 0.0);
+      for (std::int32_t b = 0; b < a; ++b) CHECK(area_between(interfaces, PartId(a), PartId(b)) == 0.0);
     check_laws(parts, interfaces, {1.0, 1.0, 1.0, 0.45});
   }
 }
@@ -127,7 +132,8 @@ TEST_CASE("A gap of half the tolerance closes, one of ten tolerances stays open"
                                     box("b", {0.5 * gap, 0, 5 + gap}, {2 + 0.5 * gap, 2, 6}, 10, 3)};
       if (turned) move(parts, skew_rotation(), Vec3(1, 2, 3));
       const auto interfaces = resolve_contacts(parts, kTolerance);
-      CHECK(area_between(interfaces, 0, 1) == doctest::Approx(gaps > 1.0 ? 0.0 : 4.0).epsilon(1e-12));
+      CHECK(area_between(interfaces, PartId(0), PartId(1)) ==
+            doctest::Approx(gaps > 1.0 ? 0.0 : 4.0).epsilon(1e-12));
       check_laws(parts, interfaces, {20.0, 2 * 2 * (1 - gap)}, gaps > 1.0 ? 0.0 : kTolerance);
     }
 }
@@ -138,10 +144,10 @@ TEST_CASE("A turned assembly ten metres from the origin closes as well") {
                                 box("c", {6, 5, 3}, {9, 8, 10}, 18)};
   move(parts, skew_rotation(), Vec3(6000, -7000, 4000));
   const auto interfaces = resolve_contacts(parts, kTolerance);
-  CHECK(area_between(interfaces, 0, 1) == doctest::Approx(50.0).epsilon(1e-9));
-  CHECK(area_between(interfaces, 0, 2) == doctest::Approx(20.0).epsilon(1e-9));
-  CHECK(area_between(interfaces, 0, 3) == doctest::Approx(9.0).epsilon(1e-9));
-  CHECK(area_between(interfaces, 1, 2) == doctest::Approx(40.0).epsilon(1e-9));
+  CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(50.0).epsilon(1e-9));
+  CHECK(area_between(interfaces, PartId(0), PartId(2)) == doctest::Approx(20.0).epsilon(1e-9));
+  CHECK(area_between(interfaces, PartId(0), PartId(3)) == doctest::Approx(9.0).epsilon(1e-9));
+  CHECK(area_between(interfaces, PartId(1), PartId(2)) == doctest::Approx(40.0).epsilon(1e-9));
   check_laws(parts, interfaces, {200.0, 500.0, 200.0, 63.0});
 }
 
@@ -155,10 +161,10 @@ TEST_CASE("Parts in single precision close; along common straight edges no slive
     round_to_float(parts);
     const auto interfaces = resolve_contacts(parts, kTolerance);
     // Single precision near 20 mm: 2^-20 mm per coordinate.
-    CHECK(area_between(interfaces, 0, 1) == doctest::Approx(50.0).epsilon(1e-6));
-    CHECK(area_between(interfaces, 0, 2) == doctest::Approx(20.0).epsilon(1e-6));
-    CHECK(area_between(interfaces, 0, 3) == doctest::Approx(9.0).epsilon(1e-6));
-    CHECK(area_between(interfaces, 1, 2) == doctest::Approx(40.0).epsilon(1e-6));
+    CHECK(area_between(interfaces, PartId(0), PartId(1)) == doctest::Approx(50.0).epsilon(1e-6));
+    CHECK(area_between(interfaces, PartId(0), PartId(2)) == doctest::Approx(20.0).epsilon(1e-6));
+    CHECK(area_between(interfaces, PartId(0), PartId(3)) == doctest::Approx(9.0).epsilon(1e-6));
+    CHECK(area_between(interfaces, PartId(1), PartId(2)) == doctest::Approx(40.0).epsilon(1e-6));
     check_laws(parts, interfaces, {200.0, 500.0, 200.0, 63.0}, 4e-6);
     // With corners along the edges, which single precision sets a little off the line, hairlines remain.
     double least = 1.0;
@@ -200,8 +206,10 @@ TEST_CASE("An array of 40 x 40 crystals with grease pads under a guide") {
   double least = 1e9, most = 0.0;
   std::vector<double> pad_crystal(parts.size(), 0.0), pad_guide(parts.size(), 0.0);
   for (const InterfaceTriangle& t : interfaces) {
-    if (t.back > 0 && t.front == t.back + 1) pad_crystal[static_cast<std::size_t>(t.front)] += area(t);
-    if (t.back == 0 && t.front > 0) pad_guide[static_cast<std::size_t>(t.front)] += area(t);
+    if (!t.front.has_value()) continue;
+    const std::size_t back = t.back.index(), front = t.front.index();
+    if (back > 0 && front == back + 1) pad_crystal[front] += area(t);
+    if (back == 0 && front > 0) pad_guide[front] += area(t);
   }
   for (std::size_t pad = 2; pad < parts.size(); pad += 2) {
     least = std::min({least, pad_crystal[pad], pad_guide[pad]});

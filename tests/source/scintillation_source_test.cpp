@@ -91,7 +91,7 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
   const Scene scene = lso_cube(10.0);
   class TwoDeposits : public EventSource {
    public:
-    explicit TwoDeposits(std::uint32_t region) : region_(region) {}
+    explicit TwoDeposits(RegionId region) : region_(region) {}
     std::uint64_t events() const override { return 1; }
     Event make(const Scene&, std::uint64_t, Rng&) const override {
       Event event;
@@ -100,9 +100,9 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
     }
 
    private:
-    std::uint32_t region_;
+    RegionId region_;
   };
-  const std::uint32_t crystal = scene.locate(Vec3::Zero());
+  const RegionId crystal = scene.locate(Vec3::Zero());
   const ScintillationSource source(std::make_unique<TwoDeposits>(crystal), scene);
   EventLight light;
   Rng event_rng(1, StreamKind::event, 0);
@@ -145,7 +145,7 @@ model = "smooth"
   REQUIRE(scene.high_nm > scene.low_nm);
   class OneDeposit : public EventSource {
    public:
-    explicit OneDeposit(std::uint32_t region) : region_(region) {}
+    explicit OneDeposit(RegionId region) : region_(region) {}
     std::uint64_t events() const override { return 2000; }
     Event make(const Scene&, std::uint64_t, Rng&) const override {
       Event event;
@@ -154,9 +154,9 @@ model = "smooth"
     }
 
    private:
-    std::uint32_t region_;
+    RegionId region_;
   };
-  const std::uint32_t crystal = scene.locate(Vec3::Zero());
+  const RegionId crystal = scene.locate(Vec3::Zero());
   const ScintillationSource source(std::make_unique<OneDeposit>(crystal), scene, {.cherenkov = true});
   const CherenkovEmitter alone(scene.media[scene.regions[crystal].medium].medium(), scene.low_nm,
                                scene.high_nm);

@@ -29,8 +29,9 @@ inline tally::PointResult made_up_point(std::vector<std::string> parameters, dou
   const auto energy = static_cast<double>(share(0.02));
   point.shifted_in_medium = {{}, {share(0.03), share(0.02), 3.1 * energy, 2.4 * energy, 31.0}, {}};
   point.shifted_at_surface = {{}, {share(0.01), share(0.004), 0.5 * energy, 0.4 * energy, 1.5}};
-  point.sensor_faces = {{1, 2, detected - detected / 40, point.count(core::Fate::not_detected)},
-                        {1, 1, detected / 40, 0}};
+  point.sensor_faces = {
+      {core::PartId(1), core::FaceId(2), detected - detected / 40, point.count(core::Fate::not_detected)},
+      {core::PartId(1), core::FaceId(1), detected / 40, 0}};
   for (const bool detected_only : {false, true}) {
     analysis::CrossingAngles angles;
     angles.name = detected_only ? "exit face, detected" : "exit face, all";

@@ -23,7 +23,7 @@ double turn(const StepView& view, const Vec3&) {
 }
 
 /// The part that it was emitted in, among all parts.
-std::uint32_t birthplace(const StepView& view) { return view.source_part; }
+std::uint32_t birthplace(const StepView& view) { return place_of(view.source_part); }
 
 TallyVariables with_toys() {
   TallyVariables variables;

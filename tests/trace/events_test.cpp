@@ -138,7 +138,7 @@ sensor = "perfect"
     CAPTURE(channel.name);
     const bool pmt = channel.name == "pmt";
     CHECK((pmt || channel.name == "crystal:back"));
-    CHECK((channel.face == kNone) == pmt);
+    CHECK(channel.face.has_value() != pmt);
     CHECK((channel.position - Vec3(0, 0, pmt ? 0 : 10)).norm() < 1e-9);
     CHECK((channel.normal - Vec3(0, 0, pmt ? -1 : 1)).norm() < 1e-9);
     CHECK(channel.area_mm2 == doctest::Approx(16.0));

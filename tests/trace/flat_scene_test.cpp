@@ -72,6 +72,11 @@ std::vector<Record> through_bytes(const std::vector<Record>& records) {
   return copy;
 }
 
+template <typename IdType, typename Record>
+IdVector<IdType, Record> through_bytes(const IdVector<IdType, Record>& records) {
+  return IdVector<IdType, Record>(through_bytes(records.values()));
+}
+
 Boundary through_bytes(const Boundary& boundary) {
   Boundary copy;
   copy.vertices = through_bytes(boundary.vertices);

@@ -39,7 +39,7 @@ ResponseMap two_cells(std::uint32_t low, std::uint32_t high) {
   map.delays_kept = 4;
   ResponseGrid grid;
   grid.part = "crystal";
-  grid.region = 1;
+  grid.region = RegionId(1);
   grid.pitch = Vec3(2, 2, 5);
   grid.cells = {1, 1, 2};
   grid.photons = {100, 100};
@@ -52,7 +52,7 @@ ResponseMap two_cells(std::uint32_t low, std::uint32_t high) {
 
 double probability_at(const ResponseMap& map, const Vec3& position) {
   std::vector<PlaceResponse> response;
-  MappedResponse(map).at(position, 1, response);
+  MappedResponse(map).at(position, RegionId(1), response);
   return response.at(0).probability();
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("Probabilities are linear between centres of cells, constant beyond, a
 TEST_CASE("Delays come from the cells around as often as light detected from them does") {
   const ResponseMap map = two_cells(10, 30);
   std::vector<PlaceResponse> response;
-  MappedResponse(map).at({1, 1, 5.0}, 1, response);
+  MappedResponse(map).at({1, 1, 5.0}, RegionId(1), response);
   Rng rng(1, StreamKind::other, 0);
   std::uint64_t late = 0;
   constexpr std::uint64_t kDraws = 20'000;
@@ -113,7 +113,7 @@ TEST_CASE("Delays come from the cells around as often as light detected from the
 TEST_CASE("The first of many photons comes as early as the earliest of times drawn one by one") {
   const ResponseMap map = two_cells(10, 30);
   std::vector<PlaceResponse> response;
-  MappedResponse(map).at({1, 1, 5.0}, 1, response);
+  MappedResponse(map).at({1, 1, 5.0}, RegionId(1), response);
   const std::vector<DecayComponent> decay{{40.0, 0.5, 0.7}, {3.0, 0.0, 0.3}};
   for (const std::uint64_t photons : {1u, 3u, 200u}) {
     CAPTURE(photons);
@@ -156,7 +156,7 @@ sensor = "perfect"
     const std::size_t x = cell / grid.cells[2] / grid.cells[1];
     const Vec3 centre =
         grid.low + grid.pitch.cwiseProduct(Vec3(0.5 + double(x), 0.5 + double(y), 0.5 + double(z)));
-    const double from_middle = (centre - Vec3(scene.built.scene.parts[0].bounds.center())).norm();
+    const double from_middle = (centre - Vec3(scene.built.scene.parts.front().bounds.center())).norm();
     if (grid.photons[cell] > 0) {
       ++filled;
       furthest_filled = std::max(furthest_filled, from_middle);
@@ -181,7 +181,7 @@ TEST_CASE("Impossible response maps are refused with the reason") {
 
   const MappedScene other(two_ends(6.0, placed(1)));
   ResponseMap foreign = other.map({2.0, 10, 4});
-  foreign.grids[0].region += 1;
+  foreign.grids[0].region = RegionId(foreign.grids[0].region.index() + 1);
   check_contains(complaint_of([&] { scene.mapped(foreign); }),
                  "\"crystal\", which the response map does not cover");
 }

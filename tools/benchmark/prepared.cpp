@@ -21,7 +21,7 @@ std::vector<RawRay> record_rays(const Prepared& prepared, std::size_t count) {
   const scene::Scene& scene = prepared->scene();
   const source::LightSource& source = prepared->source();
   std::vector<RawRay> rays;
-  const std::uint32_t crystal = source.regions().front();
+  const core::RegionId crystal = source.regions().front();
   const scene::Region& region = scene.regions[crystal];
   for (std::uint64_t i = 0; rays.size() < count; ++i) {
     core::Rng rng(9, core::StreamKind::photon, i);

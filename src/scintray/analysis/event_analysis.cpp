@@ -95,7 +95,7 @@ void EventCollector::add(const tally::EventRecord& event) {
   Row row;
   row.across_mm = {kNoNumber, kNoNumber};
   row.end_difference_ns = kNoNumber;
-  const bool placed = setup_.depth && event.part != tally::EventRecord::kNoPart;
+  const bool placed = setup_.depth && event.part.has_value();
   row.depth_mm = placed ? static_cast<float>(setup_.depth->depth_mm(to_vec(event.position_mm))) : kNoNumber;
   row.part = event.part;
   for (const tally::ChannelRecord& channel : event.channels) row.detected += channel.detected;
@@ -160,15 +160,15 @@ std::vector<const EventCollector::Row*> EventCollector::select(EventAnalysis& an
 void EventCollector::analyze_flood(const std::vector<const Row*>& rows, EventAnalysis& analysis) const {
   if (plane_channels_.empty()) return;
   std::vector<std::array<double, 2>> positions;
-  std::vector<std::uint32_t> parts;
+  std::vector<core::PartId> parts;
   for (const Row* row : rows) {
-    if (std::isnan(row->across_mm[0]) || row->part == tally::EventRecord::kNoPart) continue;
+    if (std::isnan(row->across_mm[0]) || !row->part.has_value()) continue;
     positions.push_back({row->across_mm[0], row->across_mm[1]});
     parts.push_back(row->part);
   }
   FloodOptions options = setup_.flood;
   if (!options.expected) {
-    std::vector<std::uint32_t> parts_hit = parts;
+    std::vector<core::PartId> parts_hit = parts;
     std::sort(parts_hit.begin(), parts_hit.end());
     options.expected =
         static_cast<std::size_t>(std::unique(parts_hit.begin(), parts_hit.end()) - parts_hit.begin());
@@ -181,7 +181,7 @@ void EventCollector::analyze_flood(const std::vector<const Row*>& rows, EventAna
   for (const auto& [part, layer] : setup_.layer_of_part) layers = std::max(layers, layer + 1);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto of_event = setup_.layer_of_part.find(parts[i]);
-    const std::uint32_t owner = flood.crystals[flood.peaks[flood.peak_of(positions[i])].owner];
+    const core::PartId owner = flood.crystals[flood.peaks[flood.peak_of(positions[i])].owner];
     const auto of_owner = setup_.layer_of_part.find(owner);
     if (of_event == setup_.layer_of_part.end() || of_owner == setup_.layer_of_part.end()) continue;
     truth.push_back(of_event->second);

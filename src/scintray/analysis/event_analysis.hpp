@@ -26,9 +26,9 @@ namespace scintray::analysis {
 
 /// Setup of the analyses: quantities that are not in the events, and options.
 struct AnalysisSetup {
-  std::vector<core::Vec3> channels_mm;                 ///< position of each readout channel, in order
-  std::optional<DepthAxis> depth;                      ///< empty: no depth, no depth of interaction
-  std::map<std::uint32_t, std::size_t> layer_of_part;  ///< for parts in layers: 0, 1, ...; else empty
+  std::vector<core::Vec3> channels_mm;                ///< position of each readout channel, in order
+  std::optional<DepthAxis> depth;                     ///< empty: no depth, no depth of interaction
+  std::map<core::PartId, std::size_t> layer_of_part;  ///< for parts in layers: 0, 1, ...; else empty
   PhotopeakOptions photopeak;
   AngerOptions anger;
   FloodOptions flood;  ///< without `expected`: the number of parts with interactions
@@ -83,7 +83,8 @@ class EventCollector {
     double light = 0.0, time_ns = 0.0, first_ns = 0.0, end_difference_ns = 0.0;
     float depth_mm = 0.0F, near_light = 0.0F, far_light = 0.0F;
     std::array<float, 2> across_mm{};
-    std::uint32_t part = 0, detected = 0;
+    core::PartId part;
+    std::uint32_t detected = 0;
   };
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;

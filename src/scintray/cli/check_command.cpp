@@ -36,7 +36,7 @@ std::vector<core::Problem> gap_warnings(const std::vector<contact::PlacedMesh>& 
 }
 
 void print_source(const source::LightSource& source, const scene::Scene& scene) {
-  const std::vector<std::uint32_t> origins = source.regions();
+  const std::vector<core::RegionId> origins = source.regions();
   std::cout << "\nsource: "
             << (source.has_energy() ? fmt::format("{} events, light", source.events())
                                     : fmt::format("{} photons", source.photons()))

@@ -103,15 +103,16 @@ class Printer {
     std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}\n", "name", "medium",
                              "volume mm3", "area mm2", "triangles", "closed", "outwards", "degenerate");
     Alike<Row> rows;
-    for (std::size_t i = 0; i < built_.parts.size(); ++i) {
-      const mesh::MeshDiagnosis& d = built_.parts[i].diagnosis;
-      const scene::Region& region = scene_.regions[scene_.parts[i].region];
+    for (const core::PartId id : scene_.parts.ids()) {
+      const scene::PartReport& part = built_.parts[id.index()];
+      const mesh::MeshDiagnosis& d = part.diagnosis;
+      const scene::Region& region = scene_.regions[scene_.parts[id].region];
       std::string rest =
           fmt::format("{:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}",
                       scene_.media[region.medium].medium().name, d.volume_mm3, d.area_mm2, d.triangles,
                       yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count);
-      for (const std::string& note : built_.parts[i].notes) rest += "\n    note: " + note;
-      add(rows, built_.parts[i].name, rest);
+      for (const std::string& note : part.notes) rest += "\n    note: " + note;
+      add(rows, part.name, rest);
     }
     print_rows(rows, 20);
   }
@@ -135,8 +136,8 @@ class Printer {
                              "ray queries by");
     Alike<Row> rows;
     const double middle_nm = 0.5 * (scene_.low_nm + scene_.high_nm);
-    for (std::size_t i = 0; i < scene_.regions.size(); ++i) {
-      const scene::Region& region = scene_.regions[i];
+    for (const core::RegionId id : scene_.regions.ids()) {
+      const scene::Region& region = scene_.regions[id];
       const scene::SceneMedium& medium = scene_.media[region.medium];
       const scene::Accelerator& accelerator = scene_.accelerator(region);
       const std::string index =
@@ -144,22 +145,20 @@ class Printer {
       const std::string how = accelerator.uses_planes() ? fmt::format("{} planes", accelerator.plane_count())
                               : accelerator.size() == 0 ? "no boundary"
                                                         : "Embree";
-      add(rows, scene_.region_names[i],
+      add(rows, scene_.region_names[id],
           fmt::format("{:<22} {:>9} {:>10} {}", medium.medium().name, accelerator.size(), index, how));
     }
     print_rows(rows, 20);
   }
 
   std::string optics_of(const scene::Interface& interface) const {
-    const auto name = [&](std::int32_t id) { return scene_.surfaces[static_cast<std::size_t>(id)].name; };
     std::string text;
-    if (interface.back_surface != scene::kNone) text = name(interface.back_surface);
-    if (interface.gap_medium != scene::kNone)
-      text += " | dry gap of " + scene_.media[static_cast<std::size_t>(interface.gap_medium)].medium().name +
-              " | ";
-    if (interface.front_surface != scene::kNone) text += name(interface.front_surface);
-    const auto sensor = [&](std::int32_t id) {
-      if (id != scene::kNone) text += ", detected by " + scene_.sensors[static_cast<std::size_t>(id)].name;
+    if (interface.back_surface.has_value()) text = scene_.surfaces[interface.back_surface].name;
+    if (interface.gap_medium.has_value())
+      text += " | dry gap of " + scene_.media[interface.gap_medium].medium().name + " | ";
+    if (interface.front_surface.has_value()) text += scene_.surfaces[interface.front_surface].name;
+    const auto sensor = [&](core::SensorId id) {
+      if (id.has_value()) text += ", detected by " + scene_.sensors[id].name;
     };
     sensor(interface.front_sensor);
     sensor(interface.back_sensor);
@@ -174,13 +173,13 @@ class Printer {
   void print_interfaces() const {
     std::cout << fmt::format("\ninterfaces ({})\n", scene_.interfaces.size());
     Alike<Between> lines;
-    for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
-      const scene::Interface& interface = scene_.interfaces[i];
+    for (const core::InterfaceId id : scene_.interfaces.ids()) {
+      const scene::Interface& interface = scene_.interfaces[id];
       const Between one{scene_.region_names[interface.back], scene_.region_names[interface.front],
                         optics_of(interface), 0.0};
-      const std::string key =
-          every_one_ ? std::to_string(i) : shown(one.back) + '\n' + shown(one.front) + '\n' + one.optics;
-      lines.add(key, one).first.area += scene_.interface_area_mm2[i];
+      const std::string key = every_one_ ? std::to_string(id.index())
+                                         : shown(one.back) + '\n' + shown(one.front) + '\n' + one.optics;
+      lines.add(key, one).first.area += scene_.interface_area_mm2[id];
     }
     for (const auto& line : lines.lines()) {
       const bool one = line.count == 1;
@@ -200,14 +199,14 @@ class Printer {
   /// Pairs of parts in contact, nested ones included.
   void print_contacts() const {
     Alike<Pair> pairs;
-    for (std::size_t i = 0; i < scene_.interfaces.size(); ++i) {
-      const scene::Interface& interface = scene_.interfaces[i];
+    for (const core::InterfaceId id : scene_.interfaces.ids()) {
+      const scene::Interface& interface = scene_.interfaces[id];
       if (interface.back == scene::kAmbientRegion || interface.front == scene::kAmbientRegion) continue;
       Pair one{scene_.region_names[interface.back], scene_.region_names[interface.front], 0, 0, 0.0};
       if (shown(one.b) < shown(one.a)) std::swap(one.a, one.b);
       Pair& pair = pairs.add(shown(one.a) + '\n' + shown(one.b), one).first;
-      ++(interface.gap_medium == scene::kNone ? pair.bonded : pair.dry);
-      pair.area += scene_.interface_area_mm2[i];
+      ++(interface.gap_medium.has_value() ? pair.dry : pair.bonded);
+      pair.area += scene_.interface_area_mm2[id];
     }
     std::cout << "\ncontacts between parts" << (pairs.lines().empty() ? ": none\n" : "\n");
     for (const auto& line : pairs.lines()) {

@@ -31,13 +31,13 @@ std::string describe(const scene::Scene& scene, const transport::Step& step) {
       return "into " + scene.region_names[step.from_back ? i.front : i.back];
     }
     case core::StepEvent::detected:
-      return "DETECTED by " + scene.parts[step.where].name;
+      return "DETECTED by " + scene.parts[step.sensor_part].name;
     case core::StepEvent::not_detected:
-      return "NOT DETECTED by " + scene.parts[step.where].name;
+      return "NOT DETECTED by " + scene.parts[step.sensor_part].name;
     case core::StepEvent::absorbed_in_medium:
-      return "ABSORBED in " + scene.media[step.where].medium().name;
+      return "ABSORBED in " + scene.media[step.medium].medium().name;
     case core::StepEvent::absorbed_at_surface:
-      return "ABSORBED at " + scene.surfaces[step.where].name;
+      return "ABSORBED at " + scene.surfaces[step.surface].name;
     case core::StepEvent::escaped:
       return "ESCAPED";
     case core::StepEvent::emitted:

@@ -137,16 +137,16 @@ class Resolver {
     const Body& body = bodies_[t.body];
     if (body.normal[t.triangle].isZero()) return;
     result_.push_back({{body.corner(t.triangle, 0), body.corner(t.triangle, 1), body.corner(t.triangle, 2)},
-                       static_cast<std::int32_t>(t.body),
+                       core::PartId(t.body),
                        nesting_.parent(t.body),
-                       static_cast<std::int32_t>(body.face[t.triangle]),
-                       kNoFace});
+                       body.face[t.triangle],
+                       core::FaceId::none()});
   }
 
   /// Meaning of a label of the overlay: a face of a body, seen from one side.
   struct Label {
     std::uint32_t body;
-    std::uint32_t face;
+    core::FaceId face;
     bool up;  ///< its outward normal points along the plane's normal
     auto operator<=>(const Label&) const = default;
   };
@@ -273,8 +273,8 @@ class Resolver {
   }
 
   struct Place {
-    std::int32_t region = kAmbient;
-    std::int32_t face = kNoFace;
+    core::PartId region = kAmbient;
+    core::FaceId face;
   };
 
   /// The region on one side of a cell: the innermost body that ends here with its inside on that side,
@@ -286,8 +286,7 @@ class Resolver {
       if (l.up != above && (best == nullptr || nesting_.depth(l.body) > nesting_.depth(best->body)))
         best = &l;
     }
-    if (best != nullptr)
-      return {static_cast<std::int32_t>(best->body), static_cast<std::int32_t>(best->face)};
+    if (best != nullptr) return {core::PartId(best->body), best->face};
     Place place;
     for (const int id : covering)
       for (const std::uint32_t outer : nesting_.around[labels[static_cast<std::size_t>(id)].body]) {
@@ -295,9 +294,8 @@ class Resolver {
           return labels[static_cast<std::size_t>(other)].body == outer;
         });
         if (ends_here) continue;
-        if (place.region == kAmbient ||
-            nesting_.depth(outer) > nesting_.depth(static_cast<std::uint32_t>(place.region)))
-          place.region = static_cast<std::int32_t>(outer);
+        if (place.region == kAmbient || nesting_.depth(outer) > nesting_.depth(place.region.index()))
+          place.region = core::PartId(outer);
       }
     return place;
   }
@@ -314,7 +312,7 @@ class Resolver {
     // Three edges that intersect in one point but for rounding: neither area nor a normal.
     if (e1.cross(e2).norm() <= 0.1 * rounding_ * longest) return;
     // The back is the side that ends here; of two, the earlier part.
-    const bool flip = below.face == kNoFace || (above.face != kNoFace && above.region < below.region);
+    const bool flip = !below.face.has_value() || (above.face.has_value() && above.region < below.region);
     if (flip) std::swap(triangle.vertex[1], triangle.vertex[2]);
     const Place& back = flip ? above : below;
     const Place& front = flip ? below : above;

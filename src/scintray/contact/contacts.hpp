@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/ids.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::contact {
@@ -15,8 +16,8 @@ struct PlacedPart {
   std::string name;
   std::vector<core::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> face;  ///< per triangle, scene-wide face id
-  core::FileLocation where = {};    ///< in the scene file
+  std::vector<core::FaceId> face;  ///< per triangle
+  core::FileLocation where = {};   ///< in the scene file
 };
 
 /// The place of the part `name` as an addition to a message whose own place is `reported`:
@@ -24,18 +25,16 @@ struct PlacedPart {
 std::string also_at(const std::string& name, const core::FileLocation& where,
                     const core::FileLocation& reported);
 
-inline constexpr std::int32_t kAmbient = -1;
-inline constexpr std::int32_t kNoFace = -1;
+/// In place of a part: the ambient medium.
+inline constexpr core::PartId kAmbient = core::PartId::none();
 
 /// A triangle between two regions; its normal (right-hand rule) points from `back` to `front`.
 /// A region is the inside of a part less the parts nested in it, or the ambient medium.
 struct InterfaceTriangle {
   std::array<core::Vec3, 3> vertex;
-  std::int32_t back = kAmbient;  ///< part index or kAmbient
-  std::int32_t front = kAmbient;
-  std::int32_t back_face = kNoFace;  ///< face id of the back part here; kNoFace when the surface
-                                     ///< here belongs to the front part alone
-  std::int32_t front_face = kNoFace;
+  core::PartId back = kAmbient, front = kAmbient;
+  /// Of the part on either side; none when the surface here belongs to the other part alone.
+  core::FaceId back_face, front_face;
 };
 
 /// Interfaces between the regions of touching and nested parts.
@@ -45,6 +44,7 @@ struct InterfaceTriangle {
 /// elsewhere each borders the region around it. Nested parts border the innermost part around them;
 /// flush nested faces are handled. The triangles of every region together form its closed boundary.
 ///
+/// @param parts  the i-th has the id i
 /// @throws InputError naming both parts, the overlap volume and a point inside it, for parts that
 ///         overlap with volume; all such pairs are listed.
 [[nodiscard]] std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts,

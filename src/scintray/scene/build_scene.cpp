@@ -28,34 +28,31 @@ class AssemblyMaker {
     wavelengths_ = find_wavelengths(spec_, placed, database_, problems_);
     assembly_.low_nm = wavelengths_.low_nm;
     assembly_.high_nm = wavelengths_.high_nm;
-    assembly_.ambient = medium_index(spec_.ambient);
+    assembly_.ambient = medium_id(spec_.ambient);
     for (const contact::PlacedMesh& part : placed) add_part(part);
     assembly_.contacts_default = spec_.contacts_default;
     assembly_.contacts = spec_.contacts;
     assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
     assembly_.accelerator = spec_.run.accelerator;
     check_contact_names();
-    assembly_.make_surface = [this, &warnings](const std::string& name, std::uint32_t inside,
-                                               std::uint32_t outside) {
+    assembly_.make_surface = [this, &warnings](const std::string& name, core::MediumId inside,
+                                               core::MediumId outside) {
       return make_surface(name, inside, outside, warnings);
     };
     return assembly_;
   }
 
  private:
-  std::uint32_t add_medium(optics::Medium medium, const core::FileLocation& where) {
+  core::MediumId add_medium(optics::Medium medium, const core::FileLocation& where) {
     materials::check_cover(problems_, where, medium, wavelengths_.low_nm, wavelengths_.high_nm);
-    assembly_.media.emplace_back(std::move(medium));
-    return static_cast<std::uint32_t>(assembly_.media.size() - 1);
+    return assembly_.media.emplace_back(std::move(medium));
   }
 
-  std::uint32_t medium_index(const config::NameRef& ref) {
-    const auto [known, is_new] = media_.try_emplace(ref.name, 0u);
+  core::MediumId medium_id(const config::NameRef& ref) {
+    const auto [known, is_new] = media_.try_emplace(ref.name);
     if (!is_new) return known->second;
-    if (ref.name == scene_file::kOpaqueMedium) {
-      assembly_.media.push_back(SceneMedium::opaque());
-      return known->second = static_cast<std::uint32_t>(assembly_.media.size() - 1);
-    }
+    if (ref.name == scene_file::kOpaqueMedium)
+      return known->second = assembly_.media.push_back(SceneMedium::opaque());
     optics::Medium medium;
     medium.name = ref.name;
     medium.index = core::Curve::constant(1.0);
@@ -67,9 +64,10 @@ class AssemblyMaker {
     return known->second = add_medium(std::move(medium), ref.where);
   }
 
-  std::int32_t sensor_index(const config::NameRef& ref) {
-    if (ref.empty()) return kNone;
-    const auto [known, is_new] = sensors_.try_emplace(ref.name, kNone);
+  /// None for no name.
+  core::SensorId sensor_id(const config::NameRef& ref) {
+    if (ref.empty()) return core::SensorId::none();
+    const auto [known, is_new] = sensors_.try_emplace(ref.name);
     if (!is_new) return known->second;
     detector::Sensor sensor;
     try {
@@ -82,8 +80,7 @@ class AssemblyMaker {
     } catch (const core::InputError& error) {
       problems_.add(error);
     }
-    assembly_.sensors.push_back(std::move(sensor));
-    return known->second = static_cast<std::int32_t>(assembly_.sensors.size() - 1);
+    return known->second = assembly_.sensors.push_back(std::move(sensor));
   }
 
   /// Reports, at the readout, a sensor whose pulses would have no shape behind it.
@@ -98,9 +95,9 @@ class AssemblyMaker {
   }
 
   /// The medium of a sensor that names none: its window, which only its index describes.
-  std::uint32_t window_medium(const detector::Sensor& sensor) {
+  core::MediumId window_medium(const detector::Sensor& sensor) {
     const std::string name = "window of " + sensor.name;
-    const auto [known, is_new] = media_.try_emplace(name, 0u);
+    const auto [known, is_new] = media_.try_emplace(name);
     if (!is_new) return known->second;
     optics::Medium window;
     window.name = name;
@@ -110,22 +107,21 @@ class AssemblyMaker {
 
   void add_part(const contact::PlacedMesh& placed) {
     AssemblyPart part;
-    part.sensor = sensor_index(placed.sensor);
-    part.medium = placed.medium.empty() && part.sensor != kNone
-                      ? window_medium(assembly_.sensors[static_cast<std::size_t>(part.sensor)])
-                      : medium_index(placed.medium);
+    part.sensor = sensor_id(placed.sensor);
+    part.medium = placed.medium.empty() && part.sensor.has_value()
+                      ? window_medium(assembly_.sensors[part.sensor])
+                      : medium_id(placed.medium);
     part.rotation = placed.rotation;
     part.surface = placed.surface.name;
     if (!placed.surface.empty()) find_surface(placed.surface);
     part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}, placed.where};
-    const auto first_face = static_cast<std::uint32_t>(assembly_.faces.size());
+    std::vector<core::FaceId> faces;  // as placed.faces
     for (const contact::PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);
-      assembly_.faces.push_back({placed.name + ":" + face.name,
-                                 static_cast<std::uint32_t>(assembly_.parts.size()), face.surface.name,
-                                 sensor_index(face.sensor)});
+      faces.push_back(assembly_.faces.push_back({placed.name + ":" + face.name, assembly_.parts.next_id(),
+                                                 face.surface.name, sensor_id(face.sensor)}));
     }
-    for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(first_face + face);
+    for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(faces[face]);
     check_sheet(placed);
     assembly_.parts.push_back(std::move(part));
   }
@@ -173,13 +169,13 @@ class AssemblyMaker {
     }
   }
 
-  optics::Surface make_surface(const std::string& name, std::uint32_t inside, std::uint32_t outside,
+  optics::Surface make_surface(const std::string& name, core::MediumId inside, core::MediumId outside,
                                std::vector<std::string>& warnings) {
     const materials::SurfaceSpec smooth;
     const materials::SurfaceSpec& spec = name.empty() ? smooth : surfaces_.at(name);
     // An opaque part has no index: where light enters it the indices match.
-    const std::uint32_t seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
-    const std::uint32_t seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
+    const core::MediumId seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
+    const core::MediumId seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
     const materials::MadeSurface made = surface_factory_.make(
         spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
         wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
@@ -193,8 +189,8 @@ class AssemblyMaker {
   core::Problems& problems_;
   WavelengthRange wavelengths_;
   Assembly assembly_;
-  std::map<std::string, std::uint32_t> media_;
-  std::map<std::string, std::int32_t> sensors_;
+  std::map<std::string, core::MediumId> media_;
+  std::map<std::string, core::SensorId> sensors_;
   std::map<std::string, materials::SurfaceSpec> surfaces_;
   std::set<std::string> leaking_;  ///< surfaces of opaque sheets that were reported
 };

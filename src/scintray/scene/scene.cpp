@@ -55,12 +55,12 @@ BoundaryTriangle Scene::triangle(const Region& region, std::uint32_t number) con
   return corners;
 }
 
-bool Scene::region_contains(std::uint32_t region, const core::Vec3& point) const {
+bool Scene::region_contains(core::RegionId region, const core::Vec3& point) const {
   const Region& candidate = regions[region];
   return accelerator(candidate).contains(candidate.point_to_local(point));
 }
 
-bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const {
+bool Scene::region_contains(core::RegionId region, const Eigen::AlignedBox3d& box) const {
   if (region == kAmbientRegion || !region_contains(region, core::Vec3(box.center()))) return false;
   constexpr double kRounding = 1e-9;  // of the box's size
   const core::Vec3 slack = core::Vec3::Constant(kRounding * box.diagonal().norm());
@@ -74,8 +74,8 @@ bool Scene::region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box
   return true;
 }
 
-std::uint32_t Scene::locate(const core::Vec3& point) const {
-  for (std::uint32_t region = 0; region < regions.size(); ++region)
+core::RegionId Scene::locate(const core::Vec3& point) const {
+  for (const core::RegionId region : regions.ids())
     if (region != kAmbientRegion && region_contains(region, point)) return region;
   return kAmbientRegion;
 }

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "scintray/core/id_vector.hpp"
+#include "scintray/core/ids.hpp"
 #include "scintray/core/plain_vec.hpp"
 #include "scintray/detector/sensor.hpp"
 #include "scintray/optics/medium.hpp"
@@ -16,8 +18,8 @@
 
 namespace scintray::scene {
 
-inline constexpr std::uint32_t kAmbientRegion = 0;
-inline constexpr std::int32_t kNone = -1;
+/// The region of no part, which surrounds everything.
+inline constexpr core::RegionId kAmbientRegion(0);
 
 /// A medium of the scene, as it was defined.
 class SceneMedium {
@@ -48,14 +50,14 @@ static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
 
 /// The optics of all media, tabulated at even steps of wavelength, for use once per interaction.
 struct SceneOptics {
-  std::vector<MediumRecord> media;  ///< as Scene::media
+  core::IdVector<core::MediumId, MediumRecord> media;  ///< as Scene::media
   std::vector<optics::MediumOptics> table;
 
   /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
   void add(const SceneMedium& medium, double low_nm, double high_nm);
 
   /// Optics of a medium at a wavelength (nm); beyond the table's ends as at them.
-  optics::MediumOptics at(std::uint32_t medium, double wavelength_nm) const {
+  optics::MediumOptics at(core::MediumId medium, double wavelength_nm) const {
     const MediumRecord& record = media[medium];
     const optics::MediumOptics* entries = &table[record.first];
     if (record.count == 1) return *entries;
@@ -67,11 +69,11 @@ struct SceneOptics {
             a.absorption_per_mm + t * (b.absorption_per_mm - a.absorption_per_mm),
             a.scattering_per_mm + t * (b.scattering_per_mm - a.scattering_per_mm)};
   }
-  double index(std::uint32_t medium, double wavelength_nm) const {
+  double index(core::MediumId medium, double wavelength_nm) const {
     const MediumRecord& record = media[medium];
     return record.count == 1 ? table[record.first].index : at(medium, wavelength_nm).index;
   }
-  bool is_opaque(std::uint32_t medium) const { return media[medium].opaque; }
+  bool is_opaque(core::MediumId medium) const { return media[medium].opaque; }
 };
 
 /// What separates two regions over some of their boundary. Its normal points from `back` to `front`.
@@ -80,31 +82,29 @@ struct SceneOptics {
 /// thickness, then `front_surface` (whose inside is the front region). A bonded contact or a free
 /// face has exactly one of the two surfaces.
 struct Interface {
-  std::uint32_t back = 0, front = 0;  ///< regions
-  std::int32_t back_surface = kNone, front_surface = kNone;
-  std::int32_t gap_medium = kNone;                         ///< dry contact: the medium in the gap
-  std::int32_t back_sensor = kNone, front_sensor = kNone;  ///< sensor that light entering that region meets
-  std::uint32_t back_sensor_part = 0, front_sensor_part = 0;
-  std::int32_t back_face = kNone, front_face = kNone;  ///< faces of the two parts, scene-wide
-  bool plain = false;                                  ///< one smooth surface and nothing else
+  core::RegionId back, front;
+  core::SurfaceId back_surface, front_surface;
+  core::MediumId gap_medium;                 ///< dry contact: the medium in the gap
+  core::SensorId back_sensor, front_sensor;  ///< sensor that light entering that region meets
+  core::PartId back_sensor_part, front_sensor_part;
+  core::FaceId back_face, front_face;  ///< of the two parts
+  bool plain = false;                  ///< one smooth surface and nothing else
 };
-static_assert(std::is_trivially_copyable_v<Interface>);
-
-inline constexpr std::uint32_t kNotSmooth = 0xffffffffu;
+static_assert(std::is_trivially_copyable_v<Interface> && sizeof(Interface) == 48);
 
 /// Which interface a boundary triangle belongs to, and from which side this region meets it.
 struct BoundaryLink {
-  std::uint32_t interface = 0;
-  std::uint32_t smooth_to = kNotSmooth;  ///< medium behind a plain interface; kNotSmooth: it is not plain
+  core::InterfaceId interface;
+  core::MediumId smooth_to;  ///< medium behind a plain interface; none: it is not plain
   bool from_back = true;
 };
-static_assert(std::is_trivially_copyable_v<BoundaryLink>);
+static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
 
 /// Connected space of one medium: a part less what is nested in it, or the ambient space.
 struct Region {
-  std::uint32_t medium = 0;
-  std::int32_t part = kNone;
-  std::uint32_t accelerator = 0;                            ///< index into Scene::accelerators
+  core::MediumId medium;
+  core::PartId part;  ///< none: the ambient space
+  core::AcceleratorId accelerator;
   std::uint32_t first_link = 0;                             ///< of its triangles', in SceneRecords::links
   bool rotated = false;                                     ///< `rotation` is not the identity
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());  ///< origin of the region's frame, mm
@@ -126,25 +126,27 @@ struct Region {
     return rotation.matrix() * d.vec();
   }
 };
-static_assert(std::is_trivially_copyable_v<Region>);
+static_assert(std::is_trivially_copyable_v<Region> && sizeof(Region) == 120);
 
 /// What photons see, as plain records in arrays with indices between them: no names, nothing that points.
 /// With the boundaries of the accelerators it can be copied to another process or device as it is.
 struct SceneRecords {
-  std::vector<Region> regions;      ///< regions[kAmbientRegion] surrounds everything
+  core::IdVector<core::RegionId, Region> regions;
   std::vector<BoundaryLink> links;  ///< one a triangle of a region's boundary, region after region
-  std::vector<Interface> interfaces;
+  core::IdVector<core::InterfaceId, Interface> interfaces;
   SceneOptics optics;
 
+  /// Of the triangles of a region's boundary, in their order.
+  const BoundaryLink* links_of(const Region& region) const { return links.data() + region.first_link; }
   const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
-    return links[region.first_link + triangle];
+    return links_of(region)[triangle];
   }
 };
 
 struct PartInfo {
   std::string name;
-  std::uint32_t region = 0;
-  std::int32_t sensor = kNone;
+  core::RegionId region;
+  core::SensorId sensor;  ///< none: it is not a sensor
   double volume_mm3 = 0.0;
   Eigen::AlignedBox3d bounds;
 };
@@ -152,7 +154,7 @@ struct PartInfo {
 /// A tagged face of a part.
 struct FaceInfo {
   std::string name;  ///< "part:face"
-  std::uint32_t part = 0;
+  core::PartId part;
   std::string surface;
   double area_mm2 = 0.0;          ///< as drawn
   double contact_area_mm2 = 0.0;  ///< of it, in contact with another part
@@ -164,16 +166,16 @@ struct FaceInfo {
 
 /// A scene: what photons see, and beside it what its records refer to by index.
 struct Scene : SceneRecords {
-  std::vector<SceneMedium> media;
-  std::vector<optics::Surface> surfaces;
-  std::vector<detector::Sensor> sensors;
+  core::IdVector<core::MediumId, SceneMedium> media;
+  core::IdVector<core::SurfaceId, optics::Surface> surfaces;
+  core::IdVector<core::SensorId, detector::Sensor> sensors;
   /// Distinct ones; regions of one shape share. A copy of a scene shares them.
-  std::vector<std::shared_ptr<const Accelerator>> accelerators;
+  core::IdVector<core::AcceleratorId, std::shared_ptr<const Accelerator>> accelerators;
 
-  std::vector<std::string> region_names;
-  std::vector<PartInfo> parts;
-  std::vector<FaceInfo> faces;
-  std::vector<double> interface_area_mm2;
+  core::IdVector<core::RegionId, std::string> region_names;
+  core::IdVector<core::PartId, PartInfo> parts;
+  core::IdVector<core::FaceId, FaceInfo> faces;
+  core::IdVector<core::InterfaceId, double> interface_area_mm2;
   double low_nm = 0.0, high_nm = 0.0;  ///< wavelengths in use
 
   const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
@@ -190,11 +192,11 @@ struct Scene : SceneRecords {
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
 
   /// The region that contains a point (world, mm).
-  std::uint32_t locate(const core::Vec3& point) const;
-  bool region_contains(std::uint32_t region, const core::Vec3& point) const;
+  core::RegionId locate(const core::Vec3& point) const;
+  bool region_contains(core::RegionId region, const core::Vec3& point) const;
   /// True when all of a box (world, mm) lies inside. A box that reaches beyond by rounding counts as inside;
   /// one that a slanted boundary comes near may count as not inside.
-  bool region_contains(std::uint32_t region, const Eigen::AlignedBox3d& box) const;
+  bool region_contains(core::RegionId region, const Eigen::AlignedBox3d& box) const;
 };
 
 }  // namespace scintray::scene

@@ -31,7 +31,7 @@ struct TallyTable {
 
 Events read_events(const config::TomlTable& table, const std::string& key, const Events& fallback) {
   if (!table.has(key)) return fallback;
-  const std::vector<std::string> words = config::word_list(kEventWords);
+  const std::vector<std::string> words = core::word_list(kEventWords);
   Events events;
   for (const config::NameRef& name : read_names(table, key, false)) {
     const std::optional<core::StepEvent> event = core::find_word(kEventWords, name.name);

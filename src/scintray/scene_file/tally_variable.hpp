@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scintray/core/ids.hpp"
 #include "scintray/core/step_event.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/core/vec.hpp"
@@ -34,11 +35,13 @@ struct StepView {
   // At a face that the tally names.
   double cos_before = 0.0;                  ///< |cosine| to the face's normal before the interaction
   core::Vec3 normal = core::Vec3::UnitZ();  ///< of the face, of unit length, out of its part
-  // Places among the names of a variable's kind.
-  std::uint32_t face = 0;
-  std::uint32_t part = 0;  ///< the part it is in, or the sensor's: 0 the ambient space, 1 the first part
-  std::uint32_t source_part = 0;  ///< the part it was emitted in, counted alike
+  core::FaceId face;
+  core::PartId part;         ///< the part it is in, or the sensor's; none: the ambient space
+  core::PartId source_part;  ///< the part it was emitted in; likewise
 };
+
+/// Place of a part among the names of parts: the ambient space, which is no part, comes first.
+constexpr std::uint32_t place_of(core::PartId part) { return part.has_value() ? part.index() + 1 : 0; }
 
 /// What the values of a variable are: numbers, or names of one kind.
 enum class VariableKind {
@@ -66,7 +69,8 @@ struct TallyVariable {
   bool direction_before = false;
   /// Of a number: its value. `along` is zero unless the variable is measured along a direction.
   double (*number)(const StepView& view, const core::Vec3& along) = nullptr;
-  /// Of a name: its place among the names of the kind, as StepView has them.
+  /// Of a name: its place among the names of the kind, which begin with the ambient space
+  /// where they are parts (place_of).
   std::uint32_t (*place)(const StepView& view) = nullptr;
 
   bool is_name() const { return kind != VariableKind::number; }

@@ -10,25 +10,25 @@ namespace {
 /// Events read at a time.
 constexpr std::uint64_t kPortion = 8192;
 
-std::map<std::uint32_t, std::size_t> layers_of(const scene_file::AnalysisSpec& spec,
-                                               const std::vector<std::string>& parts) {
-  std::map<std::uint32_t, std::size_t> layers;
+std::map<core::PartId, std::size_t> layers_of(const scene_file::AnalysisSpec& spec,
+                                              const core::IdVector<core::PartId, std::string>& parts) {
+  std::map<core::PartId, std::size_t> layers;
   for (std::size_t layer = 0; layer < spec.layers.size(); ++layer)
     for (const config::NameRef& name : spec.layers[layer]) {
       bool found = false;
-      for (std::uint32_t part = 0; part < parts.size(); ++part) {
+      for (const core::PartId part : parts.ids()) {
         if (!core::matches_pattern(name.name, parts[part])) continue;
         layers[part] = layer;
         found = true;
       }
-      if (!found) throw core::unknown_name(name.where, "part", name.name, parts);
+      if (!found) throw core::unknown_name(name.where, "part", name.name, parts.values());
     }
   return layers;
 }
 
 analysis::AnalysisSetup setup_of(const scene_file::AnalysisSpec& spec,
                                  const std::vector<tally::ReadoutChannel>& channels,
-                                 const std::vector<std::string>& parts) {
+                                 const core::IdVector<core::PartId, std::string>& parts) {
   analysis::AnalysisSetup setup;
   for (const tally::ReadoutChannel& channel : channels) setup.channels_mm.push_back(channel.position);
   if (spec.depth) setup.depth = {spec.depth->origin, spec.depth->along};

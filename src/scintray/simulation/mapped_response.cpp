@@ -19,9 +19,9 @@ double PlaceResponse::sample_delay(core::Rng& rng) const {
 MappedResponse::MappedResponse(const ResponseMap& map) : map_(map) {
   const std::size_t channels = map.channels.size();
   for (const ResponseGrid& grid : map.grids) {
-    if (grid.region >= grid_of_.size()) grid_of_.resize(grid.region + 1, -1);
-    grid_of_[grid.region] = static_cast<std::int32_t>(grids_.size());
-    Grid& indexed = grids_.emplace_back();
+    if (!grid_of_.contains(grid.region)) grid_of_.resize(grid.region.index() + 1);
+    grid_of_[grid.region] = grids_.emplace_back();
+    Grid& indexed = grids_.back();
     indexed.data = &grid;
     indexed.first_delay.reserve(grid.size());
     std::uint64_t delays = 0;
@@ -79,9 +79,9 @@ std::size_t MappedResponse::nearest_filled(const ResponseGrid& grid, const core:
   return nearest;
 }
 
-void MappedResponse::at(const core::Vec3& position, std::uint32_t region,
+void MappedResponse::at(const core::Vec3& position, core::RegionId region,
                         std::vector<PlaceResponse>& response) const {
-  const Grid& grid = grids_[static_cast<std::size_t>(grid_of_[region])];
+  const Grid& grid = grids_[grid_of_[region]];
   const Corners around = corners(*grid.data, position);
   const std::size_t channels = map_.channels.size();
   response.assign(channels, {});

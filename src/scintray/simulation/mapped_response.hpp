@@ -44,10 +44,12 @@ class MappedResponse {
 
   std::size_t channels() const { return map_.channels.size(); }
   /// True when light from this region is in the map.
-  bool covers(std::uint32_t region) const { return region < grid_of_.size() && grid_of_[region] >= 0; }
+  bool covers(core::RegionId region) const {
+    return grid_of_.contains(region) && grid_of_[region].has_value();
+  }
   /// Response of every channel, in order, to light from a position in a covered region.
   /// @param response  one a channel
-  void at(const core::Vec3& position, std::uint32_t region, std::vector<PlaceResponse>& response) const;
+  void at(const core::Vec3& position, core::RegionId region, std::vector<PlaceResponse>& response) const;
 
  private:
   struct Grid {
@@ -55,6 +57,7 @@ class MappedResponse {
     std::vector<std::uint64_t> first_delay;  ///< of each cell
     std::vector<float> earliest;             ///< delay of each cell and channel; 0 without any
   };
+  using GridId = core::Id<Grid>;
   struct Corner {
     std::size_t cell = 0;
     double weight = 0.0;
@@ -67,8 +70,8 @@ class MappedResponse {
   static std::size_t nearest_filled(const ResponseGrid& grid, const core::Vec3& position);
 
   const ResponseMap& map_;
-  std::vector<Grid> grids_;
-  std::vector<std::int32_t> grid_of_;  ///< per region, -1: none
+  core::IdVector<GridId, Grid> grids_;
+  core::IdVector<core::RegionId, GridId> grid_of_;
 };
 
 /// Time of the first of `count` photons (at least 1) that a channel detects of light emitted at time 0 with

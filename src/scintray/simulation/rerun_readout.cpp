@@ -85,7 +85,7 @@ class PointElectronics {
 
  private:
   void add(const tally::DetectedPhoton& photon) {
-    if (photon.part >= run_.header.parts.size() || photon.face >= run_.header.faces.size())
+    if (!run_.header.parts.contains(photon.part) || !run_.header.faces.contains(photon.face))
       throw results::format::damaged(path_, "a photon names a part or face that does not exist");
     auto known = numbers_.find(run_.header.parts[photon.part]);
     if (known == numbers_.end()) known = numbers_.find(run_.header.faces[photon.face]);

@@ -108,7 +108,7 @@ class CellTracer {
   const ResponseMap& map_;
   const ResponseGrid& grid_;
   const RunSettings& run_;
-  std::uint32_t medium_ = 0;
+  core::MediumId medium_;
   core::CurveSampler emission_;
 };
 
@@ -137,13 +137,13 @@ void refuse_too_large(const std::vector<ResponseGrid>& grids, std::size_t channe
 
 }  // namespace
 
-std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                                     double pitch_mm) {
   std::vector<ResponseGrid> grids;
-  for (const std::uint32_t region : regions) {
-    const std::int32_t part = scene.regions[region].part;
-    if (part == scene::kNone) continue;
-    const scene::PartInfo& info = scene.parts[static_cast<std::size_t>(part)];
+  for (const core::RegionId region : regions) {
+    const core::PartId part = scene.regions[region].part;
+    if (!part.has_value()) continue;
+    const scene::PartInfo& info = scene.parts[part];
     ResponseGrid grid;
     grid.part = info.name;
     grid.region = region;
@@ -169,7 +169,7 @@ std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector
   return grids;
 }
 
-ResponseMap build_response_map(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                                bool unpolarised, const ResponseSettings& settings, const RunSettings& run,
                                const ResponseHooks& hooks) {
   const tally::ReadoutChannels channels(scene);

@@ -19,7 +19,7 @@ namespace scintray::simulation {
 /// Cells outside the part's region are empty.
 struct ResponseGrid {
   std::string part;
-  std::uint32_t region = 0;               ///< index into Scene::regions
+  core::RegionId region;                  ///< that of the part
   core::Vec3 low = core::Vec3::Zero();    ///< corner of the box, mm
   core::Vec3 pitch = core::Vec3::Ones();  ///< edges of a cell, mm
   std::array<std::uint32_t, 3> cells{};
@@ -70,12 +70,12 @@ struct ResponseHooks {
 /// @return a map without grids when stopped
 /// @throws InputError when there is no sensor, no region scintillates, or the map would exceed
 ///         kMostResponses or kMostDelays
-ResponseMap build_response_map(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                                bool unpolarised, const ResponseSettings& settings, const RunSettings& run,
                                const ResponseHooks& hooks = {});
 
 /// Empty grids as of build_response_map, one a region. @throws InputError as build_response_map
-std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                                     double pitch_mm);
 
 }  // namespace scintray::simulation

@@ -4,21 +4,15 @@ namespace scintray::simulation {
 
 namespace {
 
-template <typename Count>
-std::vector<Count> moved(const std::vector<Count>& counts, const std::vector<std::uint32_t>& to,
-                         std::size_t size) {
-  std::vector<Count> result(size);
-  for (std::size_t i = 0; i < counts.size(); ++i) result[to[i]] += counts[i];
+template <typename IdType, typename Count>
+core::IdVector<IdType, Count> moved(const core::IdVector<IdType, Count>& counts,
+                                    const core::IdVector<IdType, IdType>& to, std::size_t size) {
+  core::IdVector<IdType, Count> result(size);
+  for (const IdType id : counts.ids()) result[to[id]] += counts[id];
   return result;
 }
 
 }  // namespace
-
-std::uint32_t NameList::add(const std::string& name) {
-  const auto [known, is_new] = index_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
-  if (is_new) names_.push_back(name);
-  return known->second;
-}
 
 void RunNames::add(const scene::Scene& scene) {
   for (const scene::SceneMedium& medium : scene.media) media.add(medium.medium().name);
@@ -29,12 +23,10 @@ void RunNames::add(const scene::Scene& scene) {
 
 Renumbering::Renumbering(const scene::Scene& scene, const RunNames& names)
     : media_count_(names.media.names().size()), surface_count_(names.surfaces.names().size()) {
-  for (const scene::SceneMedium& medium : scene.media)
-    media_.push_back(names.media.index(medium.medium().name));
-  for (const optics::Surface& surface : scene.surfaces)
-    surfaces_.push_back(names.surfaces.index(surface.name));
-  for (const scene::PartInfo& part : scene.parts) parts_.push_back(names.parts.index(part.name));
-  for (const scene::FaceInfo& face : scene.faces) faces_.push_back(names.faces.index(face.name));
+  for (const scene::SceneMedium& medium : scene.media) media_.push_back(names.media.id(medium.medium().name));
+  for (const optics::Surface& surface : scene.surfaces) surfaces_.push_back(names.surfaces.id(surface.name));
+  for (const scene::PartInfo& part : scene.parts) parts_.push_back(names.parts.id(part.name));
+  for (const scene::FaceInfo& face : scene.faces) faces_.push_back(names.faces.id(face.name));
 }
 
 void Renumbering::apply(tally::PointResult& result) const {
@@ -51,15 +43,14 @@ void Renumbering::apply(tally::PointResult& result) const {
 std::vector<tally::ReadoutChannel> Renumbering::applied(std::vector<tally::ReadoutChannel> channels) const {
   for (tally::ReadoutChannel& channel : channels) {
     channel.part = parts_[channel.part];
-    if (channel.face != scene::kNone)
-      channel.face = static_cast<std::int32_t>(faces_[static_cast<std::size_t>(channel.face)]);
+    if (channel.face.has_value()) channel.face = faces_[channel.face];
   }
   return channels;
 }
 
 std::vector<tally::EventRecord> Renumbering::applied(std::vector<tally::EventRecord> events) const {
   for (tally::EventRecord& event : events)
-    if (event.part != tally::EventRecord::kNoPart) event.part = parts_[event.part];
+    if (event.part.has_value()) event.part = parts_[event.part];
   return events;
 }
 

@@ -15,26 +15,32 @@ namespace scintray::simulation {
 
 /// Names of a kind over all points of a sweep: points may differ in their media and surfaces; results
 /// have one list.
+template <typename IdType>
 class NameList {
  public:
-  /// Index of a name, which is added when it is new.
-  std::uint32_t add(const std::string& name);
-  /// Index of a name that was added.
-  std::uint32_t index(const std::string& name) const { return index_.at(name); }
-  const std::vector<std::string>& names() const { return names_; }
+  /// Adds a name when it is new.
+  void add(const std::string& name) {
+    if (ids_.try_emplace(name, names_.next_id()).second) names_.push_back(name);
+  }
+  /// Of a name that was added.
+  IdType id(const std::string& name) const { return ids_.at(name); }
+  const core::IdVector<IdType, std::string>& names() const { return names_; }
 
  private:
-  std::vector<std::string> names_;
-  std::map<std::string, std::uint32_t> index_;
+  core::IdVector<IdType, std::string> names_;
+  std::map<std::string, IdType> ids_;
 };
 
 struct RunNames {
-  NameList media, surfaces, parts, faces;
+  NameList<core::MediumId> media;
+  NameList<core::SurfaceId> surfaces;
+  NameList<core::PartId> parts;
+  NameList<core::FaceId> faces;
 
   void add(const scene::Scene& scene);
 };
 
-/// Conversion of a point's indices from its scene's lists to the run's.
+/// Conversion of a point's ids from its scene's lists to the run's.
 class Renumbering {
  public:
   /// @param names  with those of the scene
@@ -46,8 +52,11 @@ class Renumbering {
   std::vector<tally::DetectedPhoton> applied(std::vector<tally::DetectedPhoton> photons) const;
 
  private:
-  std::size_t media_count_ = 0, surface_count_ = 0;              ///< in the run's lists
-  std::vector<std::uint32_t> media_, surfaces_, parts_, faces_;  ///< per index in the scene
+  std::size_t media_count_ = 0, surface_count_ = 0;  ///< in the run's lists
+  core::IdVector<core::MediumId, core::MediumId> media_;
+  core::IdVector<core::SurfaceId, core::SurfaceId> surfaces_;
+  core::IdVector<core::PartId, core::PartId> parts_;
+  core::IdVector<core::FaceId, core::FaceId> faces_;
 };
 
 }  // namespace scintray::simulation

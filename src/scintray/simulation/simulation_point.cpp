@@ -31,16 +31,16 @@ std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const 
                                                const tally::TallyPlan& plan) {
   if (!source.has_energy() || spec.energy_source->cherenkov || plan.readout.empty() || any_shifts(scene))
     return std::nullopt;
-  const std::vector<std::uint32_t> regions = source.regions();
+  const std::vector<core::RegionId> regions = source.regions();
   if (regions.empty()) return std::nullopt;
-  const auto decay_in = [&](std::uint32_t region) -> const std::vector<optics::DecayComponent>& {
+  const auto decay_in = [&](core::RegionId region) -> const std::vector<optics::DecayComponent>& {
     return scene.media[scene.regions[region].medium].medium().decay;
   };
   const auto spread_of = [&](const tally::ReadoutChannel& channel) {
     return scene.sensors[channel.sensor].time_spread_ns;
   };
   tally::LightTiming timing{decay_in(regions.front()), spread_of(plan.channels.list.front())};
-  for (const std::uint32_t region : regions)
+  for (const core::RegionId region : regions)
     if (!same_decay(decay_in(region), timing.decay)) return std::nullopt;
   for (const tally::ReadoutChannel& channel : plan.channels.list)
     if (spread_of(channel) != timing.time_spread_ns) return std::nullopt;

@@ -33,7 +33,7 @@ class PhotonSource : public LightSource {
              EventLight& light) const override;
   Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
               core::Rng& rng) const override;
-  std::vector<std::uint32_t> regions() const override { return origin_.regions(); }
+  std::vector<core::RegionId> regions() const override { return origin_.regions(); }
 
  private:
   void check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene);
@@ -71,9 +71,9 @@ PhotonSource::PhotonSource(const scene_file::SourceSpec& spec, const scene::Scen
 }
 
 void PhotonSource::check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene) {
-  const std::vector<std::uint32_t> regions = origin_.regions();
-  const std::uint32_t first = scene.regions[regions.front()].medium;
-  for (const std::uint32_t id : regions) {
+  const std::vector<core::RegionId> regions = origin_.regions();
+  const core::MediumId first = scene.regions[regions.front()].medium;
+  for (const core::RegionId id : regions) {
     const scene::Region& region = scene.regions[id];
     if (scene.media[region.medium].is_opaque())
       throw core::InputError({spec.origin_where, "the source lies in an opaque part",

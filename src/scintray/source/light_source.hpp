@@ -24,7 +24,7 @@ struct Photon {
   double path_mm = 0.0;
   double optical_depth = 0.0;      ///< left until absorption or scattering in the bulk
   optics::MediumOptics optics;     ///< of the region's medium at this wavelength
-  std::uint32_t region = 0;        ///< index into Scene::regions
+  core::RegionId region;           ///< in which it is
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
 };
@@ -72,7 +72,7 @@ class LightSource {
   virtual Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
                       core::Rng& rng) const = 0;
   /// Regions in which photons may start.
-  virtual std::vector<std::uint32_t> regions() const = 0;
+  virtual std::vector<core::RegionId> regions() const = 0;
 };
 
 /// Binds the [source] of a specification to a built scene. Throws InputError with what does not fit.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scintray/core/ids.hpp"
 #include "scintray/optics/reflection_log.hpp"
 #include "scintray/optics/wavelength_shifter.hpp"
 
@@ -11,8 +12,8 @@ namespace scintray::source {
 
 /// What the wavelength shifter of one medium or one surface did to a photon.
 struct PhotonShifts {
-  bool at_surface = false;
-  std::uint32_t where = 0;  ///< index into Scene::surfaces or Scene::media
+  core::MediumId medium;  ///< none: it is a surface's
+  core::SurfaceId surface;
   optics::ShiftCount count;
 };
 
@@ -32,17 +33,20 @@ class PhotonRecords {
   /// One entry for each medium or surface that shifted the photon so far.
   const std::vector<PhotonShifts>& shifts() const { return shifts_; }
   /// The entry of a medium or surface, made when there is none.
-  optics::ShiftCount& shifts_of(bool at_surface, std::uint32_t where) {
-    for (PhotonShifts& known : shifts_)
-      if (known.at_surface == at_surface && known.where == where) return known.count;
-    return shifts_.emplace_back(PhotonShifts{at_surface, where, {}}).count;
-  }
+  optics::ShiftCount& shifts_of(core::MediumId medium) { return shifts_of(medium, {}); }
+  optics::ShiftCount& shifts_of(core::SurfaceId surface) { return shifts_of({}, surface); }
 
   const optics::ReflectionLog& reflections() const { return reflections_; }
   /// Where to record reflections; null: they are not recorded.
   optics::ReflectionLog* reflection_log() { return records_reflections_ ? &reflections_ : nullptr; }
 
  private:
+  optics::ShiftCount& shifts_of(core::MediumId medium, core::SurfaceId surface) {
+    for (PhotonShifts& known : shifts_)
+      if (known.medium == medium && known.surface == surface) return known.count;
+    return shifts_.emplace_back(PhotonShifts{medium, surface, {}}).count;
+  }
+
   std::vector<PhotonShifts> shifts_;
   optics::ReflectionLog reflections_;
   bool records_reflections_;

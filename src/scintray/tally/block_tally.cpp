@@ -21,7 +21,8 @@ PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
 
 void merge(PointResult& total, const PointResult& block) {
   const auto add = [](auto& into, const auto& from) {
-    for (std::size_t i = 0; i < into.size(); ++i) into[i] += from[i];
+    auto more = from.begin();
+    for (auto& value : into) value += *more++;
   };
   total.photons += block.photons;
   add(total.fates, block.fates);
@@ -71,10 +72,10 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
   if (history_) history_->step(photon, step);
   switch (step.event) {
     case core::StepEvent::absorbed_in_medium:
-      ++result_.absorbed_in_medium[step.where];
+      ++result_.absorbed_in_medium[step.medium];
       return finish(photon, core::Fate::absorbed_in_medium);
     case core::StepEvent::absorbed_at_surface:
-      ++result_.absorbed_at_surface[step.where];
+      ++result_.absorbed_at_surface[step.surface];
       return finish(photon, core::Fate::absorbed_at_surface);
     case core::StepEvent::escaped:
       return finish(photon, core::Fate::escaped);
@@ -84,8 +85,7 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
     default:
       return;  // no end: the run then finds a photon without a fate and states so
   }
-  const std::size_t way = 2 * static_cast<std::size_t>(step.interface) + (step.from_back ? 1 : 0);
-  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[way]];
+  SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[step.interface][step.from_back].index()];
   if (step.event == core::StepEvent::not_detected) {
     ++at_face.not_detected;
     return finish(photon, core::Fate::not_detected);
@@ -130,8 +130,8 @@ void BlockTally::finish(const source::Photon& photon, core::Fate fate) {
   result_.interactions.add(photon.interactions);
   result_.scatterings += photon.scatterings;
   for (const source::PhotonShifts& shifts : records_.shifts())
-    (shifts.at_surface ? result_.shifted_at_surface : result_.shifted_in_medium)[shifts.where] +=
-        shifts.count;
+    (shifts.surface.has_value() ? result_.shifted_at_surface[shifts.surface]
+                                : result_.shifted_in_medium[shifts.medium]) += shifts.count;
 }
 
 }  // namespace scintray::tally

@@ -8,10 +8,9 @@ namespace scintray::tally {
 
 namespace {
 
-/// Place of a part among names of parts, of which the first is the ambient space.
-std::uint32_t place_of(std::int32_t part) { return static_cast<std::uint32_t>(part + 1); }
-
-bool among(const std::vector<bool>& set, std::uint32_t place) { return set.empty() || set[place]; }
+bool among(const std::vector<bool>& set, core::PartId part) {
+  return set.empty() || set[scene_file::place_of(part)];
+}
 
 }  // namespace
 
@@ -20,9 +19,9 @@ CountScorer::CountScorer(const scene::Scene& scene, const TallyPlan& plan) : sce
 }
 
 void CountScorer::start(const source::Photon& photon) {
-  const std::int32_t part = scene_.regions[photon.region].part;
+  const core::PartId part = scene_.regions[photon.region].part;
   view_.start = photon.position;
-  view_.source_part = place_of(part);
+  view_.source_part = part;
   view_.crossings = 0;
   if (plan_.follows_reflections) view_.direction_before = photon.ray.direction;
   visited_.assign(plan_.follows_regions ? 1 : 0, photon.region);
@@ -30,13 +29,13 @@ void CountScorer::start(const source::Photon& photon) {
 }
 
 void CountScorer::step(const source::Photon& photon, const transport::Step& step) {
-  std::int32_t part = scene_.regions[photon.region].part;
+  core::PartId part = scene_.regions[photon.region].part;
   if (photon.region != step.region) {
     ++view_.crossings;
     if (plan_.follows_regions) visited_.push_back(photon.region);
   }
   if (step.event == core::StepEvent::detected || step.event == core::StepEvent::not_detected)
-    part = static_cast<std::int32_t>(step.where);
+    part = step.sensor_part;
   score_anywhere(photon, step.event, part);
   if (step.triangle != scene::kNoTriangle) score_at_faces(photon, step, part);
   if (plan_.follows_reflections) view_.direction_before = photon.ray.direction;
@@ -48,7 +47,7 @@ void CountScorer::cut(const source::Photon& photon, core::Fate fate) {
   end(fate);
 }
 
-void CountScorer::look_at(const source::Photon& photon, core::StepEvent event, std::int32_t part) {
+void CountScorer::look_at(const source::Photon& photon, core::StepEvent event, core::PartId part) {
   view_.event = event;
   view_.wavelength_nm = photon.wavelength_nm;
   view_.time_ns = photon.time_ns;
@@ -57,10 +56,10 @@ void CountScorer::look_at(const source::Photon& photon, core::StepEvent event, s
   view_.scatterings = photon.scatterings;
   view_.position = photon.position;
   view_.direction = photon.ray.direction;
-  view_.part = place_of(part);
+  view_.part = part;
 }
 
-void CountScorer::score_anywhere(const source::Photon& photon, core::StepEvent event, std::int32_t part) {
+void CountScorer::score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part) {
   const std::vector<std::uint32_t>& counts = plan_.counts_on[static_cast<std::size_t>(event)];
   if (counts.empty()) return;
   look_at(photon, event, part);
@@ -68,8 +67,8 @@ void CountScorer::score_anywhere(const source::Photon& photon, core::StepEvent e
 }
 
 void CountScorer::score_at_faces(const source::Photon& photon, const transport::Step& step,
-                                 std::int32_t part) {
-  const auto& at_faces = plan_.counts_at[2 * std::size_t{step.interface} + (step.from_back ? 1 : 0)];
+                                 core::PartId part) {
+  const auto& at_faces = plan_.counts_at[step.interface][step.from_back];
   const auto counts = [&](const TallyPlan::CountAtFace& at) {
     return (plan_.events_of[at.count] >> static_cast<unsigned>(step.event) & 1u) != 0;
   };
@@ -99,12 +98,12 @@ std::uint32_t CountScorer::bin_of(const CountRequest& count, bool& named) const 
   for (const CountAxis& axis : count.axes) {
     bin *= axis.bins;
     if (axis.variable->is_name()) {
-      const std::int32_t of_name = axis.bin_of[axis.variable->place(view_)];
-      if (of_name == scene::kNone) {
+      const BinId of_name = axis.bin_of[axis.variable->place(view_)];
+      if (!of_name.has_value()) {
         named = false;
         return Contribution::kOutside;
       }
-      bin += static_cast<std::uint32_t>(of_name);
+      bin += of_name.index();
       continue;
     }
     double position = (axis.variable->number(view_, axis.along) - axis.low) * axis.per_bin;
@@ -139,8 +138,9 @@ void CountScorer::score(std::uint32_t number) {
 void CountScorer::end(core::Fate fate) {
   const auto keeps = [&](const Contribution& c) {
     const CountRequest& count = plan_.counts[c.count];
-    const auto seen = [&](const std::vector<bool>& set) {
-      return std::any_of(visited_.begin(), visited_.end(), [&](std::uint32_t region) { return set[region]; });
+    const auto seen = [&](const core::IdVector<core::RegionId, bool>& set) {
+      return std::any_of(visited_.begin(), visited_.end(),
+                         [&](core::RegionId region) { return set[region]; });
     };
     if (count.fates != 0 && (count.fates >> static_cast<unsigned>(fate) & 1u) == 0) return false;
     if (!count.visited.empty() && !seen(count.visited)) return false;

@@ -33,11 +33,11 @@ class CountScorer {
 
  private:
   /// Scores the counts that an event at no face has, and those that it has at the faces of its interface.
-  void score_anywhere(const source::Photon& photon, core::StepEvent event, std::int32_t part);
-  void score_at_faces(const source::Photon& photon, const transport::Step& step, std::int32_t part);
+  void score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part);
+  void score_at_faces(const source::Photon& photon, const transport::Step& step, core::PartId part);
   void score(std::uint32_t number);
-  /// Completes the view of the photon under way with an event in a part, kNone: the ambient space.
-  void look_at(const source::Photon& photon, core::StepEvent event, std::int32_t part);
+  /// Completes the view of the photon under way with an event in a part; none: the ambient space.
+  void look_at(const source::Photon& photon, core::StepEvent event, core::PartId part);
   bool accepts(const CountRequest& count) const;
   std::uint32_t bin_of(const CountRequest& count, bool& named) const;
   void end(core::Fate fate);
@@ -45,8 +45,8 @@ class CountScorer {
   const scene::Scene& scene_;
   const TallyPlan& plan_;
   std::vector<Contribution> contributions_, pending_;
-  std::vector<std::uint32_t> visited_;  ///< regions, when some count needs them
-  scene_file::StepView view_;           ///< of the photon under way
+  std::vector<core::RegionId> visited_;  ///< when some count needs them
+  scene_file::StepView view_;            ///< of the photon under way
 };
 
 /// Adds contributions to the sums of `total`, one for each count of the plan.

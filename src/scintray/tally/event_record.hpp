@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "scintray/core/ids.hpp"
+
 namespace scintray::tally {
 
 /// What one readout channel saw of an event. A channel is a part that is a sensor, or a face that is one.
@@ -34,11 +36,9 @@ struct EventRecord {
   float escaped_keV = 0.0f;                 ///< carried out of the scene
   float non_scintillating_keV = 0.0f;       ///< left in what does not scintillate
   std::array<float, 3> position_mm{};       ///< mean of the deposits, weighted by energy; zero without any
-  std::uint32_t part = kNoPart;             ///< of the largest deposit, index into RunHeader::parts
+  core::PartId part;                        ///< of the largest deposit; none without any
   std::uint64_t emitted = 0, detected = 0;  ///< photons
   std::vector<ChannelRecord> channels;
-
-  static constexpr std::uint32_t kNoPart = 0xffffffffu;
 };
 
 }  // namespace scintray::tally

@@ -17,10 +17,10 @@ void EventTally::begin(std::uint64_t event, std::uint32_t point, const source::E
   for (const source::Deposit& deposit : light.event.deposits) {
     energy += deposit.energy_keV;
     moment += deposit.energy_keV * deposit.position;
-    const std::int32_t part = scene_.regions[deposit.region].part;
-    if (deposit.energy_keV <= most || part == scene::kNone) continue;
+    const core::PartId part = scene_.regions[deposit.region].part;
+    if (deposit.energy_keV <= most || !part.has_value()) continue;
     most = deposit.energy_keV;
-    record.part = static_cast<std::uint32_t>(part);
+    record.part = part;
   }
   record.energy_keV = static_cast<float>(energy);
   ++balance_.events;

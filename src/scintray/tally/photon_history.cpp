@@ -23,7 +23,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 }
 
 /// What a medium absorbs for good, as the tracer sees it: a wavelength shifter competes beside it.
-double absorption_per_mm(const scene::Scene& scene, std::uint32_t medium, double wavelength_nm) {
+double absorption_per_mm(const scene::Scene& scene, core::MediumId medium, double wavelength_nm) {
   return scene.optics.media[medium].shifts ? scene.media[medium].medium().absorption_per_mm(wavelength_nm)
                                            : scene.optics.at(medium, wavelength_nm).absorption_per_mm;
 }
@@ -36,12 +36,12 @@ HistoryPlan::HistoryPlan(const scene::Scene& scene) {
 }
 
 void HistoryPlan::add_media(const scene::Scene& scene) {
-  std::vector<std::int32_t> column_of_medium(scene.media.size(), scene::kNone);
+  core::IdVector<core::MediumId, HistoryColumn> column_of_medium(scene.media.size());
   for (const scene::Region& region : scene.regions) {
-    std::int32_t& column = column_of_medium[region.medium];
+    HistoryColumn& column = column_of_medium[region.medium];
     const scene::SceneMedium& medium = scene.media[region.medium];
-    if (column == scene::kNone && !medium.is_opaque()) {
-      column = static_cast<std::int32_t>(subjects_.media.size());
+    if (!column.has_value() && !medium.is_opaque()) {
+      column = HistoryColumn(subjects_.media.size());
       subjects_.media.push_back(medium.medium().name);
       subjects_.absorption_per_mm.push_back(
           range_of(medium.medium().absorption_per_mm, scene.low_nm, scene.high_nm));
@@ -62,7 +62,7 @@ void HistoryPlan::add_surface(const scene::Scene& scene, const optics::Surface& 
   }
   const ReflectorSite site{within, surface.definition, surface.reflector->name};
   const auto known = std::find(subjects_.reflectors.begin(), subjects_.reflectors.end(), site);
-  column_of_reflector_[&*surface.reflector] = static_cast<std::size_t>(known - subjects_.reflectors.begin());
+  column_of_reflector_[&*surface.reflector] = HistoryColumn(known - subjects_.reflectors.begin());
   if (known != subjects_.reflectors.end()) return;
   subjects_.reflectors.push_back(site);
   subjects_.reflectance.push_back(range_of(surface.reflector->reflectance, scene.low_nm, scene.high_nm));
@@ -82,13 +82,12 @@ void HistoryRecorder::start(const source::Photon& emitted) {
 }
 
 void HistoryRecorder::step(const source::Photon& photon, const transport::Step& step) {
-  const std::int32_t column = plan_.column_of_region(step.region);
+  const HistoryColumn column = plan_.column_of_region(step.region);
   const double segment_mm = photon.path_mm - path_mm_;
-  if (column != scene::kNone) {
-    const std::uint32_t medium = scene_.regions[step.region].medium;
-    path_in_mm_[static_cast<std::size_t>(column)] += segment_mm;
-    depth_in_[static_cast<std::size_t>(column)] +=
-        segment_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
+  if (column.has_value()) {
+    const core::MediumId medium = scene_.regions[step.region].medium;
+    path_in_mm_[column.index()] += segment_mm;
+    depth_in_[column.index()] += segment_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
   }
   path_mm_ = photon.path_mm;
   wavelength_nm_ = photon.wavelength_nm;  // what changed it stands at the end of the segment
@@ -105,9 +104,9 @@ void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64
   kept_.reflections.resize(first + reflectors);
   kept_.reflection_depth.resize(first + reflectors);
   for (const optics::ReflectionLog::Entry& entry : survived.entries()) {
-    const std::int32_t column = plan_.column_of(*entry.reflector);
-    if (column == scene::kNone) continue;
-    const std::size_t at = first + static_cast<std::size_t>(column);
+    const HistoryColumn column = plan_.column_of(*entry.reflector);
+    if (!column.has_value()) continue;
+    const std::size_t at = first + column.index();
     kept_.reflections[at] += entry.count;
     kept_.reflection_depth[at] += static_cast<float>(entry.depth);
   }

@@ -50,18 +50,21 @@ struct PhotonHistories {
   std::size_t rows() const { return point.size(); }
 };
 
+/// A medium or reflector among HistorySubjects.
+using HistoryColumn = core::Id<struct HistoryColumnTag>;
+
 /// The subjects of a scene, and where to write down what.
 class HistoryPlan {
  public:
   explicit HistoryPlan(const scene::Scene& scene);
 
   const HistorySubjects& subjects() const { return subjects_; }
-  /// Column of the medium of a region; kNone for what is opaque.
-  std::int32_t column_of_region(std::uint32_t region) const { return column_of_region_[region]; }
-  /// kNone for one that lets light through.
-  std::int32_t column_of(const optics::Reflector& reflector) const {
+  /// Column of the medium of a region; none for what is opaque.
+  HistoryColumn column_of_region(core::RegionId region) const { return column_of_region_[region]; }
+  /// None for one that lets light through.
+  HistoryColumn column_of(const optics::Reflector& reflector) const {
     const auto known = column_of_reflector_.find(&reflector);
-    return known == column_of_reflector_.end() ? scene::kNone : static_cast<std::int32_t>(known->second);
+    return known == column_of_reflector_.end() ? HistoryColumn::none() : known->second;
   }
 
  private:
@@ -69,8 +72,8 @@ class HistoryPlan {
   void add_surface(const scene::Scene& scene, const optics::Surface& surface, const std::string& within);
 
   HistorySubjects subjects_;
-  std::vector<std::int32_t> column_of_region_;
-  std::unordered_map<const optics::Reflector*, std::size_t> column_of_reflector_;
+  core::IdVector<core::RegionId, HistoryColumn> column_of_region_;
+  std::unordered_map<const optics::Reflector*, HistoryColumn> column_of_reflector_;
 };
 
 /// Follows one photon after the other.

@@ -69,10 +69,9 @@ class ChannelFaces {
     const auto triangles = static_cast<std::uint32_t>(scene_.accelerator(region).size());
     for (std::uint32_t i = 0; i < triangles; ++i) {
       const scene::BoundaryLink& link = scene_.link(region, i);
-      const std::int32_t channel = channels_.at_way[2 * link.interface + (link.from_back ? 1 : 0)];
-      if (channel == scene::kNone || (&region == ambient_ && in_contact_[static_cast<std::size_t>(channel)]))
-        continue;
-      visit(static_cast<std::size_t>(channel), scene_.triangle(region, i));
+      const core::Id<ReadoutChannel> channel = channels_.at_crossing[link.interface][link.from_back];
+      if (!channel.has_value() || (&region == ambient_ && in_contact_[channel.index()])) continue;
+      visit(std::size_t{channel.index()}, scene_.triangle(region, i));
     }
   }
 
@@ -85,26 +84,27 @@ class ChannelFaces {
 
 }  // namespace
 
-ReadoutChannels::ReadoutChannels(const scene::Scene& scene)
-    : at_way(2 * scene.interfaces.size(), scene::kNone) {
-  std::map<std::pair<std::uint32_t, std::int32_t>, std::int32_t> known;
-  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
-    const scene::Interface& interface = scene.interfaces[i];
+ReadoutChannels::ReadoutChannels(const scene::Scene& scene) : at_crossing(scene.interfaces.size()) {
+  std::map<std::pair<core::PartId, core::FaceId>, core::Id<ReadoutChannel>> known;
+  for (const core::InterfaceId id : scene.interfaces.ids()) {
+    const scene::Interface& interface = scene.interfaces[id];
     for (const bool from_back : {false, true}) {
-      if ((from_back ? interface.front_sensor : interface.back_sensor) == scene::kNone) continue;
-      const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-      const bool whole = scene.parts[part].sensor != scene::kNone;
-      const std::int32_t face = whole ? scene::kNone : from_back ? interface.back_face : interface.front_face;
-      const auto [channel, is_new] = known.try_emplace({part, face}, static_cast<std::int32_t>(list.size()));
+      const core::SensorId sensor = from_back ? interface.front_sensor : interface.back_sensor;
+      if (!sensor.has_value()) continue;
+      const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+      const bool whole = scene.parts[part].sensor.has_value();
+      const core::FaceId face = whole       ? core::FaceId::none()
+                                : from_back ? interface.back_face
+                                            : interface.front_face;
+      const auto [channel, is_new] = known.try_emplace({part, face}, core::Id<ReadoutChannel>(list.size()));
       if (is_new) {
         list.push_back({});
-        list.back().name = whole ? scene.parts[part].name : scene.faces[static_cast<std::size_t>(face)].name;
+        list.back().name = whole ? scene.parts[part].name : scene.faces[face].name;
         list.back().part = part;
-        list.back().sensor =
-            static_cast<std::uint32_t>(from_back ? interface.front_sensor : interface.back_sensor);
+        list.back().sensor = sensor;
         list.back().face = face;
       }
-      at_way[2 * i + (from_back ? 1 : 0)] = channel->second;
+      at_crossing[id][from_back] = channel->second;
     }
   }
   ChannelFaces faces(*this, scene);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/tally/per_crossing.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
@@ -12,9 +13,9 @@ namespace scintray::tally {
 /// What is read out as one: a part that is a sensor, or a face that is one.
 struct ReadoutChannel {
   std::string name;                          ///< "pmt", or "crystal:exit" for a face
-  std::uint32_t part = 0;                    ///< the sensor's
-  std::uint32_t sensor = 0;                  ///< index into Scene::sensors
-  std::int32_t face = scene::kNone;          ///< of a face that is a sensor
+  core::PartId part;                         ///< the sensor's
+  core::SensorId sensor;                     ///< what it is
+  core::FaceId face;                         ///< of a face that is a sensor
   core::Vec3 position = core::Vec3::Zero();  ///< centre of the faces through which light comes, mm
   core::Vec3 normal = core::Vec3::UnitZ();   ///< of them, into the sensor; of unit length
   core::Vec3 x = core::Vec3::UnitX(),
@@ -31,12 +32,11 @@ struct ReadoutChannels {
 
   /// The channel of a photon that a sensor converted.
   std::uint32_t at(const transport::Step& step) const {
-    return static_cast<std::uint32_t>(at_way[2 * step.interface + (step.from_back ? 1 : 0)]);
+    return at_crossing[step.interface][step.from_back].index();
   }
 
   std::vector<ReadoutChannel> list;
-  /// Per interface and way across it (index 2 * interface + from_back): index into `list`, or kNone.
-  std::vector<std::int32_t> at_way;
+  PerCrossing<core::Id<ReadoutChannel>> at_crossing;  ///< in `list`; none where there is no sensor
 };
 
 }  // namespace scintray::tally

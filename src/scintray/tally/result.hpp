@@ -1,5 +1,6 @@
 #pragma once
-/// What a run found. Plain data: the tracer fills it, io writes it, report reads it.
+/// What a run found. Plain data: the tracer fills it, io writes it, report reads it. Ids are those of the
+/// scene until a point has ended, then those of the names in RunHeader.
 
 #include <array>
 #include <cstdint>
@@ -7,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/id_vector.hpp"
+#include "scintray/core/ids.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/step_event.hpp"
 #include "scintray/optics/decay_time.hpp"
@@ -16,11 +19,12 @@ namespace scintray::tally {
 
 /// Photons that reached one sensor through one face.
 struct SensorFaceCount {
-  std::uint32_t part = 0;  ///< index into RunHeader::parts: the sensor's part
-  std::uint32_t face = 0;  ///< index into RunHeader::faces: the face crossed
+  core::PartId part;  ///< the sensor's
+  core::FaceId face;  ///< the face crossed
   std::uint64_t detected = 0;
   std::uint64_t not_detected = 0;
 };
+using SensorFaceId = core::Id<SensorFaceCount>;
 
 /// An axis of a tally: bins of a number between edges, or names.
 struct TallyAxis {
@@ -84,10 +88,10 @@ struct PointResult {
   EnergyBalance energy;
   std::optional<LightTiming> light_timing;  ///< of a source of energy, where it is one for all light
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
-  std::vector<std::uint64_t> absorbed_in_medium;        ///< per RunHeader::media
-  std::vector<std::uint64_t> absorbed_at_surface;       ///< per RunHeader::surfaces
-  std::vector<optics::ShiftCount> shifted_in_medium;    ///< per RunHeader::media
-  std::vector<optics::ShiftCount> shifted_at_surface;   ///< per RunHeader::surfaces
+  core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
+  core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;
+  core::IdVector<core::MediumId, optics::ShiftCount> shifted_in_medium;
+  core::IdVector<core::SurfaceId, optics::ShiftCount> shifted_at_surface;
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<TallyResult> tallies;
   core::Moments interactions;      ///< boundary interactions per photon
@@ -114,8 +118,8 @@ struct DetectedPhoton {
   std::uint32_t point = 0;
   std::uint64_t event = 0;
   std::uint64_t photon = 0;  ///< index within the event: with the seed, enough to replay it
-  std::uint32_t part = 0;    ///< sensor part
-  std::uint32_t face = 0;    ///< face crossed
+  core::PartId part;         ///< sensor part
+  core::FaceId face;         ///< face crossed
   std::array<float, 3> position_mm{};
   std::array<float, 3> direction{};
   float wavelength_nm = 0;
@@ -132,9 +136,11 @@ struct RunHeader {
   std::string scene_text;  ///< the whole scene file, so that a result explains itself
   std::uint64_t seed = 0;
   std::vector<std::string> sweep_keys;  ///< swept keys, slowest first
-  std::vector<std::string> media, surfaces, parts;
-  std::vector<std::string> faces;  ///< "part:face"
-  std::string note;                ///< warnings issued, one a line
+  core::IdVector<core::MediumId, std::string> media;
+  core::IdVector<core::SurfaceId, std::string> surfaces;
+  core::IdVector<core::PartId, std::string> parts;
+  core::IdVector<core::FaceId, std::string> faces;  ///< "part:face"
+  std::string note;                                 ///< warnings issued, one a line
 };
 
 /// A whole run.

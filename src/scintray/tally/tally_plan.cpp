@@ -35,7 +35,8 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
   bind_readout(spec, scene);
   if (spec.tallies.empty()) return;
 
-  std::vector<std::vector<std::pair<std::uint32_t, scene_file::FaceWay>>> counts_of_face(scene.faces.size());
+  core::IdVector<core::FaceId, std::vector<std::pair<std::uint32_t, scene_file::FaceWay>>> counts_of_face(
+      scene.faces.size());
   for (const scene_file::TallySpec& tally : spec.tallies) {
     const auto number = static_cast<std::uint32_t>(counts.size());
     counts.push_back(bind_count(tally, source_parts(spec), scene));
@@ -45,24 +46,25 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
       if (tally.faces.empty()) counts_on[static_cast<std::size_t>(event)].push_back(number);
     }
     events_of.push_back(events);
-    for (const std::uint32_t face : faces_of(tally, scene))
+    for (const core::FaceId face : faces_of(tally, scene))
       counts_of_face[face].emplace_back(number, tally.way);
     follows_reflections = follows_reflections || needs_reflections(tally);
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
   }
-  counts_at.resize(2 * scene.interfaces.size());
-  const auto bind = [&](std::size_t way, std::int32_t face, scene_file::FaceWay seen) {
-    if (face == scene::kNone) return;
-    for (const auto& [count, wanted] : counts_of_face[static_cast<std::size_t>(face)])
+  counts_at.resize(scene.interfaces.size());
+  const auto bind = [&](std::vector<CountAtFace>& at_crossing, core::FaceId face, scene_file::FaceWay seen) {
+    if (!face.has_value()) return;
+    for (const auto& [count, wanted] : counts_of_face[face])
       if (wanted == seen || wanted == scene_file::FaceWay::both)
-        counts_at[way].push_back({count, static_cast<std::uint32_t>(face), seen == scene_file::FaceWay::in});
+        at_crossing.push_back({count, face, seen == scene_file::FaceWay::in});
   };
-  for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-    const scene::Interface& interface = scene.interfaces[i];
-    bind(2 * i + 1, interface.back_face, scene_file::FaceWay::out);
-    bind(2 * i + 1, interface.front_face, scene_file::FaceWay::in);
-    bind(2 * i, interface.front_face, scene_file::FaceWay::out);
-    bind(2 * i, interface.back_face, scene_file::FaceWay::in);
+  for (const core::InterfaceId id : scene.interfaces.ids()) {
+    const scene::Interface& interface = scene.interfaces[id];
+    auto& [from_front, from_back] = counts_at[id];
+    bind(from_back, interface.back_face, scene_file::FaceWay::out);
+    bind(from_back, interface.front_face, scene_file::FaceWay::in);
+    bind(from_front, interface.front_face, scene_file::FaceWay::out);
+    bind(from_front, interface.back_face, scene_file::FaceWay::in);
   }
 }
 
@@ -86,22 +88,21 @@ void TallyPlan::bind_readout(const scene_file::SceneSpec& spec, const scene::Sce
 }
 
 void TallyPlan::bind_ways(const scene::Scene& scene) {
-  const std::size_t ways = 2 * scene.interfaces.size();
-  sensor_faces.assign(ways, kNoSensor);
-  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i) {
-    const scene::Interface& interface = scene.interfaces[i];
+  sensor_faces.resize(scene.interfaces.size());
+  for (const core::InterfaceId id : scene.interfaces.ids()) {
+    const scene::Interface& interface = scene.interfaces[id];
     for (const bool from_back : {false, true}) {
-      const std::size_t way = 2 * i + (from_back ? 1 : 0);
-      const std::int32_t left_face = from_back ? interface.back_face : interface.front_face;
-      const std::int32_t sensor = from_back ? interface.front_sensor : interface.back_sensor;
-      if (sensor == scene::kNone) continue;
-      const std::uint32_t part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-      const std::int32_t own = from_back ? interface.front_face : interface.back_face;
-      const std::int32_t face = own != scene::kNone ? own : left_face;
-      const std::pair key{part, static_cast<std::uint32_t>(face)};
-      const auto [known, is_new] = sensor_index_.try_emplace(key, sensor_face_names.size());
-      if (is_new) sensor_face_names.push_back({key.first, key.second, 0, 0});
-      sensor_faces[way] = static_cast<std::uint32_t>(known->second);
+      const core::SensorId sensor = from_back ? interface.front_sensor : interface.back_sensor;
+      if (!sensor.has_value()) continue;
+      const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+      const core::FaceId own = from_back ? interface.front_face : interface.back_face;
+      const core::FaceId face = own.has_value() ? own
+                                : from_back     ? interface.back_face
+                                                : interface.front_face;
+      const auto [known, is_new] =
+          sensor_face_of_.try_emplace({part, face}, SensorFaceId(sensor_face_names.size()));
+      if (is_new) sensor_face_names.push_back({part, face, 0, 0});
+      sensor_faces[id][from_back] = known->second;
     }
   }
 }

@@ -12,11 +12,15 @@
 #include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"
+#include "scintray/tally/per_crossing.hpp"
 #include "scintray/tally/photon_history.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::tally {
+
+/// A bin of an axis of names.
+using BinId = core::Id<struct BinTag>;
 
 /// An axis of a count, bound to the scene.
 struct CountAxis {
@@ -27,8 +31,8 @@ struct CountAxis {
   /// Nothing lies below or above: the end is the variable's own bound, or a face's, and what rounding carries
   /// beyond it counts within.
   bool ends_low = false, ends_high = false;
-  /// Of names: bin of each place (TallyVariable::place), kNone where it has none.
-  std::vector<std::int32_t> bin_of;
+  /// Of names: bin of each place (TallyVariable::place), none where it has none.
+  std::vector<BinId> bin_of;
 };
 
 /// A condition on a number.
@@ -43,9 +47,9 @@ struct CountRequest {
   TallyResult empty;  ///< name, axes and zeros
   std::vector<CountAxis> axes;
   std::vector<CountRange> ranges;
-  std::vector<bool> parts, source_parts;   ///< per part, shifted by one; empty: all
-  std::vector<bool> visited, not_visited;  ///< per region; empty: no condition
-  std::uint32_t fates = 0;                 ///< bits of StepEvent; 0: any
+  std::vector<bool> parts, source_parts;                      ///< by place_of; empty: all
+  core::IdVector<core::RegionId, bool> visited, not_visited;  ///< empty: no condition
+  std::uint32_t fates = 0;                                    ///< bits of StepEvent; 0: any
   scene_file::TallyEach each = scene_file::TallyEach::time;
   scene_file::TallyVariablePtr score;  ///< null: photons
 };
@@ -55,8 +59,7 @@ struct TallyPlan {
   /// be: a grid on a face that is not flat, more bins than can be kept.
   TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
 
-  /// Per interface and way across it (index 2 * interface + from_back): index into the result, or kNoSensor.
-  std::vector<std::uint32_t> sensor_faces;
+  PerCrossing<SensorFaceId> sensor_faces;  ///< none where there is no sensor
   std::vector<SensorFaceCount> sensor_face_names;
   ReadoutChannels channels;
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
@@ -65,10 +68,10 @@ struct TallyPlan {
   /// A count to look at at an interaction with a face, and the face that it is bound to.
   struct CountAtFace {
     std::uint32_t count = 0;
-    std::uint32_t face = 0;
+    core::FaceId face;
     bool inwards = false;  ///< the light comes to the face from outside its part
   };
-  std::vector<std::vector<CountAtFace>> counts_at;  ///< per interface and way; empty without such counts
+  PerCrossing<std::vector<CountAtFace>> counts_at;  ///< empty without such counts
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
   /// Per event: counts that are bound to no face.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
@@ -77,12 +80,11 @@ struct TallyPlan {
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested
-  static constexpr std::uint32_t kNoSensor = 0xffffffffu;
 
  private:
   void bind_readout(const scene_file::SceneSpec& spec, const scene::Scene& scene);
   void bind_ways(const scene::Scene& scene);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> sensor_index_;
+  std::map<std::pair<core::PartId, core::FaceId>, SensorFaceId> sensor_face_of_;
 };
 
 /// Binds one count to a scene. @throws InputError
@@ -91,6 +93,6 @@ CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<con
                         const scene::Scene& scene);
 
 /// The faces that a count is bound to, in their order. @throws InputError for a name without a face.
-std::vector<std::uint32_t> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
+std::vector<core::FaceId> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
 
 }  // namespace scintray::tally

@@ -26,10 +26,11 @@ struct Propagation {
   std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
 };
 
-/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected.
-double critical_sin2(const scene::Scene& scene, std::uint32_t medium, const source::Photon& photon) {
+/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected, as for no
+/// medium.
+double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
   constexpr double kNever = 2.0;
-  if (medium == scene::kNotSmooth || scene.optics.is_opaque(medium)) return kNever;
+  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
   const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
   return ratio * ratio;
 }
@@ -53,10 +54,10 @@ template <typename State>
 [[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
                                                        const PropagationLimits& limits) {
   const scene::Region& region = scene.regions[photon.region];
-  const scene::BoundaryLink* const links = scene.links.data() + region.first_link;
+  const scene::BoundaryLink* const links = scene.links_of(region);
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
-  std::uint32_t known_medium = scene::kNotSmooth;
+  core::MediumId known_medium;
   double least_sin2 = critical_sin2(scene, known_medium, photon);
   Propagation propagation;
   for (;;) {
@@ -75,8 +76,8 @@ template <typename State>
     }
     state.move(wall.distance_mm, depth);
     propagation.end = PropagationEnd::boundary;
-    const std::uint32_t medium = links[wall.triangle].smooth_to;
-    if (medium == scene::kNotSmooth) break;
+    const core::MediumId medium = links[wall.triangle].smooth_to;
+    if (!medium.has_value()) break;
     if (medium != known_medium) {
       known_medium = medium;
       least_sin2 = critical_sin2(scene, medium, photon);
@@ -132,37 +133,37 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
 
 /// Lets the medium absorb the photon for good (false), or its wavelength shifter absorb it and re-emit it.
 /// Out of line, as what few scenes have: inlined, it made every other step 3 % slower.
-[[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, std::uint32_t number,
+[[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
                                                 source::Photon& photon, core::Rng& rng,
                                                 source::PhotonRecords* records) {
-  const optics::Medium& medium = scene.media[number].medium();
+  const optics::Medium& medium = scene.media[id].medium();
   const double shifting_per_mm = medium.shifter->absorption_per_mm()(photon.wavelength_nm);
   const double total_per_mm = shifting_per_mm + medium.absorption_per_mm(photon.wavelength_nm);
   if (rng.uniform() * total_per_mm >= shifting_per_mm) return false;
   optics::ShiftCount not_recorded;
-  optics::ShiftCount& count = records ? records->shifts_of(false, number) : not_recorded;
+  optics::ShiftCount& count = records ? records->shifts_of(id) : not_recorded;
   const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, count);
   if (!back) return false;
   photon.wavelength_nm = back->wavelength_nm;
   photon.time_ns += back->delay_ns;
-  photon.optics = scene.optics.at(number, photon.wavelength_nm);
+  photon.optics = scene.optics.at(id, photon.wavelength_nm);
   optics::scatter_isotropic(photon.ray, rng);
   return true;
 }
 
-Step interact_in_bulk(const scene::Scene& scene, std::uint32_t number, source::Photon& photon, core::Rng& rng,
+Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon& photon, core::Rng& rng,
                       source::PhotonRecords* records) {
-  const scene::MediumRecord& medium = scene.optics.media[number];
+  const scene::MediumRecord& medium = scene.optics.media[id];
   const double absorption = photon.optics.absorption_per_mm;
   const double total = absorption + photon.optics.scattering_per_mm;
   Step result;
   if (rng.uniform() * total < absorption) {
-    if (medium.shifts && shift_in_bulk(scene, number, photon, rng, records)) {
+    if (medium.shifts && shift_in_bulk(scene, id, photon, rng, records)) {
       photon.optical_depth = core::sample_exponential(rng);
       result.event = core::StepEvent::re_emitted;
     } else {
       result.event = core::StepEvent::absorbed_in_medium;
-      result.where = number;
+      result.medium = id;
     }
     return result;
   }
@@ -179,7 +180,7 @@ Step interact_in_bulk(const scene::Scene& scene, std::uint32_t number, source::P
 /// Outcome at an interface: which region the ray is in, or which surface absorbed it.
 struct InterfaceOutcome {
   bool in_front = false;
-  std::int32_t absorbed_by = scene::kNone;
+  core::SurfaceId absorbed_by;
 };
 
 /// Indices on the two sides of an interface and in the gap of a dry contact, at one wavelength.
@@ -197,14 +198,14 @@ struct InterfaceIndex {
 InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& interface,
                           double wavelength_nm) {
   const scene::SceneOptics& optics = scene.optics;
-  const std::uint32_t back = scene.regions[interface.back].medium;
-  const std::uint32_t front = scene.regions[interface.front].medium;
+  const core::MediumId back = scene.regions[interface.back].medium;
+  const core::MediumId front = scene.regions[interface.front].medium;
   InterfaceIndex index;
   // An opaque part has no index: where light enters it the indices match.
   index.back = optics.index(optics.is_opaque(back) ? front : back, wavelength_nm);
   index.front = optics.index(optics.is_opaque(front) ? back : front, wavelength_nm);
-  index.dry = interface.gap_medium != scene::kNone;
-  if (index.dry) index.gap = optics.index(static_cast<std::uint32_t>(interface.gap_medium), wavelength_nm);
+  index.dry = interface.gap_medium.has_value();
+  if (index.dry) index.gap = optics.index(interface.gap_medium, wavelength_nm);
   return index;
 }
 
@@ -232,7 +233,7 @@ struct SurfaceApproach {
                                                                         source::Photon& photon,
                                                                         core::Rng& rng,
                                                                         source::PhotonRecords* records) {
-  const std::int32_t id = at.at_back ? at.interface.back_surface : at.interface.front_surface;
+  const core::SurfaceId id = at.at_back ? at.interface.back_surface : at.interface.front_surface;
   optics::ShiftingLight light;
   light.wavelength_nm = photon.wavelength_nm;
   const auto index_at = [&](double wavelength_nm) {
@@ -240,12 +241,11 @@ struct SurfaceApproach {
     return at.index.around(at.at_back);
   };
   light.index = index_at;
-  const optics::SurfaceOutcome outcome = at.scene.surfaces[static_cast<std::size_t>(id)].interact(
+  const optics::SurfaceOutcome outcome = at.scene.surfaces[id].interact(
       photon.ray, at.side, at.outward, light, rng, records ? records->reflection_log() : nullptr);
   photon.wavelength_nm = light.wavelength_nm;
   photon.time_ns += light.delay_ns;
-  if (records && light.count.absorbed > 0)
-    records->shifts_of(true, static_cast<std::uint32_t>(id)) += light.count;
+  if (records && light.count.absorbed > 0) records->shifts_of(id) += light.count;
   return outcome;
 }
 
@@ -254,14 +254,13 @@ struct SurfaceApproach {
 InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
                                        source::PhotonRecords* records) {
   const scene::Interface& interface = at.interface;
-  const bool has_back = interface.back_surface != scene::kNone,
-             has_front = interface.front_surface != scene::kNone;
+  const bool has_back = interface.back_surface.has_value(), has_front = interface.front_surface.has_value();
   bool at_back = at.from_back ? has_back : !has_front;  // which of the two surfaces comes next
   bool came_from_back = at.from_back;
   InterfaceIndex index = at.index;
   for (;;) {
-    const std::int32_t id = at_back ? interface.back_surface : interface.front_surface;
-    const optics::Surface& surface = at.scene.surfaces[static_cast<std::size_t>(id)];
+    const core::SurfaceId id = at_back ? interface.back_surface : interface.front_surface;
+    const optics::Surface& surface = at.scene.surfaces[id];
     // A surface's inside is the region of the part it belongs to.
     const core::Vec3 outward = at_back ? at.normal : core::Vec3(-at.normal);
     const optics::Side side = came_from_back == at_back ? optics::Side::inside : optics::Side::outside;
@@ -273,8 +272,8 @@ InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Phot
                                 records ? records->reflection_log() : nullptr},
                                rng);
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
-    if (outcome == optics::SurfaceOutcome::inside) return {!at_back, scene::kNone};
-    if (!index.dry) return {at_back, scene::kNone};
+    if (outcome == optics::SurfaceOutcome::inside) return {!at_back, core::SurfaceId::none()};
+    if (!index.dry) return {at_back, core::SurfaceId::none()};
     came_from_back = at_back;  // in the gap, on the way from this surface to the other
     at_back = !at_back;
   }
@@ -287,8 +286,8 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
   const core::Vec3 outward = scene.normal(region, triangle);
-  const std::uint32_t next = link.from_back ? interface.front : interface.back;
-  const std::uint32_t next_medium = scene.regions[next].medium;
+  const core::RegionId next = link.from_back ? interface.front : interface.back;
+  const core::MediumId next_medium = scene.regions[next].medium;
   const bool next_opaque = optics.is_opaque(next_medium);
 
   Step result;
@@ -306,17 +305,16 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
-    const bool dry = interface.gap_medium != scene::kNone;
-    const double gap =
-        dry ? optics.index(static_cast<std::uint32_t>(interface.gap_medium), photon.wavelength_nm) : 0.0;
+    const bool dry = interface.gap_medium.has_value();
+    const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
     const InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
-    if (outcome.absorbed_by != scene::kNone) {
+    if (outcome.absorbed_by.has_value()) {
       result.event = core::StepEvent::absorbed_at_surface;
-      result.where = static_cast<std::uint32_t>(outcome.absorbed_by);
+      result.surface = outcome.absorbed_by;
       return result;
     }
     crossed = outcome.in_front == link.from_back;
@@ -327,18 +325,18 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     return result;
   }
 
-  const std::int32_t sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
+  const core::SensorId sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
   photon.region = next;
   photon.optics = optics.at(next_medium, photon.wavelength_nm);
-  if (sensor != scene::kNone) {
+  if (sensor.has_value()) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
-    const double probability = scene.sensors[static_cast<std::size_t>(sensor)].conversion_probability(
-        photon.wavelength_nm, there * sine);
+    const double probability =
+        scene.sensors[sensor].conversion_probability(photon.wavelength_nm, there * sine);
     result.event = rng.uniform() < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
-    result.where = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+    result.sensor_part = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
   } else if (next_opaque) {
     result.event = core::StepEvent::absorbed_in_medium;
-    result.where = next_medium;
+    result.medium = next_medium;
   } else {
     result.event = core::StepEvent::transmitted;
   }
@@ -349,7 +347,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {
-  const std::uint32_t from = photon.region;
+  const core::RegionId from = photon.region;
   const Propagation propagation = propagate(scene, photon, limits);
   Step result;
   switch (propagation.end) {

@@ -117,7 +117,7 @@ void set_peaks(FloodMap& map, const Basins& basins, const std::vector<double>& h
 }
 
 void set_owners(FloodMap& map, std::span<const std::array<double, 2>> positions,
-                std::span<const std::uint32_t> part) {
+                std::span<const core::PartId> part) {
   for (const std::array<double, 2>& position : positions) ++map.peaks[map.peak_of(position)].events;
   if (part.empty()) return;
   map.crystals.assign(part.begin(), part.end());
@@ -155,7 +155,7 @@ std::size_t FloodGrid::cell(const std::array<double, 2>& position) const {
   return index(position[1], y_low, y_high, rows) * columns + index(position[0], x_low, x_high, columns);
 }
 
-FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<const std::uint32_t> part,
+FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<const core::PartId> part,
                    const FloodOptions& options) {
   if (!part.empty() && part.size() != positions.size())
     throw std::invalid_argument("positions and parts differ in number");

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "scintray/core/ids.hpp"
 #include "scintray/core/statistics.hpp"
 
 namespace scintray::analysis {
@@ -46,7 +47,7 @@ struct FloodMap {
   std::vector<FloodPeak> peaks;  ///< highest first
   std::vector<FloodNeighbours> neighbours;
   std::vector<std::uint32_t> peak_of_cell;  ///< per cell of the grid
-  std::vector<std::uint32_t> crystals;      ///< parts with an interaction in the events, rising
+  std::vector<core::PartId> crystals;       ///< parts with an interaction in the events, rising
   /// Share of the events whose peak's owner is the part of the interaction; not a number without parts.
   core::Estimate share_right;
   std::size_t crystals_without_peak = 0;  ///< parts that own no peak
@@ -70,7 +71,7 @@ struct FloodMap {
 /// wide one. Cells that are empty also after smoothing belong to the nearest peak.
 /// @param part  part of the interaction of each event, in step with `positions`; empty when not known
 /// @throws InputError with fewer than 100 events, or when they lie on one line
-FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<const std::uint32_t> part,
+FloodMap flood_map(std::span<const std::array<double, 2>> positions, std::span<const core::PartId> part,
                    const FloodOptions& options = {});
 
 }  // namespace scintray::analysis

@@ -75,7 +75,10 @@ std::optional<mesh::BooleanResult> imprint_on_grid(const mesh::TriMesh& part, co
 }
 
 PlacedPart geometry_of(const PlacedMesh& part) {
-  return {part.name, part.mesh.vertices, part.mesh.triangles, part.face_of, part.where};
+  std::vector<core::FaceId> faces;
+  faces.reserve(part.face_of.size());
+  for (const std::uint32_t face : part.face_of) faces.emplace_back(face);
+  return {part.name, part.mesh.vertices, part.mesh.triangles, std::move(faces), part.where};
 }
 
 }  // namespace scintray::contact

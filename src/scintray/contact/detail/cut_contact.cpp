@@ -194,7 +194,7 @@ std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide
   if (!cut) return std::nullopt;
   CutPart result = only_facing_cut(side, *cut);
   const Body zone(PlacedPart{"", other.zone.vertices, other.zone.triangles,
-                             std::vector<std::uint32_t>(other.zone.triangles.size(), 0)},
+                             std::vector<core::FaceId>(other.zone.triangles.size())},
                   Eigen::Matrix3d::Identity());
   for (std::size_t t = 0; t < result.origin.size(); ++t) {
     const std::uint32_t own = result.origin[t];

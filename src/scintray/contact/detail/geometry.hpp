@@ -43,7 +43,7 @@ class Body {
 
   std::vector<core::Vec3> vertices;  ///< equal positions are one vertex
   std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> face;
+  std::vector<core::FaceId> face;
   std::vector<core::Vec3> normal;  ///< unit; zero for a triangle without area
   double area = 0.0;               ///< mm2
   double volume = 0.0;             ///< mm3

@@ -19,9 +19,9 @@ struct Nesting {
   std::vector<OverlappingPair> overlaps;
 
   std::size_t depth(std::uint32_t body) const { return around[body].size(); }
-  /// Innermost body around `body`, or kAmbient.
-  std::int32_t parent(std::uint32_t body) const {
-    return around[body].empty() ? kAmbient : static_cast<std::int32_t>(around[body].front());
+  /// The part that is the innermost body around `body`, or kAmbient.
+  core::PartId parent(std::uint32_t body) const {
+    return around[body].empty() ? kAmbient : core::PartId(around[body].front());
   }
 };
 

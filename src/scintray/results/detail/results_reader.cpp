@@ -6,6 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
+#include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
@@ -42,6 +43,11 @@ core::Moments get_moments(const core::h5::Group& point, const std::string& name)
           get<double>(group, "sum_of_squares")};
 }
 
+template <typename IdType>
+core::IdVector<IdType, std::string> get_names(const core::h5::Group& root, const std::string& name) {
+  return core::IdVector<IdType, std::string>(root.read_strings(name));
+}
+
 tally::RunHeader get_header(const core::h5::Group& root) {
   tally::RunHeader header;
   header.title = root.string_attribute("", "title");
@@ -50,10 +56,10 @@ tally::RunHeader get_header(const core::h5::Group& root) {
   header.scene_text = get_text(root, "scene");
   header.seed = get<std::uint64_t>(root, "seed");
   header.sweep_keys = root.read_strings("sweep_keys");
-  header.media = root.read_strings("media");
-  header.surfaces = root.read_strings("surfaces");
-  header.parts = root.read_strings("parts");
-  header.faces = root.read_strings("faces");
+  header.media = get_names<core::MediumId>(root, "media");
+  header.surfaces = get_names<core::SurfaceId>(root, "surfaces");
+  header.parts = get_names<core::PartId>(root, "parts");
+  header.faces = get_names<core::FaceId>(root, "faces");
   header.note = get_text(root, "note");
   return header;
 }
@@ -74,14 +80,18 @@ class PointReader {
     point.complete = group_.integer_attribute("", "complete") != 0;
     copy("fate_count", point.fates);
     copy("detected_path_histogram", point.detected_path_histogram);
-    point.absorbed_in_medium = group_.read<std::uint64_t>("absorbed_in_medium");
-    point.absorbed_at_surface = group_.read<std::uint64_t>("absorbed_at_surface");
+    point.absorbed_in_medium =
+        core::IdVector<core::MediumId, std::uint64_t>(group_.read<std::uint64_t>("absorbed_in_medium"));
+    point.absorbed_at_surface =
+        core::IdVector<core::SurfaceId, std::uint64_t>(group_.read<std::uint64_t>("absorbed_at_surface"));
     require(point.absorbed_in_medium.size() == header_.media.size(),
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
-    point.shifted_in_medium = shifts("shifted_in_medium", header_.media.size());
-    point.shifted_at_surface = shifts("shifted_at_surface", header_.surfaces.size());
+    point.shifted_in_medium =
+        core::IdVector<core::MediumId, optics::ShiftCount>(shifts("shifted_in_medium", header_.media.size()));
+    point.shifted_at_surface = core::IdVector<core::SurfaceId, optics::ShiftCount>(
+        shifts("shifted_at_surface", header_.surfaces.size()));
     point.sensor_faces = sensor_faces();
     if (group_.has("tallies")) point.tallies = tallies();
     add_exit_angles(point.tallies);
@@ -162,9 +172,13 @@ class PointReader {
         "the columns of sensor_faces differ in length");
     std::vector<tally::SensorFaceCount> counts;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      require(part[i] < header_.parts.size() && face[i] < header_.faces.size(),
+      tally::SensorFaceCount& count = counts.emplace_back();
+      format::from_file(part[i], count.part);
+      format::from_file(face[i], count.face);
+      require(header_.parts.contains(count.part) && header_.faces.contains(count.face),
               "sensor_faces names a part or face that does not exist");
-      counts.push_back({part[i], face[i], detected[i], not_detected[i]});
+      count.detected = detected[i];
+      count.not_detected = not_detected[i];
     }
     return counts;
   }
@@ -178,7 +192,7 @@ class PointReader {
       const std::int64_t face = from.integer_attribute("", "face");
       require(face >= 0 && static_cast<std::size_t>(face) < header_.faces.size(),
               "an exit angle tally names a face that does not exist");
-      angles.face = header_.faces[static_cast<std::size_t>(face)];
+      angles.face = header_.faces[core::FaceId(face)];
       angles.detected_only = from.integer_attribute("", "detected_only") != 0;
       angles.inside = from.read<std::uint64_t>("inside");
       angles.outside = from.read<std::uint64_t>("outside");
@@ -248,7 +262,7 @@ std::vector<tally::ReadoutChannel> get_channels(const std::filesystem::path& pat
   require(parts.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     channels[i].name = names[i];
-    channels[i].part = parts[i];
+    format::from_file(parts[i], channels[i].part);
   }
   format::for_each_channel_number([&](const char* column, auto member) {
     const auto values = group.read<double>(column);

@@ -6,6 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
+#include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
@@ -63,8 +64,8 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   std::vector<std::uint32_t> part, face;
   std::vector<std::uint64_t> detected, not_detected;
   for (const tally::SensorFaceCount& count : faces) {
-    part.push_back(count.part);
-    face.push_back(count.face);
+    part.push_back(format::to_file(count.part));
+    face.push_back(format::to_file(count.face));
     detected.push_back(count.detected);
     not_detected.push_back(count.not_detected);
   }
@@ -76,7 +77,7 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
 
 /// @param faces  of the run, to one of which each tally is bound
 void put_exit_angles(core::h5::Group& point, const std::vector<analysis::CrossingAngles>& tallies,
-                     const std::vector<std::string>& faces) {
+                     const core::IdVector<core::FaceId, std::string>& faces) {
   core::h5::Group group = point.create_group("exit_angles");
   group.set_attribute("", "description", std::string("histograms of crossing angles, one group a tally"));
   for (std::size_t i = 0; i < tallies.size(); ++i) {
@@ -167,7 +168,7 @@ void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChanne
   std::vector<std::uint32_t> parts;
   for (const tally::ReadoutChannel& channel : channels) {
     names.push_back(channel.name);
-    parts.push_back(channel.part);
+    parts.push_back(format::to_file(channel.part));
   }
   format::put_text(group, "channel_name", names);
   format::put(group, "channel_part", parts);
@@ -187,10 +188,10 @@ void put_header(core::h5::Group& root, const tally::RunHeader& header) {
   format::put(root, "seed", header.seed);
   format::put_text(root, "scene", {header.scene_text});
   format::put_text(root, "sweep_keys", header.sweep_keys);
-  format::put_text(root, "media", header.media);
-  format::put_text(root, "surfaces", header.surfaces);
-  format::put_text(root, "parts", header.parts);
-  format::put_text(root, "faces", header.faces);
+  format::put_text(root, "media", header.media.values());
+  format::put_text(root, "surfaces", header.surfaces.values());
+  format::put_text(root, "parts", header.parts.values());
+  format::put_text(root, "faces", header.faces.values());
   std::vector<std::string> fates;
   for (int fate = 0; fate < core::kFateCount; ++fate)
     fates.emplace_back(core::fate_name(core::fate_at(fate)));
@@ -211,7 +212,7 @@ void refuse_foreign_file(const std::filesystem::path& path) {
 struct ResultsWriter::State {
   core::h5::File file;
   core::h5::Group root, points;
-  std::vector<std::string> faces;
+  core::IdVector<core::FaceId, std::string> faces;
   std::string note;
   std::size_t point_count = 0;
   format::RowWriter<tally::DetectedPhoton> photons;
@@ -308,11 +309,12 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   format::put(group, "photons_requested", point.photons_requested);
   format::put(group, "photons_traced", point.photons);
   put_fates(group, point);
-  format::put(group, "absorbed_in_medium", point.absorbed_in_medium);
-  format::put(group, "absorbed_at_surface", point.absorbed_at_surface);
-  put_shifts(group, "shifted_in_medium", "wavelength shifting in each medium", point.shifted_in_medium);
+  format::put(group, "absorbed_in_medium", point.absorbed_in_medium.values());
+  format::put(group, "absorbed_at_surface", point.absorbed_at_surface.values());
+  put_shifts(group, "shifted_in_medium", "wavelength shifting in each medium",
+             point.shifted_in_medium.values());
   put_shifts(group, "shifted_at_surface", "wavelength shifting in the gap of each surface",
-             point.shifted_at_surface);
+             point.shifted_at_surface.values());
   put_sensor_faces(group, point.sensor_faces);
   put_exit_angles(group, analysis::crossing_angles(point), state_->faces);
   put_tallies(group, point.tallies);

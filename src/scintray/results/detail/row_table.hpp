@@ -9,13 +9,15 @@
 
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
+#include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/results_format.hpp"
 
 namespace scintray::results::format {
 
-/// Type of the values of a column.
+/// Type of the values of a column in the file.
 template <typename Row, typename Member>
-using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, Row&>>;
+using ColumnValue =
+    std::remove_cvref_t<decltype(to_file(std::declval<const std::invoke_result_t<Member, Row&>&>()))>;
 
 /// Writer of rows; they are written in blocks, so memory is bounded.
 template <typename Row>
@@ -46,7 +48,7 @@ class RowWriter {
     for_each_column(static_cast<const Row*>(nullptr), [&](const char* name, auto member) {
       std::vector<ColumnValue<Row, decltype(member)>> column;
       column.reserve(waiting_.size());
-      for (const Row& row : waiting_) column.push_back(member(row));
+      for (const Row& row : waiting_) column.push_back(to_file(member(row)));
       group_->append(name, column);
     });
     waiting_.clear();
@@ -111,7 +113,8 @@ std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uin
     if (first) rows.resize(column.size());
     first = false;
     equal = equal && column.size() == rows.size();
-    for (std::size_t i = 0; i < std::min(column.size(), rows.size()); ++i) member(rows[i]) = column[i];
+    for (std::size_t i = 0; i < std::min(column.size(), rows.size()); ++i)
+      from_file(column[i], member(rows[i]));
   });
   if (!equal) return std::nullopt;
   return rows;

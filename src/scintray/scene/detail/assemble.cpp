@@ -12,7 +12,7 @@ namespace scintray::scene {
 
 namespace {
 
-using InterfaceKey = std::tuple<std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+using InterfaceKey = std::tuple<core::PartId, core::PartId, core::FaceId, core::FaceId>;
 
 std::string name_or_smooth(const std::string& surface) { return surface.empty() ? "smooth" : surface; }
 
@@ -25,10 +25,9 @@ class InterfaceMaker {
         problems_(problems),
         contact_used_(assembly.contacts.size(), false) {}
 
-  std::uint32_t interface_of(const contact::InterfaceTriangle& t) {
+  core::InterfaceId interface_of(const contact::InterfaceTriangle& t) {
     const InterfaceKey key{t.back, t.front, t.back_face, t.front_face};
-    const auto [known, is_new] =
-        known_.try_emplace(key, static_cast<std::uint32_t>(scene_.interfaces.size()));
+    const auto [known, is_new] = known_.try_emplace(key, scene_.interfaces.next_id());
     if (is_new) {
       scene_.interfaces.push_back(make(t));
       scene_.interface_area_mm2.push_back(0.0);
@@ -56,37 +55,35 @@ class InterfaceMaker {
 
   Interface make(const contact::InterfaceTriangle& t) {
     Interface result;
-    result.back = static_cast<std::uint32_t>(t.back + 1);
-    result.front = static_cast<std::uint32_t>(t.front + 1);
+    result.back = region_of(t.back);
+    result.front = region_of(t.front);
     result.back_face = t.back_face;
     result.front_face = t.front_face;
     bind_sensors(t, result);
-    if (t.back_face != contact::kNoFace && t.front_face != contact::kNoFace)
+    if (t.back_face.has_value() && t.front_face.has_value())
       make_contact(t, result);
-    else if (t.back_face != contact::kNoFace && t.front != contact::kAmbient)
+    else if (t.back_face.has_value() && t.front != contact::kAmbient)
       make_nested(t, result);
-    else if (t.back_face != contact::kNoFace)
+    else if (t.back_face.has_value())
       result.back_surface = surface(face(t.back_face).surface, medium(t.back), medium(t.front));
     else
       result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
-    const std::int32_t only = result.back_surface != kNone ? result.back_surface : result.front_surface;
-    const bool one = (result.back_surface == kNone) != (result.front_surface == kNone);
-    if (one && result.gap_medium == kNone)
-      result.plain = scene_.surfaces[static_cast<std::size_t>(only)].plain();
+    const bool has_back = result.back_surface.has_value();
+    if (has_back != result.front_surface.has_value() && !result.gap_medium.has_value())
+      result.plain = scene_.surfaces[has_back ? result.back_surface : result.front_surface].plain();
     return result;
   }
 
   /// A sensor part detects what enters it; a sensor face what leaves its part there.
   void bind_sensors(const contact::InterfaceTriangle& t, Interface& result) const {
-    const auto bind = [&](std::int32_t entered, std::int32_t left, std::int32_t left_face,
-                          std::int32_t& sensor, std::uint32_t& part) {
-      if (entered != contact::kAmbient &&
-          assembly_.parts[static_cast<std::size_t>(entered)].sensor != kNone) {
-        sensor = assembly_.parts[static_cast<std::size_t>(entered)].sensor;
-        part = static_cast<std::uint32_t>(entered);
-      } else if (left_face != contact::kNoFace && face(left_face).sensor != kNone) {
-        sensor = face(left_face).sensor;
-        part = static_cast<std::uint32_t>(left);
+    const auto bind = [&](core::PartId entered, core::PartId left, core::FaceId left_face,
+                          core::SensorId& sensor, core::PartId& part) {
+      if (entered != contact::kAmbient && assembly_.parts[entered].sensor.has_value()) {
+        sensor = assembly_.parts[entered].sensor;
+        part = entered;
+      } else if (left_face.has_value() && assembly_.faces[left_face].sensor.has_value()) {
+        sensor = assembly_.faces[left_face].sensor;
+        part = left;
       }
     };
     bind(t.front, t.back, t.back_face, result.front_sensor, result.front_sensor_part);
@@ -95,7 +92,7 @@ class InterfaceMaker {
 
   void make_dry(const contact::InterfaceTriangle& t, const std::string& back, const std::string& front,
                 Interface& result) {
-    result.gap_medium = static_cast<std::int32_t>(assembly_.ambient);
+    result.gap_medium = assembly_.ambient;
     result.back_surface = surface(back, medium(t.back), assembly_.ambient);
     result.front_surface = surface(front, medium(t.front), assembly_.ambient);
   }
@@ -149,12 +146,12 @@ class InterfaceMaker {
   }
 
   /// Does the contact's side name this face of this part? Inside another part there is no face.
-  bool names(const scene_file::ContactSpec& contact, std::size_t side, std::int32_t of_part,
-             std::int32_t of_face) const {
+  bool names(const scene_file::ContactSpec& contact, std::size_t side, core::PartId of_part,
+             core::FaceId of_face) const {
     const std::string& part_name = part(of_part).geometry.name;
     if (!core::matches_pattern(contact.between[side].name, part_name)) return false;
     return contact.faces[side].empty() ||
-           (of_face != contact::kNoFace && part_name + ":" + contact.faces[side] == face(of_face).name);
+           (of_face.has_value() && part_name + ":" + contact.faces[side] == face(of_face).name);
   }
 
   /// How much a contact states of a pair; of several that match, the one that states most holds. What the
@@ -193,19 +190,17 @@ class InterfaceMaker {
       return "\"" + side_name(c, 0) + "\" - \"" + side_name(c, 1) + "\"";
     };
     if (!ties_.insert(pattern(one) + pattern(other)).second) return;
-    problems_.add(
-        other.where,
-        "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" +
-            face(t.back_face).name + "\" - \"" +
-            (t.front_face == contact::kNoFace ? part(t.front).geometry.name : face(t.front_face).name) +
-            "\", and differ",
-        "name this pair in a [[contact]] of its own, or spell out more of one of them");
+    problems_.add(other.where,
+                  "the contacts " + pattern(one) + " and " + pattern(other) + " are equally close to \"" +
+                      face(t.back_face).name + "\" - \"" +
+                      (t.front_face.has_value() ? face(t.front_face).name : part(t.front).geometry.name) +
+                      "\", and differ",
+                  "name this pair in a [[contact]] of its own, or spell out more of one of them");
   }
 
   /// A surface for two media, made once per triple.
-  std::int32_t surface(const std::string& name, std::uint32_t inside, std::uint32_t outside) {
-    const auto [known, is_new] =
-        surfaces_.try_emplace({name, inside, outside}, static_cast<std::int32_t>(scene_.surfaces.size()));
+  core::SurfaceId surface(const std::string& name, core::MediumId inside, core::MediumId outside) {
+    const auto [known, is_new] = surfaces_.try_emplace({name, inside, outside}, scene_.surfaces.next_id());
     if (is_new) {
       optics::Surface made;
       try {
@@ -220,9 +215,9 @@ class InterfaceMaker {
     return known->second;
   }
 
-  const AssemblyFace& face(std::int32_t id) const { return assembly_.faces[static_cast<std::size_t>(id)]; }
-  const AssemblyPart& part(std::int32_t id) const { return assembly_.parts[static_cast<std::size_t>(id)]; }
-  std::uint32_t medium(std::int32_t id) const {
+  const AssemblyFace& face(core::FaceId id) const { return assembly_.faces[id]; }
+  const AssemblyPart& part(core::PartId id) const { return assembly_.parts[id]; }
+  core::MediumId medium(core::PartId id) const {
     return id == contact::kAmbient ? assembly_.ambient : part(id).medium;
   }
 
@@ -231,8 +226,8 @@ class InterfaceMaker {
   core::Problems& problems_;
   std::vector<bool> contact_used_;
   std::set<std::string> ties_;  ///< pairs of contacts already reported
-  std::map<InterfaceKey, std::uint32_t> known_;
-  std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::int32_t> surfaces_;
+  std::map<InterfaceKey, core::InterfaceId> known_;
+  std::map<std::tuple<std::string, core::MediumId, core::MediumId>, core::SurfaceId> surfaces_;
 };
 
 double triangle_area(const contact::InterfaceTriangle& t) {
@@ -241,7 +236,7 @@ double triangle_area(const contact::InterfaceTriangle& t) {
 
 /// Gives every face the vertices that its triangles use.
 void collect_corners(const contact::PlacedPart& geometry, Scene& scene) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+  std::set<std::pair<core::FaceId, std::uint32_t>> seen;
   for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
     for (const std::uint32_t vertex : geometry.triangles[t])
       if (seen.emplace(geometry.face[t], vertex).second)
@@ -252,12 +247,12 @@ void describe_parts(const Assembly& assembly, Scene& scene) {
   for (const AssemblyFace& face : assembly.faces)
     scene.faces.push_back(
         {face.name, face.part, name_or_smooth(face.surface), 0.0, 0.0, 0, core::Vec3::Zero(), {}});
-  for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
-    const contact::PlacedPart& geometry = assembly.parts[i].geometry;
+  for (const core::PartId id : assembly.parts.ids()) {
+    const contact::PlacedPart& geometry = assembly.parts[id].geometry;
     PartInfo info;
     info.name = geometry.name;
-    info.region = static_cast<std::uint32_t>(i + 1);
-    info.sensor = assembly.parts[i].sensor;
+    info.region = region_of(id);
+    info.sensor = assembly.parts[id].sensor;
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
       const auto& [a, b, c] = geometry.triangles[t];
       const core::Vec3 &va = geometry.vertices[a], &vb = geometry.vertices[b], &vc = geometry.vertices[c];
@@ -293,14 +288,14 @@ Scene assemble(const Assembly& assembly) {
 
   core::Problems problems;
   InterfaceMaker maker(assembly, scene, problems);
-  std::vector<std::uint32_t> interface_of;
+  std::vector<core::InterfaceId> interface_of;
   for (const contact::InterfaceTriangle& triangle : triangles) {
     interface_of.push_back(maker.interface_of(triangle));
     const double area = triangle_area(triangle);
     scene.interface_area_mm2[interface_of.back()] += area;
-    if (triangle.back_face == contact::kNoFace || triangle.front_face == contact::kNoFace) continue;
-    scene.faces[static_cast<std::size_t>(triangle.back_face)].contact_area_mm2 += area;
-    scene.faces[static_cast<std::size_t>(triangle.front_face)].contact_area_mm2 += area;
+    if (!triangle.back_face.has_value() || !triangle.front_face.has_value()) continue;
+    scene.faces[triangle.back_face].contact_area_mm2 += area;
+    scene.faces[triangle.front_face].contact_area_mm2 += area;
   }
   maker.report_unused_contacts();
   problems.throw_if_any();

@@ -15,35 +15,34 @@ namespace scintray::scene {
 /// A face of a part before contacts are known.
 struct AssemblyFace {
   std::string name;  ///< "part:face"
-  std::uint32_t part = 0;
-  std::string surface;          ///< name; empty: none given, smooth
-  std::int32_t sensor = kNone;  ///< light that leaves the part here is detected
+  core::PartId part;
+  std::string surface;    ///< name; empty: none given, smooth
+  core::SensorId sensor;  ///< light that leaves the part here is detected
 };
 
 struct AssemblyPart {
-  contact::PlacedPart geometry;                            ///< `face` refers to Assembly::faces
-  std::uint32_t medium = 0;                                ///< index into Assembly::media
+  contact::PlacedPart geometry;
+  core::MediumId medium;
   std::string surface;                                     ///< its own, where another part lies in it
-  std::int32_t sensor = kNone;                             ///< light that enters the part is detected
+  core::SensorId sensor;                                   ///< light that enters the part is detected
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its placement: lets identical parts share
 };
 
 /// Everything that decides what a scene is, looked up but not yet put together.
 struct Assembly {
-  std::vector<SceneMedium> media;
-  std::vector<detector::Sensor> sensors;
-  std::vector<AssemblyFace> faces;
-  std::vector<AssemblyPart> parts;
-  std::uint32_t ambient = 0;  ///< medium around everything
+  core::IdVector<core::MediumId, SceneMedium> media;
+  core::IdVector<core::SensorId, detector::Sensor> sensors;
+  core::IdVector<core::FaceId, AssemblyFace> faces;
+  core::IdVector<core::PartId, AssemblyPart> parts;
+  core::MediumId ambient;  ///< around everything
   scene_file::ContactKind contacts_default = scene_file::ContactKind::bonded;
   std::vector<scene_file::ContactSpec> contacts;
   double contact_tolerance_mm = 1e-4;
   scene_file::AcceleratorKind accelerator = scene_file::AcceleratorKind::automatic;
   double low_nm = 0.0, high_nm = 0.0;
-  /// Makes the surface of that name for the media on its two sides (indices into `media`); where it
-  /// is used twice the same surface may be returned. The empty name is the smooth surface.
-  std::function<optics::Surface(const std::string& name, std::uint32_t inside_medium,
-                                std::uint32_t outside_medium)>
+  /// Makes the surface of that name for the media on its two sides; where it is used twice the same surface
+  /// may be returned. The empty name is the smooth surface.
+  std::function<optics::Surface(const std::string& name, core::MediumId inside, core::MediumId outside)>
       make_surface;
 };
 
@@ -51,10 +50,15 @@ struct Assembly {
 /// parts that do not touch, and shared faces whose two surfaces disagree.
 Scene assemble(const Assembly& assembly);
 
+/// Id of a part's region, or of the ambient one for no part: it comes first, then the parts' in their order.
+inline core::RegionId region_of(core::PartId part) {
+  return part.has_value() ? core::RegionId(part.index() + 1) : kAmbientRegion;
+}
+
 /// Fills scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i].
 /// Regions whose boundaries are equal in their parts' own frames, and lead to the same pattern of
 /// interfaces, share one accelerator.
 void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
-                   const std::vector<std::uint32_t>& interface_of, Scene& scene);
+                   const std::vector<core::InterfaceId>& interface_of, Scene& scene);
 
 }  // namespace scintray::scene

@@ -49,7 +49,7 @@ Entry make_entry(BoundaryTriangle local, BoundaryLink link) {
 
 /// Numbers what the triangles lead to in order of first appearance.
 std::vector<std::uint32_t> pattern_of(const std::vector<Entry>& entries) {
-  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> seen;
+  std::map<std::pair<core::InterfaceId, bool>, std::uint32_t> seen;
   std::vector<std::uint32_t> labels;
   for (const Entry& entry : entries)
     labels.push_back(seen.try_emplace({entry.link.interface, entry.link.from_back},
@@ -58,12 +58,15 @@ std::vector<std::uint32_t> pattern_of(const std::vector<Entry>& entries) {
   return labels;
 }
 
-std::vector<std::vector<std::pair<std::uint32_t, bool>>> triangles_by_region(
+/// Triangles of a region's boundary: the index of each, and whether the region is at its back.
+using RegionTriangles = std::vector<std::pair<std::size_t, bool>>;
+
+core::IdVector<core::RegionId, RegionTriangles> triangles_by_region(
     const std::vector<contact::InterfaceTriangle>& triangles, std::size_t regions) {
-  std::vector<std::vector<std::pair<std::uint32_t, bool>>> by_region(regions);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    by_region[static_cast<std::size_t>(triangles[i].back + 1)].push_back({i, true});
-    by_region[static_cast<std::size_t>(triangles[i].front + 1)].push_back({i, false});
+  core::IdVector<core::RegionId, RegionTriangles> by_region(regions);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    by_region[region_of(triangles[i].back)].push_back({i, true});
+    by_region[region_of(triangles[i].front)].push_back({i, false});
   }
   return by_region;
 }
@@ -80,32 +83,32 @@ void link_smooth_media(Scene& scene) {
 }  // namespace
 
 void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
-                   const std::vector<std::uint32_t>& interface_of, Scene& scene) {
+                   const std::vector<core::InterfaceId>& interface_of, Scene& scene) {
   const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
-  std::map<Shape, std::uint32_t> known;  // accelerators
-  for (std::size_t r = 0; r < by_region.size(); ++r) {
-    const bool ambient = r == kAmbientRegion;
+  std::map<Shape, core::AcceleratorId> known;
+  const auto build = [&](core::PartId of) {
+    const AssemblyPart* const part = of.has_value() ? &assembly.parts[of] : nullptr;
+    const RegionTriangles& own = by_region[region_of(of)];
     Region region;
-    scene.region_names.push_back(ambient ? "ambient" : assembly.parts[r - 1].geometry.name);
-    region.part = ambient ? kNone : static_cast<std::int32_t>(r - 1);
-    region.medium = ambient ? assembly.ambient : assembly.parts[r - 1].medium;
-    const Eigen::Matrix3d rotation =
-        ambient ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : assembly.parts[r - 1].rotation;
+    scene.region_names.push_back(part ? part->geometry.name : "ambient");
+    region.part = of;
+    region.medium = part ? part->medium : assembly.ambient;
+    const Eigen::Matrix3d rotation = part ? part->rotation : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     region.rotation = rotation;
     region.rotated = !rotation.isIdentity(0.0);
 
     Eigen::AlignedBox3d bounds;  // in the part's own orientation
-    for (const auto& [index, is_back] : by_region[r])
+    for (const auto& [index, is_back] : own)
       for (const core::Vec3& vertex : triangles[index].vertex) bounds.extend(rotation.transpose() * vertex);
     if (!bounds.isEmpty()) region.centre = rotation * bounds.center();
 
     std::vector<Entry> entries;
-    for (const auto& [index, is_back] : by_region[r]) {
+    for (const auto& [index, is_back] : own) {
       BoundaryTriangle local;
       for (std::size_t i = 0; i < 3; ++i)
         local[i] = rotation.transpose() * (triangles[index].vertex[i] - region.centre);
       if (!is_back) std::swap(local[1], local[2]);
-      entries.push_back(make_entry(local, {interface_of[index], kNotSmooth, is_back}));
+      entries.push_back(make_entry(local, {interface_of[index], core::MediumId::none(), is_back}));
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.key < b.key; });
@@ -119,18 +122,20 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
       boundary.push_back(entry.local);
       scene.links.push_back(entry.link);
     }
-    region.accelerator = static_cast<std::uint32_t>(scene.accelerators.size());
+    region.accelerator = scene.accelerators.next_id();
     bool is_new = true;
-    if (!ambient) {
+    if (part) {
       const auto shared = known.try_emplace(shape, region.accelerator);
       region.accelerator = shared.first->second;
       is_new = shared.second;
     }
     if (is_new)
       scene.accelerators.push_back(
-          std::make_shared<Accelerator>(boundary, shape.labels, !ambient, assembly.accelerator));
+          std::make_shared<Accelerator>(boundary, shape.labels, part != nullptr, assembly.accelerator));
     scene.regions.push_back(region);
-  }
+  };
+  build(core::PartId::none());
+  for (const core::PartId part : assembly.parts.ids()) build(part);
   link_smooth_media(scene);
 }
 

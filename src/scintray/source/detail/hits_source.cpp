@@ -66,7 +66,7 @@ void HitsEventSource::count_out_of_order(const std::vector<Hit>& hits) {
 }
 
 void HitsEventSource::add(const Hit& hit, const scene::Scene& scene) {
-  const std::uint32_t region = scene.locate(hit.position);
+  const core::RegionId region = scene.locate(hit.position);
   Event& event = events_.back();
   if (region == scene::kAmbientRegion) {
     ++report_.outside;

@@ -13,7 +13,7 @@ namespace {
 /// Draws outside the part in a row after which its region counts as empty.
 constexpr int kMostDraws = 1'000'000;
 
-std::vector<std::string> names_of(const std::vector<scene::PartInfo>& parts) {
+std::vector<std::string> names_of(const core::IdVector<core::PartId, scene::PartInfo>& parts) {
   std::vector<std::string> names;
   names.reserve(parts.size());
   for (const scene::PartInfo& part : parts) names.push_back(part.name);
@@ -68,8 +68,8 @@ void Origin::add_box(const scene_file::RegionSpec& spec, const scene::PartInfo& 
   if ((low.array() <= high.array()).all()) boxes_.push_back({part.region, Eigen::AlignedBox3d(low, high)});
 }
 
-std::vector<std::uint32_t> Origin::regions() const {
-  std::vector<std::uint32_t> regions;
+std::vector<core::RegionId> Origin::regions() const {
+  std::vector<core::RegionId> regions;
   for (const Box& box : boxes_) regions.push_back(box.region);
   return regions;
 }

@@ -14,7 +14,7 @@ namespace scintray::source {
 /// A place in a scene.
 struct Place {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
-  std::uint32_t region = 0;                  ///< that contains it
+  core::RegionId region;                     ///< that contains it
 };
 
 /// Places uniform over part of a scene, or one point. Immutable.
@@ -27,12 +27,12 @@ class Origin {
   Place sample(const scene::Scene& scene, core::Rng& rng) const;
 
   /// Regions in which places lie.
-  std::vector<std::uint32_t> regions() const;
+  std::vector<core::RegionId> regions() const;
 
  private:
   /// A region and the box in which positions are drawn and, if inside, kept.
   struct Box {
-    std::uint32_t region = 0;
+    core::RegionId region;
     Eigen::AlignedBox3d box;
     bool inside = false;  ///< all of it: no position needs asking
     double most = 1.0;    ///< share of the volume of the boxes up to this one

@@ -2,13 +2,13 @@
 
 namespace scintray::source {
 
-bool scintillates(const scene::Scene& scene, std::uint32_t region) {
+bool scintillates(const scene::Scene& scene, core::RegionId region) {
   return scene.media[scene.regions[region].medium].medium().yield_per_keV > 0.0;
 }
 
-void require_scintillators(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+void require_scintillators(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                            const core::FileLocation& where) {
-  for (const std::uint32_t region : regions)
+  for (const core::RegionId region : regions)
     if (!scintillates(scene, region))
       throw core::InputError(
           {where,

@@ -7,11 +7,11 @@
 namespace scintray::source {
 
 /// Throws InputError at `where` unless the medium of each region makes light of energy.
-void require_scintillators(const scene::Scene& scene, const std::vector<std::uint32_t>& regions,
+void require_scintillators(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                            const core::FileLocation& where);
 
 /// True when energy left in the region makes light.
-bool scintillates(const scene::Scene& scene, std::uint32_t region);
+bool scintillates(const scene::Scene& scene, core::RegionId region);
 
 /// Adds energy to an event: as a deposit where it makes light, else as non-scintillating. Nothing when it is
 /// none.

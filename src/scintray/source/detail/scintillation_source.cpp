@@ -26,7 +26,7 @@ ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, co
   for (const scene::SceneMedium& medium : scene.media)
     emission_.push_back(medium.medium().yield_per_keV > 0.0 ? core::CurveSampler(medium.medium().emission)
                                                             : core::CurveSampler());
-  for (std::uint32_t region = 0; region < scene.regions.size(); ++region)
+  for (const core::RegionId region : scene.regions.ids())
     if (scintillates(scene, region)) regions_.push_back(region);
   if (!options.cherenkov) return;
   for (const scene::SceneMedium& medium : scene.media) {
@@ -36,7 +36,7 @@ ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, co
   }
 }
 
-std::vector<std::uint32_t> ScintillationSource::regions() const { return regions_; }
+std::vector<core::RegionId> ScintillationSource::regions() const { return regions_; }
 
 void ScintillationSource::begin(const scene::Scene& scene, std::uint64_t event, core::Rng& rng,
                                 EventLight& light) const {
@@ -44,7 +44,7 @@ void ScintillationSource::begin(const scene::Scene& scene, std::uint64_t event, 
   light.photons = 0;
   light.deposits.clear();
   for (const Deposit& deposit : light.event.deposits) {
-    const std::uint32_t at = scene.regions[deposit.region].medium;
+    const core::MediumId at = scene.regions[deposit.region].medium;
     light.photons += sample_photon_number(scene.media[at].medium(), deposit.energy_keV, rng);
     light.deposits.push_back({light.photons, light.photons});
     if (cherenkov_.empty()) continue;
@@ -60,7 +60,7 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
       [](std::uint64_t photon, const EventLight::DepositEnd& end) { return photon < end.all; });
   const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposits.begin())];
   const bool prompt = number >= from->scintillation;
-  const std::uint32_t medium = scene.regions[deposit.region].medium;
+  const core::MediumId medium = scene.regions[deposit.region].medium;
   Photon photon;
   photon.position = deposit.position;
   photon.region = deposit.region;

@@ -36,13 +36,13 @@ class ScintillationSource : public LightSource {
              EventLight& light) const override;
   Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
               core::Rng& rng) const override;
-  std::vector<std::uint32_t> regions() const override;
+  std::vector<core::RegionId> regions() const override;
 
  private:
   std::unique_ptr<EventSource> events_;
-  std::vector<core::CurveSampler> emission_;                ///< per medium of the scene
-  std::vector<std::optional<CherenkovEmitter>> cherenkov_;  ///< per medium; empty without that light
-  std::vector<std::uint32_t> regions_;                      ///< that scintillate
+  core::IdVector<core::MediumId, core::CurveSampler> emission_;
+  core::IdVector<core::MediumId, std::optional<CherenkovEmitter>> cherenkov_;  ///< empty without that light
+  std::vector<core::RegionId> regions_;                                        ///< that scintillate
   bool unpolarised_;
 };
 

@@ -35,36 +35,37 @@ std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std
   return result;
 }
 
-/// Per part, shifted by one; empty without patterns.
+/// By place (scene_file::place_of); empty without patterns.
 std::vector<bool> picked_parts(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
                                const core::FileLocation& where) {
   if (patterns.empty()) return {};
   std::vector<bool> parts = picked(patterns, part_names(scene), "part", where);
-  parts.insert(parts.begin(), false);
+  parts.insert(parts.begin(), false);  // the ambient space
   return parts;
 }
 
-/// Per region.
-std::vector<bool> picked_regions(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
-                                 const core::FileLocation& where) {
+/// Regions of the picked parts; empty without patterns.
+core::IdVector<core::RegionId, bool> picked_regions(const std::vector<config::NameRef>& patterns,
+                                                    const scene::Scene& scene,
+                                                    const core::FileLocation& where) {
   const std::vector<bool> parts = picked_parts(patterns, scene, where);
   if (parts.empty()) return {};
-  std::vector<bool> regions(scene.regions.size(), false);
-  for (std::size_t i = 0; i < regions.size(); ++i)
-    regions[i] = parts[static_cast<std::size_t>(scene.regions[i].part + 1)];
+  core::IdVector<core::RegionId, bool> regions;
+  for (const scene::Region& region : scene.regions)
+    regions.push_back(parts[scene_file::place_of(region.part)]);
   return regions;
 }
 
 /// Parts that detect.
 std::vector<config::NameRef> sensor_parts(const scene::Scene& scene) {
-  std::vector<bool> detects(scene.parts.size(), false);
+  core::IdVector<core::PartId, bool> detects(scene.parts.size(), false);
   for (const scene::Interface& interface : scene.interfaces) {
-    if (interface.back_sensor != scene::kNone) detects[interface.back_sensor_part] = true;
-    if (interface.front_sensor != scene::kNone) detects[interface.front_sensor_part] = true;
+    if (interface.back_sensor.has_value()) detects[interface.back_sensor_part] = true;
+    if (interface.front_sensor.has_value()) detects[interface.front_sensor_part] = true;
   }
   std::vector<config::NameRef> names;
-  for (std::size_t i = 0; i < detects.size(); ++i)
-    if (detects[i]) names.push_back({scene.parts[i].name, {}});
+  for (const core::PartId part : detects.ids())
+    if (detects[part]) names.push_back({scene.parts[part].name, {}});
   return names;
 }
 
@@ -81,7 +82,7 @@ class CountBinder {
     count.score = spec_.score;
     count.empty.score = spec_.score ? spec_.score->name : scene_file::kPhotonScore;
     count.empty.unit = spec_.score ? spec_.score->unit() : "1";
-    for (const std::uint32_t face : faces_) count.empty.faces.push_back(scene_.faces[face].name);
+    for (const core::FaceId face : faces_) count.empty.faces.push_back(scene_.faces[face].name);
     count.empty.detected_only = spec_.detected_only();
     count.parts = picked_parts(spec_.parts, scene_, spec_.where);
     count.source_parts = picked_parts(spec_.source_parts, scene_, spec_.where);
@@ -114,13 +115,13 @@ class CountBinder {
     TallyAxis made;
     made.variable = axis.variable->name;
     const auto add = [&](std::size_t slot, const std::string& name) {
-      bound.bin_of[slot] = static_cast<std::int32_t>(made.names.size());
+      bound.bin_of[slot] = BinId(made.names.size());
       made.names.push_back(name);
     };
     const core::FileLocation where = axis.where.file.empty() ? spec_.where : axis.where;
     const scene_file::VariableKind kind = axis.variable->kind;
     if (kind == scene_file::VariableKind::event) {
-      bound.bin_of.assign(core::kStepEventCount, scene::kNone);
+      bound.bin_of.resize(core::kStepEventCount);
       for (const core::StepEvent event : spec_.at) {
         if (event ==
             core::StepEvent::cut_time)  // in the bin of cut_interactions, which the same word stands for
@@ -130,15 +131,17 @@ class CountBinder {
           add(static_cast<std::size_t>(event), core::word_of(scene_file::kEventWords, event));
       }
     } else if (kind == scene_file::VariableKind::face) {
-      bound.bin_of.assign(scene_.faces.size(), scene::kNone);
-      for (const std::uint32_t face : faces_) add(face, scene_.faces[face].name);
+      bound.bin_of.resize(scene_.faces.size());
+      for (const core::FaceId face : faces_) add(face.index(), scene_.faces[face].name);
     } else {
-      bound.bin_of.assign(scene_.parts.size() + 1, scene::kNone);
+      bound.bin_of.resize(scene_file::place_of(scene_.parts.next_id()));
       const std::vector<config::NameRef> patterns = axis.names.empty() ? usual_parts(kind) : axis.names;
       const std::vector<bool> parts = picked_parts(patterns, scene_, where);
-      if (patterns.empty() && kind == scene_file::VariableKind::part) add(0, kAmbientName);
-      for (std::size_t i = 1; i <= scene_.parts.size(); ++i)
-        if (parts.empty() || parts[i]) add(i, scene_.parts[i - 1].name);
+      if (patterns.empty() && kind == scene_file::VariableKind::part)
+        add(scene_file::place_of(core::PartId::none()), kAmbientName);
+      for (const core::PartId part : scene_.parts.ids())
+        if (parts.empty() || parts[scene_file::place_of(part)])
+          add(scene_file::place_of(part), scene_.parts[part].name);
     }
     if (made.names.empty())
       throw core::InputError(
@@ -203,26 +206,25 @@ class CountBinder {
       if (axis.variable->side != scene_file::FaceSide::none) side = axis.variable->side;
     if (side == scene_file::FaceSide::none || spec_.way == scene_file::FaceWay::both) return 0.0;
     const bool in_part = (spec_.way == scene_file::FaceWay::out) == (side == scene_file::FaceSide::before);
-    std::optional<std::uint32_t> medium;
+    core::MediumId medium;
     for (const scene::Interface& interface : scene_.interfaces)
-      for (const std::uint32_t face : faces_)
+      for (const core::FaceId face : faces_)
         for (const bool back : {true, false}) {
-          const std::int32_t own = back ? interface.back_face : interface.front_face;
-          if (own != static_cast<std::int32_t>(face)) continue;
-          const std::uint32_t region = back == in_part ? interface.back : interface.front;
-          const std::uint32_t found = scene_.regions[region].medium;
-          if (medium && *medium != found) return 0.0;
+          if ((back ? interface.back_face : interface.front_face) != face) continue;
+          const core::RegionId region = back == in_part ? interface.back : interface.front;
+          const core::MediumId found = scene_.regions[region].medium;
+          if (medium.has_value() && medium != found) return 0.0;
           medium = found;
         }
-    if (!medium || scene_.media[*medium].is_opaque()) return 0.0;
-    return scene_.optics.index(*medium, 0.5 * (scene_.low_nm + scene_.high_nm));
+    if (!medium.has_value() || scene_.media[medium].is_opaque()) return 0.0;
+    return scene_.optics.index(medium, 0.5 * (scene_.low_nm + scene_.high_nm));
   }
 
   /// Normal of the plane that the faces lie along.
   core::Vec3 plane_normal() const {
     if (spec_.normal) return *spec_.normal;
     const core::Vec3 first = scene_.faces[faces_.front()].area_vector_mm2.normalized();
-    for (const std::uint32_t face : faces_) {
+    for (const core::FaceId face : faces_) {
       const scene::FaceInfo& info = scene_.faces[face];
       if (info.area_vector_mm2.norm() < (1.0 - kFlat) * info.area_mm2)
         throw core::InputError(
@@ -239,7 +241,7 @@ class CountBinder {
 
   std::pair<double, double> extent(const core::Vec3& along) const {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const std::uint32_t face : faces_)
+    for (const core::FaceId face : faces_)
       for (const core::Vec3& corner : scene_.faces[face].corners) {
         low = std::min(low, along.dot(corner));
         high = std::max(high, along.dot(corner));
@@ -254,7 +256,7 @@ class CountBinder {
   const scene_file::TallySpec& spec_;
   const std::vector<config::NameRef>& source_parts_;
   const scene::Scene& scene_;
-  std::vector<std::uint32_t> faces_;
+  std::vector<core::FaceId> faces_;
 };
 
 }  // namespace
@@ -264,13 +266,13 @@ CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<con
   return CountBinder(spec, source_parts, scene).bind();
 }
 
-std::vector<std::uint32_t> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene) {
+std::vector<core::FaceId> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene) {
   std::vector<std::string> names;
   for (const scene::FaceInfo& face : scene.faces) names.push_back(face.name);
   const std::vector<bool> wanted = picked(spec.faces, names, "face", spec.where);
-  std::vector<std::uint32_t> faces;
-  for (std::uint32_t i = 0; i < wanted.size(); ++i)
-    if (wanted[i]) faces.push_back(i);
+  std::vector<core::FaceId> faces;
+  for (const core::FaceId face : scene.faces.ids())
+    if (wanted[face.index()]) faces.push_back(face);
   return faces;
 }
 

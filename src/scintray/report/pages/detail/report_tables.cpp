@@ -38,13 +38,13 @@ std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
   };
   add("detected", "f0", fate(core::Fate::detected));
   add("not detected", "f1", fate(core::Fate::not_detected));
-  for (std::size_t m = 0; m < run.header.media.size(); ++m)
-    add("absorbed in " + run.header.media[m], "f2", [m](const tally::PointResult& point) {
-      return m < point.absorbed_in_medium.size() ? point.absorbed_in_medium[m] : 0;
+  for (const core::MediumId medium : run.header.media.ids())
+    add("absorbed in " + run.header.media[medium], "f2", [medium](const tally::PointResult& point) {
+      return point.absorbed_in_medium.contains(medium) ? point.absorbed_in_medium[medium] : 0;
     });
-  for (std::size_t s = 0; s < run.header.surfaces.size(); ++s)
-    add("absorbed at " + run.header.surfaces[s], "f3", [s](const tally::PointResult& point) {
-      return s < point.absorbed_at_surface.size() ? point.absorbed_at_surface[s] : 0;
+  for (const core::SurfaceId surface : run.header.surfaces.ids())
+    add("absorbed at " + run.header.surfaces[surface], "f3", [surface](const tally::PointResult& point) {
+      return point.absorbed_at_surface.contains(surface) ? point.absorbed_at_surface[surface] : 0;
     });
   add("escaped", "f4", fate(core::Fate::escaped));
   add("cut: interactions", "f5", fate(core::Fate::cut_interactions));

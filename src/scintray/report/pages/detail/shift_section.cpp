@@ -23,10 +23,9 @@ struct ShiftRow {
 
 std::vector<ShiftRow> shift_rows(const tally::RunHeader& header, const tally::PointResult& point) {
   std::vector<ShiftRow> rows;
-  const auto add = [&](const std::string& word, const std::vector<std::string>& names,
-                       const std::vector<optics::ShiftCount>& counts) {
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      if (counts[i].absorbed > 0) rows.push_back({word + names.at(i), counts[i]});
+  const auto add = [&](const std::string& word, const auto& names, const auto& counts) {
+    for (const auto id : counts.ids())
+      if (counts[id].absorbed > 0) rows.push_back({word + names.at(id), counts[id]});
   };
   add("in ", header.media, point.shifted_in_medium);
   add("at ", header.surfaces, point.shifted_at_surface);

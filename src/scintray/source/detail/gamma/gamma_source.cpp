@@ -31,14 +31,14 @@ GammaEventSource::GammaEventSource(const scene_file::EmitterSpec& spec, std::uin
   else
     origin_.emplace(std::get<core::Vec3>(spec.origin), scene);
   if (emission_ == scene_file::Emission::lutetium) check_lutetium(spec, scene);
-  for (std::uint32_t region = 0; region < scene.regions.size(); ++region)
+  for (const core::RegionId region : scene.regions.ids())
     if (scintillates(scene, region)) return;
   throw core::InputError({spec.origin_where, "no part of the scene scintillates, so gammas make no light",
                           "give a part a medium with [yield], [emission] and [[decay]], as LSO"});
 }
 
 void GammaEventSource::check_lutetium(const scene_file::EmitterSpec& spec, const scene::Scene& scene) const {
-  const auto has_lutetium = [&](std::uint32_t region) {
+  const auto has_lutetium = [&](core::RegionId region) {
     const optics::Composition& made_of = scene.media[scene.regions[region].medium].medium().composition;
     return std::any_of(made_of.begin(), made_of.end(),
                        [](const optics::ElementShare& share) { return share.atomic_number == kLutetium; });
@@ -46,7 +46,7 @@ void GammaEventSource::check_lutetium(const scene_file::EmitterSpec& spec, const
   if (!origin_)
     throw core::InputError({spec.origin_where, "176Lu decays inside a crystal, not on a plane",
                             "write region = { part = \"...\" } with the part that holds lutetium"});
-  for (const std::uint32_t region : origin_->regions())
+  for (const core::RegionId region : origin_->regions())
     if (!has_lutetium(region))
       throw core::InputError(
           {spec.origin_where,

@@ -16,10 +16,9 @@ constexpr int kMostSteps = 1'000'000;
 
 /// The last specification that names the region, or nullptr.
 const scene_file::MatterSpec* matter_named(const std::vector<scene_file::MatterSpec>& matter,
-                                           const scene::Scene& scene, std::uint32_t region) {
-  const std::int32_t part = scene.regions[region].part;
-  const std::string& name =
-      part == scene::kNone ? scene_file::kAmbientName : scene.parts[static_cast<std::size_t>(part)].name;
+                                           const scene::Scene& scene, core::RegionId region) {
+  const core::PartId part = scene.regions[region].part;
+  const std::string& name = part.has_value() ? scene.parts[part].name : scene_file::kAmbientName;
   const scene_file::MatterSpec* found = nullptr;
   for (const scene_file::MatterSpec& one : matter)
     if (core::matches_pattern(one.part.name, name)) found = &one;
@@ -43,10 +42,10 @@ struct GammaTransport::Walk {
 GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,
                                bool fluorescence, const core::FileLocation& where)
     : fluorescence_(fluorescence) {
-  std::map<std::uint32_t, std::shared_ptr<const GammaMatter>> by_medium;
+  std::map<core::MediumId, std::shared_ptr<const GammaMatter>> by_medium;
   std::map<const scene_file::MatterSpec*, std::shared_ptr<const GammaMatter>> by_spec;
-  std::map<std::uint32_t, std::string> unknown;  // medium, and the parts of it
-  for (std::uint32_t region = 0; region < scene.regions.size(); ++region) {
+  std::map<core::MediumId, std::string> unknown;  // medium, and the parts of it
+  for (const core::RegionId region : scene.regions.ids()) {
     matter_.push_back(nullptr);
     if (const scene_file::MatterSpec* named = matter_named(matter, scene, region)) {
       if (named->composition.empty()) continue;
@@ -55,7 +54,7 @@ GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scen
       matter_.back() = known;
       continue;
     }
-    const std::uint32_t id = scene.regions[region].medium;
+    const core::MediumId id = scene.regions[region].medium;
     const optics::Medium& medium = scene.media[id].medium();
     if (medium.empty_space) continue;
     if (medium.composition.empty()) {

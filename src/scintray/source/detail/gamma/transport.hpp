@@ -16,7 +16,7 @@ struct Gamma {
   core::Vec3 direction = core::Vec3::UnitZ();
   double energy_keV = 0.0;
   double time_ns = 0.0;
-  std::uint32_t region = 0;
+  core::RegionId region;
 };
 
 /// Transport of gammas of 10 keV to 3 MeV: photoelectric absorption, with K X-rays, Compton and Rayleigh
@@ -35,7 +35,7 @@ class GammaTransport {
   void follow(const scene::Scene& scene, std::vector<Gamma> gammas, core::Rng& rng, Event& event) const;
 
   /// What a region is made of; nullptr: empty space.
-  const GammaMatter* matter(std::uint32_t region) const { return matter_[region].get(); }
+  const GammaMatter* matter(core::RegionId region) const { return matter_[region].get(); }
 
  private:
   struct Walk;
@@ -44,7 +44,7 @@ class GammaTransport {
   void absorb(Walk& walk, const Gamma& gamma, const ElementData& element) const;
   void make_pair(Walk& walk, const Gamma& gamma) const;
 
-  std::vector<std::shared_ptr<const GammaMatter>> matter_;  ///< by region
+  core::IdVector<core::RegionId, std::shared_ptr<const GammaMatter>> matter_;
   bool fluorescence_ = true;
 };
 

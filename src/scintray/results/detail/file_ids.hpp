@@ -1,0 +1,34 @@
+#pragma once
+/// Ids in a results file.
+
+#include <cstdint>
+#include <limits>
+
+#include "scintray/core/id.hpp"
+
+namespace scintray::results::format {
+
+/// What a file has in place of no id.
+inline constexpr std::uint32_t kNoIdInFile = std::numeric_limits<std::uint32_t>::max();
+
+/// What a value is in a file: an id is its index, other values are themselves.
+template <typename Value>
+const Value& to_file(const Value& value) {
+  return value;
+}
+template <typename Tag>
+std::uint32_t to_file(core::Id<Tag> id) {
+  return id.has_value() ? id.index() : kNoIdInFile;
+}
+
+/// The value that is `stored` in a file.
+template <typename Value>
+void from_file(const Value& stored, Value& value) {
+  value = stored;
+}
+template <typename Tag>
+void from_file(std::uint32_t stored, core::Id<Tag>& id) {
+  id = stored == kNoIdInFile ? core::Id<Tag>::none() : core::Id<Tag>(stored);
+}
+
+}  // namespace scintray::results::format
