@@ -8,7 +8,6 @@
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/materials/database.hpp"
-#include "scintray/source/detail/electron_stopping.hpp"
 #include "scintray/source/detail/gamma/element_data.hpp"
 
 using namespace scintray;

@@ -215,6 +215,11 @@ core::InputError damaged(const std::filesystem::path& path, const std::string& w
                            "copy it again from where it was made, or run again"});
 }
 
+core::InputError lacking(const std::filesystem::path& path, const std::string& what,
+                         const std::string& hint) {
+  return core::InputError({{path.string()}, what, hint});
+}
+
 std::string numbered(std::size_t index) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%04zu", index);

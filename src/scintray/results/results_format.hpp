@@ -35,6 +35,8 @@ bool has_format(const core::h5::Group& root);
 
 /// The error of an inconsistent result.
 core::InputError damaged(const std::filesystem::path& path, const std::string& what);
+/// The error of a result without something that was not requested of its run.
+core::InputError lacking(const std::filesystem::path& path, const std::string& what, const std::string& hint);
 
 /// Writes a dataset with its description and unit.
 inline void put_text(core::h5::Group& group, const std::string& name,

@@ -12,6 +12,8 @@
 
 namespace scintray::simulation {
 
+class MappedResponse;
+
 struct RunSettings {
   std::uint64_t seed = 1;
   std::uint32_t point = 0;                   ///< sweep point: each has its own random streams
@@ -59,5 +61,17 @@ tally::PointResult run_point(const scene::Scene& scene, const source::LightSourc
 source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
                       const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
                       transport::StepVisitor visit);
+
+/// Events of an event source: the same deposits and numbers of photons, to the last bit, as run_point
+/// produces with this seed. The number of them that each channel detects is multinomial with the map's
+/// probabilities at each deposit; times are the sum of the decay time and a delay of the map. With a readout,
+/// photons arrive anywhere on the sensor's face. The result does not depend on the number of threads.
+///
+/// @return a result with events and without photons, since none was traced
+/// @param plan  of the same scene, without tallies
+/// @throws InputError when energy is deposited in a scintillator that the map does not cover
+tally::PointResult run_mapped(const scene::Scene& scene, const source::LightSource& source,
+                              const tally::TallyPlan& plan, const MappedResponse& response,
+                              const RunSettings& settings, const RunHooks& hooks = {});
 
 }  // namespace scintray::simulation

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scintray/simulation/detail/run_mapped.hpp"
 #include "scintray/simulation/simulation_options.hpp"
 
 namespace scintray::simulation {

@@ -7,7 +7,6 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/source/detail/electron_stopping.hpp"
 #include "scintray/source/detail/gamma/element_data.hpp"
 
 namespace scintray::source {

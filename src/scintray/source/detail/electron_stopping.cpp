@@ -1,4 +1,4 @@
-#include "scintray/source/detail/electron_stopping.hpp"
+#include "scintray/source/detail/cherenkov.hpp"
 
 #include <xraylib/xraylib.h>
 

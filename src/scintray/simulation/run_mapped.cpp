@@ -1,10 +1,10 @@
-#include "scintray/simulation/detail/run_mapped.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <limits>
 
 #include "scintray/core/count_sampling.hpp"
+#include "scintray/simulation/mapped_response.hpp"
+#include "scintray/simulation/run_point.hpp"
 #include "scintray/tally/event_tally.hpp"
 #include "scintray/transport/in_order.hpp"
 
