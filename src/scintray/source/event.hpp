@@ -15,7 +15,7 @@ namespace scintray::source {
 /// Energy left at one place.
 struct Deposit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
-  core::RegionId region;                     ///< in which it lies
+  core::RegionId region = {};                ///< in which it lies
   double energy_keV = 0.0;
   double time_ns = 0.0;  ///< since the event began
 };

@@ -24,7 +24,7 @@ struct Photon {
   double path_mm = 0.0;
   double optical_depth = 0.0;      ///< left until absorption or scattering in the bulk
   optics::MediumOptics optics;     ///< of the region's medium at this wavelength
-  core::RegionId region;           ///< in which it is
+  core::RegionId region = {};      ///< in which it is
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
 };
