@@ -56,8 +56,9 @@ MeshFileSpec read_mesh(const config::TomlTable& table) {
     }
   } else if (!table.has("unit")) {
     // Of a format from outside, its reader finds whether the file states a unit.
-    const mesh::MeshFormat* format = mesh::MeshFormats::built_in().find(mesh::lower_extension(mesh.path));
-    table.expect("mesh", !format || format->states_unit,
+    const std::string extension = mesh::lower_extension(mesh.path);
+    const mesh::MeshFormat* format = mesh::MeshFormats::built_in().find(extension);
+    table.expect("mesh", format ? format->states_unit : !extension.empty(),
                  "the mesh file \"" + mesh.path.string() + "\" does not say in which unit its numbers are",
                  "add the unit it was exported in, as unit = \"mm\"");
   }
