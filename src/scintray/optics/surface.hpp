@@ -21,9 +21,8 @@ struct SurfaceStack {
   /// Gap or glue in front of the reflector or, with a thickness and no reflector, between the microsurface
   /// and the smooth boundary of the next medium.
   std::string gap;  ///< medium of the gap, or its index as written; empty: none
-  core::Curve gap_index = core::Curve::constant(1.0);  ///< against wavelength (nm)
-  core::Curve gap_absorption_per_mm =
-      core::Curve::constant(0.0);  ///< without re-emission, beside the shifter
+  core::Curve gap_index = core::Curve::constant(1.0);              ///< against wavelength (nm)
+  core::Curve gap_absorption_per_mm = core::Curve::constant(0.0);  ///< without re-emission
   /// A coating: re-emits absorbed light isotropically, from the point of absorption. Only in a gap with a
   /// thickness.
   std::shared_ptr<const WavelengthShifter> gap_shifter;
