@@ -1,5 +1,5 @@
 #pragma once
-/// How the carriers in a sensor fire avalanches: the sensor models.
+/// Sensor models: how the carriers in a sensor trigger avalanches.
 
 #include <cstdint>
 #include <memory>
@@ -12,38 +12,41 @@
 
 namespace scintray::detector {
 
-/// What may fire an avalanche: a converted photon, a dark count, or what another avalanche released.
+/// A carrier that may trigger an avalanche: of a converted photon, of a dark count, or released by another
+/// avalanche.
 struct Carrier {
   double time_ns;
   std::uint32_t cell;  ///< AvalancheProcess::cell
   AvalancheCause cause;
 };
 
-/// Takes one avalanche: its time (ns), its charge as a share of a full one, and its cause. The spreads of
-/// both are not in it: they come after, the same for all models.
+/// Receives one avalanche: its time (ns), its charge as a share of a full one, and its cause. The spreads of
+/// time and charge are not included: they are applied afterwards, in the same way for all models.
 using AvalancheSink = core::FunctionRef<void(double time_ns, double charge, AvalancheCause cause)>;
 
-/// The carriers of one sensor with one face. Immutable, so one serves all threads and events.
+/// The avalanche process in one sensor with one face. Immutable: one serves all threads and events.
 class AvalancheProcess {
  public:
   virtual ~AvalancheProcess() = default;
 
-  /// Time (ns) after which a carrier has no effect on others: so long before an event dark counts begin.
+  /// Time (ns) after which a carrier has no effect on others: dark counts are generated from this long before
+  /// an event.
   virtual double memory_ns() const { return 0.0; }
-  /// The cell that a carrier is in, numbered as the model likes. Where the place of the arrival is not known
-  /// it is drawn.
+  /// Number of the cell that holds a carrier, in the numbering of the model. Without a position of the
+  /// arrival the cell is drawn.
   virtual std::uint32_t cell(const Arrival&, core::Rng&) const { return 0; }
-  /// Lets carriers fire, and what they release, up to a time.
+  /// Avalanches of the carriers, and of the carriers that these release, up to a time (ns).
   /// @param carriers  of one event, photons before dark counts, each in any order; may be reordered
   virtual void fire(std::vector<Carrier>& carriers, double end_ns, core::Rng& rng,
                     const AvalancheSink& deliver) const = 0;
 };
 
-/// A sensor model with its numbers.
+/// A sensor model with its parameters.
 class AvalancheModel {
  public:
   virtual ~AvalancheModel() = default;
-  /// The same on a face. Throws InputError (without a place) when the face does not suit it.
+  /// The avalanche process of this model on a face. Throws InputError (without a place) when the model cannot
+  /// be applied to the face.
   virtual std::unique_ptr<const AvalancheProcess> on(const SensorFace& face) const = 0;
 
  protected:
@@ -54,7 +57,7 @@ class AvalancheModel {
   AvalancheModel& operator=(AvalancheModel&&) = default;
 };
 
-/// Photomultipliers: every carrier gives one full avalanche, whatever the others do.
+/// Photomultipliers: every carrier triggers one full avalanche, independently of the others.
 class ProportionalModel : public AvalancheModel {
  public:
   std::unique_ptr<const AvalancheProcess> on(const SensorFace& face) const override;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostDarkCounts = 1e6;
 
-/// Fills what the avalanches themselves give.
+/// Sets the numbers of avalanches and the photon times of a signal.
 void count(std::span<const Avalanche> avalanches, const ReadoutSpec& readout, ChannelSignal& signal) {
   signal.order_times_ns.resize(readout.photon_order.size());
   std::uint64_t photons = 0;

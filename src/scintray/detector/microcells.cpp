@@ -30,8 +30,7 @@ class FiringCells {
     fired_ns_.reserve(expected);
   }
 
-  /// Lets a carrier fire its cell, and whatever that fires at once. Carriers that are released
-  /// later are left to be taken.
+  /// Fires the cell of a carrier and the cells that this fires at once. Carriers released later are queued.
   void fire(const Carrier& first, core::Rng& rng, const AvalancheSink& deliver) {
     at_once_.assign(1, first);
     while (!at_once_.empty()) {
@@ -65,8 +64,8 @@ class FiringCells {
     return charge;
   }
 
-  /// Each neighbour catches a photon of the avalanche, independently: the gaps between those that do are
-  /// geometric, and drawn as exponentials.
+  /// Crosstalk: each neighbour absorbs a photon of the avalanche independently; the gaps between those that
+  /// do are geometric, and drawn as exponentials.
   void spread(const Carrier& carrier, double charge, core::Rng& rng) {
     if (neighbour_rate_ <= 0.0) return;
     std::array<std::uint32_t, 8> buffer{};

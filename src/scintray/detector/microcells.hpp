@@ -12,20 +12,20 @@ namespace scintray::detector {
 /// The cells of a silicon photomultiplier. Exactly one of pitch and count is not 0.
 struct Microcells {
   double pitch_mm = 0.0;
-  std::uint32_t count = 0;   ///< over the whole sensor
+  std::uint32_t count = 0;   ///< of the whole sensor
   double recovery_ns = 0.0;  ///< time constant of the recharge, above 0
   double crosstalk = 0.0;    ///< probability that a full avalanche fires at least one neighbour at once
   double afterpulse = 0.0;   ///< probability that a full avalanche fires its own cell once more later
   double afterpulse_time_ns = 0.0;  ///< time constant of that delay
 };
 
-/// Silicon photomultipliers: every carrier fires its cell. The charge is 1 - exp(-dt / recovery), dt since
-/// the cell fired last. Each neighbour of eight fires at once with the probability q that makes 1 - (1 - q)^8
-/// the crosstalk (L. Gallego et al. 2013, JINST 8, P05013), neighbours of neighbours too; cells at the edge
-/// have fewer. The cell fires once more after an exponential delay with the probability of afterpulses. In a
-/// cell that is not recovered both are reduced as its charge is: 1 - q to the power of the charge, and the
-/// probability of afterpulses times it. An event begins with rested cells, except for dark counts of the time
-/// before.
+/// Silicon photomultipliers: every carrier fires its cell. The charge is 1 - exp(-dt / recovery), with dt the
+/// time since the cell last fired. Each of the eight neighbours fires at once with the probability q for
+/// which 1 - (1 - q)^8 is the crosstalk (L. Gallego et al. 2013, JINST 8, P05013), and so do their neighbours
+/// in turn; cells at the edge have fewer. The cell fires once more after an exponential delay with the
+/// afterpulse probability. In a cell that has not recovered both are reduced with its charge: 1 - q is raised
+/// to the power of the charge, and the afterpulse probability is multiplied by it. An event begins with
+/// recovered cells, except for dark counts of the time before.
 class MicrocellModel : public AvalancheModel {
  public:
   explicit MicrocellModel(const Microcells& its_cells) : cells(its_cells) {}
@@ -36,15 +36,16 @@ class MicrocellModel : public AvalancheModel {
   std::unique_ptr<const AvalancheProcess> on(const SensorFace& face) const override;
 };
 
-/// Square cells in rows from the corner of least x and y; the last row may be short when the number of
-/// cells is given.
+/// Grid of square cells in rows from the corner of least x and y; the last row may be incomplete when the
+/// number of cells is specified.
 class MicrocellGrid {
  public:
   /// Throws InputError when the face has no area or holds no cell or more than 10^8.
   MicrocellGrid(const Microcells& cells, const SensorFace& face);
 
   std::uint32_t count() const { return count_; }
-  /// The cell at a place; beyond the edges the nearest one. Any cell when the place is not known.
+  /// Number of the cell at the position of an arrival; beyond the edges the nearest one, without a position
+  /// any cell.
   std::uint32_t at(const Arrival& arrival, core::Rng& rng) const;
   std::uint32_t any(core::Rng& rng) const;
   /// The up to eight cells around one, written to `buffer`.

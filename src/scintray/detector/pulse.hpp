@@ -1,6 +1,6 @@
 #pragma once
-/// The pulse of one avalanche behind the shaper, waveforms as sums of such pulses, and what is measured on
-/// them.
+/// The pulse of one avalanche after the shaper, waveforms as sums of such pulses, and their measured
+/// quantities.
 
 #include <array>
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace scintray::detector {
 
-/// A row of low-pass stages 1 / (1 + s tau), which is what the usual pulses are: with two different time
-/// constants (exp(-t/a) - exp(-t/b)) / (a - b), with n + 1 equal ones the CR-RC^n response to a charge,
-/// t^n exp(-t/tau) / (n! tau^(n+1)) (G. F. Knoll, Radiation Detection and Measurement, 4th ed., chapter
-/// 17), and any convolution of these. Scaled so that the peak of a charge of 1 is 1.
+/// Pulse shape of a chain of low-pass stages 1 / (1 + s tau), which comprises the usual pulses: with two
+/// different time constants (exp(-t/a) - exp(-t/b)) / (a - b), with n + 1 equal ones the CR-RC^n response to
+/// a charge, t^n exp(-t/tau) / (n! tau^(n+1)) (G. F. Knoll, Radiation Detection and Measurement, 4th ed.,
+/// chapter 17), and any convolution of these. Scaled so that the peak of a charge of 1 is 1.
 ///
 /// The outputs of all stages are carried from sample to sample, so that a waveform costs one small matrix
 /// product a sample and one short series an avalanche. The series (uniformisation: A. Jensen 1953, Skand.
@@ -26,20 +26,21 @@ class PulseShape {
  public:
   static constexpr std::size_t kMostStages = 16;
 
-  /// @param time_constants_ns  of the stages, up to kMostStages; those below 1e-4 of a period act as 0
-  /// @param period_ns  of the samples
-  /// Throws InputError when nothing is left that has a duration, or when that is more than 10^6 periods.
+  /// @param time_constants_ns  of at most kMostStages stages; those below 1e-4 of a period are taken as 0
+  /// @param period_ns  sampling period
+  /// Throws InputError when no stage of non-zero duration is left, or when the pulse is longer than 10^6
+  /// periods.
   PulseShape(const std::vector<double>& time_constants_ns, double period_ns);
 
-  /// The pulse at a time after its avalanche, photoelectrons; 0 before.
+  /// Amplitude of the pulse at a time after its avalanche, photoelectrons; 0 before.
   double value(double time_ns) const;
   /// Integral of the pulse, photoelectrons times ns.
   double area_ns() const { return scale_; }
   /// Time after which less than 1e-4 of the pulse's area is left.
   double duration_ns() const { return duration_ns_; }
 
-  /// Waveform of avalanches, photoelectrons at start_ns, start_ns + period...
-  /// @param avalanches  sorted by time; those before the start leave their tails
+  /// Waveform of avalanches (photoelectrons), sampled at start_ns, start_ns + period...
+  /// @param avalanches  sorted by time; of those before the start the tails contribute
   std::vector<double> waveform(std::span<const Avalanche> avalanches, double start_ns,
                                std::size_t samples) const;
 
@@ -56,12 +57,13 @@ class PulseShape {
   std::vector<double> rate_per_ns_;  ///< of each stage
   double fastest_per_ns_ = 0.0;
   double period_ns_, scale_ = 1.0, duration_ns_ = 0.0;
-  std::vector<State> grid_;      ///< an avalanche's state at even parts of a period
+  std::vector<State> grid_;      ///< an avalanche's state at equal fractions of a period
   std::vector<State> per_step_;  ///< state one period after stage i alone was 1
 };
 
-/// Adds white noise to each sample and rounds to the codes of the converter, as far as the readout has them.
-/// Beyond the range of codes samples stay at its ends.
+/// Digitised waveform (photoelectrons): white noise is added to each sample, and samples are rounded to the
+/// codes of the converter, where the readout defines these. Samples beyond the range of codes saturate at its
+/// ends.
 /// @param waveform  photoelectrons
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng);
 
@@ -71,13 +73,13 @@ struct PulseMeasurement {
   std::optional<double> time_ns;  ///< nothing when no sample rises through the threshold in the window
 };
 
-/// Measures a waveform whose first sample is at -before_ns.
+/// Charge, amplitude and time of the pulse in a waveform whose first sample is at -before_ns.
 ///
-/// Times are linear between samples. leading_edge: the first rise through the threshold. peak_fraction: the
-/// last rise through the fraction of the largest sample before that sample. cfd: where
+/// Times are interpolated linearly between samples. leading_edge: the first rise through the threshold.
+/// peak_fraction: the last rise through the fraction of the largest sample before that sample. cfd: where
 /// v(t - delay) - fraction v(t) goes from negative to positive, at the threshold's first rise or next to it
-/// (D. A. Gedcke and W. J. McDonald 1968, Nucl. Instrum. Methods 58, 253); its constant offset from the
-/// start of the pulse stays in.
+/// (D. A. Gedcke and W. J. McDonald 1968, Nucl. Instrum. Methods 58, 253); its constant offset from the start
+/// of the pulse is not subtracted.
 ///
 /// @param pulse_area_ns  PulseShape::area_ns()
 PulseMeasurement measure(std::span<const float> waveform, const ReadoutSpec& readout, double pulse_area_ns);

@@ -1,5 +1,5 @@
 #pragma once
-/// The electronics behind every sensor, as a scene file requests them (docs/readout.md).
+/// The readout electronics of every sensor, as a scene file specifies them (docs/readout.md).
 
 #include <array>
 #include <cmath>
@@ -20,19 +20,19 @@ enum class TimePickoff {
 /// Most samples of a waveform that a scene may request.
 inline constexpr std::uint64_t kMostSamples = 1'000'000;
 
-/// Times count from the start of the event. Amplitudes are in photoelectrons: one full avalanche alone has
-/// a peak of 1.
+/// Settings of the readout electronics. Times count from the start of the event. Amplitudes are in
+/// photoelectrons: a single full avalanche has a peak of 1.
 struct ReadoutSpec {
   double period_ns = 1.0;                          ///< between samples
-  double before_ns = 0.0;                          ///< the first sample is so long before the event
+  double before_ns = 0.0;                          ///< from the first sample to the start of the event
   double window_ns = 0.0;                          ///< length of the waveform
-  std::optional<std::array<double, 2>> gate_ns{};  ///< charge is summed over it; nothing: the window
+  std::optional<std::array<double, 2>> gate_ns{};  ///< interval of the charge integral; nothing: the window
   std::vector<double> shaping_ns{};                ///< time constants of the low-pass stages of the shaper
   double noise = 0.0;                              ///< standard deviation of each sample, photoelectrons
   int adc_bits = 0;                                ///< 0: samples are not rounded
   std::array<double, 2> adc_range{0.0, 0.0};       ///< first and last code, photoelectrons
   TimePickoff time_pickoff = TimePickoff::leading_edge;
-  double threshold = 0.5;                     ///< photoelectrons; what stays below has no time
+  double threshold = 0.5;                     ///< photoelectrons; a pulse below it has no time
   double fraction = 0.0;                      ///< of peak_fraction and cfd
   double delay_ns = 0.0;                      ///< of cfd
   bool pulses = false;                        ///< keep waveforms

@@ -25,7 +25,8 @@ double Sensor::angle_factor(double transverse_index) const {
       std::min(std::asin(std::min(1.0, transverse_index / index)), angle->factor.x().back());
   const double published = angle->factor(angle_rad);
   if (angle->definition == EfficiencyDefinition::internal) return published;
-  // What enters at this angle relative to normal incidence is inside the published number.
+  // The transmission into the window at this angle, relative to normal incidence, is included in the
+  // published number.
   const auto entering = [this](double cosine) {
     return 1.0 - optics::fresnel(cosine, angle->reference_index, window_index).unpolarised();
   };

@@ -1,5 +1,5 @@
 #pragma once
-/// Photosensors: what happens to a photon that reaches one.
+/// Photosensors: the conversion of photons that reach one, and its dark counts.
 
 #include <optional>
 #include <string>
@@ -13,8 +13,8 @@ namespace scintray::detector {
 /// How a sensor's efficiency was measured.
 enum class EfficiencyDefinition {
   internal,  ///< per photon that has entered the sensor's window or silicon
-  external,  ///< per photon that arrives from a reference index: the Fresnel loss at the entrance is
-             ///< inside the number and is divided out, since the tracer makes it
+  external,  ///< per photon that arrives from a reference index: the Fresnel loss at the entrance is included
+             ///< in the number and is divided out, since the tracer applies it
 };
 
 /// Where the angle of a published dependence on angle was measured.
@@ -23,35 +23,36 @@ enum class AngleMedium {
   outside,  ///< of the ray in the reference index, before the window
 };
 
-/// Efficiency against angle, relative to normal incidence.
+/// Dependence of the efficiency on angle, relative to normal incidence.
 struct AngularEfficiency {
-  core::Curve factor;  ///< against the angle to the normal (rad), 1 at 0; from its end on its last value
+  core::Curve factor;  ///< against the angle to the normal (rad), 1 at 0; constant beyond its last angle
   AngleMedium measured_in = AngleMedium::window;
   EfficiencyDefinition definition = EfficiencyDefinition::internal;
-  double reference_index = 1.0;  ///< index that light came from; not used when internal and in the window
+  double reference_index = 1.0;  ///< of the medium of incidence; not used when internal and in the window
 };
 
-/// What one photoelectron of a photomultiplier, or one avalanche of a silicon photomultiplier, gives.
+/// Charge and current of one photoelectron of a photomultiplier, or of one avalanche of a silicon
+/// photomultiplier.
 struct SingleElectron {
   double charge_spread = 0.0;  ///< standard deviation of the charge over its mean
-  /// Current (exp(-t/decay) - exp(-t/rise)) / (decay - rise); 0: that side is instantaneous.
+  /// Current (exp(-t/decay) - exp(-t/rise)) / (decay - rise); 0: that edge is instantaneous.
   double rise_ns = 0.0, decay_ns = 0.0;
 };
 
-/// Avalanches without light: independent of each other, at a constant rate.
+/// Dark count rate: avalanches without light, independent of each other, at a constant rate.
 struct DarkCounts {
   double per_ns = 0.0;      ///< of the whole sensor
-  double per_ns_mm2 = 0.0;  ///< of its area; added to the other
+  double per_ns_mm2 = 0.0;  ///< per unit area; added to per_ns
 };
 
-/// A sensor of the database (`materials/sensors/NAME.toml`).
+/// A sensor of the material database (`materials/sensors/NAME.toml`).
 struct Sensor {
   std::string name;
   core::Curve efficiency;  ///< conversion probability against wavelength (nm), as published
   EfficiencyDefinition definition = EfficiencyDefinition::internal;
-  double reference_index = 1.0;            ///< index light came from when an external efficiency was measured
-  double window_index = 1.5;               ///< index of the entrance window, for the conversions here
-  std::optional<AngularEfficiency> angle;  ///< nothing: the same at every angle, once light is inside
+  double reference_index = 1.0;  ///< of the medium in which an external efficiency was measured
+  double window_index = 1.5;     ///< index of the entrance window, for the conversions between definitions
+  std::optional<AngularEfficiency> angle;  ///< nothing: the same at every angle for light inside
   double time_spread_ns = 0.0;  ///< standard deviation of the transit time (photomultiplier), or of the
                                 ///< single photon time resolution (silicon photomultiplier)
   SingleElectron single_electron;
@@ -62,13 +63,13 @@ struct Sensor {
   /// Probability that a photon that has entered the sensor at normal incidence is converted, at a
   /// wavelength (nm).
   double conversion_probability(double wavelength_nm) const;
-  /// The same at any angle.
+  /// Probability that a photon that has entered the sensor at any angle is converted.
   /// @param transverse_index  refractive index times sine of the angle to the normal, which is the same
   ///                          on both sides of every face of the window
   double conversion_probability(double wavelength_nm, double transverse_index) const;
-  /// Share of the conversion probability at normal incidence that is left at an angle, per photon inside
-  /// the window. Needs `angle`. Beyond the last tabulated angle, and where no light from the reference
-  /// index could be, its last value.
+  /// Conversion probability at an angle, relative to normal incidence, per photon inside the window. Requires
+  /// `angle`. Constant beyond the last tabulated angle and beyond the range of refraction from the reference
+  /// index.
   double angle_factor(double transverse_index) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a sensor makes of converted photons: avalanches, each with its charge, time and cause.
+/// Response of a sensor to converted photons: avalanches, each with its charge, time and cause.
 
 #include <memory>
 #include <span>
@@ -11,22 +11,22 @@
 
 namespace scintray::detector {
 
-/// Carriers fire avalanches as the sensor's model has it. Each then has a charge of the model's mean and of
-/// relative spread SingleElectron::charge_spread, gamma distributed (the Polya limit: J. R. Prescott 1966,
-/// Nucl. Instrum. Methods 39, 173), after a normal transit time.
+/// Response of one sensor: its model generates avalanches from carriers. The charge of each has the model's
+/// mean and the relative spread SingleElectron::charge_spread, gamma distributed (the Polya limit: J. R.
+/// Prescott 1966, Nucl. Instrum. Methods 39, 173); its transit time is normally distributed.
 ///
-/// Immutable: no event leaves anything behind for the next one.
+/// Immutable; events are independent.
 class SensorResponse {
  public:
-  /// Throws InputError (without a place) when the face does not suit the sensor's model.
+  /// Throws InputError (without a place) when the sensor's model cannot be applied to the face.
   SensorResponse(const Sensor& sensor, const SensorFace& face);
 
-  /// Avalanches sorted by time. Work grows as n log n with their number.
+  /// Avalanches sorted by time, in n log n operations for n of them.
   /// @param arrivals  any order, any time
-  /// @param start_ns, end_ns  dark counts are right between these; what happens later is left out
+  /// @param start_ns, end_ns  interval in which dark counts are complete; later avalanches are omitted
   std::vector<Avalanche> avalanches(std::span<const Arrival> arrivals, double start_ns, double end_ns,
                                     core::Rng& rng) const;
-  /// Mean number of dark counts that are made for such an event, those before its start among them.
+  /// Mean number of dark counts generated for such an event, those before its start included.
   double dark_counts(double start_ns, double end_ns) const;
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 struct KindWords {
   const char* one;     ///< in messages
-  const char* folder;  ///< below a library folder, and the table of a scene file
+  const char* folder;  ///< below a folder of the database, and the table of a scene file
 };
 
 constexpr std::array<KindWords, 4> kKinds{
@@ -40,7 +40,7 @@ struct MaterialDatabase::Known {
   std::map<std::string, detector::Sensor> sensors;
   std::map<std::string, optics::Reflector> reflectors;
 
-  /// What is known under a name, or what is read now.
+  /// The cached definition of a name, read on first use.
   template <typename Definition, typename Read>
   const Definition& once(std::map<std::string, Definition> Known::*kind, const std::string& name,
                          const Read& read) {

@@ -17,7 +17,7 @@
 
 namespace scintray::materials {
 
-/// The models that definitions may name. Code adds its own to these:
+/// The models that definitions may name. Further models are added in code:
 ///
 ///     DefinitionModels models;
 ///     models.surfaces.add({.word = "mine", .table = "mine", .read = read_mine});
@@ -29,38 +29,38 @@ struct DefinitionModels {
 
 enum class DefinitionKind { medium, surface, sensor, reflector };
 
-/// What a surface's definition states before it is made into a surface.
+/// Outline of a surface's definition, before it is read as a surface.
 struct SurfaceOutline {
-  std::string model;                 ///< a word of SurfaceModels, or "mixture"; empty when none is given
-  std::vector<std::string> bases;    ///< what it is based on, nearest first
-  std::vector<std::string> needs;    ///< dotted keys that it leaves to the user
+  std::string model;                 ///< a word of SurfaceModels, or "mixture"; empty without one
+  std::vector<std::string> bases;    ///< definitions on which it is based, nearest first
+  std::vector<std::string> needs;    ///< dotted keys that the user must supply
   std::vector<std::string> sources;  ///< published sources, each once, its own first, then its bases'
 };
 
-/// Finds definitions by name: first among a scene's own, then in each folder in turn, where the file is
-/// FOLDER/media/NAME.toml, FOLDER/surfaces/NAME.toml, FOLDER/sensors/NAME.toml or
-/// FOLDER/reflectors/NAME.toml. Files are read when first needed, once, and must name their sources.
+/// The material database: finds definitions by name, first among a scene's own, then in each folder in turn,
+/// where the file is FOLDER/media/NAME.toml, FOLDER/surfaces/NAME.toml, FOLDER/sensors/NAME.toml or
+/// FOLDER/reflectors/NAME.toml. Files are read on first use, once, and must cite their sources.
 ///
-/// Each definition is read once and kept. Copies share what was read of the files, so that scenes with
+/// Each definition is read once and kept. Copies share the definitions read from files, so that scenes with
 /// definitions of their own do not read them again; surfaces and sensors, which may be based on a scene's
 /// own, are read once for each set of own definitions. Copies may be used by several threads at a time.
 ///
-/// The getters throw InputError: at `where` when there is nothing of that name, with the nearest
-/// name and the places searched; at the places in the definition when that is wrong. What they return lives
-/// until add(), or as long as a copy without it.
+/// The getters throw InputError: at `where` for an unknown name, with the nearest name and the places
+/// searched; at the places of errors in a definition. Returned references are valid until add(), or as long
+/// as a copy without it.
 class MaterialDatabase {
  public:
   /// Throws InputError when a folder does not exist.
   explicit MaterialDatabase(const std::vector<std::filesystem::path>& folders, DefinitionModels models = {});
-  /// The database that comes with ScintRay: data_folder()/materials.
+  /// The material database shipped with ScintRay: data_folder()/materials.
   static MaterialDatabase shipped(DefinitionModels models = {});
 
-  /// Adds definitions of a scene ([media.NAME], ...), which need not name sources and win over files.
+  /// Adds definitions of a scene ([media.NAME], ...), which need no sources and take precedence over files.
   void add(DefinitionKind kind, const std::map<std::string, config::TomlNodePtr>& definitions);
 
   const optics::Medium& medium(const std::string& name, const core::FileLocation& where = {}) const;
   const SurfaceSpec& surface(const std::string& name, const core::FileLocation& where = {}) const;
-  /// The same of a surface that may leave something to the user, and so be none yet.
+  /// Outline of a surface that may be incomplete without keys supplied by the user.
   SurfaceOutline outline(const std::string& surface, const core::FileLocation& where = {}) const;
   const detector::Sensor& sensor(const std::string& name, const core::FileLocation& where = {}) const;
   const optics::Reflector& reflector(const std::string& name, const core::FileLocation& where = {}) const;
@@ -68,7 +68,7 @@ class MaterialDatabase {
   /// Every name of a kind, sorted.
   std::vector<std::string> names(DefinitionKind kind) const;
 
-  /// How often something was read, by this database and those that share its files.
+  /// Numbers of readings by this database and those that share its files.
   struct Readings {
     std::size_t files = 0;        ///< of the folders
     std::size_t definitions = 0;  ///< media, surfaces, sensors and reflectors, of files and scenes
@@ -92,18 +92,18 @@ class MaterialDatabase {
     bool from_file = false;
   };
   Definition find(DefinitionKind kind, const std::string& name, const core::FileLocation& where) const;
-  /// A definition and what it is based on, by their `base`: itself first. Throws InputError when a base is
-  /// missing, is no name, or comes twice.
+  /// A definition and those on which it is based, by their `base`, itself first. Throws InputError when a
+  /// base is missing, is not a name, or occurs twice.
   struct Ancestor {
     std::string name;
     Definition definition;
   };
   std::vector<Ancestor> lineage(DefinitionKind kind, const std::string& name,
                                 const core::FileLocation& where) const;
-  /// A sensor's definition with the keys that it does not have from those that it is based on, but for those
-  /// of another sensor model.
+  /// A sensor's definition, with missing keys taken from those on which it is based, apart from keys of
+  /// another sensor model.
   config::TomlNode merged_sensor(const std::vector<Ancestor>& ancestors) const;
-  /// A surface's definition laid over those that it is based on.
+  /// A surface's definition merged over those on which it is based.
   struct Chain {
     config::TomlNode merged;
     std::vector<std::string> names;  ///< the requested one first

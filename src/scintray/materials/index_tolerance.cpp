@@ -9,8 +9,7 @@ namespace {
 
 double ratio(const optics::IndexPair& index) { return index.inside / index.outside; }
 
-/// The ratio of indices that a table stands for at a wavelength. Of a stack that lets nothing through, only
-/// the inside index matters.
+/// The ratio of indices of a table at a wavelength. For an opaque stack only the inside index is used.
 double tabulated_ratio(const optics::SurfaceTable& table, double nm) {
   const auto of_slice = [&](std::size_t spectral) {
     const optics::IndexPair& index = table.index_pair(spectral * table.azimuths());

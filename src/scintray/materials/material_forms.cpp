@@ -22,8 +22,8 @@ void expect_wavelengths(const config::TomlTable& block, const std::string& key, 
                "give wavelengths in nm, or photon energies in eV");
 }
 
-/// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2
-/// and returns a value that is not finite where the formula has none.
+/// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2 and
+/// returns a non-finite value where the formula is not defined.
 template <class Formula>
 core::Curve tabulate(const config::TomlTable& formula, const Formula& index_at) {
   const std::vector<double> range = formula.quantities("range", core::Dimension::wavelength, 2);
@@ -83,7 +83,7 @@ core::Curve read_index_table(const config::TomlTable& block) {
   return block.curve("n", core::Dimension::dimensionless);
 }
 
-/// The forms of [index]; a formula has a table of its own.
+/// The forms of [index]; each formula has a table of its own.
 constexpr core::Word<CurveReader> kIndexForms[] = {
     {"n", read_index_table},
     {"sellmeier", [](const config::TomlTable& block) { return read_sellmeier(block.table("sellmeier")); }},

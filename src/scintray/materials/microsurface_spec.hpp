@@ -1,5 +1,5 @@
 #pragma once
-/// A microsurface as its definition states it: nothing traced or built yet.
+/// Specification of a microsurface, before anything is traced or built.
 
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace scintray::materials {
 
-/// What a surface lies between, and the wavelengths in use.
+/// Media on the two sides of a surface, its stack, and the wavelengths in use (nm).
 struct SurfaceSetting {
   const optics::SurfaceStack& stack;
   const optics::Medium &inside, &outside;
@@ -20,20 +20,21 @@ struct SurfaceSetting {
   optics::IndexPair indices(double wavelength_nm) const;
 };
 
-/// What a surface model's reader returns, and makes microsurfaces of. Immutable.
+/// Definition of a microsurface, returned by a surface model's reader. Immutable.
 class MicrosurfaceDefinition {
  public:
   virtual ~MicrosurfaceDefinition() = default;
 
   /// The microsurface between two media.
-  /// @param reliefs  makes height fields and their tables once, and keeps them
-  /// @throws InputError for what the definition's files hold
+  /// @param reliefs  store of height fields and their tables, each made once
+  /// @throws InputError for the content of the definition's files
   virtual optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const = 0;
 
-  /// As that of the microsurface that it makes.
+  /// Kind of the microsurface of make().
   virtual optics::MicrosurfaceKind kind() const { return optics::MicrosurfaceKind::rough; }
 
-  /// The same with rays followed on its height map; nothing when they are anyway, or it has none.
+  /// The definition with rays traced on its height map; nothing when they are already, or without a height
+  /// map.
   virtual std::optional<core::Shared<MicrosurfaceDefinition>> traced_on_the_spot() const {
     return std::nullopt;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The definitions of the models that need files, or the media on their two sides, to become microsurfaces.
+/// Definitions of microsurfaces that depend on files, or on the media on their two sides.
 
 #include <filesystem>
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace scintray::materials {
 
-/// A table file of ours (HDF5), valid for one pair of indices.
+/// A table file of ScintRay (HDF5), valid for its pairs of indices.
 class TableFileSpec : public MicrosurfaceDefinition {
  public:
   TableFileSpec(std::filesystem::path its_path, core::FileLocation its_place)
@@ -25,16 +25,16 @@ class TableFileSpec : public MicrosurfaceDefinition {
   optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const override;
 };
 
-/// How a table is made of a height map: at one wavelength, the scene's own, or at several.
+/// Settings of a table traced on a height map: at one wavelength, that of the scene, or at several.
 struct TracingSpec {
   topography::TableSettings settings;
-  std::vector<double> wavelengths_nm;  ///< in order; empty: the wavelength that most light has
+  std::vector<double> wavelengths_nm;  ///< in order; empty: the wavelength of most light
 };
 
-/// A microsurface whose heights are known.
+/// A microsurface with a height map.
 class ReliefSpec : public MicrosurfaceDefinition {
  public:
-  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the map itself, on the spot
+  std::optional<TracingSpec> table;  ///< nothing: rays are traced on the height map, on the spot
   core::FileLocation where;
 
   optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const override;

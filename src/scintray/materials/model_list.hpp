@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of models that definitions name by a word.
+/// Registries of models that definitions name by a word.
 
 #include <algorithm>
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace scintray::materials {
 
-/// Models told apart by their words. Constant once filled: many threads may then read definitions with it.
-/// @tparam Model  has `word`, `table` and `read`
+/// A list of models, each identified by its word. Constant once filled: many threads may then read
+/// definitions with it.
+/// @tparam Model type with `word`, `table` and `read`
 template <typename Model>
 class ModelList {
  public:
-  /// Adds a model. Throws InternalError when its word is empty, or its word or table is taken, or it has no
-  /// reader.
+  /// Adds a model. Throws InternalError when its word is empty, when its word or table is in use, and when it
+  /// has no reader.
   void add(Model model) {
     if (model.word.empty()) throw core::InternalError("a model without a word");
     if (!model.read) throw core::InternalError("a model without a reader: " + model.word);
@@ -33,9 +34,9 @@ class ModelList {
         std::find_if(models_.begin(), models_.end(), [&](const Model& known) { return known.word == word; });
     return model == models_.end() ? nullptr : &*model;
   }
-  /// All of them, built-in ones first.
+  /// All models, built-in ones first.
   const std::vector<Model>& all() const { return models_; }
-  /// Their words.
+  /// Words of all models.
   std::vector<std::string> words() const {
     std::vector<std::string> list;
     for (const Model& model : models_) list.push_back(model.word);

@@ -11,7 +11,7 @@ namespace scintray::materials {
 
 namespace {
 
-/// um^4 per unit of the densities.
+/// Factor from the unit of the densities to um^4.
 double density_factor(const std::string& unit, const core::FileLocation& where) {
   std::string length = unit.ends_with("^4")  ? unit.substr(0, unit.size() - 2)
                        : unit.ends_with("4") ? unit.substr(0, unit.size() - 1)

@@ -26,13 +26,13 @@ std::string describe(const std::vector<topography::SpectralPoint>& spectrum) {
   return text;
 }
 
-/// A table read back from the cache, or nothing when there is none that can be read.
+/// A table from the cache; null when there is none that can be read.
 std::shared_ptr<const optics::SurfaceTable> read_cached(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return nullptr;
   try {
     return std::make_shared<optics::SurfaceTable>(optics::read_table(path));
   } catch (const core::Error&) {
-    return nullptr;  // of an older version or damaged: built anew and written over
+    return nullptr;  // of an older version or damaged: built again and overwritten
   }
 }
 

@@ -16,36 +16,37 @@
 
 namespace scintray::materials {
 
-/// $SCINTRAY_CACHE, $XDG_CACHE_HOME/scintray or $HOME/.cache/scintray; empty without any of them.
+/// Default folder of the table cache: $SCINTRAY_CACHE, $XDG_CACHE_HOME/scintray or $HOME/.cache/scintray;
+/// empty without any of them.
 std::filesystem::path default_table_cache();
 
-/// What a caller may follow and stop while surface tables are built.
+/// Callbacks during the construction of surface tables, and their cache.
 struct TableHooks {
-  /// Called while a table is built: the surface's name and the share done, 0 to 1.
+  /// Called while a table is built: the surface's name and the completed share, 0 to 1.
   std::function<void(const std::string& surface, double done)> table_progress;
   /// Called while a table is built; true stops with TableStopped.
   std::function<bool()> stop;
-  /// Folder in which built tables are kept between runs; empty: none are.
+  /// Folder in which tables are cached between runs; empty: no cache.
   std::filesystem::path cache = default_table_cache();
 };
 
-/// A height field, and how it came to be.
+/// A height field, with its provenance.
 struct Relief {
-  std::string key;  ///< everything that the height field depends on
+  std::string key;  ///< all inputs of the height field
   optics::TableProvenance provenance;
   std::shared_ptr<const optics::HeightField> field;
 };
 
-/// Keeps height fields and tables, and tables also in a folder between runs.
+/// Store of height fields and tables; tables are also cached in a folder between runs.
 class ReliefStore {
  public:
   explicit ReliefStore(TableHooks hooks) : hooks_(std::move(hooks)) {}
 
-  /// The height field of a key, made now unless it is kept.
+  /// The height field of a key, made on first use.
   std::shared_ptr<const optics::HeightField> field(const std::string& key,
                                                    const std::function<optics::HeightField()>& make);
-  /// The table of a relief, traced now unless it is kept.
-  /// @param surface  its name, for the progress
+  /// The table of a relief, traced on first use unless it is cached.
+  /// @param surface  name of the surface, for the progress
   /// @throws InputError on settings out of range; TableStopped
   std::shared_ptr<const optics::SurfaceTable> table(const std::string& surface, const Relief& relief,
                                                     const topography::TableSettings& settings,
@@ -57,7 +58,7 @@ class ReliefStore {
   std::map<std::string, std::shared_ptr<const optics::SurfaceTable>> tables_;
 };
 
-/// 64-bit FNV-1a (Fowler, Noll, Vo), to name cache files and to notice that a file changed.
+/// 64-bit FNV-1a (Fowler, Noll, Vo), for the names of cache files and the detection of changed files.
 std::uint64_t content_hash(std::string_view bytes);
 
 }  // namespace scintray::materials

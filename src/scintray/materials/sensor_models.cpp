@@ -2,7 +2,7 @@
 
 namespace scintray::materials {
 
-// Each stands in sensor_models/NAME.cpp.
+// Each is defined in sensor_models/NAME.cpp.
 SensorModel proportional_model();
 SensorModel microcells_model();
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the numbers of a definition were published.
+/// Published sources of the numbers of a definition.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace scintray::materials {
 
-/// Whether every number must state where it was published: always in the database's files, by choice in
-/// a scene's own definitions.
+/// Requirement of a published source for every number: required in the database's files, optional in a
+/// scene's own definitions.
 enum class SourceRule { required, optional };
 
 /// Reads `source` from a block and appends "BLOCK: source" to `sources`.

@@ -1,6 +1,6 @@
 #pragma once
-/// From a surface's definition to the surface between two given media: loads and traces height maps,
-/// builds tables, and keeps them.
+/// Factory of surfaces between two media from their definitions: loads and traces height maps, builds tables,
+/// and keeps them.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace scintray::materials {
 
-/// A surface and what the factory noticed.
+/// A surface and the warnings from its construction.
 struct MadeSurface {
   optics::Surface surface;
   std::vector<std::string> warnings;
@@ -24,9 +24,9 @@ class SurfaceFactory {
 
   explicit SurfaceFactory(Hooks hooks = {}) : reliefs_(std::move(hooks)) {}
 
-  /// The surface between two media. Tables are for the indices at `reference_nm`, or at the wavelengths that
-  /// the surface names; a warning states so when the ratio of indices departs from the table's by more than
-  /// kIndexTolerance over [low_nm, high_nm].
+  /// The surface between two media. Tables are for the indices at `reference_nm`, or at the wavelengths named
+  /// by the surface; a warning is added when the ratio of indices deviates from the table's by more than
+  /// kIndexTolerance within [low_nm, high_nm].
   /// @throws InputError for a table file of other indices, an unreadable map, or bad settings.
   MadeSurface make(const SurfaceSpec& spec, const optics::Medium& inside, const optics::Medium& outside,
                    double reference_nm, double low_nm, double high_nm);

@@ -2,7 +2,7 @@
 
 namespace scintray::materials {
 
-// Each stands in surface_models/NAME.cpp.
+// Each is defined in surface_models/NAME.cpp.
 SurfaceModel smooth_model();
 SurfaceModel painted_model();
 SurfaceModel unified_model();

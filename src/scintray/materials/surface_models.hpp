@@ -13,13 +13,13 @@ namespace scintray::materials {
 /// One surface model.
 struct SurfaceModel {
   std::string word;   ///< model = "word"
-  std::string table;  ///< the key of a surface that belongs to it alone, its own table; empty: none
-  /// Reads what belongs to the model from a surface's definition. What is wrong is added to the collector of
-  /// the table; the result is then not used. Gap, reflector and direction are read for it.
+  std::string table;  ///< key of the model's own table in a surface's definition; empty: none
+  /// Reads the model's keys from a surface's definition. Errors are added to the collector of the table; the
+  /// result is then not used. Gap, reflector and direction are read by the caller.
   std::function<MicrosurfaceSpec(const config::TomlTable& surface)> read;
 };
 
-/// Surface models; those that are built in are there from the start.
+/// Registry of surface models, which initially contains the built-in ones.
 class SurfaceModels : public ModelList<SurfaceModel> {
  public:
   SurfaceModels();

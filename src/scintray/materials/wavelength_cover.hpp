@@ -1,5 +1,5 @@
 #pragma once
-/// Whether what is tabulated against wavelength reaches as far as the light in use.
+/// Coverage of the wavelengths in use by quantities tabulated against wavelength.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace scintray::materials {
 
-/// A curve against wavelength, and how to speak of it: "WHOSE has WHAT from ... to ... nm, but light of ...
-/// nm is in use".
+/// A curve against wavelength, with the words of its message: "WHOSE has WHAT from ... to ... nm, but light
+/// of ... nm is in use".
 struct TabulatedCurve {
   const core::Curve& curve;
   std::string whose, what, hint;
@@ -20,11 +20,11 @@ struct TabulatedCurve {
 void check_cover(core::Problems& problems, const core::FileLocation& where, const TabulatedCurve& tabulated,
                  double low_nm, double high_nm);
 
-/// The medium's refractive index, and what its wavelength shifter absorbs and re-emits.
+/// The same for the medium's refractive index, and the absorption and re-emission of its wavelength shifter.
 void check_cover(core::Problems& problems, const core::FileLocation& where, const optics::Medium& medium,
                  double low_nm, double high_nm);
 
-/// Gap and reflector of a surface, and of those it is mixed of.
+/// The same for gap and reflector of a surface, and of the shares of its mixture.
 void check_cover(core::Problems& problems, const SurfaceSpec& surface, double low_nm, double high_nm);
 
 }  // namespace scintray::materials

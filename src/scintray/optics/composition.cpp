@@ -22,7 +22,7 @@ std::string take_message(xrl_error* error) {
   return message;
 }
 
-/// 0 when there is no such element.
+/// Atomic number of an element symbol; 0 when there is no such element.
 int atomic_number_of(const std::string& symbol) {
   xrl_error* error = nullptr;
   const int z = SymbolToAtomicNumber(symbol.c_str(), &error);

@@ -1,5 +1,5 @@
 #pragma once
-/// When light comes out after an excitation.
+/// Time of emission of light after an excitation.
 
 #include <vector>
 
@@ -11,12 +11,12 @@ namespace scintray::optics {
 struct DecayComponent {
   double decay_ns = 0.0;
   double rise_ns = 0.0;   ///< 0: instantaneous rise
-  double fraction = 1.0;  ///< share of the light; the fractions of a medium sum to 1
+  double fraction = 1.0;  ///< share of the light; the sum over a medium's components is 1
 };
 
-/// A time after excitation (ns): the rise and the decay are two exponential steps, so their sum has the
-/// bi-exponential density (exp(-t/decay) - exp(-t/rise)) / (decay - rise). At least one component, else
-/// InternalError.
+/// Time from excitation to emission (ns), drawn at random: the rise and the decay are two exponential steps,
+/// so their sum has the bi-exponential density (exp(-t/decay) - exp(-t/rise)) / (decay - rise). Throws
+/// InternalError without components.
 double sample_decay(const std::vector<DecayComponent>& components, core::Rng& rng);
 
 }  // namespace scintray::optics

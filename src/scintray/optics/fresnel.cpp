@@ -4,7 +4,7 @@ namespace scintray::optics {
 
 namespace {
 
-/// Incidence closer to the normal than this (sine squared) has no plane of incidence worth naming.
+/// Sine squared of the angle of incidence below which the plane of incidence is numerically undefined.
 constexpr double kNormalIncidence = 1e-20;
 
 /// Cosine of incidence of a ray at a facet with normal m against it.

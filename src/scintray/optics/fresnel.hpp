@@ -17,7 +17,7 @@ namespace scintray::optics {
 /// Snell's law at an incidence-angle cosine in [0,1], from index n1 to index n2.
 struct Refraction {
   double ratio;   ///< n1 / n2
-  double sin2_i;  ///< sine squared of incidence
+  double sin2_i;  ///< sine squared of the angle of incidence
   double sin2_t;  ///< ... and of refraction; 1 or more: total reflection
 
   Refraction(double cos_i, double n1, double n2)
@@ -26,18 +26,19 @@ struct Refraction {
   double cos_t() const { return std::sqrt(1.0 - sin2_t); }
 };
 
-/// Amplitudes of the reflected electric field relative to the incident one, below the critical angle.
+/// Amplitudes of the reflected electric field relative to the incident field, below the critical angle.
 struct FresnelAmplitudes {
   double s;  ///< electric field across the plane of incidence
   double p;  ///< electric field in the plane of incidence
 
-  /// @param cos_i  cosine of incidence in index n1; @param cos_t  of refraction in index n2
+  /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
+  ///               index n2
   FresnelAmplitudes(double cos_i, double cos_t, double n1, double n2)
       : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
         p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
 };
 
-/// Power reflectances for the two polarisations, and the refraction angle.
+/// Power reflectances of the two polarisations, and the angle of refraction.
 struct FresnelCoefficients {
   double reflectance_s = 1.0;  ///< electric field across the plane of incidence
   double reflectance_p = 1.0;  ///< electric field in the plane of incidence
@@ -46,7 +47,7 @@ struct FresnelCoefficients {
   double unpolarised() const { return 0.5 * (reflectance_s + reflectance_p); }
 };
 
-/// Coefficients for light in index n1 that meets index n2 at incidence-angle cosine cos_i in [0,1].
+/// Fresnel coefficients for light incident in index n1 on index n2, at incidence-angle cosine cos_i in [0,1].
 inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
   const Refraction refraction(cos_i, n1, n2);
   if (refraction.total()) return {};
@@ -63,32 +64,32 @@ struct Ray {
 };
 static_assert(std::is_trivially_copyable_v<Ray>);
 
-/// Reflects at a facet with unit normal `m` (either orientation). The polarisation component along
-/// the normal is kept and the others change sign, as for total reflection without the phase lag
-/// between s and p, which one linear polarisation vector cannot carry.
+/// Specular reflection at a facet with unit normal `m` (either orientation). The polarisation component along
+/// the normal is kept and the others change sign, as for total reflection without the phase lag between s and
+/// p, which one linear polarisation vector cannot carry.
 inline void reflect(Ray& ray, const core::Vec3& m) {
   ray.direction = core::mirror(ray.direction, m);
   ray.polarisation = -core::mirror(ray.polarisation, m);
 }
 
-/// Sends the ray in any direction; a polarised one with a polarisation of its own.
+/// Isotropic scattering: a new direction and, for a polarised ray, a new polarisation drawn across it.
 inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   ray.direction = core::sample_isotropic(rng);
   if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
 }
 
-/// Meets a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
-/// polarisation and turns the polarisation accordingly.
+/// Interaction with a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
+/// polarisation and transforms the polarisation accordingly.
 ///
-/// @param m   unit normal against the ray: direction . m <= 0
-/// @param n1  index where the ray is; @param n2 index behind the facet
+/// @param m   unit normal opposed to the ray: direction . m <= 0
+/// @param n1  index of the medium of incidence; @param n2 index behind the facet
 /// @return true when the ray was refracted into n2.
 bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng);
 
-/// Refracts `ray` by Snell's law without reflecting any of it, as a thin film with indices n1 and n2 on its
-/// sides does with what it lets through; the shares of the two polarisations stay. Beyond the critical
-/// angle it is reflected instead. Arguments and result as of interact_at_facet.
+/// Refraction of `ray` by Snell's law without any reflection, as of light transmitted by a thin film between
+/// indices n1 and n2; the shares of the two polarisations are kept. Beyond the critical angle the ray is
+/// reflected instead. Arguments and result as for interact_at_facet.
 bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2);
 
 }  // namespace scintray::optics

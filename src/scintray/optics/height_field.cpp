@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLevelShift = 2;  // blocks grow by 4 x 4 from level to level
 
-/// Smallest sine to the horizontal plane with which a ray is followed.
+/// Smallest sine to the horizontal plane of a ray that is traced.
 constexpr double kSmallestRise = 1e-6;
 
 std::uint32_t block_count(std::uint32_t cells, int level) {
@@ -87,8 +87,8 @@ void HeightField::build_pyramid() {
   }
 }
 
-/// One ray under way. Lateral coordinates are in cells; the cell and the triangle are kept as
-/// integers beside them, so that a rounded coordinate never decides where the ray is.
+/// State of one ray. Lateral coordinates are in cells; the cell and the triangle are kept as integers beside
+/// them, so that the position does not depend on the rounding of a coordinate.
 class HeightField::Walk {
  public:
   Walk(const HeightField& field, Ray& ray, Side side, double x_um, double y_um)
@@ -170,14 +170,14 @@ class HeightField::Walk {
     return through_x ? to_x : to_y;
   }
 
-  /// True when the ray cannot meet the surface in a block before it leaves the block or the relief.
+  /// True when the ray cannot cross the surface in a block before it leaves the block or the relief.
   bool clears(const Extremes& block) {
     path_ = path_to_wall(through_x_);
     const double end = z_ + dz_ * path_;
     return side_ == Side::outside ? std::min(z_, end) > block.high : std::max(z_, end) < block.low;
   }
 
-  /// Goes to the wall found by `clears`, and on to the next block.
+  /// Moves the ray to the wall found by `clears` and into the next block.
   void cross_block() {
     if (!std::isfinite(path_)) {  // straight up or down
       z_ = side_ == Side::outside ? field_.high_ : field_.low_;
@@ -189,7 +189,7 @@ class HeightField::Walk {
     pass_wall();
   }
 
-  /// Steps over the wall at `path_`; rises in the pyramid when that leaves the parent block.
+  /// Crosses the wall at `path_`; moves up in the pyramid when the ray leaves the parent block.
   void pass_wall() {
     const std::uint32_t old_i = i_, old_j = j_;
     const int shift = kLevelShift * level_;
@@ -230,7 +230,7 @@ class HeightField::Walk {
     double height, slope_u, slope_v;
   };
 
-  /// Plane of the present triangle with its height at the ray.
+  /// Plane of the present triangle, with its height at the position of the ray.
   Plane plane(bool upper) const {
     const double z10 = field_.vertex(i_ + 1, j_), z01 = field_.vertex(i_, j_ + 1);
     const double u = x_ - i_, v = y_ - j_;
@@ -244,7 +244,7 @@ class HeightField::Walk {
     return {z00 + slope_u * u + slope_v * v, slope_u, slope_v};
   }
 
-  /// Follows the ray through its cell, facet after facet, until it crosses a wall or leaves.
+  /// Traces the ray through its cell, from facet to facet, until it crosses a wall or leaves.
   void cross_cell(const IndexPair& index, core::Rng& rng) {
     double past_diagonal = (x_ - i_) + (y_ - j_) - 1.0;
     bool upper = past_diagonal > 0.0 || (past_diagonal == 0.0 && du_ + dv_ > 0.0);
@@ -355,7 +355,7 @@ Side HeightField::scatter(Ray& ray, Side side, MapPlace& place, const IndexPair&
   place.y_um = exit.y_um;
   ray.direction = map.to_world(local.direction).normalized();
   ray.polarisation = map.to_world(local.polarisation);
-  // Turning into the world frame may round a grazing direction through the mean plane.
+  // The rotation into the world frame may, by rounding, carry a grazing direction through the mean plane.
   const double out = exit.side == Side::outside ? 1.0 : -1.0;
   const double rise = out * ray.direction.dot(map.z);
   if (rise <= 0.0) ray.direction = (ray.direction + out * (kSmallestRise - rise) * map.z).normalized();

@@ -1,5 +1,5 @@
 #pragma once
-/// A periodic height field, met ray by ray: the reference that surface tables must agree with.
+/// A periodic height field on which rays are traced one by one: the reference for surface tables.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,47 +9,49 @@
 
 namespace scintray::optics {
 
-/// What happened to one ray on the height field.
+/// Outcome of one ray on the height field.
 struct HeightFieldExit {
-  Side side = Side::inside;    ///< medium the ray left in
+  Side side = Side::inside;    ///< medium in which the ray left
   int facet_interactions = 0;  ///< number of facet interactions, at least 1
   double first_slope_rad = 0;  ///< angle between the first facet's normal and the mean normal
-  double x_um = 0, y_um = 0;   ///< lateral position where it left the plane of extreme heights
-  bool cut = false;            ///< followed for longer than the step limit and released as it was
+  double x_um = 0, y_um = 0;   ///< lateral position where it crossed the plane of extreme heights
+  bool cut = false;            ///< released at the step limit, in its direction there
 };
 
-/// Heights on a periodic rectangular lattice; each cell is split along the diagonal from
-/// (i, j+1) to (i+1, j) into two triangles. Units are um, but only ratios matter.
+/// Height field on a periodic rectangular lattice; each cell is split along the diagonal from (i, j+1) to
+/// (i+1, j) into two triangles. Units are um, but only ratios matter.
 ///
-/// The height of a ray above the surface is a continuous, piecewise linear function of the path,
-/// and its sign states in which medium the ray is; a crossing is a change of sign. So direction and
-/// medium cannot disagree, and no ray is ever unclassified. Empty space is skipped through a pyramid
-/// of the extreme heights of blocks of 4, 16, 64, ... cells.
+/// The height of a ray above the surface is a continuous, piecewise linear function of the path, and its sign
+/// determines the medium of the ray; a crossing is a change of sign. Direction and medium are therefore
+/// always consistent, and no ray is unclassified. Empty space is skipped through a pyramid of the extreme
+/// heights of blocks of 4, 16, 64, ... cells.
 class HeightField : public MicrosurfaceModel {
  public:
   HeightField() = default;
-  /// @param heights row-major, heights[j * columns + i] at (i * pitch_x, j * pitch_y), one period
-  ///        (the row after the last is the first again); at least 2 x 2, all finite; pitches
-  ///        positive. InputError otherwise.
+  /// @param heights  row-major, heights[j * columns + i] at (i * pitch_x, j * pitch_y), one period (the row
+  ///        after the last is the first again); at least 2 x 2, all finite; pitches positive. Throws
+  ///        InputError otherwise.
   HeightField(std::vector<float> heights, std::uint32_t columns, std::uint32_t rows, double pitch_x_um,
               double pitch_y_um);
 
-  /// Follows a ray from outside the roughness, at the lateral position (x, y) um where it crosses
-  /// the plane of extreme heights, until it leaves on either side. Directions are in the map's own
-  /// frame: x, y lateral, z the mean normal. Uniform (x, y) gives the projected-area weighting of a
-  /// parallel beam. A ray nearer than 1e-6 to the horizontal plane is tilted to that sine on entry;
-  /// after kStepLimit steps it is released where it is (`cut`).
+  /// Traces a ray from outside the roughness, at the lateral position (x, y) um where it crosses the plane of
+  /// extreme heights, until it leaves on either side. Directions are in the frame of the height map: x, y
+  /// lateral, z the mean normal. Uniform (x, y) gives the projected-area weighting of a parallel beam. A ray
+  /// whose sine to the horizontal plane is below 1e-6 is tilted to that sine on entry; after kStepLimit steps
+  /// it is released at its position (`cut`).
   HeightFieldExit follow(Ray& ray, Side side, double x_um, double y_um, const IndexPair& index,
                          core::Rng& rng) const;
 
-  /// The side on which the ray leaves, at a random position and, about `normal`, azimuth of the map.
+  /// The side on which the ray leaves, for a random position on the height map and a random azimuth of it
+  /// about `normal`.
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
-  /// The same at a place, which moves to where the ray leaves.
+  /// The side on which the ray leaves from a place on the height map; the place is moved to the point of
+  /// exit.
   Side scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index, core::Rng& rng) const;
-  /// The same at the place of the interaction, drawn when it has none yet.
+  /// The same at the place of the interaction, which is drawn when it has none yet.
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
-  /// A place anywhere on the map, its x along `along` (see map_frame).
+  /// A place drawn uniformly on the height map, with its x along `along` (see map_frame).
   MapPlace random_place(const core::Vec3& normal, const core::Vec3& along, core::Rng& rng) const;
 
   double period_x_um() const { return pitch_x_ * columns_; }
@@ -59,7 +61,7 @@ class HeightField : public MicrosurfaceModel {
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }
 
-  /// Steps (triangles entered and blocks skipped) after which a ray is cut.
+  /// Number of steps (triangles entered and blocks skipped) after which a ray is cut.
   static constexpr std::uint64_t kStepLimit = 20'000'000;
 
  private:

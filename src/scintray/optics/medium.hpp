@@ -1,5 +1,5 @@
 #pragma once
-/// What light does inside a homogeneous medium.
+/// Optical properties of a homogeneous medium.
 
 #include <memory>
 #include <string>
@@ -14,27 +14,27 @@ namespace scintray::optics {
 
 enum class ScatteringKind { isotropic, rayleigh };
 
-/// Properties of a medium at one wavelength, as the tracer uses them.
+/// Optical properties of a medium at one wavelength, as transport uses them.
 struct MediumOptics {
   double index = 1.0;              ///< refractive index n
   double group_index = 1.0;        ///< n - wavelength dn/dwavelength
-  double absorption_per_mm = 0.0;  ///< the wavelength shifter's included
+  double absorption_per_mm = 0.0;  ///< including that of the wavelength shifter
   double scattering_per_mm = 0.0;
 };
 
-/// A medium of the library (`materials/NAME.toml`) or of a scene file.
+/// A medium of the material database (`materials/media/NAME.toml`) or of a scene file.
 struct Medium {
   std::string name;
   core::Curve index;              ///< refractive index against wavelength (nm)
-  core::Curve absorption_per_mm;  ///< 1/absorption length against wavelength (nm), for good; 0 means none
+  core::Curve absorption_per_mm;  ///< 1/absorption length (no re-emission) against wavelength (nm); 0: none
   core::Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
-  /// Absorbs beside `absorption_per_mm`, and re-emits light; most media have none.
+  /// Wavelength shifter, which absorbs in addition to `absorption_per_mm` and re-emits; null: none.
   std::shared_ptr<const WavelengthShifter> shifter;
 
   // Scintillation; a medium that does not scintillate has a zero yield.
   double yield_per_keV = 0.0;  ///< photons per keV
-  /// Light per keV of an electron of so many keV, relative to the yield.
+  /// Light per keV relative to the yield, against electron energy (keV).
   core::Curve relative_yield = core::Curve::constant(1.0);
   double intrinsic_fwhm = 0.0;  ///< spread of the light beyond counting statistics, full width at half
                                 ///< maximum over mean, at `intrinsic_keV`; 0: none
@@ -42,13 +42,13 @@ struct Medium {
   core::Curve emission;  ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given
-  Composition composition;           ///< empty when not given; with it comes the density
-  bool empty_space = false;          ///< gammas pass: said to be made of nothing
-  std::vector<std::string> sources;  ///< published sources, for reports
+  Composition composition;           ///< empty when not given; requires the density
+  bool empty_space = false;          ///< declared as empty space: gammas pass
+  std::vector<std::string> sources;  ///< published sources, as cited in reports
 
-  /// Optics at a wavelength (nm). The group index uses the slope of the index table
-  /// (n_g = n - lambda dn/dlambda, e.g. Born & Wolf, Principles of Optics, section 1.3.4); a
-  /// constant index gives n_g = n.
+  /// Optical properties at a wavelength (nm). The group index uses the slope of the index table
+  /// (n_g = n - lambda dn/dlambda, e.g. Born & Wolf, Principles of Optics, section 1.3.4); a constant index
+  /// gives n_g = n.
   MediumOptics at(double wavelength_nm) const;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-/// What all microsurfaces have in common, whatever their model.
+/// Microsurfaces: the interface common to all models.
 ///
-/// A microsurface separates an inside (the part whose face it is) from an outside. Its mean normal
-/// N is the outward normal of that part; heights of a height map grow along N. The same
-/// microsurface scatters light from both sides. No microsurface moves a photon: it has no thickness.
+/// A microsurface separates an inside (the part whose face it is) from an outside. Its mean normal N is the
+/// outward normal of that part; heights of a height map increase along N. The same microsurface scatters
+/// light from both sides. A microsurface has no thickness and does not displace a photon.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace scintray::optics {
 
-/// On which side of a microsurface a photon is.
+/// Side of a microsurface on which a photon is.
 enum class Side : std::uint8_t { inside = 0, outside = 1 };
 
 constexpr Side other(Side side) { return side == Side::inside ? Side::outside : Side::inside; }
@@ -26,8 +26,8 @@ struct IndexPair {
   double on(Side side) const { return side == Side::inside ? inside : outside; }
 };
 
-/// The frame of a surface with direction on a face of unit normal `normal`: x along the projection of
-/// `along`; where that is zero (shorter than 1e-6), at a random azimuth.
+/// Frame of a directional surface on a face of unit normal `normal`: x along the projection of `along`; where
+/// that is zero (shorter than 1e-6), at a random azimuth.
 inline core::Frame map_frame(const core::Vec3& normal, const core::Vec3& along, core::Rng& rng) {
   const core::Vec3 lateral = along - along.dot(normal) * normal;
   const double length = lateral.norm();
@@ -35,61 +35,61 @@ inline core::Frame map_frame(const core::Vec3& normal, const core::Vec3& along, 
   return {x, normal.cross(x), normal};
 }
 
-/// How a map, or another pattern, lies on a face, and where on it a ray is: kept while the ray goes to and
-/// fro between the map and what lies close behind it.
+/// Orientation of a height map, or of another pattern, on a face, and the position of a ray on it: kept while
+/// the ray is reflected between the height map and the layers close behind it.
 struct MapPlace {
-  core::Frame map;  ///< the map's x and y, and the mean normal
+  core::Frame map;  ///< x and y of the height map, and the mean normal
   double x_um = 0, y_um = 0;
 
-  /// Moves along the unit vector `direction` (world) by `distance_um`, sideways only.
+  /// Moves the position by the lateral part of `distance_um` along the unit vector `direction` (world).
   void shift(const core::Vec3& direction, double distance_um) {
     x_um += distance_um * direction.dot(map.x);
     y_um += distance_um * direction.dot(map.y);
   }
 };
 
-/// Where light is after an interaction with a surface.
+/// Outcome of an interaction with a surface: the side on which the light leaves, or absorption.
 enum class SurfaceOutcome { inside, outside, absorbed };
 
 constexpr SurfaceOutcome outcome_on(Side side) {
   return side == Side::inside ? SurfaceOutcome::inside : SurfaceOutcome::outside;
 }
 
-/// One photon's interaction with a surface, as its microsurface sees it: the same from when the photon
-/// arrives until it leaves the stack.
+/// One photon's interaction with a surface, as its microsurface requires it: one object from the arrival of
+/// the photon until it leaves the stack.
 struct SurfaceInteraction {
   const core::Vec3& normal;     ///< mean normal
   const core::Vec3& direction;  ///< SurfaceStack::direction
-  double wavelength_nm;         ///< as it is now
+  double wavelength_nm;         ///< present wavelength
   core::Rng& rng;
-  /// Where on a map the photon is, once a microsurface has drawn it. The stack moves it through a gap of a
-  /// thickness, and forgets it in a gap that is thin but wide.
+  /// Place of the photon on a height map, once a microsurface has drawn it. The stack moves it through a gap
+  /// with a thickness, and resets it in a gap that is thin but wide.
   std::optional<MapPlace> place = std::nullopt;
 };
 
-/// What the stack below a microsurface must know of it.
+/// Kind of a microsurface, as far as the stack below it depends on it.
 enum class MicrosurfaceKind : std::uint8_t {
   rough,
-  smooth,   ///< Fresnel's equations at the mean normal, and nothing else
-  painted,  ///< there is none: what lies below it is in contact with the face
+  smooth,   ///< Fresnel's equations at the mean normal alone
+  painted,  ///< no microsurface: the layer below is in contact with the face
 };
 
-/// A microsurface of one model. Immutable, so one serves all threads.
+/// A microsurface of one model. Immutable: one serves all threads.
 ///
-/// A new model is a class derived from this one; the optical stack comes with Surface, its name in files with
-/// materials::SurfaceModel.
+/// A new model is a class derived from this one; Surface supplies the optical stack, materials::SurfaceModel
+/// the name in files.
 class MicrosurfaceModel {
  public:
   virtual ~MicrosurfaceModel() = default;
 
-  /// Scatters light that arrives on `side`: ray.direction . normal > 0 from inside, < 0 from outside. Leaves
-  /// it with its new direction and polarisation on the side of the outcome, with direction . normal < 0 for
-  /// inside and > 0 for outside, or absorbed. Random numbers come from interaction.rng alone.
-  /// @param index  of what lies on the two sides of the microsurface, at the interaction's wavelength
+  /// Scatters light that arrives on `side`: ray.direction . normal > 0 from inside, < 0 from outside. On
+  /// return the ray has its new direction and polarisation on the side of the outcome, with direction .
+  /// normal < 0 for inside and > 0 for outside, or absorbed. Random numbers come from interaction.rng alone.
+  /// @param index  of the media on the two sides of the microsurface, at the interaction's wavelength
   virtual SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                                  SurfaceInteraction& interaction) const = 0;
 
-  /// True when nothing that comes from inside gets outside.
+  /// True when no light from inside is transmitted to the outside.
   virtual bool opaque() const { return false; }
 
   MicrosurfaceKind kind() const { return kind_; }
@@ -108,7 +108,7 @@ class MicrosurfaceModel {
 /// A microsurface of any model, as a value.
 using Microsurface = core::Shared<MicrosurfaceModel>;
 
-/// Perfectly flat: Fresnel's equations at the mean normal.
+/// A perfectly flat surface: Fresnel's equations at the mean normal.
 class SmoothSurface : public MicrosurfaceModel {
  public:
   SmoothSurface() : MicrosurfaceModel(MicrosurfaceKind::smooth) {}

@@ -18,14 +18,14 @@ constexpr int kPolar = ReciprocalKernel::kPolar, kTurns = ReciprocalKernel::kTur
 constexpr std::size_t kRow = std::size_t{kStates} * kTurns;
 constexpr std::size_t kSize = kStates * kRow;
 
-/// Rounding of a row of shares in single precision.
+/// Tolerance of the sum of a row of shares in single precision.
 constexpr double kRowRounding = 1e-4;
 
 std::size_t at(int from, int to, int turn) {
   return static_cast<std::size_t>(from) * kRow + static_cast<std::size_t>(to * kTurns + turn);
 }
 
-/// n^2 of the side of a state.
+/// Weight of a state: n^2 of its side.
 double weight(const IndexPair& index, int state) {
   const double n = index.on(state < kPolar ? Side::inside : Side::outside);
   return n * n;
@@ -53,7 +53,7 @@ std::vector<double> symmetric_flux(const IndexPair& index, const std::vector<std
 
 /// Scales rows and columns alike until every row sums to its weight. Returns the factors.
 std::vector<double> balance(std::vector<double>& flux, const IndexPair& index) {
-  // Sums over the turns first: the scaling does not depend on them.
+  // Sums over the turns: the scaling does not depend on them.
   std::vector<double> pair(std::size_t{kStates} * kStates);
   for (int a = 0; a < kStates; ++a)
     for (int b = 0; b < kStates; ++b) {
@@ -73,7 +73,7 @@ std::vector<double> balance(std::vector<double>& flux, const IndexPair& index) {
       const double wanted = weight(index, a) / (d[static_cast<std::size_t>(a)] * sum);
       worst = std::max(worst, std::abs(wanted - 1.0));
       next[static_cast<std::size_t>(a)] *=
-          std::sqrt(wanted);  // the square root keeps the iteration from swinging
+          std::sqrt(wanted);  // the square root prevents the iteration from oscillating
     }
     d = std::move(next);
     if (worst < kBalanced) break;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a photon owes to the reflectances of the reflectors on its way.
+/// Reflections of a photon at reflectors, with their reflectances.
 
 #include <cmath>
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace scintray::optics {
 
 struct Reflector;
 
-/// Reflections that one photon survived by a draw against a reflectance, summed up for each reflector. The
-/// reflector of a stack may be met never, once or often within one meeting with the stack.
+/// Reflections that one photon survived in a draw against a reflectance, summed for each reflector. Within
+/// one interaction with a stack a photon may reach its reflector never, once or often.
 class ReflectionLog {
  public:
   struct Entry {

@@ -14,14 +14,14 @@ void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   ray.direction = core::sample_lambertian(normal, rng);
   if (polarised)
-    ray.polarisation = core::sample_polarisation(ray.direction, rng);  // diffuse light: none left
+    ray.polarisation = core::sample_polarisation(ray.direction, rng);  // diffuse: polarisation is lost
 }
 
 bool is_specular(const Reflector& reflector, core::Rng& rng) {
   return reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share;
 }
 
-/// Light that the sheet lets pass: through, or back where there is no way out beyond.
+/// Transmitted light: through, or back where it cannot enter the medium beyond.
 SheetOutcome pass(const Reflector& reflector, Ray& ray, const SheetSide& side, core::Rng& rng) {
   if (is_specular(reflector, rng))
     return refract_only(ray, side.normal, side.index_here, side.index_beyond) ? SheetOutcome::through
@@ -32,12 +32,12 @@ SheetOutcome pass(const Reflector& reflector, Ray& ray, const SheetSide& side, c
   return back ? SheetOutcome::back : SheetOutcome::through;
 }
 
-/// What a sheet does with light of one wavelength.
+/// Reflectance and transmittance of a sheet at one wavelength.
 struct SheetShares {
   double reflectance, transmittance;
 };
 
-/// Light that has been refracted into a volume-like reflector, until it is out again.
+/// Light refracted into a volume-like reflector, until it leaves it or is absorbed.
 SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const SheetSide& side,
                                const SheetShares& shares, core::Rng& rng, ReflectionLog* log) {
   for (bool from_here = true;;) {
@@ -54,7 +54,8 @@ SheetOutcome scatter_in_volume(const Reflector& reflector, Ray& ray, const Sheet
   }
 }
 
-/// Every wavelength (nm) at which a curve of the sheet has a point; one of no meaning when all are constant.
+/// Every wavelength (nm) at which a curve of the sheet has a point; one arbitrary wavelength when all are
+/// constant.
 std::set<double> wavelengths_of(const Reflector& reflector) {
   std::set<double> at;
   const auto add = [&](const core::Curve& curve) {

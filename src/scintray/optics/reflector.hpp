@@ -1,5 +1,5 @@
 #pragma once
-/// The sheet behind a face: reflects, absorbs, and may let some light through.
+/// Reflectors: sheets behind a face that reflect, absorb and may transmit light.
 
 #include <optional>
 #include <string>
@@ -10,56 +10,56 @@
 
 namespace scintray::optics {
 
-/// A sheet that reflects, from either of its sides.
+/// A sheet that reflects on both of its sides.
 struct Reflector {
   std::string name;
   core::Curve reflectance;      ///< against wavelength (nm)
-  double specular_share = 0.0;  ///< share of reflected light that is mirrored; the rest Lambertian
+  double specular_share = 0.0;  ///< share of reflected light that is specular; the rest is Lambertian
   /// Volume-like reflectors (PTFE, paint): index of the binder, 0 for none. Light is refracted into it, and
-  /// the light scattered back, Lambertian inside, is refracted out or reflected in again; `reflectance` is
-  /// then that of the volume for diffuse light from within. After L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
+  /// the light scattered back, Lambertian inside, is refracted out or reflected back into it; `reflectance`
+  /// is then that of the volume for diffuse light from within. After L. B. Wolff 1994, J. Opt. Soc. Am. A 11,
   /// 2956, "Diffuse-reflectance model for smooth dielectric surfaces".
   double volume_index = 0.0;
-  /// Share of the light that goes through to the other side, against wavelength (nm); nothing: none does.
-  /// With `reflectance` at most 1 at every wavelength; what is left is absorbed. Of a volume-like
+  /// Share of the light that is transmitted to the other side, against wavelength (nm); nothing: none. The
+  /// sum with `reflectance` is at most 1 at every wavelength; the remainder is absorbed. Of a volume-like
   /// reflector, that of the volume for diffuse light from within.
   std::optional<core::Curve> transmittance = std::nullopt;
 };
 
-/// Where light is after it reached a reflector.
+/// Outcome of light incident on a reflector.
 enum class SheetOutcome { back, through, absorbed };
 
-/// The side of a sheet that light reaches.
+/// The side of a sheet on which light is incident.
 struct SheetSide {
-  core::Vec3 normal;    ///< unit normal of the sheet, against the ray
-  double index_here;    ///< of the medium the ray is in
-  double index_beyond;  ///< of that behind the sheet
+  core::Vec3 normal;    ///< unit normal of the sheet, opposed to the ray
+  double index_here;    ///< of the medium of incidence
+  double index_beyond;  ///< of the medium behind the sheet
 };
 
-/// Sends `ray` back from a reflector, or through it.
+/// Interaction of `ray` with a reflector: reflection, transmission or absorption.
 ///
-/// The specular share of what passes goes straight on, as through a film: refracted by Snell's law from
-/// `index_here` to `index_beyond`, without a loss of its own. The rest leaves by Lambert's law on the far
-/// side, as from a diffuser. Where the far side is the thinner medium, light beyond the critical angle and
-/// the share 1 - (index_beyond / index_here)^2 of the diffuse light find no way out (the conservation of
-/// etendue, W. T. Welford and R. Winston, High Collection Nonimaging Optics, 1989, chapter 2) and come back
-/// as light reflected by the sheet does. So `transmittance` is that between equal indices, or from the
-/// thinner side, and the sheet is reciprocal between any two media. A volume-like reflector passes light
-/// through its binder instead, and both faces refract.
+/// The specular share of transmitted light continues as through a film: refracted by Snell's law from
+/// `index_here` to `index_beyond`, without further loss. The rest leaves by Lambert's law on the far side, as
+/// from a diffuser. Where the far side has the lower index, light beyond the critical angle and the share
+/// 1 - (index_beyond / index_here)^2 of the diffuse light are not transmitted (the conservation of etendue,
+/// W. T. Welford and R. Winston, High Collection Nonimaging Optics, 1989, chapter 2) and return like light
+/// reflected by the sheet. `transmittance` is therefore that between equal indices, or from the side of lower
+/// index, and the sheet is reciprocal between any two media. A volume-like reflector passes light through its
+/// binder instead, and both faces refract.
 ///
-/// @param log  takes what was sent back by a draw against the reflectance, not what a volume's face mirrored
-///             or what passed; may be null
+/// @param log  receives reflections survived in a draw against the reflectance, not those at the face of a
+///             volume-like reflector, and no transmission; may be null
 SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const SheetSide& side,
                                    double wavelength_nm, core::Rng& rng, ReflectionLog* log = nullptr);
 
 /// Largest share of the light that is not absorbed, reflectance and transmittance together, over all
-/// wavelengths. At most 1 for a sheet that can be.
+/// wavelengths. At most 1 for a physical sheet.
 double most_kept(const Reflector& reflector);
 
-/// One of two equal faces, with nothing but a clear space between, that reflect and let through together
-/// what `sheet` does: r = R / (1 + T) and t = sqrt(T (1 - r^2)), from the sum over the turns between them
-/// (G. G. Stokes 1862, Proc. R. Soc. London 11, 545), at 1 nm steps. A sheet that lets nothing through is
-/// its own face.
+/// One of two equal faces, separated by a clear space, that together have the reflectance and transmittance
+/// of `sheet`: r = R / (1 + T) and t = sqrt(T (1 - r^2)), from the sum over the reflections between them (G.
+/// G. Stokes 1862, Proc. R. Soc. London 11, 545), at 1 nm steps. A sheet without transmittance is returned
+/// unchanged.
 Reflector face_of_sheet(const Reflector& sheet);
 
 }  // namespace scintray::optics

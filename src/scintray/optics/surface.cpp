@@ -18,13 +18,13 @@ class Interaction {
 
   double wavelength_nm() const { return at_.wavelength_nm; }
 
-  /// The ray arrives at the microsurface on `side` and leaves on the returned one.
+  /// Side on which a ray that is incident on the microsurface on `side` leaves.
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index) {
     return surface_.microsurface->scatter(ray, side, index, at_);
   }
 
-  /// Takes the ray through the gap from one of its faces; states whether it comes out at the far one, or
-  /// nothing when it is absorbed on the way.
+  /// Traces the ray through the gap from one of its faces; true when it leaves at the far face, nothing when
+  /// it is absorbed in the gap.
   std::optional<bool> cross_gap(Ray& ray, bool from_far) {
     if (!surface_.gap_thickness_um) {
       at_.place.reset();
@@ -60,7 +60,7 @@ class Interaction {
     }
   }
 
-  /// Lets the gap's shifter absorb the photon; false when it is not re-emitted.
+  /// Absorption of the photon by the gap's shifter; false when it is not re-emitted.
   bool shift(Ray& ray) {
     if (!light_) return false;
     const auto back = surface_.gap_shifter->absorb(at_.wavelength_nm, at_.rng, light_->count);
@@ -125,7 +125,7 @@ SurfaceOutcome Surface::interact(Ray& ray, const Incidence& incidence, ShiftingL
   Interaction interaction(*this, incidence, light, rng);
   if (!reflector && !gap_thickness_um) return interaction.scatter(ray, incidence.side, incidence.index);
 
-  // Paint lies on the face itself: its light is still in the inside medium.
+  // Paint lies on the face itself: light incident on it is still in the inside medium.
   const bool painted = microsurface->kind() == MicrosurfaceKind::painted;
   IndexPair index = incidence.index;
   IndexPair under{index.inside, painted ? index.inside : gap_index(incidence.wavelength_nm)};

@@ -18,18 +18,18 @@ constexpr double kNoPlane = 1e-9;
 
 constexpr double kLeastCosine = 1e-7;
 
-/// All copies of a table's samplers together take no more, unless one does.
+/// Largest total size of all copies of a table's samplers, unless a single copy is larger.
 constexpr std::size_t kMostCopiedBytes = 16'000'000;
 
 std::size_t threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// Rounding of angles stored in single precision.
+/// Tolerance of angles stored in single precision.
 constexpr double kAngleRounding = 1e-6;
 
-/// Rounding of shares that sum to one.
+/// Tolerance of the sum of shares.
 constexpr double kShareRounding = 1e-12;
 
-/// A quantity of the nodes at an incidence angle, linear between them.
+/// A quantity of the nodes at an incidence angle, interpolated linearly between them.
 double between_nodes(const std::vector<TableNode>& nodes, double incidence_rad, double TableNode::*what) {
   const auto above =
       std::lower_bound(nodes.begin() + 1, nodes.end() - 1, incidence_rad,
@@ -129,7 +129,7 @@ SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, Tab
   opaque_ = true;
   Samplers samplers;
   for (const TableSlice& slice : slices_) {
-    // Where a reciprocal kernel sends the light nobody asks the sampler.
+    // Directions drawn from a reciprocal kernel do not use the sampler.
     static const std::vector<TableNode> kNone;
     for (const Side side : {Side::inside, Side::outside})
       samplers.emplace_back(slice.reciprocal ? kNone : slice.nodes(side), kind_);
@@ -230,12 +230,12 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
   const double reflectance = at.reflectance();
   const double u = rng.uniform();
   const bool reflected = u < reflectance;
-  // Rounding must not let light through where no node does.
+  // Rounding must not transmit light where no node does.
   if (absorbs_ && !reflected && (!at.transmits() || u < reflectance + at.absorptance()))
     return SurfaceOutcome::absorbed;
   const ExitAngles exit = sampler.sample(at, reflected, rng);
 
-  // Cosines in single precision, as the table holds the angles, and sines that go with them exactly. A
+  // Cosines in single precision, as the table holds the angles, with sines that match them exactly. A
   // direction exactly in the surface would be on neither side.
   const double cos_polar = std::max<double>(std::cos(exit.polar), kLeastCosine);
   const double cos_azimuth = std::cos(exit.azimuth);

@@ -1,4 +1,4 @@
-/// Table files: one HDF5 group per slice, in it one per side with one row per node.
+/// Table files: one HDF5 group per slice, which contains one per side with one row per node.
 
 #include <algorithm>
 #include <map>
@@ -81,7 +81,7 @@ std::string slice_name(std::size_t slice) { return "slice_" + std::to_string(sli
   throw core::InputError({{path.string()}, what, hint});
 }
 
-/// Reads arrays and checks their shapes before anything is made of them.
+/// Reader of a table file: checks the shapes of arrays before they are used.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path) {}
@@ -258,7 +258,7 @@ SurfaceTable read_table(const std::filesystem::path& path) {
                         kind == kDirectional ? AzimuthKind::directional : AzimuthKind::folded,
                         read_provenance(reader, reader.group(root, "provenance")));
   } catch (const core::InputError& error) {
-    // Say which file: the checks of the table itself do not know.
+    // Adds the file, which is not available to the checks of the table itself.
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems)
       if (problem.where.file.empty()) problem.where.file = path.string();

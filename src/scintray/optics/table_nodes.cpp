@@ -11,8 +11,8 @@ namespace {
 constexpr float kQuarterTurn = static_cast<float>(0.5 * core::kPi), kHalfTurn = static_cast<float>(core::kPi);
 
 /// Quantile of a sorted sample within [low, high]; order statistic k stands for the level (k + 1/2)/n. The
-/// half step beyond the first and the last goes on as steeply as the step before it: ending at the extreme
-/// rays of a small sample would leave the tails of the distribution empty.
+/// half step beyond the first and the last has the slope of the step before it: ending at the extreme rays of
+/// a small sample would leave the tails of the distribution empty.
 float quantile(std::span<const float> sorted, double level, float low, float high) {
   const double n = static_cast<double>(sorted.size());
   if (sorted.size() == 1) return sorted.front();
@@ -40,7 +40,7 @@ DirectionQuantiles quantiles_of(std::vector<ExitAngles>& sample, AzimuthKind kin
 
   const double n = static_cast<double>(sample.size());
   for (int k = 0; k < kPolarBins; ++k) {
-    // Rays of the bin; a bin narrower than one ray borrows the nearest.
+    // Rays of the bin; a bin narrower than one ray uses the nearest.
     const auto first = std::min(static_cast<std::size_t>(polar_level(k) * n), sample.size() - 1);
     const auto last = std::max(static_cast<std::size_t>(polar_level(k + 1) * n), first + 1);
     values.clear();

@@ -9,7 +9,7 @@ namespace scintray::optics {
 
 namespace {
 
-/// Steps of the incidence lookup: finer than the nodes, so that at most a step or two remain.
+/// Number of steps of the incidence lookup: finer than the nodes, so that at most one or two steps remain.
 constexpr std::uint32_t kLookupSteps = 2048;
 
 constexpr std::size_t kRowEnds = kAzimuthBins + 1;
@@ -21,7 +21,7 @@ double slant_of(const TableNode& node) {
 }
 double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
-/// How azimuths are kept in 16 bits: 0 and half a turn, either way for signed ones, exactly.
+/// Coding of azimuths in 16 bits: 0 and half a turn, of either sign for signed ones, are exact.
 struct AzimuthCode {
   float zero, step;
   explicit AzimuthCode(AzimuthKind kind)

@@ -1,5 +1,5 @@
 #pragma once
-/// Drawing directions from a surface table, laid out for speed.
+/// Sampling of directions from a surface table, in a layout for speed.
 
 #include <array>
 #include <cstdint>
@@ -10,34 +10,34 @@
 
 namespace scintray::optics {
 
-/// One slice of a table as met from one side.
+/// Sampler of one slice of a table for incidence from one side.
 ///
-/// What a meeting needs lies together: an interval between two nodes is one cache line, the edges of
-/// one quantile bin of neighbouring nodes are neighbours, and azimuths are 16 bit wide (steps of half a
-/// turn over 65535; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes takes 0.2 MB for
-/// each way that light leaves, which a core's own cache holds.
+/// The data of one interaction are contiguous: an interval between two nodes is one cache line, the edges of
+/// one quantile bin of neighbouring nodes are neighbours, and azimuths are 16 bit wide (steps of half a turn
+/// over 65535; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes takes 0.2 MB for each
+/// side on which light leaves, which fits the private cache of a core.
 class TableSampler {
  private:
-  /// Between two nodes. Positions are in a measure of the incidence angle that needs no arc function,
-  /// sin / (sin + cos), and `bend` states how the share of the way in angle departs from that in this
-  /// measure: by bend x (1 - x). Nodes 2.25 deg apart: right to 5e-5 of the way.
+  /// The interval between two nodes. Positions are in a measure of the incidence angle that needs no arc
+  /// function, sin / (sin + cos), and `bend` corrects the relative position in this measure to that in angle:
+  /// by bend x (1 - x). For nodes 2.25 deg apart the error is 5e-5 of the interval.
   struct alignas(64) Interval {
     double start = 0.0;  ///< of the lower node
     double per_length = 0.0;
     double bend = 0.0;
     double reflectance = 0.0, reflectance_step = 0.0;
     double absorptance = 0.0, absorptance_step = 0.0;
-    /// Which nodes' directions to use, counted from the lower: a node that light never leaves that way has
-    /// none of its own. Reflected, transmitted.
+    /// Nodes whose directions are used, counted from the lower: a node without light on that side has no
+    /// distribution. Reflected, transmitted.
     std::array<std::uint8_t, 2> low{0, 0}, high{1, 1};
-    bool transmits = false;  ///< some light at one of its nodes does
+    bool transmits = false;  ///< transmittance above 0 at one of its nodes
   };
 
  public:
-  /// Nodes as SurfaceTable checks them.
+  /// @param nodes as checked by SurfaceTable
   TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind);
 
-  /// Where an incidence angle falls between two nodes, and the shares there, linear between them.
+  /// Position of an incidence angle between two nodes, and the shares there, linear between them.
   class Place {
    public:
     double reflectance() const { return interval_->reflectance + share_ * interval_->reflectance_step; }
@@ -48,17 +48,17 @@ class TableSampler {
     friend class TableSampler;
     Place(const Interval* interval, double share) : interval_(interval), share_(share) {}
     const Interval* interval_;
-    double share_;  ///< of the way to the next node, in [0, 1]
+    double share_;  ///< relative position towards the next node, in [0, 1]
   };
   Place place(double sine, double cosine) const;
 
-  std::size_t bytes() const;  ///< it takes
+  std::size_t bytes() const;  ///< memory
 
-  /// Polar angle and azimuth from the plane of incidence, either side of it.
+  /// Direction of exit: polar angle, and azimuth from the plane of incidence, on either side of it.
   ExitAngles sample(const Place& place, bool reflected, core::Rng& rng) const;
 
  private:
-  /// The quantiles of all nodes, of light that leaves one way.
+  /// Quantiles of all nodes, of light that leaves on one side.
   struct Directions {
     std::vector<float> polar;            ///< [polar edge][node], rad
     std::vector<std::uint16_t> azimuth;  ///< [polar bin][node][azimuth edge]

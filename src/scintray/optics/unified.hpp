@@ -13,21 +13,21 @@
 
 namespace scintray::optics {
 
-/// What sigma_alpha is the width of. The two differ: for 18 deg the mean facet angle is 22.2 deg
+/// The distribution whose width is sigma_alpha. The two differ: for 18 deg the mean facet angle is 22.2 deg
 /// by the first and 14.4 deg by the second.
 enum class SigmaAlphaDefinition {
   solid_angle,  ///< Geant4: facets per solid angle ~ exp(-alpha^2 / 2 sigma^2), so alpha ~ g sin
   polar_angle,  ///< alpha itself is normal with standard deviation sigma (its absolute value)
 };
 
-/// With which probability light hits a facet.
+/// Probability with which light hits a facet.
 enum class FacetSampling {
   projected_area,  ///< facets weighted by the area that the incoming light sees
   geant4,          ///< any facet turned towards the light, with equal weight
 };
 
-/// Facets whose angles to the mean normal are normally distributed. All of it stands in this header, so that
-/// what draws facets can be compiled into the loop that scatters many photons.
+/// Facets whose angles to the mean normal are normally distributed. Defined in this header, so that the
+/// sampling of facets can be inlined into the loop that scatters many photons.
 class UnifiedSurface : public MicrosurfaceModel {
  public:
   double sigma_alpha_rad = 0.0;
@@ -47,17 +47,17 @@ class UnifiedSurface : public MicrosurfaceModel {
  private:
   enum class Lobe { spike, facet, backscatter, lambertian };
   /// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
-  /// bounds the area that a facet can show.
+  /// bounds the projected area of a facet.
   static constexpr double kWidestFacet_sigma = 6.0;
 
-  /// Facet angle to the mean normal, below 90 deg.
+  /// Angle between facet and mean normal (rad), drawn at random, below 90 deg.
   double sample_facet_angle(core::Rng& rng) const;
   /// Largest cosine between the reversed direction of a ray and any facet normal.
   double greatest_facing(double cos_incidence) const;
-  /// Facet normal, within 90 deg of `frame.z`, that faces a ray of direction k.
+  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`.
   core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
   Lobe sample_lobe(core::Rng& rng) const;
-  /// Replaces a mirror reflection at a facet by the chosen lobe. `before` is the ray as it came.
+  /// Replaces a specular reflection at a facet by the chosen lobe. `before` is the incident ray.
   static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Dyes and phosphors: light absorbed at one wavelength and re-emitted at a longer one.
+/// Wavelength shifters (dyes and phosphors): absorption at one wavelength and re-emission at a longer one.
 
 #include <cstdint>
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace scintray::optics {
 
-/// Energy of a photon of a wavelength in vacuum, eV: hc = 1239.841984 eV nm (SI 2019, exact).
+/// Photon energy at a vacuum wavelength, eV: hc = 1239.841984 eV nm (SI 2019, exact).
 constexpr double photon_energy_eV(double wavelength_nm) { return 1239.8419843320026 / wavelength_nm; }
 
-/// What wavelength shifters did: every photon that one absorbs is re-emitted or kept.
+/// Numbers and energies of photons absorbed by wavelength shifters; each is re-emitted or kept.
 struct ShiftCount {
   std::uint64_t absorbed = 0;  ///< photons
   std::uint64_t emitted = 0;   ///< photons re-emitted
-  double before_eV = 0.0;      ///< energy of those re-emitted, as they were absorbed
-  double after_eV = 0.0;       ///< ... and as they were re-emitted; the difference is the Stokes loss
-  double kept_eV = 0.0;        ///< energy of those not re-emitted
+  double before_eV = 0.0;      ///< energy at absorption of the re-emitted photons
+  double after_eV = 0.0;       ///< energy at emission of these; the difference is the Stokes loss
+  double kept_eV = 0.0;        ///< energy of photons not re-emitted
 
   ShiftCount& operator+=(const ShiftCount& other);
   bool operator==(const ShiftCount& other) const = default;
 };
 
-/// A photon re-emitted.
+/// A re-emitted photon.
 struct ShiftedLight {
   double wavelength_nm = 0.0;
   double delay_ns = 0.0;
@@ -34,17 +34,17 @@ struct ShiftedLight {
 
 /// A wavelength shifter. Immutable.
 ///
-/// A photon that it absorbs comes back with the quantum yield of its wavelength. The new wavelength is
-/// drawn from the emission spectrum beyond the absorbed one, so that no photon gains energy; where the
-/// spectrum has nothing beyond it, the photon is kept. This is what Geant4's G4OpWLS does by drawing again.
-/// Light that a dye absorbs within its own emission band thus comes back a little redder than by Kasha's
-/// rule, which takes the difference from heat.
+/// An absorbed photon is re-emitted with the probability of the quantum yield at its wavelength. The new
+/// wavelength is drawn from the emission spectrum beyond the absorbed one, so that no photon gains energy;
+/// where the spectrum is zero beyond it, the photon is kept. Geant4's G4OpWLS does the same by drawing again.
+/// Light absorbed by a dye within its own emission band is thus re-emitted at slightly longer wavelengths
+/// than by Kasha's rule, by which the difference is taken from thermal energy.
 class WavelengthShifter {
  public:
   /// @param absorption_per_mm  1/absorption length of the shifter alone, against wavelength (nm)
   /// @param quantum_yield      photons re-emitted per photon absorbed, 0 to 1, against wavelength (nm)
   /// @param emission           relative number of photons per nm against wavelength (nm), a table
-  /// @param decay              at least one component
+  /// @param decay              one component at least
   /// Throws InputError as CurveSampler does.
   WavelengthShifter(core::Curve absorption_per_mm, core::Curve quantum_yield, core::Curve emission,
                     std::vector<DecayComponent> decay);
@@ -53,7 +53,8 @@ class WavelengthShifter {
   const core::Curve& quantum_yield() const { return quantum_yield_; }
   const core::Curve& emission() const { return emission_; }
 
-  /// Absorbs a photon, and counts it. Nothing when it is kept.
+  /// Wavelength and delay of an absorbed photon that is re-emitted; nothing when it is kept. Counts it in
+  /// `count`.
   std::optional<ShiftedLight> absorb(double wavelength_nm, core::Rng& rng, ShiftCount& count) const;
 
  private:

@@ -22,29 +22,28 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Rays start this far ahead, relative to the region's size, so that they do not meet the triangle
-/// they start on; single precision resolves about 1e-7.
+/// Distance from the origin at which rays start, relative to the region's size, so that they do not hit the
+/// triangle of their origin; single precision resolves about 1e-7.
 constexpr double kStartAhead = 1e-6;
-/// How far behind its start, relative to the region's size, a ray may already have left the region.
+/// Distance behind its start, relative to the region's size, at which a ray may already have left the region.
 constexpr double kBehind = 1e-5;
-/// Vertices this close to a plane, relative to the region's size, lie on it.
+/// Distance from a plane, relative to the region's size, within which vertices lie on it.
 constexpr double kCoplanar = 1e-10;
-/// Barycentric distance from a triangle's edges at which single precision is beyond doubt.
+/// Barycentric distance from a triangle's edges beyond which a hit in single precision is certain.
 constexpr float kClearOfEdge = 1e-4f;
 constexpr std::size_t kMostPlanes = 32;
 constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
-/// Meetings with the plane the ray starts on and leaves inwards that are stepped over before the exact
-/// search.
+/// Number of hits on the plane that the ray starts from inwards that are skipped before the exact query.
 constexpr int kMostSelfHits = 2;
 
-/// Single rays gain nothing from the widest vectors and lose some of the clock to them: with them a step in
-/// a box takes 3 % longer (tools/bench crystal), one in a million triangles as long.
+/// Single rays do not profit from the widest vectors, which lower the clock frequency: with them a step in a
+/// box takes 3 % longer (tools/bench crystal), one in a million triangles as long.
 constexpr const char* kDevice = "set_affinity=0,max_isa=avx2";
 
-/// Triangles from which on Embree builds its hierarchy without splitting them.
+/// Number of triangles from which Embree builds its hierarchy without splitting them.
 constexpr std::size_t kManyTriangles = 200'000;
 
-/// Distance in the plane from `point` to the triangle; 0 inside.
+/// Distance (mm) in the plane from `point` to the triangle; 0 inside.
 double distance_outside(const BoundaryTriangle& triangle, const core::Vec3& normal, const core::Vec3& point) {
   double outside = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -87,9 +86,9 @@ RTCRayHit make_ray(const core::Vec3& origin, const core::Vec3& direction, double
   return make_ray(core::Lanes(origin, start).floats(), core::Lanes(direction, 0.0).floats());
 }
 
-/// The device of all accelerators of the process: it holds threads and settings, and no scene. Started by the
-/// first that needs it, by one thread only; released after the last scene that holds it, and not before the
-/// process ends.
+/// The Embree device of all accelerators of the process, which owns threads and settings but no scene.
+/// Started on first use, by one thread only; released after the last scene that refers to it, and not before
+/// the process ends.
 std::shared_ptr<RTCDeviceTy> embree_device() {
   static const std::shared_ptr<RTCDeviceTy> device = [] {
     const RTCDevice started = rtcNewDevice(kDevice);
@@ -108,7 +107,7 @@ struct Accelerator::EmbreeScene {
   explicit EmbreeScene(const Boundary& triangles) {
     const RTCDevice device = shared_device.get();
     scene = rtcNewScene(device);
-    // Splitting triangles for a better hierarchy takes memory that large meshes feel.
+    // Splitting triangles for a better hierarchy takes much memory for large meshes.
     rtcSetSceneBuildQuality(
         scene, triangles.size() > kManyTriangles ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -141,7 +140,7 @@ bool ordered(const core::PlainVec3& a, const core::PlainVec3& b) {
   return std::tuple(a.x(), a.y(), a.z()) < std::tuple(b.x(), b.y(), b.z());
 }
 
-/// Fills in vertices and corners.
+/// Sets vertices and corners.
 void index_vertices(const std::vector<BoundaryTriangle>& triangles, Boundary& boundary) {
   std::vector<core::PlainVec3>& vertices = boundary.vertices;
   vertices.reserve(3 * triangles.size());
@@ -157,7 +156,7 @@ void index_vertices(const std::vector<BoundaryTriangle>& triangles, Boundary& bo
           std::lower_bound(vertices.begin(), vertices.end(), vertex, ordered) - vertices.begin()));
 }
 
-/// All but the planes of a convex region.
+/// The boundary without the planes of a convex region.
 Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles, bool closed) {
   Boundary boundary;
   index_vertices(triangles, boundary);
@@ -173,7 +172,7 @@ Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles, bool clos
   return boundary;
 }
 
-/// Fills in the planes of a convex region with few; false where it is none.
+/// Sets the planes of a convex region with few of them; false for any other region.
 bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
   if (!boundary.closed || boundary.size() == 0) return false;
   const double tolerance = kCoplanar * boundary.size_mm;
@@ -309,7 +308,7 @@ Exit Accelerator::exact_exit(const core::Vec3& origin, const core::Vec3& directi
 
 Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const {
   const double behind = kBehind * boundary_.size_mm;
-  double entered = kInfinity;  // where the ray would come in again from outside
+  double entered = kInfinity;  // where the ray would re-enter from outside
   for (std::uint32_t i = 0; i < size(); ++i) {
     if (normal(i).dot(direction) >= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
@@ -317,7 +316,7 @@ Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& dir
         distance_outside(triangle(i), normal(i), origin + distance * direction) == 0.0)
       entered = distance;
   }
-  // The nearest triangle really met, or failing that the one that was missed by least.
+  // The nearest triangle hit or, without one, the triangle missed by the least distance.
   Exit exit{0.0, kNoTriangle, true};
   double least_miss = kInfinity;
   for (std::uint32_t i = 0; i < size(); ++i) {
@@ -332,7 +331,7 @@ Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& dir
       exit.triangle = i;
     }
   }
-  // An unbounded region is left through infinity unless the ray really went through an edge.
+  // A ray leaves an unbounded region to infinity unless it passed through an edge.
   if (!boundary_.closed && least_miss > behind) return {0.0, kNoTriangle, true};
   exit.distance_mm = std::max(0.0, exit.distance_mm);
   return exit;
@@ -343,7 +342,7 @@ bool Accelerator::contains(const core::Vec3& point) const {
     return std::all_of(boundary_.planes.begin(), boundary_.planes.end(),
                        [&](const BoundingPlane& plane) { return plane.normal.dot(point) <= plane.offset; });
   if (!embree_) return false;
-  // A skew direction keeps clear of the edges that axis-aligned meshes have.
+  // A skew direction avoids the edges of axis-aligned meshes.
   static const core::Vec3 kSkew = core::Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
   const auto ahead = inside_by_embree(point, kSkew);
   if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
@@ -358,7 +357,7 @@ Accelerator::Inside Accelerator::inside_by_embree(const core::Vec3& point,
   RTCRayHit hit = make_ray(point, direction, 0.0);
   intersect(embree_->scene, hit);
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Inside::no_hit;
-  // Near the start or near an edge single precision cannot say which side is met.
+  // Near the start or near an edge the side of the hit is uncertain in single precision.
   const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
   if (hit.ray.tfar < kBehind * boundary_.size_mm || edge < kClearOfEdge) return Inside::unclear;
   return normal(hit.hit.primID).dot(direction) > 0.0 ? Inside::yes : Inside::no;

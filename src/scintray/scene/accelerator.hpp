@@ -1,5 +1,5 @@
 #pragma once
-/// Finds where a photon leaves a region. Everything Embree is in accelerator.cpp.
+/// Ray queries: the point at which a photon leaves a region. All use of Embree is in accelerator.cpp.
 
 #include <algorithm>
 #include <array>
@@ -29,8 +29,8 @@ struct BoundingPlane {
   core::PlainVec3 normal;           ///< unit, out of the region
   double offset;                    ///< normal . x on the plane
   std::uint32_t first;              ///< a triangle on the plane
-  std::uint32_t triangles_begin;    ///< where they lead to different places, all triangles on it, as a
-  std::uint32_t triangles_end = 0;  ///< range of Boundary::plane_triangles; empty: they lead to one
+  std::uint32_t triangles_begin;    ///< all triangles on it, where these lead to different regions: a
+  std::uint32_t triangles_end = 0;  ///< range of Boundary::plane_triangles; empty: all lead to one
 };
 static_assert(std::is_trivially_copyable_v<BoundingPlane>);
 
@@ -40,7 +40,7 @@ struct Boundary {
   std::vector<std::uint32_t> corners;     ///< three a triangle, indices into `vertices`
   std::vector<TrianglePlane> triangle_planes;
   std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
-  std::vector<std::uint32_t> plane_triangles;  ///< as BoundingPlane states
+  std::vector<std::uint32_t> plane_triangles;  ///< ranges of BoundingPlane
   double size_mm = 0.0;                        ///< diagonal of the bounding box
   bool closed = true;                          ///< false for the ambient region
 
@@ -52,61 +52,60 @@ struct Boundary {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-/// Where a ray leaves a region.
+/// The point at which a ray leaves a region.
 struct Exit {
   double distance_mm = 0.0;
   std::uint32_t triangle = kNoTriangle;  ///< kNoTriangle: the ray goes to infinity
   bool resolved = false;                 ///< resolved by the exact query
 };
 
-/// What Embree states a ray meets first, in single precision.
+/// The first hit of a ray by Embree, in single precision.
 struct FirstHit {
   float distance_mm = 0.0f;  ///< along the ray
-  float unused = 0.0f;       ///< so that the distance and the triangle come back in registers
+  float unused = 0.0f;       ///< padding: distance and triangle are returned in registers
   std::uint32_t triangle = kNoTriangle;
   std::uint32_t unused_too = 0;
 };
 
-/// How a ray comes to the plane of a triangle, in double precision.
+/// Approach of a ray to the plane of a triangle, in double precision.
 struct Approach {
-  double cosine = 0.0;  ///< of the angle between ray and normal; the ray leaves the region where positive
+  double cosine = 0.0;       ///< between ray and normal; the ray leaves the region where positive
   double distance_mm = 0.0;  ///< along the ray; 0 where the plane lies behind. Only for a positive cosine
 };
 
 /// The boundary of one region, immutable, shared by regions of the same shape.
 ///
-/// A photon is inside the region, so the boundary it meets next has its normal along the ray. An
-/// answer that contradicts this - nothing ahead in a closed region, or the next triangle entered from
-/// behind - is a ray that slipped through an edge in single precision; it is settled by a search of
-/// all triangles in double precision, so no photon is ever lost.
+/// A photon is inside the region, so the normal of the next boundary triangle points along the ray. A result
+/// that contradicts this (no triangle ahead in a closed region, or the next triangle entered from behind) is
+/// a ray that passed an edge in single precision; it is resolved by the exact query, a search of all
+/// triangles in double precision, so that no photon is lost.
 class Accelerator {
  public:
   /// @param triangles boundary, mm, centred near the origin (Embree works in single precision)
-  /// @param labels    what each triangle leads to; on a plane with one label any triangle of it may
-  ///                  be returned
+  /// @param labels    target of each triangle; on a plane with one label any of its triangles may be returned
   /// @param closed    false for the ambient region, from which rays may escape
   /// @param kind      throws InputError for `planes` where they do not apply
   Accelerator(const std::vector<BoundaryTriangle>& triangles, const std::vector<std::uint32_t>& labels,
               bool closed, scene_file::AcceleratorKind kind);
-  /// The same from the records of another.
+  /// An accelerator from the records of another.
   explicit Accelerator(Boundary boundary);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
 
-  /// Where the ray from `origin` (inside the region or on its boundary) along the unit vector
+  /// The point at which the ray from `origin` (inside the region or on its boundary) along the unit vector
   /// `direction` leaves the region.
   Exit find_exit(const core::Vec3& origin, const core::Vec3& direction) const;
 
-  /// find_exit in pieces, for what follows a photon from wall to wall and has the next ray in single
-  /// precision before it has it in double: the first hit, the approach to it, and where that does not leave
-  /// the region, or nothing is hit, exact_exit.
+  /// find_exit in steps, for the propagation through total reflections, in which the next ray is available in
+  /// single precision before it is in double: the first hit, the approach to it, and, where that does not
+  /// leave the region or nothing is hit, exact_exit.
   bool uses_embree() const { return embree_ != nullptr; }
   /// @param origin_and_start  fourth: start_mm(); the others mm
   /// @param direction         fourth: 0
   /// Only where Embree is used.
   FirstHit first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const;
-  /// Rays start this far ahead of their origin.
+  /// Distance (mm) from the origin at which rays start.
   double start_mm() const { return start_mm_; }
   /// @param origin  fourth: -1; @param direction  fourth: 0
   Approach approach_of(std::uint32_t triangle, const core::Lanes& origin,
@@ -124,22 +123,22 @@ class Accelerator {
   const core::PlainVec3& normal(std::uint32_t triangle) const {
     return boundary_.triangle_planes[triangle].normal;
   }
-  /// The normal, and as the fourth its product with any point of the plane, mm.
+  /// Plane of a triangle: the normal, and as the fourth its product with any point of the plane, mm.
   core::Lanes plane(std::uint32_t triangle) const {
     return core::Lanes::at(reinterpret_cast<const double*>(&boundary_.triangle_planes[triangle]));
   }
   std::size_t size() const { return boundary_.size(); }
   BoundaryTriangle triangle(std::uint32_t i) const { return boundary_.triangle(i); }
   bool uses_planes() const { return !boundary_.planes.empty(); }
-  /// Triangles whose planes bound the region, when it is convex: the number of distinct planes.
+  /// Number of distinct planes that bound the region, when it is convex.
   std::size_t plane_count() const { return boundary_.planes.size(); }
-  /// Everything but Embree's scene, which is made from it.
+  /// All records of the accelerator; Embree's scene is made from them.
   const Boundary& boundary() const { return boundary_; }
 
  private:
   struct EmbreeScene;
 
-  /// What one ray states of a point.
+  /// Result of one ray on whether a point is inside.
   enum class Inside { yes, no, no_hit, unclear };
 
   bool make_planes(const std::vector<std::uint32_t>& labels);
@@ -147,7 +146,7 @@ class Accelerator {
   Exit exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const;
   Inside inside_by_embree(const core::Vec3& point, const core::Vec3& direction) const;
   bool inside_by_search(const core::Vec3& point, const core::Vec3& direction) const;
-  /// Along the ray to the triangle's plane.
+  /// Distance (mm) along the ray to the triangle's plane.
   double distance_to_plane(std::uint32_t triangle, const core::Vec3& origin,
                            const core::Vec3& direction) const {
     const TrianglePlane& plane = boundary_.triangle_planes[triangle];
@@ -155,7 +154,7 @@ class Accelerator {
   }
 
   Boundary boundary_;
-  double start_mm_ = 0.0;  ///< rays start this far ahead
+  double start_mm_ = 0.0;  ///< distance from the origin at which rays start
   std::unique_ptr<EmbreeScene> embree_;
 };
 

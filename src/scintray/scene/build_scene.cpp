@@ -17,7 +17,7 @@ namespace scintray::scene {
 
 namespace {
 
-/// Looks up every name of a scene and fills an Assembly.
+/// Maker of an Assembly: looks up every name of a scene.
 class AssemblyMaker {
  public:
   AssemblyMaker(const scene_file::SceneSpec& spec, const materials::MaterialDatabase& database,
@@ -64,7 +64,7 @@ class AssemblyMaker {
     return known->second = add_medium(std::move(medium), ref.where);
   }
 
-  /// None for no name.
+  /// Id of a sensor; none for an empty name.
   core::SensorId sensor_id(const config::NameRef& ref) {
     if (ref.empty()) return core::SensorId::none();
     const auto [known, is_new] = sensors_.try_emplace(ref.name);
@@ -83,7 +83,7 @@ class AssemblyMaker {
     return known->second = assembly_.sensors.push_back(std::move(sensor));
   }
 
-  /// Reports, at the readout, a sensor whose pulses would have no shape behind it.
+  /// Reports, at the readout, a sensor without a pulse shape.
   void check_pulse(const detector::Sensor& sensor) {
     if (!spec_.readout) return;
     try {
@@ -94,7 +94,7 @@ class AssemblyMaker {
     }
   }
 
-  /// The medium of a sensor that names none: its window, which only its index describes.
+  /// The medium of a sensor part without one: its window, which has an index only.
   core::MediumId window_medium(const detector::Sensor& sensor) {
     const std::string name = "window of " + sensor.name;
     const auto [known, is_new] = media_.try_emplace(name);
@@ -126,7 +126,7 @@ class AssemblyMaker {
     assembly_.parts.push_back(std::move(part));
   }
 
-  /// Reports, once for each surface, a sheet that lets light through into a medium that keeps it.
+  /// Reports, once for each surface, a sheet that transmits light into an opaque medium.
   void check_sheet(const contact::PlacedMesh& placed) {
     if (placed.medium.name != scene_file::kOpaqueMedium) return;
     for (const contact::PlacedFace& face : placed.faces) {
@@ -143,7 +143,7 @@ class AssemblyMaker {
     }
   }
 
-  /// Looks a surface up once; problems are reported where it was first named.
+  /// Looks up a surface once; problems are reported at its first use.
   void find_surface(const config::NameRef& ref) {
     if (surfaces_.contains(ref.name)) return;
     materials::SurfaceSpec& spec = surfaces_[ref.name];
@@ -173,7 +173,7 @@ class AssemblyMaker {
                                std::vector<std::string>& warnings) {
     const materials::SurfaceSpec smooth;
     const materials::SurfaceSpec& spec = name.empty() ? smooth : surfaces_.at(name);
-    // An opaque part has no index: where light enters it the indices match.
+    // An opaque part has no index: light enters it with matched indices.
     const core::MediumId seen_inside = assembly_.media[inside].is_opaque() ? outside : inside;
     const core::MediumId seen_outside = assembly_.media[outside].is_opaque() ? inside : outside;
     const materials::MadeSurface made = surface_factory_.make(

@@ -1,5 +1,5 @@
 #pragma once
-/// From what a scene file states to the scene that photons see.
+/// Construction of the scene for transport from the specification of a scene file.
 
 #include <array>
 #include <memory>
@@ -16,7 +16,7 @@
 
 namespace scintray::scene {
 
-/// What `scintray check` states of one part beyond the scene itself.
+/// Report on one part by `scintray check`.
 struct PartReport {
   std::string name;
   mesh::MeshDiagnosis diagnosis;
@@ -26,16 +26,16 @@ struct PartReport {
 struct BuiltScene {
   Scene scene;
   std::vector<PartReport> parts;
-  std::vector<contact::PlacedMesh> placed;  ///< the parts as they are in the scene, cut and conformed
-  std::vector<std::string> warnings;        ///< things a user should know, none of which stops a run
+  std::vector<contact::PlacedMesh> placed;  ///< the parts in the scene, cut and conformed
+  std::vector<std::string> warnings;        ///< none of which stops a run
 };
 
-/// Builds scenes. Surfaces made for one are kept for the next, so a sweep traces each table once; definitions
-/// of the material database are read once (Library).
+/// Builder of scenes. Surfaces made for one are kept for the next, so that a sweep traces each table once;
+/// definitions are read once (MaterialDatabase).
 class SceneBuilder {
  public:
   /// @param models   surface and sensor models that definitions may name
-  /// @param formats  that mesh files of parts may have; must outlive the builder
+  /// @param formats  formats of the mesh files of parts; must outlive the builder
   explicit SceneBuilder(materials::SurfaceFactory::Hooks hooks = {}, materials::DefinitionModels models = {},
                         const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
@@ -43,16 +43,16 @@ class SceneBuilder {
   /// overlaps, unknown names, media without an index at the wavelengths in use, sensors that no light
   /// can reach.
   BuiltScene build(const scene_file::SceneSpec& spec);
-  /// True when a scene that was built from `of` is also that of `spec`: the two differ at most in their
-  /// source, run settings, tallies and analysis, and the light of both sources has the same wavelengths.
-  /// False where building `spec` would throw.
+  /// True when the scene built from `of` is also that of `spec`: the two differ at most in their source, run
+  /// settings, tallies and analysis, and the light of both sources has the same wavelengths. False where
+  /// building `spec` would throw.
   bool serves(const BuiltScene& built, const scene_file::SceneSpec& of, const scene_file::SceneSpec& spec);
 
-  /// What makes its surfaces, and keeps them.
+  /// The factory that makes and keeps its surfaces.
   materials::SurfaceFactory& surfaces() { return surface_factory_; }
-  /// The shipped database with a scene's own definitions. Lives until the next scene whose own are others.
+  /// The shipped database with a scene's own definitions. Valid until the next scene with other definitions.
   const materials::MaterialDatabase& database(const scene_file::SceneSpec& spec);
-  /// How often files and definitions were read for all scenes so far.
+  /// Numbers of files and definitions read for all scenes so far.
   materials::MaterialDatabase::Readings readings() const;
 
  private:
@@ -65,9 +65,9 @@ class SceneBuilder {
   OwnDefinitions own_;  ///< of `database_`
 };
 
-/// Adds a scene's own media, surfaces, sensors and reflectors to a library.
+/// Adds a scene's own media, surfaces, sensors and reflectors to a material database.
 void add_definitions(materials::MaterialDatabase& database, const scene_file::SceneSpec& spec);
-/// The shipped database with them.
+/// The shipped material database with a scene's own definitions.
 materials::MaterialDatabase database_for(const scene_file::SceneSpec& spec);
 
 }  // namespace scintray::scene

@@ -25,7 +25,7 @@ void move(mesh::TriMesh& mesh, const core::Vec3& by) {
   for (core::Vec3& vertex : mesh.vertices) vertex += by;
 }
 
-/// How far a body moves to lie against a side of another, centred on it across.
+/// Displacement (mm) of a body to a side of another, centred on it laterally.
 core::Vec3 shift_against(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& touched,
                          const scene_file::TouchSpec& touch) {
   core::Vec3 shift = touched.center() - own.center();
@@ -35,7 +35,7 @@ core::Vec3 shift_against(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox
   return shift;
 }
 
-/// The box between two parts: as wide as both bounding boxes have in common, as thick as the gap.
+/// The box between two parts: laterally the intersection of both bounding boxes, in thickness the gap.
 std::optional<Eigen::AlignedBox3d> gap_between(const Eigen::AlignedBox3d& touched,
                                                const Eigen::AlignedBox3d& own,
                                                const scene_file::TouchSpec& touch) {
@@ -59,7 +59,7 @@ mesh::FaceSelector selector_of(const scene_file::FaceSelectorSpec& spec) {
   return selector;
 }
 
-/// Groups of the mesh, and what the file states of them.
+/// List of the groups of the mesh, with their tags in the file.
 std::string group_list(const mesh::TriMesh& mesh) {
   constexpr std::size_t kMost = 30;
   std::vector<std::string> names;
@@ -74,13 +74,13 @@ std::string group_list(const mesh::TriMesh& mesh) {
   return core::list_of(shown) + (names.size() > kMost ? " and more" : "");
 }
 
-/// Where a triangle is, for pictures.
+/// Position of a triangle, for pictures.
 std::vector<std::array<double, 3>> mark_at(const mesh::TriMesh& mesh, std::size_t triangle) {
   const core::Vec3 centre = mesh::centre_of(mesh, triangle);
   return {{centre.x(), centre.y(), centre.z()}};
 }
 
-/// Where a triangle is, for messages.
+/// Position of a triangle, for messages.
 std::string place_of(const mesh::TriMesh& mesh, std::size_t triangle) {
   const core::Vec3 centre = mesh::centre_of(mesh, triangle);
   char text[96];
@@ -88,7 +88,7 @@ std::string place_of(const mesh::TriMesh& mesh, std::size_t triangle) {
   return text;
 }
 
-/// Gives every triangle its face by the rules of the part.
+/// Assigns every triangle to a face by the rules of the part.
 class FaceTagger {
  public:
   FaceTagger(const scene_file::PartSpec& part, contact::PlacedMesh& placed, core::Problems& problems)
@@ -150,7 +150,7 @@ class FaceTagger {
   std::vector<std::uint32_t> rule_of_;
 };
 
-/// Every problem where it is, or at the shape when it has no place.
+/// Adds every problem at its place, or at the shape when it has none.
 void add_problems(const std::vector<core::Problem>& found, const scene_file::PartSpec& part,
                   core::Problems& problems) {
   for (core::Problem problem : found) {
@@ -185,7 +185,7 @@ class PartPlacer {
   }
 
  private:
-  /// A part in its own frame: rotated, nothing else.
+  /// A part in its own frame, rotated only.
   contact::PlacedMesh loaded(const scene_file::PartSpec& part) const {
     contact::PlacedMesh result;
     result.name = part.name.name;
@@ -212,7 +212,7 @@ class PartPlacer {
     part.rotation = turn.linear() * part.rotation;
   }
 
-  /// Diagnoses a part where it stands.
+  /// Diagnosis of a part in its final place.
   static void examine(contact::PlacedMesh& placed, const scene_file::PartSpec& part,
                       core::Problems& problems) {
     placed.diagnosis = mesh::diagnose_in_place(placed.mesh);
@@ -236,7 +236,7 @@ class PartPlacer {
     keep(std::move(fill));
   }
 
-  /// Parts get their faces in their own frame, take their places in the group's, and move with it.
+  /// Parts are tagged in their own frame, placed in that of the group, and moved with it.
   void place_group(const scene_file::GroupSpec& group, const scene_file::PartSpec* parts) {
     std::vector<contact::PlacedMesh> members;
     Eigen::AlignedBox3d bounds;
@@ -265,7 +265,7 @@ class PartPlacer {
     placed_.push_back(std::move(part));
   }
 
-  /// Where a body goes after it is rotated, and the part that fills the gap to what it touches.
+  /// Displacement of a body after its rotation, and the part that fills the gap to the touched part.
   struct Against {
     core::Vec3 shift;
     std::optional<contact::PlacedMesh> fill;

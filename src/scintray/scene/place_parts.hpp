@@ -1,5 +1,5 @@
 #pragma once
-/// Loads, places and tags the parts of a scene.
+/// Loading, placement and face tags of the parts of a scene.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 
 namespace scintray::scene {
 
-/// Places every part of the scene, with the parts that fill gaps after the part they belong to.
-/// Adds to `problems`: unreadable or unsound meshes, faces that two rules match, rules that match
-/// nothing, faces without a surface, touching a part that does not stand earlier. A part with
-/// problems may be missing from the result. Of a builder's parts only the first with problems tells them.
-/// @param formats  that mesh files may have
+/// Placed meshes of all parts of the scene; a part that fills a gap follows the part to which it belongs.
+/// Adds to `problems`: unreadable or unsound meshes, faces that two rules match, rules that match nothing,
+/// faces without a surface, placement against a part that is not defined earlier. A part with problems may be
+/// missing from the result. Of a builder's parts only the problems of the first with any are reported.
+/// @param formats  formats of mesh files
 [[nodiscard]] std::vector<contact::PlacedMesh> place_parts(
     const scene_file::SceneSpec& spec, core::Problems& problems,
     const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());

@@ -1,5 +1,5 @@
 #pragma once
-/// The scene as photons see it: regions, interfaces, and what binds to them. Immutable once built.
+/// The scene for transport: regions, interfaces, surfaces and sensors. Immutable once built.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace scintray::scene {
 
-/// The region of no part, which surrounds everything.
+/// The ambient region, which belongs to no part and surrounds all parts.
 inline constexpr core::RegionId kAmbientRegion(0);
 
-/// A medium of the scene, as it was defined.
+/// A medium of the scene, by its definition.
 class SceneMedium {
  public:
   explicit SceneMedium(optics::Medium medium) : medium_(std::move(medium)) {}
-  /// A medium that absorbs whatever enters it.
+  /// A medium that absorbs all light that enters it.
   static SceneMedium opaque();
 
   const optics::Medium& medium() const { return medium_; }
@@ -36,19 +36,19 @@ class SceneMedium {
   bool opaque_ = false;
 };
 
-/// What photons see of a medium: where its optics are in SceneOptics::table, and how it interacts.
+/// Record of a medium for transport: its range of SceneOptics::table, and its kind of scattering.
 struct MediumRecord {
   std::uint32_t first = 0, count = 1;  ///< entries of the table; 1: the same at every wavelength
   double low_nm = 0.0, per_nm = 0.0;   ///< wavelength of the first, and entries per nm
-  double last = 0.0;                   ///< place of the last entry, count - 1
+  double last = 0.0;                   ///< position of the last entry, count - 1
   optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
   bool opaque = false;
-  bool shifts = false;  ///< it has a wavelength shifter
+  bool shifts = false;  ///< has a wavelength shifter
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
 
-/// The optics of all media, tabulated at even steps of wavelength, for use once per interaction.
+/// Optical properties of all media, tabulated at equal steps of wavelength, for use once per interaction.
 struct SceneOptics {
   core::IdVector<core::MediumId, MediumRecord> media;  ///< as Scene::media
   std::vector<optics::MediumOptics> table;
@@ -56,7 +56,7 @@ struct SceneOptics {
   /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
   void add(const SceneMedium& medium, double low_nm, double high_nm);
 
-  /// Optics of a medium at a wavelength (nm); beyond the table's ends as at them.
+  /// Optical properties of a medium at a wavelength (nm); constant beyond the table's ends.
   optics::MediumOptics at(core::MediumId medium, double wavelength_nm) const {
     const MediumRecord& record = media[medium];
     const optics::MediumOptics* entries = &table[record.first];
@@ -76,31 +76,31 @@ struct SceneOptics {
   bool is_opaque(core::MediumId medium) const { return media[medium].opaque; }
 };
 
-/// What separates two regions over some of their boundary. Its normal points from `back` to `front`.
+/// The interface of two regions over a part of their boundary. Its normal points from `back` to `front`.
 ///
-/// Light meets `back_surface` (whose inside is the back region), then, in a dry contact, a gap of no
-/// thickness, then `front_surface` (whose inside is the front region). A bonded contact or a free
-/// face has exactly one of the two surfaces.
+/// From back to front, light interacts with `back_surface` (whose inside is the back region), then, in a dry
+/// contact, crosses a gap of no thickness, then interacts with `front_surface` (whose inside is the front
+/// region). A bonded contact or a free face has exactly one of the two surfaces.
 struct Interface {
   core::RegionId back, front;
   core::SurfaceId back_surface, front_surface;
   core::MediumId gap_medium;                 ///< dry contact: the medium in the gap
-  core::SensorId back_sensor, front_sensor;  ///< sensor that light entering that region meets
+  core::SensorId back_sensor, front_sensor;  ///< sensor reached by light that enters that region
   core::PartId back_sensor_part, front_sensor_part;
   core::FaceId back_face, front_face;  ///< of the two parts
-  bool plain = false;                  ///< one smooth surface and nothing else
+  bool plain = false;                  ///< a single smooth surface
 };
 static_assert(std::is_trivially_copyable_v<Interface> && sizeof(Interface) == 48);
 
-/// Which interface a boundary triangle belongs to, and from which side this region meets it.
+/// The interface of a boundary triangle, and the side of this region on it.
 struct BoundaryLink {
   core::InterfaceId interface;
-  core::MediumId smooth_to;  ///< medium behind a plain interface; none: it is not plain
+  core::MediumId smooth_to;  ///< medium behind a plain interface; none: not plain
   bool from_back = true;
 };
 static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
 
-/// Connected space of one medium: a part less what is nested in it, or the ambient space.
+/// Connected space of one medium: a part less the parts nested in it, or the ambient space.
 struct Region {
   core::MediumId medium;
   core::PartId part;  ///< none: the ambient space
@@ -128,15 +128,16 @@ struct Region {
 };
 static_assert(std::is_trivially_copyable_v<Region> && sizeof(Region) == 120);
 
-/// What photons see, as plain records in arrays with indices between them: no names, nothing that points.
-/// With the boundaries of the accelerators it can be copied to another process or device as it is.
+/// Records of a scene for transport, as plain data in arrays with indices between them, without names or
+/// pointers. Together with the boundaries of the accelerators they can be copied to another process or device
+/// unchanged.
 struct SceneRecords {
   core::IdVector<core::RegionId, Region> regions;
-  std::vector<BoundaryLink> links;  ///< one a triangle of a region's boundary, region after region
+  std::vector<BoundaryLink> links;  ///< one per triangle of a region's boundary, region after region
   core::IdVector<core::InterfaceId, Interface> interfaces;
   SceneOptics optics;
 
-  /// Of the triangles of a region's boundary, in their order.
+  /// Links of the triangles of a region's boundary, in their order.
   const BoundaryLink* links_of(const Region& region) const { return links.data() + region.first_link; }
   const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
     return links_of(region)[triangle];
@@ -146,7 +147,7 @@ struct SceneRecords {
 struct PartInfo {
   std::string name;
   core::RegionId region;
-  core::SensorId sensor;  ///< none: it is not a sensor
+  core::SensorId sensor;  ///< none: not a sensor
   double volume_mm3 = 0.0;
   Eigen::AlignedBox3d bounds;
 };
@@ -156,20 +157,20 @@ struct FaceInfo {
   std::string name;  ///< "part:face"
   core::PartId part;
   std::string surface;
-  double area_mm2 = 0.0;          ///< as drawn
-  double contact_area_mm2 = 0.0;  ///< of it, in contact with another part
+  double area_mm2 = 0.0;          ///< as defined, contacts included
+  double contact_area_mm2 = 0.0;  ///< of this, in contact with another part
   std::size_t triangles = 0;
   core::Vec3 area_vector_mm2 =
       core::Vec3::Zero();           ///< sum of outward normal times area: as long as the area when flat
   std::vector<core::Vec3> corners;  ///< of its triangles, each once
 };
 
-/// A scene: what photons see, and beside it what its records refer to by index.
+/// A scene: its records for transport, and the objects to which these refer by index.
 struct Scene : SceneRecords {
   core::IdVector<core::MediumId, SceneMedium> media;
   core::IdVector<core::SurfaceId, optics::Surface> surfaces;
   core::IdVector<core::SensorId, detector::Sensor> sensors;
-  /// Distinct ones; regions of one shape share. A copy of a scene shares them.
+  /// Distinct accelerators; regions of one shape share one. A copy of a scene shares them.
   core::IdVector<core::AcceleratorId, std::shared_ptr<const Accelerator>> accelerators;
 
   core::IdVector<core::RegionId, std::string> region_names;
@@ -179,7 +180,7 @@ struct Scene : SceneRecords {
   double low_nm = 0.0, high_nm = 0.0;  ///< wavelengths in use
 
   const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
-  /// Where a ray inside a region leaves it.
+  /// The point at which a ray inside a region leaves it.
   /// @param p  world, mm; @param d  of unit length
   Exit find_exit(const Region& region, const core::PlainVec3& p, const core::PlainVec3& d) const {
     return accelerator(region).find_exit(region.point_to_local(p), region.direction_to_local(d));
@@ -194,8 +195,8 @@ struct Scene : SceneRecords {
   /// The region that contains a point (world, mm).
   core::RegionId locate(const core::Vec3& point) const;
   bool region_contains(core::RegionId region, const core::Vec3& point) const;
-  /// True when all of a box (world, mm) lies inside. A box that reaches beyond by rounding counts as inside;
-  /// one that a slanted boundary comes near may count as not inside.
+  /// True when a whole box (world, mm) lies inside the region. A box that extends beyond it by rounding
+  /// counts as inside; one near an oblique boundary may count as not inside.
   bool region_contains(core::RegionId region, const Eigen::AlignedBox3d& box) const;
 };
 

@@ -5,7 +5,8 @@ namespace scintray::scene {
 
 namespace {
 
-/// True when all that a scene is built from, but the light of its source, is the same, at the same places.
+/// True when all inputs of a scene, apart from the light of its source, are equal, at the same places of the
+/// file.
 bool same_parts(const scene_file::SceneSpec& a, const scene_file::SceneSpec& b) {
   return a.ambient == b.ambient && a.contacts_default == b.contacts_default &&
          a.contacts_default_given == b.contacts_default_given && a.folder == b.folder &&

@@ -1,5 +1,5 @@
 #pragma once
-/// [[contact]]: what is between faces that touch. Lengths mm.
+/// [[contact]]: the optical contact between faces that touch. Lengths mm.
 
 #include <array>
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace scintray::scene_file {
 
-/// How the touching faces of two parts meet.
+/// Kind of contact between the touching faces of two parts.
 enum class ContactKind {
   bonded,  ///< optical contact: one interface between both media
-  dry,     ///< an air gap of no thickness: each side keeps its surface to the ambient medium
+  dry,     ///< a gap of no thickness: each face keeps its surface to the ambient medium
 };
 
 inline constexpr core::Word<ContactKind> kContactKinds[] = {{"bonded", ContactKind::bonded},
@@ -26,17 +26,18 @@ struct ContactSpec {
   std::array<config::NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
   std::array<std::string, 2> faces;        ///< of the two parts; empty: every face
   ContactKind kind = ContactKind::bonded;
-  config::NameRef surface;  ///< of the shared interface; empty: the surfaces of the two faces decide
-  bool joint = false;       ///< bonded within one body: smooth, whatever the faces' surfaces are
-  bool by_builder = false;  ///< made with a builder's parts: yields to what the file states, may find no pair
-  /// Faces this near to each other, curved ones too, are made one (contact/neighbours.hpp); nothing: only
-  /// those within the scene's contact tolerance.
+  config::NameRef surface;  ///< of the shared interface; empty: from the surfaces of the two faces
+  bool joint = false;       ///< bonded within one body: smooth, independent of the faces' surfaces
+  bool by_builder =
+      false;  ///< made with a builder's parts: contacts of the file precede it; may match no pair
+  /// Distance within which faces, curved ones included, are made one (contact/neighbours.hpp); nothing: the
+  /// scene's contact tolerance.
   std::optional<double> tolerance_mm;
   core::FileLocation where;
   bool operator==(const ContactSpec&) const = default;
 };
 
-/// [[contact]] of a scene; `part_names` are those of all parts, `parts` those whose faces are known.
+/// [[contact]] of a scene; `part_names` are those of all parts, `parts` those with known faces.
 std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,
                                        const std::vector<std::string>& part_names,
                                        const std::vector<PartSpec>& parts);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene is expected to show, said in its file and evaluated on its page (docs/analysis.md).
+/// Acceptance criteria of a scene, defined in its file and evaluated on its page (docs/analysis.md).
 
 #include <optional>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace scintray::scene_file {
 
-/// What is taken from one or two curves of a sweep, or from a surface on the goniometer.
+/// Quantity derived from one or two curves of a sweep, or from a surface on the goniometer.
 enum class CriterionQuantity {
   range,            ///< (largest - smallest) / mean of the light of a curve
   fall,             ///< 1 - last / first light of a curve
@@ -38,28 +38,28 @@ inline constexpr core::Word<CriterionQuantity> kCriterionQuantities[] = {
     {"reflectance", CriterionQuantity::reflectance},
     {"over_fresnel", CriterionQuantity::over_fresnel},
     {"lobe_width", CriterionQuantity::lobe_width}};
-/// Is about a surface of a [[bench]], not about curves.
+/// True for a quantity of a surface of a [[bench]], not of curves.
 bool is_of_surface(CriterionQuantity quantity);
-/// Its numbers are angles.
+/// True for a quantity that is an angle.
 bool is_angle(CriterionQuantity quantity);
 
 struct CriterionSpec {
   std::string text;       ///< the criterion in words
-  std::string published;  ///< what its source states
-  std::string note;       ///< why ours differs, when it does
+  std::string published;  ///< the published value, in words
+  std::string note;       ///< reason for a deviation of the simulation
   CriterionQuantity quantity = CriterionQuantity::light;
   config::NameRef curve,
       over;  ///< labels of curves: settings of all keys but the last swept number, "2 mm, polished"
   config::NameRef surface, outside;         ///< of a [[bench]]
-  double incidence_rad = 0.0;               ///< one of the goniometer's
-  std::optional<double> at_least, at_most;  ///< agreed within, both inclusive; rad when it is an angle
+  double incidence_rad = 0.0;               ///< one of the goniometer's angles
+  std::optional<double> at_least, at_most;  ///< limits of acceptance, both inclusive; rad for an angle
   core::FileLocation where;
 };
 
-/// [[claim]] of a scene. Adds what is wrong to the collector of the table.
+/// Acceptance criteria: [[claim]] of a scene. Adds errors to the collector of the table.
 std::vector<CriterionSpec> read_criteria(const config::TomlTable& scene);
 
-/// The same of a file's text, of which nothing else is read. @throws InputError with all that is wrong
+/// Acceptance criteria of a file's text, of which nothing else is read. @throws InputError with every error
 std::vector<CriterionSpec> criteria_of_text(const std::string& text, const std::string& file);
 
 }  // namespace scintray::scene_file

@@ -18,7 +18,7 @@ constexpr core::Word<bool> kFromInside[] = {{"inside", true}, {"outside", false}
 constexpr core::Word<bool> kFreeScale[] = {{"fixed", false}, {"free", true}};
 constexpr core::Word<bool> kErrorsFromScatter[] = {{"measured", false}, {"from_scatter", true}};
 
-/// A number with the unit behind it, as written.
+/// A number with its unit, as written.
 struct Written {
   double value = 0.0;
   std::string unit;
@@ -37,7 +37,7 @@ std::optional<Written> number_and_unit(const config::TomlNode& node) {
   return result;
 }
 
-/// A value as a scene file would have it: a plain number, or a string with its unit.
+/// A value in the form of a scene file: a plain number, or a string with its unit.
 config::TomlNode value_node(double value, const std::string& unit, const core::FileLocation& where) {
   config::TomlNode node;
   node.where = node.key_where = where;
@@ -145,7 +145,7 @@ FitGoniometerSpec read_goniometer_spec(const config::TomlTable& table) {
   return spec;
 }
 
-/// Which of the keys belong to the quantity.
+/// Reads the keys that belong to the quantity.
 void read_fit_place(const config::TomlTable& table, FitSpec& fit) {
   const bool reflectance = fit.quantity == FitQuantity::reflectance;
   const char* wanted = reflectance ? "goniometer" : "at";
@@ -175,7 +175,7 @@ void read_fit_place(const config::TomlTable& table, FitSpec& fit) {
     fit.at = read_path(table, "at", "key that takes the measured positions,");
 }
 
-/// Reports a unit that no quantity has; which kind of quantity it must be, the key `at` decides.
+/// Reports a unit that no quantity has; the required kind of quantity depends on the key `at`.
 void check_unit(const config::TomlTable& table, const FitSpec& fit) {
   if (fit.quantity != FitQuantity::reflectance) return;
   try {

@@ -1,5 +1,5 @@
 #pragma once
-/// [fit]: which parameters of a scene are to be found from which measurement (docs/fit.md).
+/// [fit]: the parameters of a scene to fit, and the measurement (docs/fit.md).
 
 #include <cstdint>
 #include <filesystem>
@@ -13,10 +13,10 @@
 
 namespace scintray::scene_file {
 
-/// What of the simulation stands beside the measured values.
+/// Simulated quantity that is compared with the measured values.
 enum class FitQuantity {
   detected_fraction,  ///< of the photons of a source of photons
-  light_per_keV,      ///< of a source of energy
+  light_per_keV,      ///< of an event source
   reflectance,        ///< of one surface on the goniometer, against the incidence angle
 };
 
@@ -25,15 +25,15 @@ inline constexpr core::Word<FitQuantity> kFitQuantities[] = {
     {"light_per_keV", FitQuantity::light_per_keV},
     {"reflectance", FitQuantity::reflectance}};
 
-/// [[fit.parameter]]. Values are in the unit that the file gives them in.
+/// [[fit.parameter]]. Values are in their unit in the file.
 struct FitParameterSpec {
   KeyPath path;
-  std::string label;  ///< heading; the key when not given
+  std::string label;  ///< heading; the key by default
   double start = 0.0, low = 0.0, high = 0.0;
   std::string unit;          ///< as written; empty for plain numbers
-  core::FileLocation where;  ///< of the start, to which errors in values point
+  core::FileLocation where;  ///< of the start; place of errors in values
 
-  /// The key with a value.
+  /// Setting of the key to a value.
   KeySetting setting(double value) const;
 };
 
@@ -41,7 +41,7 @@ struct FitParameterSpec {
 struct FitGoniometerSpec {
   config::NameRef surface, inside, outside;
   double wavelength_nm = 0.0;
-  bool from_inside = true;  ///< where the light comes from
+  bool from_inside = true;  ///< side of incidence
   std::uint64_t rays = 0;   ///< at each angle
 };
 
@@ -49,7 +49,7 @@ struct FitSpec {
   std::filesystem::path measurement;  ///< it exists
   core::FileLocation measurement_where;
   FitQuantity quantity = FitQuantity::detected_fraction;
-  KeyPath at;        ///< the key that takes the measured positions; empty for a reflectance
+  KeyPath at;        ///< key set to the measured positions; empty for a reflectance
   std::string unit;  ///< of the measured positions
   bool free_scale = false;
   bool errors_from_scatter = false;
@@ -57,14 +57,14 @@ struct FitSpec {
   std::vector<FitParameterSpec> parameters;
   core::FileLocation where;
 
-  /// The key `at` with a position.
+  /// Setting of the key `at` to a position.
   KeySetting position(double value, const core::FileLocation& row) const;
 };
 
-/// "detected_fraction", ... as a scene file has it.
+/// Name of a quantity in scene files: "detected_fraction", ...
 const char* quantity_name(FitQuantity quantity);
 
-/// [fit] of a scene, or nothing. What is wrong is added to the collector of the table.
+/// [fit] of a scene, or nothing. Errors are added to the collector of the table.
 std::optional<FitSpec> read_fit(const config::TomlTable& scene);
 
 }  // namespace scintray::scene_file

@@ -7,7 +7,7 @@ namespace scintray::scene_file {
 
 namespace {
 
-/// Energies beyond this are mistakes of unit.
+/// Largest accepted energy of a deposit; larger ones are errors of unit.
 constexpr double kGreatestDeposit_keV = 1e6;
 
 constexpr core::Word<OriginKind> kSpectrumOrigins[] = {{"region", OriginKind::region},
@@ -15,7 +15,7 @@ constexpr core::Word<OriginKind> kSpectrumOrigins[] = {{"region", OriginKind::re
 constexpr core::Word<OriginKind> kEmitterOrigins[] = {
     {"region", OriginKind::region}, {"position", OriginKind::position}, {"plane", OriginKind::plane}};
 
-/// The keys by which a file gives the energies of deposits.
+/// Keys for the energies of deposits.
 enum class EnergyForm { one, spectrum };
 constexpr core::Word<EnergyForm> kEnergyForms[] = {{"energy", EnergyForm::one},
                                                    {"spectrum", EnergyForm::spectrum}};
@@ -121,7 +121,7 @@ EmitterSpec read_emitter(const config::TomlTable& table, const std::vector<std::
   return source;
 }
 
-/// A unit in internal units; reported when it is none.
+/// Value of a unit in internal units; reported when it is not a unit.
 double read_unit(const config::TomlTable& table, const std::string& key, core::Dimension dimension) {
   const std::string unit = table.string(key);
   if (!table.good(key)) return 1.0;

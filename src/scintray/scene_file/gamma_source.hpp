@@ -1,6 +1,5 @@
 #pragma once
-/// What leaves energy in the scene, as a scene file states it: [source] of the types "gamma_events",
-/// "gammas" and "hits".
+/// Event sources in a scene file: [source] of the types "gamma_events", "gammas" and "hits".
 
 #include <cstdint>
 #include <filesystem>
@@ -17,9 +16,9 @@
 
 namespace scintray::scene_file {
 
-/// type = "gamma_events": one deposit an event, without transport.
+/// type = "gamma_events": one deposit per event, without transport of gammas.
 struct SpectrumSpec {
-  std::variant<RegionSpec, core::Vec3> origin;  ///< where the deposits are
+  std::variant<RegionSpec, core::Vec3> origin;  ///< of the deposits
   core::FileLocation origin_where;
   std::optional<double> energy_keV;  ///< of every event; nothing: drawn from the spectrum
   core::Curve spectrum;              ///< relative number per keV against energy, keV
@@ -32,11 +31,11 @@ struct PlaneSpec {
   core::FileLocation where;
 };
 
-/// Energies that gammas are followed at: below, a gamma's energy stays where it is.
+/// Range of energies of gamma transport: below it a gamma's energy is deposited at its position.
 inline constexpr double kLowestGamma_keV = 10.0;
 inline constexpr double kHighestGamma_keV = 3000.0;
 
-/// What one event of a source of gammas emits.
+/// Emission of one event of a source of gammas.
 enum class Emission {
   gamma,    ///< one gamma
   pair,     ///< two of 511 keV, back to back
@@ -51,10 +50,10 @@ inline constexpr core::Word<Emission> kEmissions[] = {{"gamma", Emission::gamma}
                                                       {"Cs137", Emission::caesium},
                                                       {"Lu176", Emission::lutetium}};
 
-/// What parts are made of, for gammas, where their medium does not state it.
+/// Composition of parts, for gammas, where that of their medium is not defined.
 struct MatterSpec {
-  config::NameRef part;             ///< may have wildcards; "ambient" is what surrounds the parts
-  optics::Composition composition;  ///< empty: gammas pass as through empty space
+  config::NameRef part;             ///< may have wildcards; "ambient" is the medium around the parts
+  optics::Composition composition;  ///< empty: empty space
   double density_g_per_cm3 = 0.0;
   core::FileLocation where;
 };
@@ -62,7 +61,7 @@ struct MatterSpec {
 /// Name that stands for the ambient in MatterSpec::part.
 inline constexpr const char* kAmbientName = "ambient";
 
-/// type = "gammas": gammas followed through the scene.
+/// type = "gammas": transport of gammas through the scene.
 struct EmitterSpec {
   std::variant<RegionSpec, core::Vec3, PlaneSpec> origin;
   core::FileLocation origin_where;
@@ -72,14 +71,14 @@ struct EmitterSpec {
   DirectionSpec direction;         ///< of the gamma, or of the first of the pair; nuclides are isotropic
   double acollinearity_rad = 0.0;  ///< of the pair: FWHM of either transverse angle from back to back
   bool fluorescence = true;        ///< K X-rays after photoelectric absorption
-  std::vector<MatterSpec> matter;  ///< the last that names a part holds
+  std::vector<MatterSpec> matter;  ///< the last one for a part applies
 };
 
-/// type = "hits": deposits that another program wrote to a file.
+/// type = "hits": deposits from a file of another program.
 struct HitsSpec {
   std::filesystem::path file;  ///< .csv, .h5 or .hdf5
   core::FileLocation where;
-  std::string group;  ///< of an HDF5 file, that holds the columns; empty: its root
+  std::string group;  ///< of an HDF5 file, with the columns; empty: its root
   std::string event = "event", x = "x", y = "y", z = "z", energy = "energy", time = "time";  ///< columns
   double length_mm = 1.0;         ///< the file's unit of length
   double energy_keV = 1.0;        ///< the file's unit of energy
@@ -88,14 +87,14 @@ struct HitsSpec {
 
 struct GammaSpec {
   std::variant<SpectrumSpec, EmitterSpec, HitsSpec> kind;
-  std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else at most so many
-  std::optional<std::uint64_t> quick_events;  ///< in their place, for a quick run
-  bool cherenkov = false;                     ///< Cherenkov light beside scintillation
-  bool unpolarised = false;                   ///< the light, as SourceSpec states
+  std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else the largest number
+  std::optional<std::uint64_t> quick_events;  ///< replaces `events` in a quick run
+  bool cherenkov = false;                     ///< Cherenkov light in addition to scintillation
+  bool unpolarised = false;                   ///< of the light, as in SourceSpec
   core::FileLocation where;
 };
 
-/// Types of [source] that leave energy.
+/// Types of [source] with energy deposits.
 enum class GammaSourceType {
   spectrum,  ///< SpectrumSpec
   emitter,   ///< EmitterSpec
@@ -107,8 +106,8 @@ inline constexpr core::Word<GammaSourceType> kGammaSourceTypes[] = {
     {"gammas", GammaSourceType::emitter},
     {"hits", GammaSourceType::hits}};
 
-/// Reads the keys of the three types from the table [source] (docs/gamma_sources.md); the caller looks at
-/// keys of its own, and at what is unknown. Adds what is wrong to the collector of the table.
+/// Event source of the table [source], of one of the three types (docs/gamma_sources.md); further and unknown
+/// keys are left to the caller. Adds errors to the collector of the table.
 /// @param source  its `type` is one of kGammaSourceTypes
 /// @param parts   names of the scene's parts
 GammaSpec read_gamma_source(const config::TomlTable& source, const std::vector<std::string>& parts);

@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces that a scene wants shown on a goniometer, beside what its crystals give (docs/analysis.md).
+/// Goniometer measurements of surfaces requested by a scene (docs/analysis.md).
 
 #include <cstdint>
 #include <string>
@@ -14,18 +14,18 @@ namespace scintray::scene_file {
 struct GoniometerSpec {
   std::string title;
   std::vector<config::NameRef> surfaces;   ///< of the database or the scene, at least one
-  config::NameRef inside;                  ///< medium from which the light comes
+  config::NameRef inside;                  ///< medium of incidence
   std::vector<config::NameRef> outside;    ///< media behind the surface, at least one
   double wavelength_nm = 0.0;              ///< above 0
   std::vector<double> incidence_rad;       ///< angles of incidence, rising, in [0, 90 deg)
-  double directions_at_rad = 0.0;          ///< the incidence at which directions are kept
+  double directions_at_rad = 0.0;          ///< angle of incidence at which directions are recorded
   std::uint64_t rays = kFewestRays * 100;  ///< per incidence
   core::FileLocation where;
 
   static constexpr std::uint64_t kFewestRays = 1'000, kMostRays = 100'000'000;
 };
 
-/// [[bench]] of a scene. Adds what is wrong to the collector of the table.
+/// Goniometers: [[bench]] of a scene. Adds errors to the collector of the table.
 std::vector<GoniometerSpec> read_goniometers(const config::TomlTable& scene);
 
 }  // namespace scintray::scene_file

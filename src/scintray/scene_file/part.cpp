@@ -15,7 +15,7 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
-/// A scalar as the value of a tag.
+/// Text of a scalar, as the value of a tag.
 std::optional<std::string> tag_value(const config::TomlNode& node) {
   if (node.kind == Kind::string) return node.text;
   if (node.kind == Kind::boolean) return node.boolean ? "true" : "false";

@@ -1,6 +1,5 @@
 #pragma once
-/// [[part]], a body of the scene, and [[part.face]]: which of its faces are special, and how. Lengths mm,
-/// angles rad.
+/// [[part]], a body of the scene, and [[part.face]], the rules of its faces. Lengths mm, angles rad.
 
 #include <cstddef>
 #include <map>
@@ -18,24 +17,24 @@
 
 namespace scintray::scene_file {
 
-/// The medium that absorbs whatever enters it.
+/// Name of the medium that absorbs all light that enters it.
 inline constexpr const char* kOpaqueMedium = "opaque";
 
-/// Bound of part priorities, both ways.
+/// Largest magnitude of a part's priority.
 inline constexpr int kHighestPriority = 1000;
 
-/// What the name of a part and this make is the name of the part that fills the gap under it.
+/// Suffix that, added to the name of a part, names the part that fills the gap under it.
 inline constexpr const char* kFillSuffix = "_fill";
 
-/// Name of the face made of a part's triangles that no rule matches; no rule may have it.
+/// Name of the face made of a part's triangles that no rule matches; no rule may use it.
 inline constexpr const char* kOtherFaces = "other";
 
-/// Picks triangles of a part in world coordinates, after placement. Every criterion given must hold; they
-/// mean what they mean in FaceSelector (mesh/face_selection.hpp).
+/// Selection of triangles of a part in world coordinates, after placement. All criteria present apply
+/// together, with the meaning of FaceSelector (mesh/face_selection.hpp).
 struct FaceSelectorSpec {
   std::optional<core::Vec3> normal;  ///< unit; within `tolerance_rad` of the outward normal
   double tolerance_rad = core::kDegree;
-  std::optional<BoxSpec> box;             ///< the whole triangle lies in it
+  std::optional<BoxSpec> box;             ///< contains the whole triangle
   std::optional<core::Vec3> flat_region;  ///< point, mm: the connected flat patch nearest to it
   std::optional<core::Vec3> nearest;      ///< point, mm: the one triangle nearest to it
   config::NameRef group;                  ///< glTF material or OBJ group of the mesh file; side
@@ -45,13 +44,13 @@ struct FaceSelectorSpec {
   bool operator==(const FaceSelectorSpec&) const = default;
 };
 
-/// What is special about some of a part's faces.
+/// A rule for some of a part's faces.
 struct FaceRuleSpec {
-  std::string name;  ///< unique within its part; when not given, the group, or the side
-                     ///< ("-z") of a normal along an axis, or "face1", "face2"...
+  std::string name;  ///< unique within its part; by default the group, or the side ("-z") of a normal along
+                     ///< an axis, or "face1", "face2"...
   FaceSelectorSpec select;
   config::NameRef surface;  ///< empty: the part's
-  config::NameRef sensor;   ///< light that crosses outwards here is detected by it
+  config::NameRef sensor;   ///< detects light that leaves the part here
   core::FileLocation where;
   bool operator==(const FaceRuleSpec&) const = default;
 };
@@ -63,15 +62,15 @@ struct PartSpec {
   config::NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
   config::NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
   config::NameRef sensor;   ///< the whole part is a sensor
-  int priority = 0;         ///< of two parts that overlap the one with the higher priority keeps the space
+  int priority = 0;         ///< of two overlapping parts the one with the higher priority keeps the volume
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   core::FileLocation where;
   bool operator==(const PartSpec&) const = default;
 };
 
-/// What a builder ([[array]], [[light_guide]]) made: parts that are placed as one body. The placement of
-/// each of them, and what its face rules select, count in the builder's own frame.
+/// Parts of a builder ([[array]], [[light_guide]]) that are placed as one body. Their placements and the
+/// selections of their face rules are in the builder's own frame.
 struct GroupSpec {
   config::NameRef name;
   std::size_t first = 0;  ///< index of its first part in SceneSpec::parts; the others follow
@@ -80,13 +79,13 @@ struct GroupSpec {
   bool operator==(const GroupSpec&) const = default;
 };
 
-/// A definition written in the scene file, in the form of a file of the database, which parses it.
+/// Definitions in the scene file, in the form of files of the material database, which parses them.
 using InlineTables = std::map<std::string, config::TomlNodePtr>;
 
-/// [[face]] of a part, an element or an override.
+/// Face rules: [[face]] of a part, an element or an override.
 std::vector<FaceRuleSpec> read_faces(const config::TomlTable& part);
 
-/// The keys of a [[part]] or of an element, but for its name and place: shape, medium, sensor,
+/// Reads the keys of a [[part]] or of an element apart from its name and placement: shape, medium, sensor,
 /// surface and faces.
 void read_body(const config::TomlTable& table, PartSpec& part);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where parts and builders go, as a scene file places them. Lengths mm, angles rad.
+/// Placement of parts and builders in a scene file. Lengths mm, angles rad.
 
 #include <Eigen/Core>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace scintray::scene_file {
 
-/// A turn about an axis through the origin of the part's own frame.
+/// A rotation about an axis through the origin of the part's own frame.
 struct RotationSpec {
   core::Vec3 axis = core::Vec3::UnitZ();  ///< unit vector
   double angle_rad = 0.0;                 ///< counter-clockwise seen against the axis
@@ -29,9 +29,9 @@ struct BoxSide {
 inline constexpr core::Word<BoxSide> kBoxSides[] = {{"-x", {0, -1}}, {"+x", {0, +1}}, {"-y", {1, -1}},
                                                     {"+y", {1, +1}}, {"-z", {2, -1}}, {"+z", {2, +1}}};
 
-/// Puts a part against a side of another's bounding box, centred on it laterally.
+/// Placement of a part against a side of another's bounding box, laterally centred on it.
 struct TouchSpec {
-  config::NameRef part;  ///< touched; a part or builder that stands earlier in the file
+  config::NameRef part;  ///< touched; a part or builder defined earlier in the file
   BoxSide side;          ///< of the touched part's bounding box
   double gap_mm = 0.0;
   config::NameRef fill;  ///< medium of the extra part "NAME_fill" that fills the gap: the overlap of
@@ -40,7 +40,7 @@ struct TouchSpec {
   bool operator==(const TouchSpec&) const = default;
 };
 
-/// Where a part goes: rotated (in order), then moved against another part, then translated.
+/// Placement of a part: rotated (in order), then moved against another part, then translated.
 struct PlacementSpec {
   std::vector<RotationSpec> rotate;
   std::optional<TouchSpec> touch;
@@ -48,13 +48,13 @@ struct PlacementSpec {
   bool operator==(const PlacementSpec&) const = default;
 };
 
-/// rotate, place and translate; `earlier` are the names that may be touched.
+/// Placement from the keys rotate, place and translate; `earlier` are the names that may be touched.
 PlacementSpec read_placement(const config::TomlTable& table, const std::vector<std::string>& earlier);
 
-/// rotate, one table or a list.
+/// Rotations from the key rotate, one table or a list.
 std::vector<RotationSpec> read_rotations(const config::TomlTable& part);
 
-/// The rotations of a placement as one.
+/// Product of the rotations of a placement.
 Eigen::Matrix3d rotation_of(const PlacementSpec& placement);
 
 }  // namespace scintray::scene_file

@@ -58,7 +58,7 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
   }
 }
 
-/// Reports several sweeps' and points' common problems once.
+/// Collector that reports common problems of several sweeps and points once.
 class DistinctProblems {
  public:
   void add(const core::Problems& problems) {
@@ -72,7 +72,7 @@ class DistinctProblems {
   core::Problems kept_;
 };
 
-/// A swept value with "*" stands for every part that it matches: a sweep can go over an array's elements.
+/// Expands a swept value with "*" to every part that it matches: a sweep can run over an array's elements.
 void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& document) {
   std::vector<std::string> parts;
   for (SweepSpec& sweep : sweeps) {

@@ -10,20 +10,20 @@
 
 namespace scintray::scene_file {
 
-/// Instantiates a parsed scene (its sweeps are checked but not applied). `text` is the file's.
-/// Everything wrong is added to `problems`; the result may be used only when there is nothing.
+/// Specification of a parsed scene (its sweeps are checked but not applied). `text` is the file's. Every
+/// error is added to `problems`; the result may be used only without any.
 /// @param variables  that its tallies may name
 SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems,
                      const TallyVariables& variables = TallyVariables::built_in());
 
-/// Every key that read_scene looks for in the tables of this document, as "part.place.gap", sorted.
+/// All keys that read_scene can read in the tables of this document, as "part.place.gap", sorted.
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
 
-/// A scene file with its sweeps; reads one scene per point.
+/// A scene file with its sweeps, one scene per point.
 class SceneFile {
  public:
-  /// Reads the file, and every value of its sweeps and of its fit's starts and bounds at least once. Throws
-  /// InputError with every distinct problem.
+  /// The scene file of a path; every value of its sweeps and of its fit's starts and bounds is read at least
+  /// once. Throws InputError with every distinct problem.
   /// @param variables  that its tallies may name
   static SceneFile load(const std::filesystem::path& path,
                         const TallyVariables& variables = TallyVariables::built_in());
@@ -37,12 +37,12 @@ class SceneFile {
   std::vector<std::string> sweep_keys() const;
   /// Value of each swept key at a point, as written ("2 mm").
   std::vector<std::string> parameters(std::size_t point) const;
-  /// The swept keys, slowest first, and how many values each takes.
+  /// The swept keys, slowest first; sweep_values() is the number of values of each.
   std::vector<KeyPath> sweep_paths() const;
   std::size_t sweep_values(std::size_t sweep) const;
   /// The scene at a point, 0 <= point < points().
   SceneSpec spec(std::size_t point) const;
-  /// The same with further keys set after those of the sweeps, which they may be.
+  /// The same with further keys set after those of the sweeps, which may be the same keys.
   SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
   const std::string& text() const { return text_; }
 

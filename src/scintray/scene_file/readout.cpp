@@ -12,10 +12,10 @@ constexpr std::int64_t kMostOrder = 10;
 constexpr std::int64_t kMostBits = 24;
 constexpr std::size_t kMostTimes = 100;
 
-/// The keys by which a file gives the distance of samples.
+/// Keys for the sampling period.
 constexpr core::Word<core::Dimension> kSamplings[] = {{"sampling", core::Dimension::frequency},
                                                       {"period", core::Dimension::time}};
-/// The keys by which a file gives the kind of shaper.
+/// Keys for the kind of shaper.
 enum class Shaper { order, decay };
 constexpr core::Word<Shaper> kShapers[] = {{"order", Shaper::order}, {"decay", Shaper::decay}};
 
@@ -57,7 +57,7 @@ void read_gate(const config::TomlTable& table, detector::ReadoutSpec& readout) {
   readout.gate_ns = std::array{gate[0], gate[1]};
 }
 
-/// Time constants of the stages that the shaper consists of.
+/// Time constants (ns) of the stages of the shaper.
 std::vector<double> read_shaping(const config::TomlTable& table) {
   const core::Word<Shaper>* form = table.one_of(kShapers, true);
   const bool decay = form && form->value == Shaper::decay;

@@ -1,5 +1,5 @@
 #pragma once
-/// [run]: how a scene is simulated. Lengths mm, times ns.
+/// [run]: settings of the simulation of a scene. Lengths mm, times ns.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace scintray::scene_file {
 
-/// Which algorithm answers ray queries.
+/// Algorithm of ray queries.
 enum class AcceleratorKind {
-  automatic,  ///< planes where they apply, else Embree
+  automatic,  ///< planes where possible, else Embree
   embree,     ///< Embree's bounding volume hierarchy, single rays, corrected in double precision
   planes,     ///< the nearest plane ahead, for closed regions: all must be convex with few planes
 };
@@ -28,13 +28,13 @@ struct RunSpec {
   std::optional<int> threads;  ///< nothing: all cores
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
-  bool photon_list = false;      ///< stream every detected photon to the results
-  bool photon_history = false;   ///< stream what each went through, for reweighting
-  std::filesystem::path output;  ///< results file; empty: the command decides
+  bool photon_list = false;      ///< write every detected photon to the results
+  bool photon_history = false;   ///< write the history of each, for reweighting
+  std::filesystem::path output;  ///< results file; empty: default of the command
   core::FileLocation where;
 };
 
-/// [run] of a scene. Adds what is wrong to the collector of the table.
+/// Run settings: [run] of a scene. Adds errors to the collector of the table.
 RunSpec read_run(const config::TomlTable& scene);
 
 }  // namespace scintray::scene_file

@@ -55,7 +55,7 @@ MeshFileSpec read_mesh(const config::TomlTable& table) {
       for (const core::Problem& problem : error.problems()) table.report("unit", problem.what, problem.hint);
     }
   } else if (!table.has("unit")) {
-    // Of a format from outside, its reader finds whether the file states a unit.
+    // For a format added in code, its reader determines whether the file defines a unit.
     const std::string extension = mesh::lower_extension(mesh.path);
     const mesh::MeshFormat* format = mesh::MeshFormats::built_in().find(extension);
     table.expect("mesh", format ? format->states_unit : !extension.empty(),
@@ -88,7 +88,7 @@ BoxSpec read_box(const config::TomlTable& table) {
   return box;
 }
 
-/// A length above 0, of a shape called `shape`.
+/// A length above 0, of the shape `shape`.
 double positive_length(const config::TomlTable& table, const std::string& key, const std::string& shape) {
   const double value = table.quantity(key, core::Dimension::length);
   table.expect(key, value > 0.0, "the " + key + " of a " + shape + " is not positive",
@@ -96,7 +96,7 @@ double positive_length(const config::TomlTable& table, const std::string& key, c
   return value;
 }
 
-/// A whole number from `least` to 1000000; `what` is stated of a wrong one after the number.
+/// A whole number from `least` to 1000000; `what` follows the number in the message of an error.
 int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
                      const std::string& what) {
   const std::int64_t value = table.integer(key, fallback);
@@ -117,7 +117,7 @@ CylinderSpec read_cylinder(const config::TomlTable& part) {
   return cylinder;
 }
 
-/// The keys by which a file gives how wide a prism is.
+/// Keys for the width of a prism.
 enum class PrismWidth { radius, flat_to_flat };
 constexpr core::Word<PrismWidth> kPrismWidths[] = {{"radius", PrismWidth::radius},
                                                    {"flat_to_flat", PrismWidth::flat_to_flat}};
@@ -161,7 +161,7 @@ TaperedSpec read_tapered(const config::TomlTable& part) {
   return tapered;
 }
 
-/// The keys by which a file gives how wide a Winston cone opens.
+/// Keys for the opening of a Winston cone.
 enum class WinstonOpening { acceptance, entrance_radius };
 constexpr core::Word<WinstonOpening> kWinstonOpenings[] = {
     {"acceptance", WinstonOpening::acceptance}, {"entrance_radius", WinstonOpening::entrance_radius}};
@@ -232,7 +232,7 @@ void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
     shortest = std::min(prism->height_mm, 2.0 * prism->circumradius_mm * std::sin(core::kPi / prism->sides));
     prism->chamfer_mm = *chamfer;
   }
-  // In a face with corners of other than 90 deg a bevel takes off more of each edge: the mesh maker checks.
+  // In a face with corners other than 90 deg a bevel shortens each edge by more: checked by the mesh maker.
   part.expect("chamfer", *chamfer > 0.0 && 2.0 * *chamfer < shortest,
               "a chamfer that is not positive, or leaves nothing of the shortest edge",
               "give a length above 0 and below half of the shortest edge");

@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes as a scene file gives them. Lengths mm, angles rad.
+/// Shapes of parts in a scene file. Lengths mm, angles rad.
 
 #include <filesystem>
 #include <optional>
@@ -20,7 +20,7 @@ namespace scintray::scene_file {
 struct BoxSpec {
   core::Vec3 low = core::Vec3::Zero();
   core::Vec3 high = core::Vec3::Zero();
-  double chamfer_mm = 0.0;  ///< of all edges, where the box is the shape of a part
+  double chamfer_mm = 0.0;  ///< of all edges, for the shape of a part
   core::FileLocation where;
   bool operator==(const BoxSpec&) const = default;
 };
@@ -28,7 +28,7 @@ struct BoxSpec {
 /// A mesh file, CAD or triangles.
 struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
-  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: the file must state
+  std::optional<double> unit_mm;  ///< length of the file's unit; nothing: defined in the file
   double scale = 1.0;
   std::string body;                 ///< name or number of the one body of the file; empty: all together
   mesh::Tessellation tessellation;  ///< of a CAD file's curved faces
@@ -81,24 +81,24 @@ struct SphereSpec {
 using ShapeSpec =
     std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec, SphereSpec>;
 
-/// Where a shape stands in the file.
+/// Place of a shape in the file.
 core::FileLocation shape_location(const ShapeSpec& shape);
 
-/// A shape as triangles, and what importing it left out or turned round.
+/// A shape as triangles, with notes on elements that were ignored or reversed on import.
 struct ShapeMesh {
   mesh::TriMesh mesh;
   std::vector<std::string> notes;
 };
 
-/// Makes or loads a shape. Throws InputError, without a place where the shape's own numbers are wrong.
-/// @param formats  that a mesh file may have
+/// Mesh of a shape, made or loaded. Throws InputError, without a place for errors in the shape's own numbers.
+/// @param formats  formats of mesh files
 ShapeMesh shape_mesh(const ShapeSpec& shape,
                      const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
-/// The one shape that a [[part]] or an element gives, with its chamfer. A unit box when it is wrong.
+/// The shape of a [[part]] or an element, with its chamfer; a unit box on an error.
 ShapeSpec read_shape(const config::TomlTable& part);
 
-/// { low = [...], high = [...] } under `key`; nothing when absent or wrong.
+/// { low = [...], high = [...] } under `key`; nothing when absent or on an error.
 std::optional<BoxSpec> read_low_high(const config::TomlTable& table, const std::string& key);
 
 }  // namespace scintray::scene_file

@@ -55,7 +55,7 @@ DirectionSpec read_direction(const config::TomlTable& table) {
     direction.axis = shape.optional_direction(kind->word).value_or(core::Vec3::UnitZ());
     if (direction.kind == DirectionKind::lambertian) return direction;
     direction.half_angle_rad = shape.quantity("half_angle", core::Dimension::angle);
-    // A little above pi, so that "180 deg" is not refused for its rounding.
+    // A little above pi, so that "180 deg" is not rejected for its rounding.
     shape.expect("half_angle",
                  direction.half_angle_rad > 0.0 && direction.half_angle_rad <= core::kPi * (1.0 + 1e-12),
                  "a half angle outside 0 to 180 deg", "give the angle from the axis to the edge of the cone");

@@ -1,6 +1,5 @@
 #pragma once
-/// [source] of photons: where light starts, as a scene file states it. Lengths mm, wavelengths nm, times ns,
-/// angles rad.
+/// [source] of photons in a scene file. Lengths mm, wavelengths nm, times ns, angles rad.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +16,7 @@
 
 namespace scintray::scene_file {
 
-/// Points of a part (or of an explicit point) from which light starts.
+/// Volume of a part, or of several, in which light starts.
 struct RegionSpec {
   config::NameRef part;                            ///< may have wildcards: any of these parts, by volume
   std::optional<std::array<double, 2>> slab_z_mm;  ///< world z, low then high
@@ -42,12 +41,12 @@ struct SourceSpec {
   DirectionSpec direction;
   std::optional<double> wavelength_nm;  ///< nothing: drawn from the emission of the medium there
   core::FileLocation wavelength_where;
-  std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay of the medium there
+  std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay times of the medium there
   core::FileLocation time_where;
-  bool unpolarised = false;  ///< Fresnel's mean at every surface; else each photon carries a
+  bool unpolarised = false;  ///< mean Fresnel reflectance at every surface; else each photon has a
                              ///< polarisation, drawn uniformly across its direction
   std::uint64_t photons = 0;
-  std::optional<std::uint64_t> quick_photons;  ///< in their place, for a quick run
+  std::optional<std::uint64_t> quick_photons;  ///< replaces `photons` in a quick run
   std::uint64_t photons_per_event = 1000;      ///< the last event may have fewer
   core::FileLocation where;
 };
@@ -58,10 +57,10 @@ RegionSpec read_region(const config::TomlTable& table, const std::vector<std::st
 /// The value of `source.position`, mm.
 core::Vec3 read_position(const config::TomlTable& table);
 
-/// The keys by which a file gives where light or energy starts.
+/// Keys for the origin of light or energy.
 enum class OriginKind { region, position, plane };
 
-/// A region or a position into a variant that may hold both; does nothing for a plane.
+/// Reads a region or a position into a variant of both; a plane is left to the caller.
 template <class Origin>
 void read_origin(const config::TomlTable& table, OriginKind kind, const std::vector<std::string>& parts,
                  Origin& origin) {
@@ -69,10 +68,10 @@ void read_origin(const config::TomlTable& table, OriginKind kind, const std::vec
   if (kind == OriginKind::position) origin = read_position(table);
 }
 
-/// `direction`: "isotropic", a beam, a cone or a Lambertian lobe.
+/// Direction from the key `direction`: "isotropic", a beam, a cone or a Lambertian lobe.
 DirectionSpec read_direction(const config::TomlTable& table);
 
-/// [source] of type = "photons", but for its type and polarisation.
+/// [source] of type = "photons", apart from its type and polarisation.
 SourceSpec read_photon_source(const config::TomlTable& table, const std::vector<std::string>& parts);
 
 }  // namespace scintray::scene_file

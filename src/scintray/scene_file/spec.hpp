@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as its file states it: names and numbers, nothing looked up or built yet. Lengths mm,
+/// Specification of a scene by its file: names and numbers, before any look-up or construction. Lengths mm,
 /// wavelengths nm, times ns, angles rad.
 
 #include <filesystem>
@@ -23,16 +23,16 @@ namespace scintray::scene_file {
 
 struct SceneSpec {
   std::string title;
-  config::NameRef ambient;  ///< medium around everything
+  config::NameRef ambient;  ///< medium around all parts
   ContactKind contacts_default = ContactKind::bonded;
   bool contacts_default_given = false;
   std::vector<PartSpec> parts;
   std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;
   SourceSpec source;                       ///< [source] of photons
-  std::optional<GammaSpec> energy_source;  ///< [source] of energy; then there is no `source`
+  std::optional<GammaSpec> energy_source;  ///< event source; then there is no `source`
   RunSpec run;
-  std::optional<detector::ReadoutSpec> readout;  ///< electronics behind every sensor; nothing: none
+  std::optional<detector::ReadoutSpec> readout;  ///< electronics of every sensor; nothing: none
   AnalysisSpec analysis;
   std::vector<CriterionSpec> criteria;
   std::vector<GoniometerSpec> goniometers;
@@ -43,7 +43,7 @@ struct SceneSpec {
   InlineTables sensors;          ///< [sensors.NAME]
   InlineTables reflectors;       ///< [reflectors.NAME]
   std::filesystem::path file;    ///< the scene file as it was named
-  std::filesystem::path folder;  ///< relative paths in the scene count from here
+  std::filesystem::path folder;  ///< base of relative paths in the scene
   std::string text;              ///< the whole file
 };
 

@@ -18,7 +18,7 @@ using Kind = config::TomlNode::Kind;
 /// Keys of the run as a whole, which cannot differ between the points of one results file.
 const std::set<std::string> kFixedKeys{"title", "run.output", "run.threads"};
 
-/// Tables that set what is done with the scene, not what the scene is.
+/// Tables of the use of a scene, which are not part of the scene itself.
 const std::set<std::string> kFixedTables{"sweep", "fit"};
 
 std::vector<std::string> segments_of(const std::string& path) {
@@ -30,16 +30,16 @@ std::vector<std::string> segments_of(const std::string& path) {
   return segments;
 }
 
-/// Arrays of tables whose entries are called by another key than `name`.
+/// Arrays of tables whose entries are identified by a key other than `name`.
 constexpr core::Word<const char*> kNameKeys[] = {{"mixture", "surface"}};
 
-/// What an entry of an array of tables is called in a path.
+/// Name of an entry of an array of tables in a path.
 std::string name_of(const config::TomlNode& array, const config::TomlNode& entry) {
   const config::TomlNode* name = entry.find(core::find_word(kNameKeys, array.key).value_or("name"));
   return name && name->kind == Kind::string ? name->text : "";
 }
 
-/// What can follow a node in a path.
+/// Keys that can follow a node in a path.
 std::vector<std::string> continuations(const config::TomlNode& node) {
   std::vector<std::string> names;
   if (node.kind != Kind::table && node.kind != Kind::array) return names;
@@ -84,7 +84,7 @@ std::string millimetres(double value) {
   return std::string(digits.data(), end) + " mm";
 }
 
-/// Moves [low, high] so that its middle is `value`; leaves what is wrong to the reader of the slab.
+/// Moves [low, high] so that its centre is `value`; errors are left to the reader of the slab.
 void move_slab(config::TomlNode& slab, const KeySetting& setting, core::Problems& problems) {
   const config::TomlNode& value = setting.value;
   std::array<double, 3> mm{};
@@ -145,7 +145,7 @@ bool may_be_set(const std::string& key) {
 }
 
 std::vector<SweepSpec> read_sweeps(const config::TomlTable& scene) {
-  /// Beyond this a sweep is surely a mistake, and its results would not fit in memory.
+  /// Largest accepted number of points: the results of more would not fit in memory.
   constexpr std::size_t kMostPoints = 1000000;
   std::vector<SweepSpec> sweeps;
   std::set<std::string> keys;

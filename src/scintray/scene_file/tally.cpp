@@ -20,7 +20,7 @@ const Events kAtInterface = {
     core::StepEvent::reflected,    core::StepEvent::transmitted,         core::StepEvent::detected,
     core::StepEvent::not_detected, core::StepEvent::absorbed_at_surface, core::StepEvent::absorbed_in_medium};
 
-/// Where a [[tally]] is read from, and what it refers to.
+/// The table of a [[tally]], and the names to which it refers.
 struct TallyTable {
   const config::TomlTable& table;
   const std::vector<PartSpec>& parts;
@@ -53,7 +53,7 @@ std::int64_t read_bins(const config::TomlTable& table, const std::string& key, s
   return bins;
 }
 
-/// A tally of a type with its faces, if it has some, and its name.
+/// A tally of a type with its name and optional faces.
 TallySpec begin_tally(const TallyTable& from, bool needs_face) {
   TallySpec tally;
   tally.where = from.table.where();
@@ -64,7 +64,7 @@ TallySpec begin_tally(const TallyTable& from, bool needs_face) {
   return tally;
 }
 
-/// Two histograms of crossings of a face, over the angle before and the angle behind it.
+/// Two histograms of crossings of a face, over the angle in front of it and the angle behind it.
 std::vector<TallySpec> read_exit_angle(const TallyTable& from) {
   const config::TomlTable& table = from.table;
   TallySpec tally;
@@ -87,7 +87,7 @@ std::vector<TallySpec> read_exit_angle(const TallyTable& from) {
   return {std::move(beyond), std::move(tally)};
 }
 
-/// The matrix, and how much light there is of each part.
+/// The crosstalk matrix, and the light of each part.
 std::vector<TallySpec> read_crosstalk(const TallyTable& from) {
   const config::TomlTable& table = from.table;
   TallySpec tally;
@@ -193,7 +193,7 @@ constexpr core::Word<ReadType> kTypes[] = {
     {"light_spread", read_light_spread}, {"irradiance", read_irradiance}, {"angles", read_angles},
     {"etendue", read_etendue},           {"ledger", read_ledger}};
 
-/// What no tally can mean: faces for events away from faces, directions at no face.
+/// Reports contradictions: faces for events away from faces, directions at a face without one.
 void check_faces(const config::TomlTable& table, const TallySpec& tally) {
   const bool away = std::any_of(tally.at.begin(), tally.at.end(),
                                 [](core::StepEvent event) { return !core::is_at_boundary(event); });

@@ -1,5 +1,5 @@
 #pragma once
-/// [[tally]]: what is counted beside the fates of all photons.
+/// [[tally]]: quantities counted in addition to the fates of all photons.
 
 #include <optional>
 #include <string>
@@ -28,7 +28,7 @@ inline constexpr core::Word<core::StepEvent> kEventWords[] = {
     {"escaped", core::StepEvent::escaped},
     {"cut", core::StepEvent::cut_interactions}};
 
-/// How often a photon counts.
+/// Events of a photon that count.
 enum class TallyEach { time, first, last };
 inline constexpr core::Word<TallyEach> kTallyEach[] = {
     {"time", TallyEach::time}, {"first", TallyEach::first}, {"last", TallyEach::last}};
@@ -42,36 +42,36 @@ inline constexpr core::Word<FaceWay> kFaceWays[] = {
 /// wildcards.
 struct TallySpec {
   std::string name;
-  std::string type;  ///< the word it was written with: "count", "crosstalk", "irradiance", ...
+  std::string type;  ///< its word in the scene file: "count", "crosstalk", "irradiance", ...
   std::vector<core::StepEvent> at;
   std::vector<config::NameRef> faces;  ///< "part:face"; empty: not bound to faces
   FaceWay way = FaceWay::out;
   std::vector<config::NameRef> parts;         ///< condition on the variable part
   std::vector<config::NameRef> source_parts;  ///< condition on the variable source_part
   std::vector<TallyRangeSpec> ranges;
-  std::vector<config::NameRef> visited, not_visited;  ///< parts the photon was in, at any time of its life
-  std::vector<core::StepEvent> fate;                  ///< of the photon in the end; empty: any
+  std::vector<config::NameRef> visited, not_visited;  ///< parts visited by the photon at any time
+  std::vector<core::StepEvent> fate;                  ///< final fate of the photon; empty: any
   TallyEach each = TallyEach::time;
   std::optional<core::Vec3> normal;  ///< of the plane of a grid across faces; nothing: the faces'
-  TallyVariablePtr score;            ///< sum of this number; null: photons
+  TallyVariablePtr score;            ///< variable that is summed; null: photons
   std::vector<TallyAxisSpec> axes;
   core::FileLocation where;
 
-  /// Counts only the last event of each photon that is detected in the end.
+  /// True when only the last event of each finally detected photon counts.
   bool detected_only() const;
 };
 
-/// What a tally sums that has no score: one a photon.
+/// Score of a tally without a variable: one per photon.
 inline constexpr const char* kPhotonScore = "photons";
 
 /// Type and name of the second histogram of an exit angle tally: angles behind the face. The first, of the
-/// angles before it, has the type "exit_angle" and the tally's name.
+/// angles in front of it, has the type "exit_angle" and the tally's name.
 inline constexpr const char* kExitAngle = "exit_angle";
 inline constexpr const char* kExitAngleBeyond = "exit_angle_beyond";
 inline std::string beyond_name(const std::string& name) { return name + ": beyond"; }
 
 /// [[tally]] of a scene.
-/// @param parts  whose faces are known now
+/// @param parts  parts with known faces
 /// @param names  of all parts
 std::vector<TallySpec> read_tallies(const config::TomlTable& root, const std::vector<PartSpec>& parts,
                                     const std::vector<std::string>& names, const TallyVariables& variables);

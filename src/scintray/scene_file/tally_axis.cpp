@@ -9,7 +9,7 @@ namespace scintray::scene_file {
 
 namespace {
 
-/// Bins of an axis and of a whole tally that are still an answer and no mistake.
+/// Largest accepted number of bins of an axis and of a whole tally.
 constexpr std::int64_t kMostBins = 10'000'000;
 
 enum class PixelKey { counts, side };
@@ -27,7 +27,7 @@ std::optional<double> read_bound(const config::TomlTable& table, const std::stri
              : table.optional_quantity(key, variable.dimension);
 }
 
-/// Reads `along`, which directions and positions need and most variables do not have.
+/// Direction `along`, which is required by directions and positions and not allowed for most variables.
 core::Vec3 read_along(const config::TomlTable& table, const TallyVariables& variables,
                       const TallyVariable& variable) {
   const std::optional<core::Vec3> along = table.optional_direction("along");

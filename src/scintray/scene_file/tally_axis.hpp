@@ -18,7 +18,7 @@ struct TallyAxisSpec {
   core::Vec3 along = core::Vec3::Zero();  ///< unit; of a variable that is measured along a direction
   std::optional<double> low, high;        ///< in the variable's unit; nothing: the face's extent
   std::int64_t bins = 1;                  ///< of a number
-  std::vector<config::NameRef> names;     ///< of a name, may have wildcards; nothing: all that can be
+  std::vector<config::NameRef> names;     ///< of a name, may have wildcards; nothing: all possible names
   bool across_face = false;               ///< `along` is the face's first or second direction
   int across = 0;                         ///< which of the two
   std::optional<double> pixel_mm;         ///< in place of bins
@@ -35,15 +35,15 @@ struct TallyRangeSpec {
 };
 
 /// [[tally.axes]].
-/// @param has_faces  the tally names faces
+/// @param has_faces  true when the tally is bound to faces
 TallyAxisSpec read_tally_axis(const config::TomlTable& table, const TallyVariables& variables,
                               bool has_faces);
 /// [[tally.where]].
 TallyRangeSpec read_tally_range(const config::TomlTable& table, const TallyVariables& variables);
 
-/// Equal bins of a number between the bounds that it has by nature.
+/// Axis of equal bins of a number between its natural bounds.
 TallyAxisSpec binned_axis(TallyVariablePtr variable, std::int64_t bins);
-/// The axis of a name, with those names; without any, with the usual ones of its kind.
+/// Axis of a name, with the given names; without any, with the default ones of its kind.
 TallyAxisSpec named_axis(TallyVariablePtr variable, std::vector<config::NameRef> names = {});
 /// The two axes of a grid across a face: `pixels = [n, m]` or `pixel = "0.5 mm"`.
 /// @param fallback  pixels in each direction where the table has neither; nothing: one is required

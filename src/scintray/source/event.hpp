@@ -1,5 +1,5 @@
 #pragma once
-/// What makes scintillation light: energy left in matter.
+/// Events and their energy deposits, from which scintillation light is emitted.
 
 #include <cstdint>
 #include <memory>
@@ -12,40 +12,39 @@
 
 namespace scintray::source {
 
-/// Energy left at one place.
+/// An energy deposit at one point.
 struct Deposit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
-  core::RegionId region = {};                ///< in which it lies
+  core::RegionId region = {};                ///< that contains the position
   double energy_keV = 0.0;
-  double time_ns = 0.0;  ///< since the event began
+  double time_ns = 0.0;  ///< since the start of the event
 };
 
-/// What one decay, or one pair of gammas, or one row of a list of hits leaves in the scene.
+/// Energy deposits of one event: of a decay, of a pair of gammas, or of one event of a list of hits.
 struct Event {
   std::vector<Deposit> deposits;
-  double energy_keV = 0.0;   ///< of all particles as they started; 0 when not known (lists of hits)
+  double energy_keV = 0.0;   ///< initial, of all particles; 0 when not available (lists of hits)
   double escaped_keV = 0.0;  ///< of it, carried out of the scene
   double non_scintillating_keV =
-      0.0;  ///< left in media that do not scintillate; with deposits and escaped, all
+      0.0;  ///< in non-scintillating media; the sum with deposits and escaped is all
 };
 
-/// Makes events. Immutable; an event depends on its own random stream only, so events can be made in any
-/// order and by any thread.
+/// An event source. Immutable; an event depends on its own random stream only, so that events can be
+/// generated in any order and by any thread.
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  /// Number of events there are.
+  /// Number of events.
   virtual std::uint64_t events() const = 0;
   /// @param number  0 to events() - 1
   /// @param rng     the event's own stream
   virtual Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const = 0;
 };
 
-/// Binds a specification to a built scene. Throws InputError with what does not fit: a region of no
-/// volume, media of unknown composition, nothing that scintillates where the energy is put, hits that
-/// are not hits.
-/// @param notes  takes what a user should know, none of which stops a run: hits out of order or outside
-///               every part
+/// Event source of a specification in a built scene. Throws InputError with every contradiction: a region
+/// without volume, media without composition, no scintillator where energy is deposited, invalid rows of
+/// hits.
+/// @param notes  receives warnings, none of which stops a run: hits out of order or outside every part
 std::unique_ptr<EventSource> make_event_source(const scene_file::GammaSpec& spec, const scene::Scene& scene,
                                                std::vector<std::string>* notes = nullptr);
 

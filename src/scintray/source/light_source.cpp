@@ -13,15 +13,15 @@ namespace scintray::source {
 
 namespace {
 
-/// Photons traced as one piece of work; part of what makes results reproducible.
+/// Number of photons in a block; results depend on it, so it is fixed.
 constexpr std::uint64_t kBlockPhotons = 1024;
 
 /// Photons without events of their own; each depends on its random stream only. Immutable.
 class PhotonSource : public LightSource {
  public:
-  /// Binds a specification to a built scene. A pattern of parts is the union of those that have some
-  /// of the source's box. Throws InputError when the region is empty, no part has that name, the media
-  /// there differ, or have no emission or decay that was requested.
+  /// Source of a specification in a built scene. A pattern of parts is the union of those that overlap the
+  /// source's box. Throws InputError when the region is empty, when no part has that name, when the media
+  /// there differ, and when they lack a requested emission or decay time.
   PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene);
 
   std::uint64_t events() const override;

@@ -1,5 +1,5 @@
 #pragma once
-/// What some scenes keep of a photon beside its state.
+/// Records of a photon, beside its state, that only some scenes require.
 
 #include <cstdint>
 #include <vector>
@@ -10,21 +10,21 @@
 
 namespace scintray::source {
 
-/// What the wavelength shifter of one medium or one surface did to a photon.
+/// Shifts of a photon by the wavelength shifter of one medium or one surface.
 struct PhotonShifts {
-  core::MediumId medium;  ///< none: it is a surface's
+  core::MediumId medium;  ///< none: the shifter is a surface's
   core::SurfaceId surface;
   optics::ShiftCount count;
 };
 
-/// Side tables of the photon under way, owned by what traces a block and used for one photon after the other.
-/// They stay empty where no wavelength shifter absorbs and no history is requested.
+/// Side tables of the present photon, one object for all photons of a block. They stay empty where no
+/// wavelength shifter absorbs and no history is requested.
 class PhotonRecords {
  public:
   /// @param reflections  whether reflections at reflectors are to be recorded
   explicit PhotonRecords(bool reflections = false) : records_reflections_(reflections) {}
 
-  /// Begins the next photon.
+  /// Resets the tables for the next photon.
   void clear() {
     shifts_.clear();
     reflections_.clear();
@@ -32,12 +32,12 @@ class PhotonRecords {
 
   /// One entry for each medium or surface that shifted the photon so far.
   const std::vector<PhotonShifts>& shifts() const { return shifts_; }
-  /// The entry of a medium or surface, made when there is none.
+  /// The entry of a medium or surface, added when there is none.
   optics::ShiftCount& shifts_of(core::MediumId medium) { return shifts_of(medium, {}); }
   optics::ShiftCount& shifts_of(core::SurfaceId surface) { return shifts_of({}, surface); }
 
   const optics::ReflectionLog& reflections() const { return reflections_; }
-  /// Where to record reflections; null: they are not recorded.
+  /// Log of reflections; null when they are not recorded.
   optics::ReflectionLog* reflection_log() { return records_reflections_ ? &reflections_ : nullptr; }
 
  private:

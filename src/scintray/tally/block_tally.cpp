@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kPathBin_mm = 10.0;
 
-/// What a block counts itself; contributions to counts go to the total one by one.
+/// An empty result of the quantities that a block sums itself; contributions to counts are added to the total
+/// one by one.
 PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
   PointResult result;
   result.absorbed_in_medium.assign(scene.media.size(), 0);
@@ -83,7 +84,7 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
     case core::StepEvent::not_detected:
       break;
     default:
-      return;  // no end: the run then finds a photon without a fate and states so
+      return;  // not an end: the run then reports a photon without a fate
   }
   SensorFaceCount& at_face = result_.sensor_faces[plan_.sensor_faces[step.interface][step.from_back].index()];
   if (step.event == core::StepEvent::not_detected) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Counting what happens to the photons of one block.
+/// Tally of the photons of one block.
 
 #include <cstdint>
 #include <optional>
@@ -13,26 +13,26 @@
 
 namespace scintray::tally {
 
-/// Counts of one block of photons. Blocks are merged in their order, so sums are the same whatever
-/// thread traced them.
+/// Counts of one block of photons. Blocks are merged in their order, so that sums do not depend on the thread
+/// that traced them.
 class BlockTally {
  public:
   explicit BlockTally(const scene::Scene& scene, const TallyPlan& plan);
 
-  /// Begins a photon, as it was emitted.
+  /// Starts the record of a photon, in its state at emission.
   void start(const source::Photon& emitted, std::uint64_t event, std::uint64_t photon);
-  /// Side tables of the photon under way, to be filled while it is traced.
+  /// Side tables of the present photon, filled while it is traced.
   source::PhotonRecords& records() { return records_; }
-  /// A total reflection passed on the way to the next step. Only for those who want them.
+  /// Records a total reflection passed before the next step. Requires wants_reflections().
   void pass(const source::Photon& photon, const transport::Step& step) { scorer_->step(photon, step); }
   bool wants_reflections() const { return plan_.follows_reflections; }
-  /// A step that did not end it.
+  /// Records a step that is not the photon's last.
   void record(const source::Photon& photon, const transport::Step& step) {
     count_step(step);
     if (scorer_) scorer_->step(photon, step);
     if (history_) history_->step(photon, step);
   }
-  /// Its end: by a last step, or by a limit.
+  /// Records the end of the photon: by its last step, or by a limit.
   void end(const source::Photon& photon, const transport::Step& step, std::uint32_t point);
   void cut(const source::Photon& photon, core::Fate fate);
 

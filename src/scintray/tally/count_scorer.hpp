@@ -9,7 +9,7 @@
 
 namespace scintray::tally {
 
-/// What one photon gave to one bin.
+/// Contribution of one photon to one bin.
 struct Contribution {
   static constexpr std::uint32_t kOutside = 0xffffffffu;  ///< as a bin: beyond the axes
   std::uint32_t count = 0;                                ///< index into TallyPlan::counts
@@ -17,8 +17,8 @@ struct Contribution {
   double score = 0.0;
 };
 
-/// Follows the photons of one block. What they contribute waits until each has ended, since conditions
-/// may request its fate and the error of a bin for all that one photon gave to it.
+/// Scorer of the photons of one block. Contributions are held until the photon has ended, since conditions
+/// may depend on its fate, and the error of a bin on the sum of one photon's contributions to it.
 class CountScorer {
  public:
   CountScorer(const scene::Scene& scene, const TallyPlan& plan);
@@ -28,15 +28,16 @@ class CountScorer {
   void step(const source::Photon& photon, const transport::Step& step);
   void cut(const source::Photon& photon, core::Fate fate);
 
-  /// All contributions so far, in the order of photons; those of one photon to one bin are one.
+  /// All contributions so far, in the order of photons; those of one photon to one bin are merged.
   const std::vector<Contribution>& contributions() const { return contributions_; }
 
  private:
-  /// Scores the counts that an event at no face has, and those that it has at the faces of its interface.
+  /// Scores an event in the counts that are bound to no face, and in those bound to the faces of its
+  /// interface.
   void score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part);
   void score_at_faces(const source::Photon& photon, const transport::Step& step, core::PartId part);
   void score(std::uint32_t number);
-  /// Completes the view of the photon under way with an event in a part; none: the ambient space.
+  /// Sets the view of the present photon to an event in a part; none: the ambient space.
   void look_at(const source::Photon& photon, core::StepEvent event, core::PartId part);
   bool accepts(const CountRequest& count) const;
   std::uint32_t bin_of(const CountRequest& count, bool& named) const;
@@ -45,11 +46,11 @@ class CountScorer {
   const scene::Scene& scene_;
   const TallyPlan& plan_;
   std::vector<Contribution> contributions_, pending_;
-  std::vector<core::RegionId> visited_;  ///< when some count needs them
-  scene_file::StepView view_;            ///< of the photon under way
+  std::vector<core::RegionId> visited_;  ///< when a count requires them
+  scene_file::StepView view_;            ///< of the present photon
 };
 
-/// Adds contributions to the sums of `total`, one for each count of the plan.
+/// Adds contributions to the sums of `total`, which has one entry for each count of the plan.
 void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallyResult>& total);
 
 }  // namespace scintray::tally

@@ -1,5 +1,5 @@
 #pragma once
-/// What one event left and gave.
+/// Records of events: energies, photons and readout signals.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace scintray::tally {
 
-/// What one readout channel saw of an event. A channel is a part that is a sensor, or a face that is one.
+/// Signal of one readout channel in an event. A channel is a part that is a sensor, or a face that is one.
 struct ChannelRecord {
   std::uint32_t detected = 0;                                 ///< photons
   float first_ns = std::numeric_limits<float>::quiet_NaN();   ///< first detected photon, behind a readout
@@ -19,22 +19,22 @@ struct ChannelRecord {
                                                               ///< response; NaN without [readout]
   float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< of the waveform; NaN without [readout]
   float time_ns = std::numeric_limits<float>::quiet_NaN();    ///< by the readout's pick-off; NaN: none
-  std::vector<float> order_ns;  ///< n-th photons, as ReadoutSpec::photon_order requests; NaN: fewer
+  std::vector<float> order_ns;  ///< times of the n-th photons of ReadoutSpec::photon_order; NaN: fewer
   std::vector<float> waveform;  ///< photoelectrons, when ReadoutSpec::pulses
 };
 
-/// Light of a channel: its charge behind a readout, else its photons.
+/// Light of a channel: its charge with a readout, else its number of photons.
 inline double light_of(const ChannelRecord& channel, bool readout) {
   return readout ? static_cast<double>(channel.charge) : static_cast<double>(channel.detected);
 }
 
-/// One event of a source of energy.
+/// One event of an event source.
 struct EventRecord {
   std::uint32_t point = 0;  ///< of the sweep
   std::uint64_t event = 0;
   float energy_keV = 0.0f;                  ///< deposited in scintillators
   float escaped_keV = 0.0f;                 ///< carried out of the scene
-  float non_scintillating_keV = 0.0f;       ///< left in what does not scintillate
+  float non_scintillating_keV = 0.0f;       ///< in non-scintillating parts
   std::array<float, 3> position_mm{};       ///< mean of the deposits, weighted by energy; zero without any
   core::PartId part;                        ///< of the largest deposit; none without any
   std::uint64_t emitted = 0, detected = 0;  ///< photons

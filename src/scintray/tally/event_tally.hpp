@@ -9,27 +9,27 @@
 
 namespace scintray::tally {
 
-/// What a channel's electronics give, in an event's record; its number of detected photons stays.
+/// Writes a channel's signal into its record of an event; the number of detected photons is kept.
 void write_signal(detector::ChannelSignal signal, ChannelRecord& record);
 
-/// Gathers one event after the other.
+/// Tally of events, one after the other.
 class EventTally {
  public:
   EventTally(const scene::Scene& scene, const TallyPlan& plan)
       : scene_(scene), plan_(plan), arrivals_(plan.readout.size()) {}
 
-  /// Begins an event.
+  /// Starts the record of an event.
   void begin(std::uint64_t event, std::uint32_t point, const source::EventLight& light);
-  /// A photon of it that a sensor converted.
+  /// Adds a photon of the event that was detected.
   void detected(std::uint32_t channel, const source::Photon& photon);
-  /// Photons of it that a sensor converted, at least one, the first of them at `first_ns`.
+  /// Adds `count` detected photons of the event, at least one, the first of them at `first_ns`.
   void detected(std::uint32_t channel, std::uint64_t count, double first_ns);
-  /// True when each of them is to be passed on as an arrival, too: there is a readout.
+  /// True with a readout: each detected photon is then also passed as an arrival.
   bool wants_arrivals() const { return !arrivals_.empty(); }
   void arrived(std::uint32_t channel, const detector::Arrival& arrival) {
     arrivals_[channel].push_back(arrival);
   }
-  /// Ends it: its channels are read out, each with the random stream that `stream(channel)` gives.
+  /// Ends the record of the event: its channels are read out, each with the random stream `stream(channel)`.
   void end(const std::function<core::Rng(std::uint32_t)>& stream);
 
   const std::vector<EventRecord>& events() const { return events_; }
@@ -41,7 +41,7 @@ class EventTally {
 
   const scene::Scene& scene_;
   const TallyPlan& plan_;
-  std::vector<EventRecord> events_;  ///< the last is under way
+  std::vector<EventRecord> events_;  ///< the last is not complete
   std::vector<std::vector<detector::Arrival>>
       arrivals_;  ///< per channel, of that event; empty without [readout]
   EnergyBalance balance_;

@@ -22,7 +22,8 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-/// What a medium absorbs for good, as the tracer sees it: a wavelength shifter competes beside it.
+/// Absorption coefficient (1/mm) of a medium without re-emission, as in transport: that of a wavelength
+/// shifter is not included.
 double absorption_per_mm(const scene::Scene& scene, core::MediumId medium, double wavelength_nm) {
   return scene.optics.media[medium].shifts ? scene.media[medium].medium().absorption_per_mm(wavelength_nm)
                                            : scene.optics.at(medium, wavelength_nm).absorption_per_mm;
@@ -90,7 +91,7 @@ void HistoryRecorder::step(const source::Photon& photon, const transport::Step& 
     depth_in_[column.index()] += segment_mm * absorption_per_mm(scene_, medium, wavelength_nm_);
   }
   path_mm_ = photon.path_mm;
-  wavelength_nm_ = photon.wavelength_nm;  // what changed it stands at the end of the segment
+  wavelength_nm_ = photon.wavelength_nm;  // changed at the end of the segment
 }
 
 void HistoryRecorder::keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon,

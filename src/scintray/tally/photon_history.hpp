@@ -1,5 +1,5 @@
 #pragma once
-/// What detected photons went through, as reweighting needs it (analysis/reweight.hpp).
+/// Histories of detected photons, as required by reweighting (analysis/reweight.hpp).
 
 #include <cstdint>
 #include <string>
@@ -11,34 +11,34 @@
 
 namespace scintray::tally {
 
-/// A reflector behind a surface. One definition of a surface is one reflector, whatever media it lies
-/// between.
+/// A reflector behind a surface. One definition of a surface is one reflector, independent of the media on
+/// its sides.
 struct ReflectorSite {
-  std::string surface;    ///< definition of the surface, a mixture's own
-  std::string stack;      ///< definition of the stack with the reflector: the surface, or what it is mixed of
-  std::string reflector;  ///< name of the reflector; the stack's when its reflectance is written there
+  std::string surface;  ///< definition of the surface, a mixture's own
+  std::string stack;  ///< definition of the stack with the reflector: the surface, or a share of its mixture
+  std::string reflector;  ///< name of the reflector; that of the stack when its reflectance is defined there
 
   bool operator==(const ReflectorSite&) const = default;
 };
 
-/// Least and most of a property over the wavelengths in use.
+/// Range of a property over the wavelengths in use.
 struct TracedRange {
   double least = 0.0, most = 0.0;
 };
 
-/// Which media and reflectors histories refer to, and how these were traced.
+/// The media and reflectors to which histories refer, with their properties in the run.
 struct HistorySubjects {
-  std::vector<std::string> media;  ///< of the regions that light can be in
+  std::vector<std::string> media;  ///< of the regions that light can enter
   std::vector<TracedRange> absorption_per_mm;
   std::vector<ReflectorSite> reflectors;
   std::vector<TracedRange> reflectance;
-  /// Names of reflectors that let light through, of their stacks and surfaces: not among `reflectors`, since
-  /// the reflectance of such a sheet does not change alone.
+  /// Names of reflectors that transmit light, of their stacks and surfaces: not among `reflectors`, since the
+  /// reflectance of such a sheet does not change independently.
   std::vector<std::string> transmitting;
-  std::vector<std::string> gap_media;  ///< that also fill gaps with a thickness, where paths are not recorded
+  std::vector<std::string> gap_media;  ///< also used in gaps with a thickness, where paths are not recorded
 };
 
-/// Histories of detected photons, a row each in the order of photons, row after row.
+/// Histories of detected photons, one row for each, in the order of photons.
 struct PhotonHistories {
   std::vector<std::uint32_t> point;
   std::vector<std::uint64_t> event, photon;
@@ -53,15 +53,15 @@ struct PhotonHistories {
 /// A medium or reflector among HistorySubjects.
 using HistoryColumn = core::Id<struct HistoryColumnTag>;
 
-/// The subjects of a scene, and where to write down what.
+/// The subjects of a scene, and the columns of its regions and reflectors.
 class HistoryPlan {
  public:
   explicit HistoryPlan(const scene::Scene& scene);
 
   const HistorySubjects& subjects() const { return subjects_; }
-  /// Column of the medium of a region; none for what is opaque.
+  /// Column of the medium of a region; none for an opaque one.
   HistoryColumn column_of_region(core::RegionId region) const { return column_of_region_[region]; }
-  /// None for one that lets light through.
+  /// Column of a reflector; none for one that transmits light.
   HistoryColumn column_of(const optics::Reflector& reflector) const {
     const auto known = column_of_reflector_.find(&reflector);
     return known == column_of_reflector_.end() ? HistoryColumn::none() : known->second;
@@ -76,17 +76,17 @@ class HistoryPlan {
   std::unordered_map<const optics::Reflector*, HistoryColumn> column_of_reflector_;
 };
 
-/// Follows one photon after the other.
+/// Recorder of histories, one photon after the other.
 class HistoryRecorder {
  public:
   HistoryRecorder(const scene::Scene& scene, const HistoryPlan& plan);
 
-  /// Begins a photon, as it was emitted.
+  /// Starts the history of a photon, in its state at emission.
   void start(const source::Photon& emitted);
-  /// Any step, the last one included.
+  /// Records any step, the last one included.
   void step(const source::Photon& photon, const transport::Step& step);
-  /// Keeps the photon under way: it was detected.
-  /// @param survived  its reflections
+  /// Keeps the history of the present photon, which was detected.
+  /// @param survived  its survived reflections
   void keep(std::uint32_t point, std::uint64_t event, std::uint64_t photon,
             const optics::ReflectionLog& survived);
 

@@ -11,8 +11,8 @@ namespace scintray::tally {
 
 namespace {
 
-/// Adds up what area light can enter each channel through: the area in contact with parts, and where there
-/// is none all of it.
+/// Area through which light can enter each channel: the area in contact with parts, and without contact the
+/// whole area.
 class ChannelFaces {
  public:
   ChannelFaces(ReadoutChannels& channels, const scene::Scene& scene)
@@ -42,7 +42,7 @@ class ChannelFaces {
     for (std::size_t i = 0; i < channels_.list.size(); ++i) {
       ReadoutChannel& channel = channels_.list[i];
       if (channel.area_mm2 > 0.0) channel.position = moments_[i] / channel.area_mm2;
-      // Light that comes from all sides has no mean direction: the channel keeps z.
+      // Light incident from all sides has no mean direction: the normal stays z.
       if (vectors_[i].norm() > 1e-6 * channel.area_mm2) channel.normal = vectors_[i].normalized();
       const std::array<core::Vec3, 2> across = core::face_axes(channel.normal);
       channel.x = across[0];
@@ -50,7 +50,7 @@ class ChannelFaces {
     }
   }
 
-  /// The rectangle about the centre that holds the faces.
+  /// The rectangle about the centre that contains the faces.
   void measure(const scene::Region& region) {
     for_each_triangle(region, [&](std::size_t at, const scene::BoundaryTriangle& t) {
       ReadoutChannel& channel = channels_.list[at];

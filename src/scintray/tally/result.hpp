@@ -1,6 +1,6 @@
 #pragma once
-/// What a run found. Plain data: the tracer fills it, io writes it, report reads it. Ids are those of the
-/// scene until a point has ended, then those of the names in RunHeader.
+/// Results of a run, as plain data: set by the simulation, written by results, read by analysis and report.
+/// Ids are those of the scene until a point has ended, then those of the names in RunHeader.
 
 #include <array>
 #include <cstdint>
@@ -31,8 +31,8 @@ struct TallyAxis {
   std::string variable;            ///< "time", "position", "part", ...
   std::string unit;                ///< of the edges; "1" for plain numbers, empty for names
   std::vector<double> edges;       ///< bins + 1, rising; of a number
-  std::vector<std::string> names;  ///< one a bin; of names
-  std::array<double, 3> along{};   ///< of a position, start or direction: what it is measured along
+  std::vector<std::string> names;  ///< one per bin; of names
+  std::array<double, 3> along{};   ///< of a position, start or direction: the axis of measurement
 
   std::size_t bins() const { return names.empty() ? edges.size() - 1 : names.size(); }
 };
@@ -41,39 +41,39 @@ struct TallyAxis {
 struct TallyResult {
   std::string name;
   std::string type;   ///< "count", "crosstalk", "irradiance", ...
-  std::string score;  ///< "photons", or the number that is summed
+  std::string score;  ///< "photons", or the variable that is summed
   std::string unit;   ///< of the score, "1" for photons
-  /// "part:face" of the faces that it is bound to. Of results files, only exit angles have them.
+  /// "part:face" of the faces to which it is bound. Read from results files for exit angles only.
   std::vector<std::string> faces;
   bool detected_only = false;  ///< only the last event of each photon that is detected in the end; likewise
   std::vector<TallyAxis> axes;
   std::vector<double> sum;             ///< per bin
-  std::vector<double> sum_of_squares;  ///< per bin, of what each photon gave it
-  double outside = 0.0;                ///< score that fell beyond the axes
-  /// Refractive index, at the middle of the wavelengths in use, of the medium in which its directions at
-  /// faces are; 0 when it has none or they are in several.
+  std::vector<double> sum_of_squares;  ///< per bin, of the contributions of each photon
+  double outside = 0.0;                ///< score beyond the axes
+  /// Refractive index, at the middle of the wavelengths in use, of the medium of its directions at faces; 0
+  /// without such directions or for several media.
   double index = 0.0;
 
   std::size_t bins() const;
   /// Score of a bin with its standard error, from `photons` independent photons.
   core::Estimate at(std::size_t bin, std::uint64_t photons) const;
-  /// The same divided by the photons.
+  /// Score of a bin per photon, with its standard error.
   core::Estimate per_photon(std::size_t bin, std::uint64_t photons) const;
 };
 
-/// What became of the energy of the events of a point, keV.
+/// Energy balance of the events of a point, keV.
 struct EnergyBalance {
-  std::uint64_t events_requested = 0;  ///< 0: the source is one of photons, and the rest is zero too
+  std::uint64_t events_requested = 0;  ///< 0: a source of photons, for which the rest is zero too
   std::uint64_t events = 0;            ///< traced to their end
-  std::uint64_t silent = 0;            ///< of them, those that left no energy in a scintillator
-  double started = 0.0;                ///< of all particles as they started; 0 when not known (lists of hits)
+  std::uint64_t silent = 0;            ///< of them, without a deposit in a scintillator
+  double started = 0.0;                ///< initial, of all particles; 0 when not available (lists of hits)
   double deposited = 0.0;              ///< in scintillators
   double escaped = 0.0;                ///< carried out of the scene
-  double non_scintillating = 0.0;      ///< left in what does not scintillate
-  core::Moments detected;              ///< photons detected per event that left energy in a scintillator
+  double non_scintillating = 0.0;      ///< in non-scintillating parts
+  core::Moments detected;              ///< photons detected per event with a deposit in a scintillator
 };
 
-/// When one photon of an event is detected, but for its way: emission and the sensors' time spread.
+/// Time distribution of a detected photon without its propagation: emission and the sensors' time spread.
 struct LightTiming {
   std::vector<optics::DecayComponent> decay;
   double time_spread_ns = 0.0;  ///< standard deviation
@@ -82,11 +82,11 @@ struct LightTiming {
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
-  std::uint64_t photons_requested = 0;  ///< for events, as many as those that were traced emitted
+  std::uint64_t photons_requested = 0;  ///< for events, the number emitted by those traced
   std::uint64_t photons = 0;            ///< traced to their end
   bool complete = false;                ///< false when interrupted
   EnergyBalance energy;
-  std::optional<LightTiming> light_timing;  ///< of a source of energy, where it is one for all light
+  std::optional<LightTiming> light_timing;  ///< of an event source, where it is the same for all light
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;
@@ -102,14 +102,14 @@ struct PointResult {
   std::uint64_t scatterings = 0;                            ///< bulk scatterings
   std::uint64_t segments = 0;                               ///< straight segments traced
   std::uint64_t resolved_misses = 0;                        ///< ray queries resolved by the exact query
-  std::uint64_t lost = 0;  ///< photons without a fate: zero, checked in every run
+  std::uint64_t lost = 0;  ///< photons without a fate: zero, tested in every run
   double wall_seconds = 0.0;
 
   std::uint64_t count(core::Fate fate) const { return fates[core::fate_index(fate)]; }
-  /// What all wavelength shifters did.
+  /// Sum over all wavelength shifters.
   optics::ShiftCount shifted() const;
   core::Estimate fraction(core::Fate fate) const { return core::binomial_estimate(count(fate), photons); }
-  /// Largest error that cutting photons can have made in any fraction: cut photons / photons.
+  /// Upper bound of the error of any fraction from cut photons: cut photons / photons.
   double cut_bias_bound() const;
 };
 
@@ -117,7 +117,7 @@ struct PointResult {
 struct DetectedPhoton {
   std::uint32_t point = 0;
   std::uint64_t event = 0;
-  std::uint64_t photon = 0;  ///< index within the event: with the seed, enough to replay it
+  std::uint64_t photon = 0;  ///< index within the event; determines the photon together with the seed
   core::PartId part;         ///< sensor part
   core::FaceId face;         ///< face crossed
   std::array<float, 3> position_mm{};
@@ -128,27 +128,27 @@ struct DetectedPhoton {
   std::uint32_t interactions = 0;
 };
 
-/// What the numbers of a run refer to.
+/// Header of a run: its scene, seed, swept keys and names.
 struct RunHeader {
   std::string title;
   std::string version;  ///< ScintRay version
   std::string scene_file;
-  std::string scene_text;  ///< the whole scene file, so that a result explains itself
+  std::string scene_text;  ///< the whole scene file, so that the results are self-contained
   std::uint64_t seed = 0;
   std::vector<std::string> sweep_keys;  ///< swept keys, slowest first
   core::IdVector<core::MediumId, std::string> media;
   core::IdVector<core::SurfaceId, std::string> surfaces;
   core::IdVector<core::PartId, std::string> parts;
   core::IdVector<core::FaceId, std::string> faces;  ///< "part:face"
-  std::string note;                                 ///< warnings issued, one a line
+  std::string note;                                 ///< warnings issued, one per line
 };
 
 /// A whole run.
 struct RunResult {
   RunHeader header;
   std::vector<PointResult> points;
-  std::string partial_reason;  ///< why the run ended early; empty when it did not
-  /// Every point was traced to its end and none is missing.
+  std::string partial_reason;  ///< reason of an early end of the run; empty for a complete one
+  /// True when every point was traced to its end and none is missing.
   bool complete() const;
   /// False when its events come from a response map.
   bool traced_photons() const;

@@ -6,7 +6,7 @@ namespace scintray::tally {
 
 namespace {
 
-/// Total reflections count themselves, or something is measured that they change.
+/// True when total reflections are counted, or change a variable of the tally.
 bool needs_reflections(const scene_file::TallySpec& tally) {
   const auto needs = [](const auto& measured) { return measured.variable->direction_before; };
   return std::find(tally.at.begin(), tally.at.end(), core::StepEvent::reflected) != tally.at.end() ||
@@ -15,7 +15,7 @@ bool needs_reflections(const scene_file::TallySpec& tally) {
          (tally.score && tally.score->direction_before);
 }
 
-/// Parts in which light is stated to start; empty: not stated by part.
+/// Parts in which light starts by the specification; empty: not specified by part.
 std::vector<config::NameRef> source_parts(const scene_file::SceneSpec& spec) {
   const std::variant<scene_file::RegionSpec, core::Vec3>* origin = &spec.source.origin;
   if (spec.energy_source) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What to count, derived once from a scene and what it requests.
+/// The tallies of a run, derived once from a scene and its specification.
 
 #include <array>
 #include <cstdint>
@@ -28,10 +28,10 @@ struct CountAxis {
   core::Vec3 along = core::Vec3::Zero();
   double low = 0.0, per_bin = 0.0;
   std::uint32_t bins = 0;
-  /// Nothing lies below or above: the end is the variable's own bound, or a face's, and what rounding carries
-  /// beyond it counts within.
+  /// No value lies below or above: the end is the bound of the variable or of a face, and values beyond it by
+  /// rounding count as within.
   bool ends_low = false, ends_high = false;
-  /// Of names: bin of each place (TallyVariable::place), none where it has none.
+  /// Of names: bin of each place (TallyVariable::place), none for a place without a bin.
   std::vector<BinId> bin_of;
 };
 
@@ -55,8 +55,8 @@ struct CountRequest {
 };
 
 struct TallyPlan {
-  /// Throws InputError for names that do not exist, naming what there is, and for tallies that cannot
-  /// be: a grid on a face that is not flat, more bins than can be kept.
+  /// Throws InputError for names that do not exist, with the existing ones, and for impossible tallies: a
+  /// grid on a face that is not flat, too many bins.
   TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec);
 
   PerCrossing<SensorFaceId> sensor_faces;  ///< none where there is no sensor
@@ -65,18 +65,18 @@ struct TallyPlan {
   std::vector<detector::Channel> readout;  ///< the electronics of each channel; empty without [readout]
 
   std::vector<CountRequest> counts;
-  /// A count to look at at an interaction with a face, and the face that it is bound to.
+  /// A count to evaluate at an interaction with a face, and the face to which it is bound.
   struct CountAtFace {
     std::uint32_t count = 0;
     core::FaceId face;
-    bool inwards = false;  ///< the light comes to the face from outside its part
+    bool inwards = false;  ///< light is incident on the face from outside its part
   };
   PerCrossing<std::vector<CountAtFace>> counts_at;  ///< empty without such counts
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
-  /// Per event: counts that are bound to no face.
+  /// Counts bound to no face, per step event.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
-  bool follows_regions = false;      ///< some count needs which regions a photon visited
-  bool follows_reflections = false;  ///< some count needs every total reflection that is passed
+  bool follows_regions = false;      ///< a count depends on the regions that a photon visited
+  bool follows_reflections = false;  ///< a count depends on every total reflection passed
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested
@@ -88,11 +88,11 @@ struct TallyPlan {
 };
 
 /// Binds one count to a scene. @throws InputError
-/// @param source_parts  names of the parts in which light starts; empty: not known by name
+/// @param source_parts  names of the parts in which light starts; empty: not available
 CountRequest bind_count(const scene_file::TallySpec& spec, const std::vector<config::NameRef>& source_parts,
                         const scene::Scene& scene);
 
-/// The faces that a count is bound to, in their order. @throws InputError for a name without a face.
+/// The faces to which a count is bound, in their order. @throws InputError for a name without a face.
 std::vector<core::FaceId> faces_of(const scene_file::TallySpec& spec, const scene::Scene& scene);
 
 }  // namespace scintray::tally

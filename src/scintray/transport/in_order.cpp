@@ -18,7 +18,7 @@
 
 #ifdef SCINTRAY_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
-/// Of a function that reads what TBB copied to it, before it can state the order.
+/// Attribute of a function that reads what TBB copied to it, before its order can be declared.
 #define SCINTRAY_UNSEEN_BY_THREAD_SANITIZER __attribute__((no_sanitize_thread))
 #else
 #define SCINTRAY_UNSEEN_BY_THREAD_SANITIZER
@@ -28,7 +28,8 @@ namespace scintray::transport::detail {
 
 namespace {
 
-/// What this thread has done is seen by every thread that calls happens_after() on the same address later.
+/// Declares that all earlier operations of this thread happen before a later happens_after() on the same
+/// address in any thread.
 inline void happens_before([[maybe_unused]] const void* address) {
 #ifdef SCINTRAY_THREAD_SANITIZER
   __tsan_release(const_cast<void*>(address));

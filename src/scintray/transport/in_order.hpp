@@ -18,11 +18,12 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
 
 }  // namespace detail
 
-/// Calls work(number) for 0 to count - 1 on many threads, and collect(number, result) in the order of the
-/// numbers, by one thread at a time. Few results wait at once, so memory stays bounded.
+/// Number of pieces of work done: work(number) is called for 0 to count - 1 on many threads, and
+/// collect(number, result) in the order of the numbers, by one thread at a time. Few results are held at
+/// once, so that memory is bounded.
 /// @param threads  0: all cores
-/// @param stop     when set from outside, work under way is finished and no more begun; may be null
-/// @return pieces collected, the first so many
+/// @param stop     when set from outside, work in progress is finished and no more started; may be null
+/// @return number of pieces collected, from the first on
 template <typename Work, typename Collect>
 std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<bool>* stop, const Work& work,
                             const Collect& collect) {

@@ -11,13 +11,13 @@ namespace scintray::transport {
 namespace {
 
 enum class PropagationEnd {
-  bulk,      ///< the photon is where its medium absorbs or scatters it
-  escape,    ///< it leaves the scene
-  boundary,  ///< it is at a boundary, which decides what happens
-  total,     ///< it was totally reflected, and the limits are reached
+  bulk,      ///< absorption or scattering in the medium
+  escape,    ///< the photon leaves the scene
+  boundary,  ///< the photon is at a boundary, whose interaction follows
+  total,     ///< the photon was totally reflected, and the limits are reached
 };
 
-/// How a propagation ended.
+/// End of a propagation, and the segments up to it.
 struct Propagation {
   PropagationEnd end = PropagationEnd::escape;
   std::uint32_t triangle = scene::kNoTriangle;  ///< at a boundary: of the region's accelerator
@@ -26,8 +26,7 @@ struct Propagation {
   std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
 };
 
-/// sin^2 of the critical angle towards a medium; above 1 where nothing is totally reflected, as for no
-/// medium.
+/// sin^2 of the critical angle towards a medium; above 1 without total reflection, as for no medium.
 double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
   constexpr double kNever = 2.0;
   if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
@@ -35,7 +34,7 @@ double critical_sin2(const scene::Scene& scene, core::MediumId medium, const sou
   return ratio * ratio;
 }
 
-/// What a total reflection at this boundary of the photon's region is as a step.
+/// The step of a total reflection at this boundary of the photon's region.
 Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
                       double cosine) {
   const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
@@ -49,7 +48,7 @@ Step total_reflection(const scene::Scene& scene, const source::Photon& photon, s
   return step;
 }
 
-/// From wall to wall until something other than a total reflection decides. Inlined: it is in every step.
+/// Propagation through total reflections until another event. Inlined: it is part of every step.
 template <typename State>
 [[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
                                                        const PropagationLimits& limits) {
@@ -107,8 +106,7 @@ template <typename State>
   propagation.resolved += first.resolved;
 }
 
-/// Moves the photon through the region that it is in, up to the next event. Depends on nothing but its
-/// arguments.
+/// Propagation of the photon through its region, up to the next event. Depends on its arguments alone.
 Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
   Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
   if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
@@ -116,8 +114,8 @@ Propagation propagate(const scene::Scene& scene, source::Photon& photon, const P
   return propagation;
 }
 
-/// Turns the photon with the dipole pattern about its polarisation; for unpolarised light with
-/// 3/4 (1 + cos^2) (Born & Wolf, section 14.5.2).
+/// Rayleigh scattering with the dipole pattern about the polarisation; for unpolarised light with 3/4
+/// (1 + cos^2) (Born & Wolf, section 14.5.2).
 void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   for (;;) {
@@ -131,8 +129,8 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
   }
 }
 
-/// Lets the medium absorb the photon for good (false), or its wavelength shifter absorb it and re-emit it.
-/// Out of line, as what few scenes have: inlined, it made every other step 3 % slower.
+/// Absorption in a medium with a wavelength shifter: true when the photon is re-emitted. Out of line, since
+/// few scenes have one: inlined, it made every other step 3 % slower.
 [[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
                                                 source::Photon& photon, core::Rng& rng,
                                                 source::PhotonRecords* records) {
@@ -177,7 +175,7 @@ Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
   return result;
 }
 
-/// Outcome at an interface: which region the ray is in, or which surface absorbed it.
+/// Outcome at an interface: the region that the ray enters, or the surface that absorbed it.
 struct InterfaceOutcome {
   bool in_front = false;
   core::SurfaceId absorbed_by;
@@ -188,7 +186,7 @@ struct InterfaceIndex {
   double back = 1.0, front = 1.0, gap = 0.0;
   bool dry = false;
 
-  /// On the two sides of one of its surfaces.
+  /// Indices on the two sides of one of its surfaces.
   optics::IndexPair around(bool back_surface) const {
     const double inside = back_surface ? back : front;
     return {inside, dry ? gap : (back_surface ? front : back)};
@@ -201,7 +199,7 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   const core::MediumId back = scene.regions[interface.back].medium;
   const core::MediumId front = scene.regions[interface.front].medium;
   InterfaceIndex index;
-  // An opaque part has no index: where light enters it the indices match.
+  // An opaque part has no index: light enters it with matched indices.
   index.back = optics.index(optics.is_opaque(back) ? front : back, wavelength_nm);
   index.front = optics.index(optics.is_opaque(front) ? back : front, wavelength_nm);
   index.dry = interface.gap_medium.has_value();
@@ -209,26 +207,26 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   return index;
 }
 
-/// What a photon comes to at an interface.
+/// Conditions of incidence of a photon at an interface.
 struct InterfaceApproach {
   const scene::Scene& scene;
   const scene::Interface& interface;
-  bool from_back = false;  ///< the region that it comes from
+  bool from_back = false;  ///< the region of incidence is the back region
   core::Vec3 normal;       ///< of unit length, out of the back region
   InterfaceIndex index;    ///< at the photon's wavelength
 };
 
-/// What it comes to at one of the interface's surfaces.
+/// Conditions of incidence at one of the interface's surfaces.
 struct SurfaceApproach {
   const scene::Scene& scene;
   const scene::Interface& interface;
   bool at_back = false;  ///< the back region's surface, else the front region's
   optics::Side side = optics::Side::inside;
   const core::Vec3& outward;  ///< of unit length, out of the region of the surface
-  InterfaceIndex& index;      ///< follows the photon's wavelength
+  InterfaceIndex& index;      ///< at the photon's wavelength, updated when it is shifted
 };
 
-/// Lets the photon interact with a surface in which its wavelength may change.
+/// Interaction with a surface in which the photon's wavelength may change.
 [[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(const SurfaceApproach& at,
                                                                         source::Photon& photon,
                                                                         core::Rng& rng,
@@ -249,8 +247,8 @@ struct SurfaceApproach {
   return outcome;
 }
 
-/// Lets the photon interact with the interface's surfaces from the back region to the front region and to and
-/// fro between them until it is in one of the regions or absorbed.
+/// Interactions with the interface's surfaces, reflections between the two included, until the photon is in
+/// one of the regions or absorbed.
 InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
                                        source::PhotonRecords* records) {
   const scene::Interface& interface = at.interface;
@@ -296,7 +294,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   result.from_back = link.from_back;
   result.cos_before = std::abs(photon.ray.direction.dot(outward));
   const double here = photon.optics.index;
-  // Nothing is reflected where light enters an opaque part: reflection is its surface's business.
+  // No Fresnel reflection where light enters an opaque part: its reflection is defined by its surface.
   const double there = next_opaque ? here : optics.index(next_medium, photon.wavelength_nm);
   if (!interface.plain || here != there) ++photon.interactions;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the forms of the material, sensor and surface files share (docs/materials.md).
+/// Common parts of the forms of material, sensor and surface files (docs/materials.md).
 
 #include <functional>
 #include <string>
@@ -15,14 +15,13 @@
 
 namespace scintray::materials {
 
-/// Reads how the light of a scintillator depends on energy, beyond its yield: [non_proportionality] and
-/// [intrinsic_resolution] of a medium, where they are given. Adds what is wrong to the collector of the
-/// table.
+/// Reads the dependence of a scintillator's light on energy, beyond its yield: the optional
+/// [non_proportionality] and [intrinsic_resolution] of a medium. Adds errors to the collector of the table.
 void read_light_response(const config::TomlTable& table, SourceRule rule, optics::Medium& medium);
-/// Reports them in a medium that does not scintillate.
+/// Reports these tables in a medium that does not scintillate.
 void refuse_light_response(const config::TomlTable& table);
 
-/// Largest refractive index that is not taken for a mistake.
+/// Largest refractive index that is accepted.
 inline constexpr double kGreatestIndex = 5.0;
 
 inline constexpr core::Word<detector::EfficiencyDefinition> kEfficiencyDefinitions[] = {
@@ -33,7 +32,7 @@ inline constexpr core::Word<detector::EfficiencyDefinition> kEfficiencyDefinitio
 void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,
                   const std::string& what);
 
-/// Looks up what a surface names; all throw InputError at `where` when there is nothing of the name.
+/// Look-up of the definitions named by a surface; all throw InputError at `where` for an unknown name.
 struct SurfaceLookup {
   std::function<optics::Medium(const std::string& name, const core::FileLocation& where)> medium;
   std::function<SurfaceSpec(const std::string& name, const core::FileLocation& where)> surface;
@@ -41,15 +40,16 @@ struct SurfaceLookup {
   const SurfaceModels& models;
 };
 
-/// A definition laid over its base: keys of `over` win, tables are merged key by key. A model of its
-/// own drops the base's table of another model, and `reflector` and `reflectance` drop each other.
+/// A definition merged over its base: keys of `over` take precedence, tables are merged key by key. A model
+/// of its own removes the base's table of another model, and `reflector` and `reflectance` replace each
+/// other.
 config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over,
                                  const SurfaceModels& models);
 
-/// What the presets in a definition leave to the user (`needs`) and is not given.
+/// Keys that the presets in a definition require from the user (`needs`) and that are missing.
 std::vector<std::string> missing_needs(const config::TomlNode& definition);
 
-/// Reads a merged definition; problems go to the collector of the table.
+/// Surface of a merged definition; problems are added to the collector of the table.
 SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name, const SurfaceLookup& lookup,
                          core::Problems& problems);
 

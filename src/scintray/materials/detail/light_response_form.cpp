@@ -4,7 +4,7 @@ namespace scintray::materials {
 
 namespace {
 
-/// Above it a response is a mistake of unit: light per keV of no scintillator grows so much.
+/// Largest accepted response relative to the yield: larger values are errors of unit.
 constexpr double kGreatestResponse = 10.0;
 
 }  // namespace

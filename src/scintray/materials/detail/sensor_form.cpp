@@ -13,7 +13,7 @@ namespace {
 
 constexpr core::Word<detector::AngleMedium> kAngleMedia[] = {{"window", detector::AngleMedium::window},
                                                              {"outside", detector::AngleMedium::outside}};
-/// Widths of a normal distribution over its standard deviation.
+/// Width measures of a normal distribution relative to its standard deviation.
 constexpr core::Word<double> kWidthsPerSigma[] = {{"fwhm", core::kFwhmPerSigma}, {"sigma", 1.0}};
 constexpr core::Word<double detector::DarkCounts::*> kDarkRates[] = {
     {"rate", &detector::DarkCounts::per_ns}, {"rate_per_mm2", &detector::DarkCounts::per_ns_mm2}};
@@ -96,7 +96,7 @@ detector::SingleElectron read_single_electron(const config::TomlTable& table) {
   return electron;
 }
 
-/// Higher rates than this are mistakes of unit: an avalanche a ns.
+/// Largest accepted dark count rate, one avalanche per ns: higher rates are errors of unit.
 constexpr double kMostDarkCounts_per_ns = 1.0;
 
 detector::DarkCounts read_dark_counts(const config::TomlTable& table) {
@@ -110,8 +110,8 @@ detector::DarkCounts read_dark_counts(const config::TomlTable& table) {
   return dark;
 }
 
-/// The model of `model`; without that key the one whose own table is given, or else the first. Nullptr when
-/// the word is wrong.
+/// The model of `model`; without that key the one whose own table is present, or else the first. Nullptr for
+/// an unknown word.
 const SensorModel* read_model(const config::TomlTable& table, const SensorModels& models) {
   for (const SensorModel& model : models.all())
     if (!model.table.empty()) table.has(model.table);
@@ -123,7 +123,7 @@ const SensorModel* read_model(const config::TomlTable& table, const SensorModels
   return table.good("model") ? models.find(word) : nullptr;
 }
 
-/// What is known of a photon that arrives, before what an avalanche does; `window` has been read.
+/// Reads the conversion of an arriving photon, apart from avalanches; `window` has been read.
 void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
                      detector::Sensor& sensor) {
   read_source(efficiency, rule, sensor.sources);

@@ -27,7 +27,7 @@ const config::TomlNode* find_path(const config::TomlNode& table, const std::stri
   return node;
 }
 
-/// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take what is left.
+/// mixture = [{ surface = "NAME", share = 0.6 }, { surface = "OTHER" }]: one may take the remaining share.
 std::vector<ShareSpec> read_mixture(const config::TomlTable& table, const SurfaceLookup& lookup,
                                     core::Problems& problems) {
   constexpr double kRounding = 1e-9;
@@ -101,7 +101,7 @@ void read_gap(const config::TomlTable& table, const SurfaceLookup& lookup, core:
   surface.gap_index = core::Curve::constant(index);
 }
 
-/// A face of a sheet is a painted one, and its light is not followed through a binder.
+/// Reports a face of a sheet that is not painted, or whose reflector is volume-like and transmits light.
 void check_face_of_sheet(const config::TomlTable& table, const SurfaceSpec& surface,
                          const optics::Reflector& reflector) {
   table.expect("face_of_sheet", is_painted(surface),
@@ -115,7 +115,7 @@ void check_face_of_sheet(const config::TomlTable& table, const SurfaceSpec& surf
                "use a reflector without [volume], or paint one face only with it");
 }
 
-/// reflector = "NAME", with the surface's own specular share where that is given.
+/// reflector = "NAME", with the surface's own specular share where present.
 std::optional<optics::Reflector> read_named_reflector(const config::TomlTable& table, const SurfaceSpec&,
                                                       const SurfaceLookup& lookup, core::Problems& problems) {
   const std::string name = table.string("reflector");
@@ -169,7 +169,7 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
   surface.reflector = surface.face_of_sheet ? optics::face_of_sheet(reflector) : std::move(reflector);
 }
 
-/// The parts of a stack that request or exclude each other.
+/// Reports layers of a stack that are missing or that exclude each other.
 void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
   const bool painted = is_painted(surface);
   const bool reflector = table.has("reflector") || table.has("reflectance");
@@ -210,7 +210,7 @@ config::TomlNode merge_over_base(const config::TomlNode& base, const config::Tom
   const config::TomlNode* model = over.find("model");
   for (const SurfaceModel& known : models.all())
     if (model && !known.table.empty() && model->text != known.word) drop(merged, known.table);
-  // What a base states of its sheet's light goes with that sheet.
+  // Keys of a base on the light of its sheet are removed with that sheet.
   if (over.find("reflector") || (over.find("reflectance") && base.find("reflector")))
     drop(merged, "transmittance");
   if (over.find("reflector")) drop(merged, "reflectance");

@@ -1,5 +1,5 @@
 #pragma once
-/// Values that several parts of a surface's definition have.
+/// Readers of values that several parts of a surface's definition share.
 
 #include <optional>
 #include <string>
@@ -9,15 +9,14 @@
 
 namespace scintray::materials {
 
-/// A length in um: the fallback when absent; reported when not positive (or negative, where zero is
-/// allowed).
+/// Length in um: the fallback when absent; reported when not positive (or negative, where zero is allowed).
 double read_um(const config::TomlTable& table, const std::string& key, double fallback_um, bool zero_allowed);
 std::optional<double> read_optional_um(const config::TomlTable& table, const std::string& key);
 
-/// A share, from 0 to 1; needed when there is no fallback.
+/// A share, from 0 to 1; required when there is no fallback.
 double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback);
 
-/// [tracing] of a surface: nothing for rays traced on the spot, else how the table is made.
+/// [tracing] of a surface: settings of its table; nothing for rays traced on the spot.
 std::optional<TracingSpec> read_tracing(const config::TomlTable& surface);
 
 }  // namespace scintray::materials

@@ -8,11 +8,12 @@ namespace scintray::materials {
 
 namespace {
 
-/// More than this, and every avalanche fires another one for ever (1 - exp(-1) is 63 %).
+/// Largest accepted probability of crosstalk or of afterpulses: from 1 - exp(-1), 63 %, on every avalanche
+/// triggers at least one other on average, without end.
 constexpr double kMostSecondaries = 0.6;
 constexpr std::int64_t kMostMicrocells = 100'000'000;
 
-/// A probability up to a limit; 0 when absent.
+/// A probability, at most its limit; 0 when absent.
 double read_chance(const config::TomlTable& table, const std::string& key) {
   const double chance = table.quantity(key, core::Dimension::dimensionless, 0.0);
   table.expect(key, chance >= 0.0 && chance <= kMostSecondaries, "this probability lies between 0 and 60 %",

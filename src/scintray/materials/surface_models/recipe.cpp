@@ -25,7 +25,7 @@ std::uint32_t read_points(const config::TomlTable& table, const std::string& key
   return value >= 2 && value <= 16384 ? static_cast<std::uint32_t>(value) : fallback;
 }
 
-/// Reports the keys of `keys` that are absent from a recipe that starts from nothing.
+/// Reports those of `keys` that are absent from a recipe without a base.
 void need(const config::TomlTable& table, RecipeKind kind, const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
     if (!table.has(key))
@@ -89,7 +89,7 @@ void read_spectrum(const config::TomlTable& table, topography::SpectrumRelief& s
   }
 }
 
-/// What each kind needs that no default gives.
+/// Keys of each kind that are required, since they have no default.
 const std::vector<std::string>& needs_of(RecipeKind kind) {
   static const std::vector<std::pair<RecipeKind, std::vector<std::string>>> needs{
       {RecipeKind::gaussian, {"rms_height", "correlation_length"}},
@@ -143,7 +143,7 @@ RecipeSpec read_recipe(const config::TomlTable& surface) {
   return spec;
 }
 
-/// Names a recipe's map among all others: the description and the spectrum that it only sums up.
+/// Unique key of a recipe's height map: the description, and the full spectrum that this only summarises.
 std::string key_of(const topography::SynthesisRecipe& recipe) {
   const topography::SpectrumRelief& spectrum = recipe.spectrum;
   std::string points;

@@ -16,7 +16,7 @@ using InterfaceKey = std::tuple<core::PartId, core::PartId, core::FaceId, core::
 
 std::string name_or_smooth(const std::string& surface) { return surface.empty() ? "smooth" : surface; }
 
-/// Turns groups of interface triangles into interfaces.
+/// Maker of interfaces from groups of interface triangles.
 class InterfaceMaker {
  public:
   InterfaceMaker(const Assembly& assembly, Scene& scene, core::Problems& problems)
@@ -74,7 +74,7 @@ class InterfaceMaker {
     return result;
   }
 
-  /// A sensor part detects what enters it; a sensor face what leaves its part there.
+  /// A sensor part detects light that enters it; a sensor face light that leaves its part there.
   void bind_sensors(const contact::InterfaceTriangle& t, Interface& result) const {
     const auto bind = [&](core::PartId entered, core::PartId left, core::FaceId left_face,
                           core::SensorId& sensor, core::PartId& part) {
@@ -97,7 +97,7 @@ class InterfaceMaker {
     result.front_surface = surface(front, medium(t.front), assembly_.ambient);
   }
 
-  /// Where a part lies in another, its own finish counts unless a contact states otherwise.
+  /// Where a part is nested in another, its own surface applies unless a contact specifies another.
   void make_nested(const contact::InterfaceTriangle& t, Interface& result) {
     const scene_file::ContactSpec* contact = find_contact(t).first;
     const std::string& own = face(t.back_face).surface;
@@ -145,7 +145,7 @@ class InterfaceMaker {
       result.front_surface = surface(name, medium(t.front), medium(t.back));
   }
 
-  /// Does the contact's side name this face of this part? Inside another part there is no face.
+  /// True when the contact's side names this face of this part. Inside another part there is no face.
   bool names(const scene_file::ContactSpec& contact, std::size_t side, core::PartId of_part,
              core::FaceId of_face) const {
     const std::string& part_name = part(of_part).geometry.name;
@@ -154,15 +154,14 @@ class InterfaceMaker {
            (of_face.has_value() && part_name + ":" + contact.faces[side] == face(of_face).name);
   }
 
-  /// How much a contact states of a pair; of several that match, the one that states most holds. What the
-  /// file states goes before what builders say, then more faces before fewer, then more letters of both
-  /// names.
+  /// Specificity of a contact for a pair of faces; of several that match, the most specific applies. Contacts
+  /// of the file precede those of builders, then more faces precede fewer, then more letters of both names.
   static std::tuple<bool, int, std::size_t> weight(const scene_file::ContactSpec& contact) {
     return {!contact.by_builder, !contact.faces[0].empty() + !contact.faces[1].empty(),
             core::literal_length(contact.between[0].name) + core::literal_length(contact.between[1].name)};
   }
 
-  /// The contact that speaks of these two faces, and whether its first name stands for the back.
+  /// The contact that applies to these two faces, and whether its first name is that of the back.
   std::pair<const scene_file::ContactSpec*, bool> find_contact(const contact::InterfaceTriangle& t) {
     std::optional<std::size_t> best;
     bool back_is_first = true;
@@ -198,7 +197,7 @@ class InterfaceMaker {
                   "name this pair in a [[contact]] of its own, or spell out more of one of them");
   }
 
-  /// A surface for two media, made once per triple.
+  /// The surface between two media, made once per name and pair of media.
   core::SurfaceId surface(const std::string& name, core::MediumId inside, core::MediumId outside) {
     const auto [known, is_new] = surfaces_.try_emplace({name, inside, outside}, scene_.surfaces.next_id());
     if (is_new) {
@@ -234,7 +233,7 @@ double triangle_area(const contact::InterfaceTriangle& t) {
   return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
 }
 
-/// Gives every face the vertices that its triangles use.
+/// Sets for every face the vertices of its triangles.
 void collect_corners(const contact::PlacedPart& geometry, Scene& scene) {
   std::set<std::pair<core::FaceId, std::uint32_t>> seen;
   for (std::size_t t = 0; t < geometry.triangles.size(); ++t)
@@ -256,7 +255,7 @@ void describe_parts(const Assembly& assembly, Scene& scene) {
     for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
       const auto& [a, b, c] = geometry.triangles[t];
       const core::Vec3 &va = geometry.vertices[a], &vb = geometry.vertices[b], &vc = geometry.vertices[c];
-      const core::Vec3& origin = geometry.vertices.front();  // keeps far-away parts exact
+      const core::Vec3& origin = geometry.vertices.front();  // for precision far from the origin
       info.volume_mm3 += (va - origin).dot((vb - origin).cross(vc - origin)) / 6.0;
       for (const core::Vec3& v : {va, vb, vc}) info.bounds.extend(v);
       FaceInfo& face = scene.faces[geometry.face[t]];

@@ -1,5 +1,5 @@
 #pragma once
-/// From placed parts with known surfaces to regions, interfaces and accelerators.
+/// Construction of regions, interfaces and accelerators from placed parts and their surfaces.
 
 #include <functional>
 #include <string>
@@ -16,19 +16,19 @@ namespace scintray::scene {
 struct AssemblyFace {
   std::string name;  ///< "part:face"
   core::PartId part;
-  std::string surface;    ///< name; empty: none given, smooth
+  std::string surface;    ///< name; empty: smooth
   core::SensorId sensor;  ///< light that leaves the part here is detected
 };
 
 struct AssemblyPart {
   contact::PlacedPart geometry;
   core::MediumId medium;
-  std::string surface;                                     ///< its own, where another part lies in it
+  std::string surface;                                     ///< at its boundaries with parts nested in it
   core::SensorId sensor;                                   ///< light that enters the part is detected
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< its placement: lets identical parts share
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< of its placement; identical parts share
 };
 
-/// Everything that decides what a scene is, looked up but not yet put together.
+/// All definitions of a scene, looked up but not yet assembled.
 struct Assembly {
   core::IdVector<core::MediumId, SceneMedium> media;
   core::IdVector<core::SensorId, detector::Sensor> sensors;
@@ -40,24 +40,25 @@ struct Assembly {
   double contact_tolerance_mm = 1e-4;
   scene_file::AcceleratorKind accelerator = scene_file::AcceleratorKind::automatic;
   double low_nm = 0.0, high_nm = 0.0;
-  /// Makes the surface of that name for the media on its two sides; where it is used twice the same surface
-  /// may be returned. The empty name is the smooth surface.
+  /// The surface of a name between two media; for equal arguments the same surface may be returned. The empty
+  /// name is the smooth surface.
   std::function<optics::Surface(const std::string& name, core::MediumId inside, core::MediumId outside)>
       make_surface;
 };
 
-/// Builds the scene. Throws InputError, with every problem, for parts that overlap, contacts between
+/// The scene of an assembly. Throws InputError, with every problem, for parts that overlap, contacts between
 /// parts that do not touch, and shared faces whose two surfaces disagree.
 Scene assemble(const Assembly& assembly);
 
-/// Id of a part's region, or of the ambient one for no part: it comes first, then the parts' in their order.
+/// Id of a part's region, or of the ambient region for no part. The ambient region is the first, followed by
+/// those of the parts in their order.
 inline core::RegionId region_of(core::PartId part) {
   return part.has_value() ? core::RegionId(part.index() + 1) : kAmbientRegion;
 }
 
-/// Fills scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i].
-/// Regions whose boundaries are equal in their parts' own frames, and lead to the same pattern of
-/// interfaces, share one accelerator.
+/// Sets scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i]. Regions
+/// whose boundaries are equal in their parts' own frames, and lead to the same pattern of interfaces, share
+/// one accelerator.
 void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
                    const std::vector<core::InterfaceId>& interface_of, Scene& scene);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The steps of building a scene that stand beside the looking up of its names.
+/// The steps of building a scene apart from the look-up of its names.
 
 #include <string>
 #include <vector>
@@ -12,19 +12,19 @@
 
 namespace scintray::scene {
 
-/// Wavelengths that photons of a scene can have, and the one tables are made for.
+/// Range of the wavelengths of photons in a scene, and the reference wavelength of tables.
 struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0, reference_nm = 0.0;
   bool operator==(const WavelengthRange&) const = default;
 };
 
-/// True for the same names with the same values at the same places of the same file, so that messages are the
-/// same too.
+/// True for equal names with equal values at the same places of the same file, so that messages are equal
+/// too.
 bool same_definitions(const scene_file::InlineTables& a, const scene_file::InlineTables& b);
 
-/// The wavelengths of the source, and above them those that wavelength shifters of the scene re-emit: in
-/// media, or in the gaps of surfaces, that its parts, faces or contacts name. Names that are not in the
-/// database are passed over. Adds to `problems`: a source whose wavelengths the scene leaves open.
+/// Range of the wavelengths of the source and of the re-emission, above them, by wavelength shifters of the
+/// scene: in media, or in the gaps of surfaces, named by its parts, faces or contacts. Names that are not in
+/// the database are ignored. Adds to `problems` a source without defined wavelengths.
 WavelengthRange find_wavelengths(const scene_file::SceneSpec& spec,
                                  const std::vector<contact::PlacedMesh>& placed,
                                  const materials::MaterialDatabase& database, core::Problems& problems);

@@ -48,7 +48,7 @@ std::vector<core::RegionId> starting_regions(const scene_file::SceneSpec& spec, 
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
                    const Scene& scene, core::Problems& problems, std::vector<std::string>& warnings) {
   const std::vector<core::RegionId> start = starting_regions(spec, scene);
-  if (start.empty()) return;  // the source reports it
+  if (start.empty()) return;  // reported by the source
   const core::IdVector<core::RegionId, bool> lit = lit_regions(scene, start);
   bool any_sensor = false;
   for (const contact::PlacedMesh& part : placed)

@@ -10,7 +10,7 @@ namespace scintray::scene {
 
 namespace {
 
-/// Vertices equal within about this length are the same when boundaries are compared, mm.
+/// Tolerance (mm) within which vertices are equal in the comparison of boundaries.
 constexpr double kSameVertex_mm = 1e-6;
 /// Keeps round coordinates away from the edges of the comparison grid.
 constexpr double kGridShift = 0.37;
@@ -18,14 +18,14 @@ constexpr double kGridShift = 0.37;
 using GridPoint = std::array<std::int64_t, 3>;
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// A boundary triangle in the region's frame, with what orders and identifies it.
+/// A boundary triangle in the region's frame, with its order and identity.
 struct Entry {
   GridTriangle key;
   BoundaryTriangle local;
   BoundaryLink link;
 };
 
-/// What makes two boundaries the same.
+/// The properties in which equal boundaries agree.
 struct Shape {
   std::vector<GridTriangle> triangles;
   std::vector<std::uint32_t> labels;
@@ -47,7 +47,7 @@ Entry make_entry(BoundaryTriangle local, BoundaryLink link) {
   return {key, local, link};
 }
 
-/// Numbers what the triangles lead to in order of first appearance.
+/// Numbers of the interfaces of the triangles, in order of first appearance.
 std::vector<std::uint32_t> pattern_of(const std::vector<Entry>& entries) {
   std::map<std::pair<core::InterfaceId, bool>, std::uint32_t> seen;
   std::vector<std::uint32_t> labels;
@@ -71,7 +71,7 @@ core::IdVector<core::RegionId, RegionTriangles> triangles_by_region(
   return by_region;
 }
 
-/// Fills in BoundaryLink::smooth_to, which needs all regions.
+/// Sets BoundaryLink::smooth_to, which requires all regions.
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
     const Interface& interface = scene.interfaces[link.interface];

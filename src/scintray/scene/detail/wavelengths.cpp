@@ -9,10 +9,10 @@ namespace scintray::scene {
 
 namespace {
 
-/// Stands for the wavelengths of a scene with a mistake, until all mistakes are found.
+/// Placeholder for the wavelengths of a scene with an error, until all errors are found.
 constexpr WavelengthRange kNoLight{400.0, 400.0, 400.0};
 
-/// The part of an emission spectrum that is not zero.
+/// Range of the non-zero part of an emission spectrum.
 WavelengthRange range_of(const core::Curve& emission) {
   WavelengthRange range;
   const auto &x = emission.x(), &y = emission.y();
@@ -25,8 +25,8 @@ WavelengthRange range_of(const core::Curve& emission) {
   return range;
 }
 
-/// Wavelengths that the parts of a name or pattern emit. Parts of an energy source that do not
-/// scintillate are left out, of a source of photons they are mistakes.
+/// Range of the wavelengths emitted by the parts of a name or pattern. Parts that do not scintillate are
+/// ignored for an event source, and are errors for a source of photons.
 WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
                             const config::NameRef& parts, const materials::MaterialDatabase& database,
                             core::Problems& problems) {
@@ -76,7 +76,7 @@ WavelengthRange wavelengths_of_source(const scene_file::SceneSpec& spec,
   return kNoLight;
 }
 
-/// Where an emission spectrum ends: the last point, or the first of the zeros at its end.
+/// Upper end (nm) of an emission spectrum: the last point, or the first of the zeros at its end.
 double end_of(const core::Curve& emission) {
   std::size_t last = emission.y().size() - 1;
   while (last > 0 && emission.y()[last - 1] == 0.0) --last;
@@ -90,7 +90,7 @@ double longest_of(const materials::SurfaceSpec& surface) {
   return longest;
 }
 
-/// The longest wavelength (nm) that a wavelength shifter of the scene re-emits. 0 when there is no shifter.
+/// Longest wavelength (nm) re-emitted by a wavelength shifter of the scene; 0 without a shifter.
 double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
                           const materials::MaterialDatabase& database) {
   std::set<std::string> media{spec.ambient.name}, surfaces;

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
-/// The keys by which a file gives the distance of neighbours.
+/// Keys for the distance of neighbours.
 enum class Spacing { pitch, gap };
 constexpr core::Word<Spacing> kSpacings[] = {{"pitch", Spacing::pitch}, {"gap", Spacing::gap}};
 
@@ -24,7 +24,7 @@ std::string mm_text(double mm) {
   return text + " mm";
 }
 
-/// Extent of an element after its own rotation; a unit box where that cannot be known.
+/// Extent of an element after its own rotation; a unit box where that is not available.
 Eigen::AlignedBox3d element_bounds(const config::TomlTable& table, const PartSpec& element) {
   Eigen::AlignedBox3d bounds;
   try {
@@ -48,7 +48,7 @@ void read_element(const config::TomlTable& owner, LayerSpec& layer) {
   if (table.problem_count() == problems) layer.element_bounds = element_bounds(owner, layer.element);
 }
 
-/// Pitch along x and y from "pitch" or "gap". A single element has no use for it.
+/// Pitch along x and y from "pitch" or "gap". Not required for a single element.
 void read_pitch(const config::TomlTable& table, LayerSpec& layer) {
   const bool needed = layer.count[0] > 1 || layer.count[1] > 1;
   const core::Word<Spacing>* kind = table.one_of(kSpacings, needed);
@@ -68,8 +68,8 @@ void read_pitch(const config::TomlTable& table, LayerSpec& layer) {
   }
 }
 
-/// Elements of box shape that reach into their neighbours. What other shapes do is found when they are
-/// placed.
+/// Reports elements of box shape that overlap their neighbours. Overlaps of other shapes are found when they
+/// are placed.
 void check_pitch(const config::TomlTable& table, const LayerSpec& layer) {
   if (!std::holds_alternative<BoxSpec>(layer.element.shape) || !layer.element.placement.rotate.empty())
     return;
@@ -83,7 +83,7 @@ void check_pitch(const config::TomlTable& table, const LayerSpec& layer) {
   }
 }
 
-/// Two lengths, or two plain numbers that count pitches.
+/// Offset of a layer: two lengths, or two plain numbers in pitches.
 void read_offset(const config::TomlTable& table, LayerSpec& layer) {
   const config::TomlNode* node = table.node()->find("offset");
   table.has("offset");
@@ -99,7 +99,7 @@ void read_offset(const config::TomlTable& table, LayerSpec& layer) {
     layer.offset_mm[axis] = pitches[axis] * layer.pitch_mm[axis];
 }
 
-/// Of odd rows, a length or a plain number that counts pitches.
+/// Shift of odd rows: a length, or a plain number in pitches.
 double read_row_shift(const config::TomlTable& table, const LayerSpec& layer) {
   const config::TomlNode* node = table.node()->find("row_shift");
   if (!node || node->kind == Kind::string) return table.quantity("row_shift", core::Dimension::length, 0.0);
@@ -120,7 +120,7 @@ void read_septa(const config::TomlTable& owner, LayerSpec& layer, InlineTables& 
   const core::Vec3 element = layer.element_bounds.sizes();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double gap = layer.pitch_mm[axis] - element[static_cast<int>(axis)];
-    // Elements that reach into each other are the pitch's mistake.
+    // Elements that overlap are reported for the pitch.
     if (layer.count[axis] == 1 || gap < -1e-9 || !(axis == 0 ? septa.x : septa.y)) continue;
     table->expect("thickness", septa.thickness_mm <= gap + 1e-9,
                   "septa of " + mm_text(septa.thickness_mm) + " do not fit the gap of " + mm_text(gap) +
@@ -241,7 +241,7 @@ OverrideSpec read_override(const config::TomlTable& table) {
   return change;
 }
 
-/// Numbers of columns, rows and layers that no layer has.
+/// Reports numbers of columns, rows and layers that do not exist.
 void check_override(const config::TomlTable& table, const OverrideSpec& change,
                     const std::vector<LayerSpec>& layers) {
   int columns = 0, rows = 0;

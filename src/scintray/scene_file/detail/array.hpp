@@ -1,5 +1,5 @@
 #pragma once
-/// [[array]], and the parts that become of it. Lengths mm.
+/// [[array]], and its expansion into parts. Lengths mm.
 
 #include <array>
 #include <optional>
@@ -16,7 +16,7 @@ struct SeptaSpec {
   SheetSpec sheet;
   double thickness_mm = 0.0;
   bool x = true, y = true;                         ///< between columns (across x), between rows (across y)
-  std::optional<std::array<double, 2>> height_mm;  ///< above the elements' bottom; nothing: all of it
+  std::optional<std::array<double, 2>> height_mm;  ///< above the elements' bottom; nothing: the full height
   core::FileLocation where;
 };
 
@@ -28,11 +28,11 @@ struct GlueSpec {
 
 /// Elements in columns along x and rows along y, all on one level.
 struct LayerSpec {
-  PartSpec element;  ///< without a name; its rotation is done, its place is not
+  PartSpec element;  ///< without a name; rotated but not placed
   Eigen::AlignedBox3d element_bounds{core::Vec3::Zero(), core::Vec3::Ones()};  ///< after that rotation
   std::array<int, 2> count{1, 1};
   std::array<double, 2> pitch_mm{};
-  std::array<double, 2> offset_mm{};  ///< of the layer's middle
+  std::array<double, 2> offset_mm{};  ///< of the layer's centre
   double row_shift_mm = 0.0;          ///< of odd rows against even ones, along x
   std::optional<SeptaSpec> septa;
   config::NameRef filler;        ///< medium between the elements; empty: the ambient medium
@@ -40,17 +40,17 @@ struct LayerSpec {
   core::FileLocation where;
 };
 
-/// Which elements an override is for: every criterion that is given holds.
+/// Selection of the elements of an override: all criteria present apply together.
 struct ElementSelector {
   std::vector<int> columns, rows, layers;  ///< empty: all
   bool border = false;                     ///< first and last column and row
   int checker = 0;                         ///< 1: column + row even, 2: odd, 0: both
 };
 
-/// What is different about some elements.
+/// Properties that differ for some elements.
 struct OverrideSpec {
   ElementSelector select;
-  bool remove = false;  ///< leaves the element out
+  bool remove = false;  ///< omits the element
   config::NameRef medium, surface;
   std::vector<FaceRuleSpec> faces;  ///< in place of the element's rules of the same names, or added
   core::FileLocation where;
@@ -76,14 +76,14 @@ struct ArraySpec {
 };
 
 /// One [[array]]. `earlier` are the names that it may touch; `surfaces` receives the surfaces of sheets that
-/// are given by their reflector.
+/// are defined by their reflector.
 ArraySpec read_array(const config::TomlTable& table, const std::vector<std::string>& earlier,
                      InlineTables& surfaces);
 
 /// Elements "NAME[i,j]" (column i along x, row j along y, from 0; "NAME[k,i,j]" in layers), sheets
 /// "NAME_septum_x[..]", "NAME_septum_y[..]", "NAME_wrap[-x]"..., glue "NAME_glue[k]" above layer k, and
-/// fillers "NAME_filler" or "NAME_filler[k]". The lowest layer stands on z = 0; layers are centred on x =
-/// y = 0 but for their offsets.
+/// fillers "NAME_filler" or "NAME_filler[k]". The lowest layer stands on z = 0; layers are centred on
+/// x = y = 0 apart from their offsets.
 BuiltBody expand(const ArraySpec& array);
 
 }  // namespace scintray::scene_file

@@ -33,7 +33,7 @@ std::vector<BodyTable> body_tables(const config::TomlTable& scene) {
 
 bool has_fill(const PlacementSpec& placement) { return placement.touch && !placement.touch->fill.empty(); }
 
-/// Puts what the tables say together, with every name used once.
+/// Reader of all bodies; every name is unique.
 class BodyReader {
  public:
   void read(const BodyTable& body) {

@@ -39,7 +39,7 @@ PartSpec box_part(const std::string& name, const Eigen::AlignedBox3d& box, const
   return part;
 }
 
-/// Glue or filler.
+/// Part of glue or of a filler.
 PartSpec liquid_part(const std::string& name, const Eigen::AlignedBox3d& box, const config::NameRef& medium) {
   PartSpec part = box_part(name, box, medium, medium.where);
   part.liquid = true;
@@ -77,7 +77,7 @@ class ArrayExpander {
     height_ = bounds.max().z();
   }
 
-  /// Returns the place it takes, whether it is left out or not.
+  /// Bounding box of an element, which is added unless omitted by an override.
   Eigen::AlignedBox3d add_element(const LayerSpec& layer, int k, int i, int j) {
     const std::array<int, 2> index{i, j};
     core::Vec3 shift = -layer.element_bounds.center();
@@ -86,7 +86,7 @@ class ArrayExpander {
       const auto a = static_cast<std::size_t>(axis);
       shift[axis] += (index[a] - 0.5 * (layer.count[a] - 1)) * layer.pitch_mm[a] + layer.offset_mm[a];
     }
-    // Half the shift each way keeps the layer's middle where it is.
+    // Half the shift in each direction keeps the layer centred.
     if (layer.count[1] > 1) shift.x() += (j % 2 == 0 ? -0.5 : 0.5) * layer.row_shift_mm;
     Eigen::AlignedBox3d place = layer.element_bounds;
     place.translate(shift);
@@ -127,7 +127,7 @@ class ArrayExpander {
     }
   }
 
-  /// As wide as both layers have in common; the layer below is already there.
+  /// Adds glue over the lateral intersection of both layers; the layer below is already placed.
   void add_glue(std::size_t below) {
     const LayerSpec& layer = array_.layers[below];
     if (!layer.glue) return;
@@ -146,7 +146,7 @@ class ArrayExpander {
     height_ = plate.max().z();
   }
 
-  /// Sheets across x, then y, then z; each covers the edges of those before it.
+  /// Adds sheets across x, then y, then z; each covers the edges of those before it.
   void add_wrap(const WrapSpec& wrap) {
     Eigen::AlignedBox3d inner;
     for (const Eigen::AlignedBox3d& layer : bounds_) inner.extend(layer);
@@ -175,7 +175,7 @@ class ArrayExpander {
     }
   }
 
-  /// What glue and fillers touch they wet; sheets keep the contact that was requested.
+  /// Glue and fillers are in bonded contact with all that they touch; sheets keep the requested contact.
   void add_contacts() {
     const auto add = [&](const std::string& a, const std::string& b, ContactKind kind,
                          const config::NameRef& surface = {}) {
@@ -199,7 +199,7 @@ class ArrayExpander {
   const ArraySpec& array_;
   std::string name_;
   BuiltBody body_;
-  double height_ = 0.0;                      ///< where the next layer stands
+  double height_ = 0.0;                      ///< of the bottom of the next layer
   std::vector<Eigen::AlignedBox3d> bounds_;  ///< of the elements of each layer
 };
 

@@ -25,7 +25,8 @@ class LightGuideExpander {
     return low + (high - low) * z / guide_.height_mm;
   }
 
-  /// The edge between cells i - 1 and i at a height; 0 and the last are the guide's own sides.
+  /// Position (mm) of the edge between cells i - 1 and i at a height; the first and the last are the guide's
+  /// own sides.
   double edge(std::size_t axis, int i, double z) const {
     return (static_cast<double>(i) / guide_.segments[axis] - 0.5) * width(axis, z);
   }

@@ -11,8 +11,7 @@ namespace scintray::scene_file {
 
 namespace {
 
-/// Names of the faces that the parts of this name have or may get; nothing when none of them is among
-/// `parts`.
+/// Names of the possible faces of the parts of this name; nothing when none of them is among `parts`.
 std::vector<std::string> faces_of(const std::string& name, const std::vector<PartSpec>& parts) {
   std::vector<std::string> faces;
   for (const PartSpec& part : parts) {

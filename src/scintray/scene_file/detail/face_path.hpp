@@ -16,9 +16,9 @@ struct FacePath {
   config::NameRef part, face;
 };
 
-/// Takes `text`, the value or an element of `key`, apart at its first colon; the part may have wildcards
-/// when `wildcards`. `names` are all parts of the scene, `parts` those whose faces are known now. What is
-/// wrong is reported at the key: no colon, a part that is not there, a face that no such part has.
+/// Part and face of `text`, the value or an element of `key`, separated at its first colon; the part may have
+/// wildcards when `wildcards`. `names` are all parts of the scene, `parts` those with known faces. Errors are
+/// reported at the key: no colon, an unknown part, a face that no such part has.
 std::optional<FacePath> read_face_path(const config::TomlTable& table, const std::string& key,
                                        const std::string& text, const std::vector<std::string>& names,
                                        const std::vector<PartSpec>& parts, bool wildcards);

@@ -12,10 +12,10 @@ using core::Vec3;
 
 double angle(double cosine) { return std::acos(std::min(1.0, std::abs(cosine))); }
 
-/// Equal bins of it hold equal projected solid angles.
+/// Sine squared of an angle: equal bins of it have equal projected solid angles.
 double sine_squared(double cosine) { return std::max(0.0, 1.0 - cosine * cosine); }
 
-/// About the normal, from the first of the face's axes.
+/// Azimuth (rad) about the normal, from the first of the face's axes.
 double azimuth(const Vec3& direction, const Vec3& normal) {
   const auto [x, y] = core::face_axes(normal);
   return std::atan2(direction.dot(y), direction.dot(x));

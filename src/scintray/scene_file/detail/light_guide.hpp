@@ -1,5 +1,5 @@
 #pragma once
-/// [[light_guide]], and the parts that become of it. Lengths mm.
+/// [[light_guide]], and its expansion into parts. Lengths mm.
 
 #include <array>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace scintray::scene_file {
 
-/// A frustum of one medium with slits cut from one end, a segment for each cell.
+/// A frustum of one medium with slits cut from one end, which separate a segment for each cell.
 struct LightGuideSpec {
   config::NameRef name;
   PlacementSpec placement;
@@ -20,13 +20,13 @@ struct LightGuideSpec {
   std::array<int, 2> segments{1, 1};
   double slit_depth_mm = 0.0, slit_width_mm = 0.0;
   bool slits_from_top = true;
-  std::optional<SheetSpec> slit_sheet;  ///< fills the slits; nothing: the ambient medium does
+  std::optional<SheetSpec> slit_sheet;  ///< fills the slits; nothing: the ambient medium
   config::NameRef medium, surface, end_surface, slit_surface;
   core::FileLocation where;
 };
 
-/// One [[light_guide]]. `earlier` are the names that it may touch; `surfaces` receives the surfaces of
-/// sheets that are given by their reflector.
+/// One [[light_guide]]. `earlier` are the names that it may touch; `surfaces` receives the surfaces of sheets
+/// that are defined by their reflector.
 LightGuideSpec read_light_guide(const config::TomlTable& table, const std::vector<std::string>& earlier,
                                 InlineTables& surfaces);
 

@@ -10,7 +10,7 @@ namespace scintray::scene_file {
 
 namespace {
 
-/// All names, or as many as can be read at a glance.
+/// List of all names, or of the first of many.
 std::string name_list(std::span<const std::string> names) {
   constexpr std::size_t kMostListed = 12;
   std::string list = core::list_of(names.first(std::min(names.size(), kMostListed)));

@@ -10,25 +10,25 @@
 
 namespace scintray::scene_file {
 
-/// A string that names something, with its place; empty when absent and not required.
+/// A name, with its place; empty when absent and not required.
 config::NameRef read_name(const config::TomlTable& table, const std::string& key, bool required);
 
 /// One name or a list of them, each with its place; none when absent and not required.
 std::vector<config::NameRef> read_names(const config::TomlTable& table, const std::string& key,
                                         bool required);
 
-/// Reports a new name that holds characters with a meaning elsewhere.
+/// Reports a new name with reserved characters.
 void expect_plain_name(const config::TomlTable& table, const std::string& key, const std::string& name);
 
-/// Reports at `key` unless the name is one of a part. Says nothing when no name is known.
+/// Reports at `key` a name that is not that of a part. No report when no name is available.
 void expect_part(const config::TomlTable& table, const std::string& key, const config::NameRef& name,
                  const std::vector<std::string>& parts);
 
-/// The same for a name that may have wildcards and then must be that of one part at least.
+/// The same for a name that may have wildcards, which must match one part at least.
 void expect_parts(const config::TomlTable& table, const std::string& key, const config::NameRef& pattern,
                   const std::vector<std::string>& parts);
 
-/// The value of an integer key, reported and 1 when it is below 1.
+/// The value of an integer key; a value below 1 is reported and replaced by 1.
 std::uint64_t positive_count(const config::TomlTable& table, const std::string& key, std::int64_t value);
 
 }  // namespace scintray::scene_file

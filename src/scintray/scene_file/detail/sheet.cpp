@@ -8,13 +8,13 @@ namespace scintray::scene_file {
 
 namespace {
 
-/// What is between a sheet and its neighbours, the usual one first.
+/// Contacts between a sheet and its neighbours, the default first.
 constexpr core::Word<ContactKind> kSheetContacts[] = {{"dry", ContactKind::dry},
                                                       {"bonded", ContactKind::bonded}};
 
 using Kind = config::TomlNode::Kind;
 
-/// The keys by which a file gives what a sheet does to light.
+/// Keys for the optical properties of a sheet.
 enum class SheetOptics { surface, reflector };
 constexpr core::Word<SheetOptics> kSheetOptics[] = {{"surface", SheetOptics::surface},
                                                     {"reflector", SheetOptics::reflector}};
@@ -36,8 +36,7 @@ config::TomlNode true_node(const std::string& key, const core::FileLocation& whe
   return node;
 }
 
-/// A surface that is nothing but one face of a sheet: what [surfaces.NAME] with model = "painted" and
-/// face_of_sheet = true states.
+/// A surface that is one face of a sheet: [surfaces.NAME] with model = "painted" and face_of_sheet = true.
 config::NameRef sheet_of(const config::NameRef& reflector, InlineTables& surfaces) {
   const std::string name = "sheet of " + reflector.name;
   auto node = std::make_shared<config::TomlNode>();
@@ -50,7 +49,7 @@ config::NameRef sheet_of(const config::NameRef& reflector, InlineTables& surface
   return {name, reflector.where};
 }
 
-/// What the sheets across an axis leave free: before the first, between them, and after the last.
+/// Intervals that are free of sheets across an axis: before the first, between them, and after the last.
 std::vector<Interval> spaces(const std::vector<Interval>& sheets, const Interval& whole) {
   std::vector<Interval> free{whole};
   for (const Interval& sheet : sheets) {

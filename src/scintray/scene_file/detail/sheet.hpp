@@ -1,6 +1,6 @@
 #pragma once
-/// Thin sheets of builders: what their table states, and how those between the cells of a grid are cut so
-/// that they do not cross. Lengths mm.
+/// Thin sheets of builders: their table, and the division of those between the cells of a grid so that they
+/// do not cross. Lengths mm.
 
 #include <array>
 #include <string>
@@ -12,24 +12,24 @@
 
 namespace scintray::scene_file {
 
-/// Thin sheets between or around bodies: what they are made of and how they meet their neighbours.
+/// Thin sheets between or around bodies: their medium, surface and contact with their neighbours.
 struct SheetSpec {
   config::NameRef medium;                  ///< kOpaqueMedium unless given
   config::NameRef surface;                 ///< of every side of every sheet; empty: smooth
-  ContactKind contact = ContactKind::dry;  ///< with whatever they touch, but for fillers and glue
+  ContactKind contact = ContactKind::dry;  ///< with all that they touch, apart from fillers and glue
   core::FileLocation where;
 };
 
-/// "medium", "surface" or "reflector", "contact"; `surfaces` receives the surface of a sheet that is given by
-/// its reflector.
+/// "medium", "surface" or "reflector", "contact"; `surfaces` receives the surface of a sheet that is defined
+/// by its reflector.
 SheetSpec read_sheet(const config::TomlTable& table, InlineTables& surfaces);
 
-/// From `low` to `high` along one axis, mm.
+/// An interval from `low` to `high` along one axis, mm.
 struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// Where sheets stand at one height: across x and across y, and how far the grid reaches.
+/// Positions of sheets at one height, across x and across y, and the extent of the grid.
 struct SheetGrid {
   std::array<std::vector<Interval>, 2> sheets;  ///< in order; of an axis without sheets empty
   std::array<Interval, 2> whole;
@@ -49,7 +49,7 @@ std::vector<SheetPiece> sheet_pieces(const SheetGrid& bottom, const SheetGrid& t
 PartSpec sheet_part(const SheetSpec& sheet, const std::string& name, const SheetPiece& piece, double z_mm,
                     double height_mm);
 
-/// Middle and size of the rectangle between two intervals.
+/// Rectangle of two intervals, by centre and size.
 mesh::Rectangle rectangle_of(const Interval& x, const Interval& y);
 
 }  // namespace scintray::scene_file

@@ -13,7 +13,7 @@ namespace scintray::source {
 
 namespace {
 
-/// Ratio of neighbouring energies of the table: linear between them is right to a tenth of a per cent
+/// Ratio of neighbouring energies of the table: linear interpolation is accurate to a tenth of a per cent
 /// from 1.1 times the threshold on.
 constexpr double kEnergyStep = 1.01;
 constexpr double kWavelengthStep_nm = 2.0;
@@ -24,12 +24,13 @@ double beta_squared(double energy_keV) {
   return 1.0 - 1.0 / (gamma * gamma);
 }
 
-/// Energy at which beta n = 1; infinite for n = 1.
+/// Kinetic energy (keV) at which beta n = 1; infinite for n = 1.
 double threshold_of(double index) {
   return core::kElectronMass_keV * (1.0 / std::sqrt(std::max(0.0, 1.0 - 1.0 / (index * index))) - 1.0);
 }
 
-/// Path and path over beta^2 that an electron makes below an energy, down to where the table begins.
+/// Path length of an electron that slows down from an energy to the start of the table, and the integral of
+/// 1 / beta^2 along it.
 struct Slowing {
   std::vector<double> energies_keV, path_mm, path_over_beta2_mm;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Cherenkov light of electrons that stop in a medium, and how they lose their energy there.
+/// Cherenkov light of electrons that stop in a medium, and their stopping power.
 
 #include <optional>
 #include <vector>
@@ -29,9 +29,9 @@ class ElectronStopping {
   /// @param density_g_per_cm3  positive
   ElectronStopping(const optics::Composition& composition, double density_g_per_cm3);
 
-  /// Energy lost per path, keV/mm.
+  /// Collision stopping power, keV/mm.
   double keV_per_mm(double energy_keV) const;
-  /// The same over the density, MeV cm2/g, as tables give it.
+  /// Mass collision stopping power, MeV cm2/g, as published in tables.
   double MeV_cm2_per_g(double energy_keV) const;
   double mean_excitation_eV() const { return mean_excitation_eV_; }
 
@@ -40,43 +40,43 @@ class ElectronStopping {
 
   double density_g_per_cm3_;
   double electrons_per_u_ = 0.0;     ///< sum of mass fraction times Z / A
-  double mean_excitation_eV_ = 0.0;  ///< of the whole
+  double mean_excitation_eV_ = 0.0;  ///< of the material
   // Sternheimer and Peierls' constants: delta = 2 ln(10) x + c + a (x1 - x)^3 between x0 and x1.
   double c_ = 0.0, a_ = 0.0, x0_ = 0.0, x1_ = 0.0;
 };
 
-/// Number and spectrum of the photons that an electron makes on its way from its energy to rest.
+/// Number and spectrum of the Cherenkov photons of an electron that slows down to rest.
 ///
-/// I. Frank and I. Tamm's formula, photons per path and wavelength 2 pi alpha (1 - 1 / (beta n)^2) /
-/// wavelength^2 (Particle Data Group, Review of Particle Physics, section on Cherenkov radiation), along the
-/// path of an electron that slows down continuously by collisions (ElectronStopping). Left out:
-/// bremsstrahlung, which makes the path of an electron of 511 keV in lutetium or lead some per cent shorter,
-/// the electrons that it knocks on, and the spread of its losses. Tabulated when made, cheap to call.
-/// Immutable.
+/// I. Frank and I. Tamm's formula, photons per path and wavelength 2 pi alpha (1 - 1 / (beta
+/// n)^2) / wavelength^2 (Particle Data Group, Review of Particle Physics, section on Cherenkov radiation),
+/// along the path of an electron that slows down continuously by collisions (ElectronStopping). Not included:
+/// bremsstrahlung, which shortens the path of an electron of 511 keV in lutetium or lead by some per cent,
+/// delta electrons, and energy straggling. Tabulated at construction. Immutable.
 class CherenkovEmitter {
  public:
-  /// Energies are tabulated up to this; of more energy as many photons come as of this.
+  /// Largest tabulated energy; above it the number of photons is constant.
   static constexpr double kGreatestEnergy_keV = 10'000.0;
 
-  /// Photons of low_nm to high_nm only: index, and so emission, ends where the medium's table ends.
-  /// @throws InputError (no place) for a medium without composition, an index that does not cover the
+  /// Photons of low_nm to high_nm only: the index, and therefore the emission, is limited to the medium's
+  /// table.
+  /// @throws InputError (without a place) for a medium without composition, an index that does not cover the
   ///         wavelengths, and wavelengths that are not 0 < low < high
   CherenkovEmitter(const optics::Medium& medium, double low_nm, double high_nm);
 
-  /// Kinetic energy above which an electron makes light of some wavelength: beta n = 1 at the greatest
-  /// index. More than kGreatestEnergy_keV when none is known to.
+  /// Threshold kinetic energy of Cherenkov emission at any wavelength: beta n = 1 at the greatest index.
+  /// Above kGreatestEnergy_keV when there is no emission up to that energy.
   double threshold_keV() const { return threshold_keV_; }
 
-  /// Photons expected of one electron. Their number is Poisson distributed about this, but for the spread of
-  /// losses.
+  /// Mean number of photons of one electron. Apart from energy straggling the number is Poisson distributed.
   double mean_photons(double energy_keV) const;
-  /// A wavelength (nm) of them. InternalError at an energy that makes none.
+  /// Wavelength (nm) of one of these photons, drawn at random. Throws InternalError at an energy without
+  /// emission.
   double sample_wavelength(double energy_keV, core::Rng& rng) const;
 
  private:
   struct Place {
     std::size_t node = 0;  ///< the lower one
-    double share = 0.0;    ///< of the way to the next
+    double share = 0.0;    ///< relative position towards the next node
   };
   Place place(double energy_keV) const;
 

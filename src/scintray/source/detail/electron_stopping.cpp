@@ -13,7 +13,7 @@ namespace scintray::source {
 
 namespace {
 
-/// eV, by atomic number from 1.
+/// Mean excitation energies of the elements, eV, by atomic number from 1.
 constexpr std::array<double, optics::kGreatestAtomicNumber> kElements = {
     19.2,  41.8,  40.0,  63.7,  76.0,  78.0,  82.0,  95.0,  115.0, 137.0, 149.0, 156.0, 166.0, 173.0,
     173.0, 180.0, 174.0, 188.0, 190.0, 191.0, 216.0, 233.0, 245.0, 257.0, 272.0, 286.0, 297.0, 311.0,

@@ -1,5 +1,5 @@
 #pragma once
-/// What makes the events of each kind of [source] of energy.
+/// The event sources: one class for each type of [source] with energy deposits.
 
 #include <cstdint>
 #include <optional>
@@ -13,8 +13,8 @@
 
 namespace scintray::source {
 
-/// Each event is one deposit, uniform over the origin, at time 0, of the spectrum's energy: the way of
-/// E. Roncali and S. R. Cherry 2013, Phys. Med. Biol. 58 2185, section 2.2. Immutable.
+/// Each event is one deposit, uniform over the origin, at time 0, of an energy from the spectrum: the method
+/// of E. Roncali and S. R. Cherry 2013, Phys. Med. Biol. 58 2185, section 2.2. Immutable.
 class SpectrumEventSource : public EventSource {
  public:
   /// Throws InputError as Origin does, and when a medium of the origin does not scintillate.
@@ -30,21 +30,21 @@ class SpectrumEventSource : public EventSource {
   std::uint64_t events_ = 0;
 };
 
-/// Events of gammas that start somewhere and leave energy where transport takes them. Immutable.
+/// Events of gammas that start at an origin and deposit energy along their transport. Immutable.
 class GammaEventSource : public EventSource {
  public:
-  /// Throws InputError as Origin and GammaTransport do, and when 176Lu is to decay where there is no
-  /// lutetium, or no part scintillates.
+  /// Throws InputError as Origin and GammaTransport do, and for decays of 176Lu without lutetium at the
+  /// origin, or without a part that scintillates.
   GammaEventSource(const scene_file::EmitterSpec& spec, std::uint64_t events, const scene::Scene& scene);
 
   std::uint64_t events() const override { return events_; }
   Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
 
-  /// How an event starts.
+  /// Initial state of an event.
   struct Start {
     Place place;
     std::vector<Gamma> gammas;
-    double local_keV = 0.0;  ///< left there by electrons
+    double local_keV = 0.0;  ///< deposited at the place by electrons
   };
   Start start(const scene::Scene& scene, core::Rng& rng) const;
 
@@ -69,28 +69,28 @@ struct Hit {
   std::uint64_t event = 0;
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   double energy_keV = 0.0;
-  double time_ns = 0.0;   ///< as the file has it; 0 when it has no times
+  double time_ns = 0.0;   ///< as in the file; 0 when it has no times
   std::uint64_t row = 0;  ///< line of a CSV file; place in the columns of an HDF5 file, from 0
 };
 
-/// Reads the columns that the specification names, in the file's order. Throws InputError with the first
-/// rows that are no hits (an event number that is not a whole number from 0 on, a negative energy), and
-/// for missing columns and columns of unequal length.
+/// Hits of the columns named by the specification, in the file's order. Throws InputError with the first
+/// invalid rows (an event number that is not a whole number from 0 on, a negative energy), and for missing
+/// columns and columns of unequal length.
 std::vector<Hit> read_hits_file(const scene_file::HitsSpec& spec);
 
-/// What came of the rows of a list of hits.
+/// Numbers of rows of a list of hits, and of those with a warning.
 struct HitsReport {
   std::uint64_t rows = 0;
-  std::uint64_t outside = 0;       ///< hits in no part; their energy counts as non-scintillating
-  std::uint64_t out_of_order = 0;  ///< hits of an event that came after hits of another; they join it
-  std::vector<std::string> first_outside, first_out_of_order;  ///< the first few, by name
+  std::uint64_t outside = 0;       ///< hits outside every part; their energy counts as non-scintillating
+  std::uint64_t out_of_order = 0;  ///< hits of an event that follow hits of another; assigned to it
+  std::vector<std::string> first_outside, first_out_of_order;  ///< descriptions of the first few
 };
 
 /// Events of a list of hits, in the order of their numbers there. Times count from an event's first hit.
 /// Hits outside every part, and in parts that do not scintillate, count as non-scintillating. Immutable.
 class HitsEventSource : public EventSource {
  public:
-  /// @param most  events to take; 0 for all
+  /// @param most  largest number of events; 0 for all
   /// Throws InputError as read_hits_file does, and when no hit lies in a part that scintillates.
   HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most, const scene::Scene& scene);
 
@@ -98,7 +98,7 @@ class HitsEventSource : public EventSource {
   Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
 
   const HitsReport& report() const { return report_; }
-  /// The report in words; empty when all is well.
+  /// The report as warnings; empty without any.
   std::vector<std::string> notes() const;
 
  private:

@@ -61,7 +61,7 @@ Columns read_hdf5_columns(const scene_file::HitsSpec& spec) {
   return columns;
 }
 
-/// What is wrong with a row; empty when nothing is.
+/// Fault of a row; empty for a valid one.
 std::string fault_of(const Columns& columns, std::size_t i) {
   const double event = columns.values[0][i], energy = columns.values[4][i];
   if (!(event >= 0.0 && event < kGreatestEvent && event == std::floor(event)))

@@ -10,7 +10,7 @@ namespace scintray::source {
 
 namespace {
 
-/// Draws outside the part in a row after which its region counts as empty.
+/// Number of successive draws outside the part after which its region counts as empty.
 constexpr int kMostDraws = 1'000'000;
 
 std::vector<std::string> names_of(const core::IdVector<core::PartId, scene::PartInfo>& parts) {
@@ -35,7 +35,8 @@ Origin::Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, con
   for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
   if (!point_) {
     for (Box& box : boxes_) box.inside = scene.region_contains(box.region, box.box);
-    core::Rng rng(0, core::StreamKind::other, 0);  // shows now, not in the run, that positions can be found
+    core::Rng rng(0, core::StreamKind::other,
+                  0);  // throws before the run for an empty region
     sample(scene, rng);
   }
 }
@@ -82,8 +83,8 @@ const Origin::Box& Origin::sample_box(core::Rng& rng) const {
   return at == boxes_.end() ? boxes_.back() : *at;
 }
 
-/// A box is chosen by its volume and a point in it; points outside the box's region are dropped, so
-/// what is kept is uniform over the union of the regions.
+/// A box is drawn by volume, and a point in it; points outside the box's region are rejected, so that
+/// accepted points are uniform over the union of the regions.
 Place Origin::sample(const scene::Scene& scene, core::Rng& rng) const {
   if (point_) return {boxes_.front().box.min(), boxes_.front().region};
   for (int draw = 0; draw < kMostDraws; ++draw) {

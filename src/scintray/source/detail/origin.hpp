@@ -1,5 +1,5 @@
 #pragma once
-/// Where things start, and in which direction.
+/// Initial positions and directions of photons, gammas and deposits.
 
 #include <cstdint>
 #include <variant>
@@ -11,31 +11,31 @@
 
 namespace scintray::source {
 
-/// A place in a scene.
+/// A position in a scene, with its region.
 struct Place {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
-  core::RegionId region;                     ///< that contains it
+  core::RegionId region;                     ///< that contains the position
 };
 
-/// Places uniform over part of a scene, or one point. Immutable.
+/// Origin of a source: uniform over a volume of a scene, or one point. Immutable.
 class Origin {
  public:
-  /// A pattern of parts is the union of those that have some of the region's box. Throws InputError when
-  /// the region is empty or no part has that name.
+  /// A pattern of parts is the union of those that overlap the region's box. Throws InputError when the
+  /// region is empty or no part has that name.
   Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, const scene::Scene& scene);
 
   Place sample(const scene::Scene& scene, core::Rng& rng) const;
 
-  /// Regions in which places lie.
+  /// Regions that contain places of the origin.
   std::vector<core::RegionId> regions() const;
 
  private:
-  /// A region and the box in which positions are drawn and, if inside, kept.
+  /// A region and the box in which positions are drawn and, if inside the region, accepted.
   struct Box {
     core::RegionId region;
     Eigen::AlignedBox3d box;
-    bool inside = false;  ///< all of it: no position needs asking
-    double most = 1.0;    ///< share of the volume of the boxes up to this one
+    bool inside = false;  ///< the whole box is: positions require no test
+    double most = 1.0;    ///< cumulative share of the volume of the boxes, this one included
   };
   void add_parts(const scene_file::RegionSpec& spec, const scene::Scene& scene);
   void add_box(const scene_file::RegionSpec& spec, const scene::PartInfo& part);
@@ -45,7 +45,7 @@ class Origin {
   bool point_ = false;
 };
 
-/// A direction of the given distribution, of unit length.
+/// Direction (unit vector) drawn from the given distribution.
 core::Vec3 sample_direction(const scene_file::DirectionSpec& spec, core::Rng& rng);
 
 }  // namespace scintray::source

@@ -1,20 +1,20 @@
 #pragma once
-/// Which energy makes light.
+/// Distinction of energy deposits in scintillators from non-scintillating energy.
 
 #include "scintray/core/error.hpp"
 #include "scintray/source/event.hpp"
 
 namespace scintray::source {
 
-/// Throws InputError at `where` unless the medium of each region makes light of energy.
+/// Throws InputError at `where` unless the medium of each region scintillates.
 void require_scintillators(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                            const core::FileLocation& where);
 
-/// True when energy left in the region makes light.
+/// True when the medium of the region scintillates.
 bool scintillates(const scene::Scene& scene, core::RegionId region);
 
-/// Adds energy to an event: as a deposit where it makes light, else as non-scintillating. Nothing when it is
-/// none.
+/// Adds energy to an event: as a deposit in a scintillator, else as non-scintillating energy. Zero energy is
+/// not added.
 void leave_energy(const scene::Scene& scene, const Deposit& deposit, Event& event);
 
 }  // namespace scintray::source

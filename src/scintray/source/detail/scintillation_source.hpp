@@ -1,5 +1,5 @@
 #pragma once
-/// Light from energy.
+/// Scintillation and Cherenkov light of energy deposits.
 
 #include <memory>
 #include <optional>
@@ -11,16 +11,15 @@
 
 namespace scintray::source {
 
-/// What light there is, and how it is polarised.
+/// Options of the emitted light.
 struct LightOptions {
-  bool unpolarised = false;  ///< else each photon is polarised, at random
-  bool cherenkov =
-      false;  ///< adds Cherenkov light of the wavelengths in use, of electrons of the deposits' energies
+  bool unpolarised = false;  ///< else each photon has a random polarisation
+  bool cherenkov = false;    ///< Cherenkov light, of electrons of the deposits' energies
 };
 
-/// Photons of the deposits of events, as the media there make them: their number from the yield, its
-/// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay;
-/// directions isotropic. Cherenkov light comes at once. Immutable.
+/// Source of the photons of energy deposits, by the media of the deposits: their number from the yield, its
+/// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay times;
+/// directions are isotropic. Cherenkov light is emitted without delay, at the wavelengths in use. Immutable.
 class ScintillationSource : public LightSource {
  public:
   /// @throws InputError without a place, with Cherenkov light, for a scintillator without composition
@@ -46,11 +45,12 @@ class ScintillationSource : public LightSource {
   bool unpolarised_;
 };
 
-/// Number of photons that an electron of so much energy makes in a medium: Poisson about a Gaussian about
-/// yield times relative yield times energy. The variance of the Gaussian, (fwhm / 2.355)^2 yield^2
-/// intrinsic_keV energy, is proportional to the energy: deposits then spread together as one of their
-/// whole energy does, and the resolution it gives falls with the square root of the energy.
-/// @return 0 where the Gaussian falls below zero
+/// Number of scintillation photons of an electron of this energy in a medium, drawn at random: Poisson about
+/// a Gaussian about yield times relative yield times energy. The variance of the Gaussian, (fwhm / 2.355)^2
+/// yield^2 intrinsic_keV energy, is proportional to the energy: several deposits then have together the
+/// spread of one deposit of their total energy, and the intrinsic resolution is proportional to 1 over the
+/// square root of the energy.
+/// @return 0 where the Gaussian is below zero
 std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_keV, core::Rng& rng);
 
 }  // namespace scintray::source

@@ -21,7 +21,7 @@ std::vector<std::string> part_names(const scene::Scene& scene) {
   return names;
 }
 
-/// Which of `names` the patterns pick, in their order. @throws InputError for one that picks none.
+/// For each of `names`, true when a pattern matches it. Throws InputError for a pattern without a match.
 std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std::vector<std::string>& names,
                          const std::string& kind, const core::FileLocation& where) {
   std::vector<bool> result(names.size(), false);
@@ -35,7 +35,7 @@ std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std
   return result;
 }
 
-/// By place (scene_file::place_of); empty without patterns.
+/// Parts that the patterns match, by place (scene_file::place_of); empty without patterns.
 std::vector<bool> picked_parts(const std::vector<config::NameRef>& patterns, const scene::Scene& scene,
                                const core::FileLocation& where) {
   if (patterns.empty()) return {};
@@ -44,7 +44,7 @@ std::vector<bool> picked_parts(const std::vector<config::NameRef>& patterns, con
   return parts;
 }
 
-/// Regions of the picked parts; empty without patterns.
+/// Regions of the parts that the patterns match; empty without patterns.
 core::IdVector<core::RegionId, bool> picked_regions(const std::vector<config::NameRef>& patterns,
                                                     const scene::Scene& scene,
                                                     const core::FileLocation& where) {
@@ -56,7 +56,7 @@ core::IdVector<core::RegionId, bool> picked_regions(const std::vector<config::Na
   return regions;
 }
 
-/// Parts that detect.
+/// Parts that are sensors.
 std::vector<config::NameRef> sensor_parts(const scene::Scene& scene) {
   core::IdVector<core::PartId, bool> detects(scene.parts.size(), false);
   for (const scene::Interface& interface : scene.interfaces) {
@@ -151,7 +151,7 @@ class CountBinder {
     count.empty.axes.push_back(std::move(made));
   }
 
-  /// The parts of an axis that names none; empty: all.
+  /// The default parts of an axis without names; empty: all.
   std::vector<config::NameRef> usual_parts(scene_file::VariableKind kind) const {
     if (kind == scene_file::VariableKind::source_part) return source_parts_;
     const bool at_sensors = std::all_of(spec_.at.begin(), spec_.at.end(), [](core::StepEvent event) {
@@ -199,7 +199,7 @@ class CountBinder {
     count.empty.axes.push_back(std::move(made));
   }
 
-  /// Index of the one medium that directions are in, or 0.
+  /// Refractive index of the medium of the directions, 0 for several.
   double medium_index() const {
     scene_file::FaceSide side = scene_file::FaceSide::none;
     for (const scene_file::TallyAxisSpec& axis : spec_.axes)
@@ -220,7 +220,7 @@ class CountBinder {
     return scene_.optics.index(medium, 0.5 * (scene_.low_nm + scene_.high_nm));
   }
 
-  /// Normal of the plane that the faces lie along.
+  /// Normal of the plane to which the faces are parallel.
   core::Vec3 plane_normal() const {
     if (spec_.normal) return *spec_.normal;
     const core::Vec3 first = scene_.faces[faces_.front()].area_vector_mm2.normalized();

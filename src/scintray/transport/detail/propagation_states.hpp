@@ -1,19 +1,19 @@
 #pragma once
-/// A photon on its way through a region, for each kind of ray query.
+/// States of a photon that propagates through a region, for each kind of ray query.
 
 #include "scintray/core/lanes.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
 
-/// Moves the photon straight on. Time advances with the group velocity.
+/// Straight propagation of the photon by a distance. Time advances with the group velocity.
 inline void advance(source::Photon& photon, double distance_mm) {
   photon.position += distance_mm * photon.ray.direction;
   photon.path_mm += distance_mm;
   photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / core::kSpeedOfLight_mm_per_ns);
 }
 
-/// The sum of three vectors times the first three numbers of v, whose fourth number stays.
+/// Sum of three vectors times the first three numbers of v; the fourth number of v is kept.
 inline core::Lanes combine(core::Lanes v, core::Lanes x, core::Lanes y, core::Lanes z) {
   return (v.xy[0] * x + v.xy[1] * y + v.zw[0] * z).with_fourth(v.zw[1]);
 }
@@ -24,15 +24,15 @@ inline core::Lanes rotate_back(const core::PlainMatrix3& m, core::Lanes v) {
   return combine(v, {m.row(0), 0.0}, {m.row(1), 0.0}, {m.row(2), 0.0});
 }
 
-/// Where a ray leaves the region that it is in.
+/// The point at which a ray leaves its region.
 struct Wall {
   std::uint32_t triangle = scene::kNoTriangle;
   double distance_mm = 0.0;
   bool resolved = false;  ///< by the exact query
 };
 
-/// A photon that moves where it is stored, for any ray query. What is not Embree's, and the way to the first
-/// total reflection, which is all of it on rough faces, is better served by the photon as it is.
+/// A photon that is propagated in place, for any ray query. Faster than EmbreePropagation without Embree, and
+/// up to the first total reflection, which is the whole propagation at rough faces.
 class StoredPropagation {
  public:
   StoredPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
@@ -71,10 +71,10 @@ class StoredPropagation {
   core::Vec3 normal_;
 };
 
-/// A photon between Embree's walls, in registers. It waits for Embree and then for what the next ray needs,
-/// so the next ray starts from Embree's own hit, in single precision, while the exact one is computed beside
-/// it; every piece starts from exact numbers again. Nothing may take the address of what changes, which would
-/// put it into memory. tools/bench crystal shows what this is worth.
+/// A photon between Embree's walls, in registers. The latency is that of Embree and then of the numbers of
+/// the next ray, so the next ray starts from Embree's own hit, in single precision, while the exact one is
+/// computed beside it; every segment starts again from exact numbers. No address of a member that changes may
+/// be taken, which would place it in memory. tools/bench crystal measures the gain.
 class EmbreePropagation {
  public:
   EmbreePropagation(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
@@ -116,7 +116,7 @@ class EmbreePropagation {
     position_ = position_ + distance_mm * direction_;
   }
   double incidence(const Wall&) const { return cosine_; }
-  /// As reflect().
+  /// As optics::reflect().
   void reflect_at(const Wall& wall, double cosine) {
     ++interactions_;
     core::Lanes normal = accelerator_.plane(wall.triangle).with_fourth(0.0);
@@ -129,7 +129,7 @@ class EmbreePropagation {
     return limits.allow(interactions_, path_and_time_[1]);
   }
   static bool goes_on() { return true; }
-  /// Makes the next ray.
+  /// Prepares the next ray.
   void turn() {
     ray_origin_ = local_.with_fourth(start_mm_).floats() + hit_mm_ * ray_direction_;
     local_ = to_local(position_ - centre_);
@@ -162,7 +162,7 @@ class EmbreePropagation {
   core::TwoDoubles path_and_time_;
   double depth_left_;
   std::uint64_t interactions_;
-  core::Lanes local_, ahead_;  ///< in the region's frame, as the accelerator takes them: fourth -1 and 0
+  core::Lanes local_, ahead_;  ///< in the region's frame, in the accelerator's form: fourth -1 and 0
   core::FourFloats ray_origin_, ray_direction_;
   float hit_mm_ = 0.0f;  ///< Embree's, along the ray
   double cosine_ = 0.0;

@@ -42,7 +42,7 @@ void GammaMatter::make_energies() {
       energies_keV_.push_back(edge * (1.0 - kEdgeHalfWidth));
       energies_keV_.push_back(edge * (1.0 + kEdgeHalfWidth));
     }
-  energies_keV_.push_back(2.0 * core::kElectronMass_keV);  // from where pairs are made
+  energies_keV_.push_back(2.0 * core::kElectronMass_keV);  // threshold of pair production
   std::sort(energies_keV_.begin(), energies_keV_.end());
 }
 
@@ -78,7 +78,7 @@ GammaEncounter GammaMatter::sample(double energy_keV, core::Rng& rng) const {
   const Position here = position(energy_keV);
   double left = rng.uniform() * std::lerp(total_[here.row], total_[here.row + 1], here.t);
   const std::size_t channels = elements_.size() * kProcesses;
-  std::size_t last = 0;  // with any cross section, for what rounding leaves over
+  std::size_t last = 0;  // last channel with a cross section, for the remainder by rounding
   for (std::size_t channel = 0; channel < channels; ++channel) {
     const double cross_section = at(here, channel);
     if (cross_section <= 0.0) continue;

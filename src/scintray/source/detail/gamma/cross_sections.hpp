@@ -1,5 +1,5 @@
 #pragma once
-/// Matter as gammas of 10 keV to 3 MeV see it: cross sections, and Compton scattering.
+/// Attenuation of gammas of 10 keV to 3 MeV in matter: cross sections, and Compton scattering.
 
 #include <memory>
 #include <vector>
@@ -18,23 +18,23 @@ struct GammaEncounter {
 /// Cross sections of a compound or mixture: sums over its elements by mass (Bragg's additivity rule,
 /// J. H. Hubbell and S. M. Seltzer 1995, NISTIR 5632, eq. 6). Immutable.
 ///
-/// They are tabulated at 200 energies a decade and on both sides of every absorption edge, and linear in
-/// the energy between.
+/// They are tabulated at 200 energies per decade and on both sides of every absorption edge, with linear
+/// interpolation in energy.
 class GammaMatter {
  public:
   GammaMatter(const optics::Composition& composition, double density_g_per_cm3);
 
-  /// Interactions per mm, all together, and by process.
+  /// Linear attenuation coefficient (1/mm), in total and by process.
   double total_per_mm(double energy_keV) const;
   double per_mm(GammaProcess process, double energy_keV) const;
 
-  /// Draws the process and the element of an interaction.
+  /// Process and element of an interaction, drawn at random.
   GammaEncounter sample(double energy_keV, core::Rng& rng) const;
 
  private:
   struct Position {
     std::size_t row;
-    double t;  ///< from that row to the next
+    double t;  ///< relative position towards the next row
   };
   Position position(double energy_keV) const;
   double at(const Position& position, std::size_t channel) const;
@@ -47,8 +47,8 @@ class GammaMatter {
 };
 
 struct ComptonScattering {
-  double cosine = 1.0;      ///< of the angle
-  double energy_keV = 0.0;  ///< of the gamma afterwards
+  double cosine = 1.0;      ///< of the scattering angle
+  double energy_keV = 0.0;  ///< of the scattered gamma
 };
 
 /// Energy of a gamma scattered by a free electron at rest (A. H. Compton 1923, Phys. Rev. 21 483, eq. 5).
@@ -60,8 +60,9 @@ inline double compton_energy_keV(double energy_keV, double cosine) {
 /// by composition and rejection (J. C. Butcher and H. Messel 1960, Nucl. Phys. 20 15).
 ComptonScattering sample_klein_nishina(double energy_keV, core::Rng& rng);
 
-/// The same by an atom: angles are kept with the incoherent scattering function, which takes forward
-/// scattering from bound electrons. The electron's motion does not blur the energy.
+/// Compton scattering of an unpolarised gamma by an atom: angles are accepted with the incoherent scattering
+/// function, which suppresses forward scattering by bound electrons. Doppler broadening of the energy is not
+/// included.
 ComptonScattering sample_compton(const ElementData& element, double energy_keV, core::Rng& rng);
 
 }  // namespace scintray::source

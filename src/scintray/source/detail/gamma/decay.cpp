@@ -15,7 +15,7 @@ constexpr double kReducedComptonWavelength_fm = 386.15926796;  // CODATA 2018
 constexpr int kSpectrumPoints = 401;
 
 /// Logarithm of the gamma function for a positive real part: the recurrence up to where Stirling's series
-/// (Abramowitz and Stegun, eq. 6.1.40) is good to 1e-12.
+/// (Abramowitz and Stegun, eq. 6.1.40) is accurate to 1e-12.
 std::complex<double> log_gamma(std::complex<double> z) {
   std::complex<double> below = 0.0;
   while (z.real() < 12.0) {
@@ -27,7 +27,7 @@ std::complex<double> log_gamma(std::complex<double> z) {
          inverse * (1.0 / 12.0 - square * (1.0 / 360.0 - square * (1.0 / 1260.0 - square / 1680.0))) - below;
 }
 
-/// Fermi function up to a constant.
+/// Fermi function up to a constant factor.
 double fermi(double momentum, double energy, double z, double radius) {
   const double gamma = std::sqrt(1.0 - std::pow(kFineStructure * z, 2));
   const double eta = kFineStructure * z * energy / momentum;
@@ -41,7 +41,7 @@ core::Curve beta_spectrum(double end_keV, int daughter_atomic_number, int mass_n
   const double radius = 1.2 * std::cbrt(mass_number) / kReducedComptonWavelength_fm;
   std::vector<double> kinetic_keV, number;
   for (int i = 0; i < kSpectrumPoints; ++i) {
-    // At rest p and the Fermi function's pole cancel: a little above is the same.
+    // At rest p and the pole of the Fermi function cancel: a slightly larger energy has the same limit.
     const double t = std::max(1e-6, static_cast<double>(i) / (kSpectrumPoints - 1));
     const double energy = 1.0 + t * end_keV / core::kElectronMass_keV;
     const double momentum = std::sqrt(energy * energy - 1.0);

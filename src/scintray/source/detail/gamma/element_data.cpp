@@ -21,7 +21,7 @@ constexpr double kLowest_x = 1e-3, kHighest_x = 300.0;      // 3 MeV backwards i
 constexpr std::size_t kPoints_x = 1201;
 constexpr double kPairFit_keV = 1500.0;
 
-/// A number of xraylib, or 0 where it has none.
+/// A value of xraylib, or 0 where it has none.
 template <class Call>
 double number_or_zero(const Call& call) {
   xrl_error* error = nullptr;
@@ -68,7 +68,7 @@ void ElementData::tabulate_scattering() {
     const double x = x_.back();
     incoherent_.push_back(
         std::min(1.0, number_or_zero([&](xrl_error** e) { return SF_Compt(z_, x, e); }) / z_));
-    // Splines of the form factor swing about zero where it is 1e-7 of the atomic number.
+    // Splines of the form factor oscillate about zero where it is 1e-7 of the atomic number.
     form_factor_squared_.push_back(
         std::pow(number_or_zero([&](xrl_error** e) { return FF_Rayl(z_, x, e); }), 2));
   }
@@ -132,7 +132,7 @@ double ElementData::pair_barn(double energy_keV) const {
 template <class Weight>
 double ElementData::integrate(double energy_keV, const Weight& weight) const {
   const double scale = 1.0 / (energy_keV * kPerAngstromPerkeV);  // t = sin(angle / 2) = x scale
-  // Solid angle is 8 pi t dt; t dt = t^2 dln t, and the grid is even in ln t.
+  // Solid angle is 8 pi t dt; t dt = t^2 dln t, and the grid is equidistant in ln t.
   const double step = std::log(x_[1] / x_[0]);
   const auto integrand = [&](std::size_t i, double t) { return weight(t, i) * t * t; };
   double sum = 0.5 * weight(0.0, 0) * std::pow(x_.front() * scale, 2);  // from 0 to the first point

@@ -2,7 +2,7 @@
 /// Interaction of the atoms of one element with gammas of 10 keV to 3 MeV.
 ///
 /// Data from xraylib 4 (T. Schoonjans et al. 2011, Spectrochim. Acta B 66 776,
-/// doi:10.1016/j.sab.2011.09.011), and where they end, formulae with their source below.
+/// doi:10.1016/j.sab.2011.09.011), and beyond their range formulae with their source below.
 
 #include <array>
 #include <vector>
@@ -14,7 +14,7 @@ namespace scintray::source {
 
 inline constexpr double kFineStructure = 1.0 / 137.035999;  ///< CODATA 2018
 
-/// What a gamma does to an atom.
+/// Interaction process of a gamma with an atom.
 enum class GammaProcess { photoelectric, compton, rayleigh, pair };
 inline constexpr std::array<GammaProcess, 4> kGammaProcesses{
     GammaProcess::photoelectric, GammaProcess::compton, GammaProcess::rayleigh, GammaProcess::pair};
@@ -22,15 +22,15 @@ inline constexpr std::array<GammaProcess, 4> kGammaProcesses{
 /// A characteristic X-ray.
 struct XrayLine {
   double energy_keV = 0.0;
-  double most = 1.0;  ///< share of the K X-rays up to this one
+  double most = 1.0;  ///< cumulative share of the K X-rays, this one included
 };
 
-/// Photoelectric absorption in the K shell and what follows.
+/// Photoelectric absorption in the K shell and the subsequent K fluorescence.
 struct KShell {
   double edge_keV = 0.0;
   double share = 0.0;           ///< of the photoelectric absorptions above the edge: 1 - 1/jump ratio
   double yield = 0.0;           ///< K X-rays per vacancy
-  std::vector<XrayLine> lines;  ///< empty when none is known
+  std::vector<XrayLine> lines;  ///< empty when not available
 };
 
 /// Cross sections and angular distributions of one element. Immutable.
@@ -42,8 +42,8 @@ class ElementData {
   int atomic_number() const { return z_; }
 
   /// Cross section, cm2/g, at an energy of 10 keV to 3 MeV.
-  ///  - photoelectric: xraylib to 790 keV, beyond that it falls as the K shell's Born cross section
-  ///    (F. Sauter 1931, Ann. Phys. 403 217; the form of Heitler, Quantum Theory of Radiation, eq. 21.16),
+  ///  - photoelectric: xraylib to 790 keV, beyond that proportional to the K shell's Born cross section (F.
+  ///    Sauter 1931, Ann. Phys. 403 217; the form of Heitler, Quantum Theory of Radiation, eq. 21.16),
   ///  - compton: Klein-Nishina times the incoherent scattering function, integrated,
   ///  - rayleigh: Thomson times the form factor squared, integrated,
   ///  - pair: the fit of Geant4's Physics Reference Manual (Bethe-Heitler model; 1.5 MeV and up within
@@ -54,12 +54,12 @@ class ElementData {
   /// Incoherent scattering function per electron, 0 to 1, of x = sin(angle / 2) E / hc, 1/angstrom.
   double incoherent(double x) const;
 
-  /// Cosine of the angle of a Rayleigh scattering: x^2 by the integral of the form factor squared, kept
-  /// with (1 + cos^2) / 2.
+  /// Cosine of the angle of Rayleigh scattering, drawn at random: x^2 by the integral of the form factor
+  /// squared, accepted with (1 + cos^2) / 2.
   double sample_rayleigh_cosine(double energy_keV, core::Rng& rng) const;
 
   const KShell& k_shell() const { return k_; }
-  /// Absorption edges of 10 keV and up, keV.
+  /// Absorption edges from 10 keV on, keV.
   const std::vector<double>& edges_keV() const { return edges_; }
 
  private:
@@ -83,7 +83,8 @@ class ElementData {
   std::vector<double> edges_;
 };
 
-/// sin(angle / 2) E / hc in 1/angstrom is this times E in keV times the sine.
+/// 1 / (hc) in 1/(keV angstrom): the momentum transfer x = sin(angle / 2) E / hc is this times E in keV times
+/// the sine.
 inline constexpr double kPerAngstromPerkeV = 1.0 / 12.398419843320026;
 
 }  // namespace scintray::source

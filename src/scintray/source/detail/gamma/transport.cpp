@@ -11,7 +11,7 @@ namespace scintray::source {
 
 namespace {
 
-/// Steps of one gamma after which something is wrong with the geometry.
+/// Number of steps of one gamma beyond which the geometry is faulty.
 constexpr int kMostSteps = 1'000'000;
 
 /// The last specification that names the region, or nullptr.
@@ -27,7 +27,7 @@ const scene_file::MatterSpec* matter_named(const std::vector<scene_file::MatterS
 
 }  // namespace
 
-/// What all gammas of an event share.
+/// State shared by all gammas of an event.
 struct GammaTransport::Walk {
   const scene::Scene& scene;
   core::Rng& rng;
@@ -44,7 +44,7 @@ GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scen
     : fluorescence_(fluorescence) {
   std::map<core::MediumId, std::shared_ptr<const GammaMatter>> by_medium;
   std::map<const scene_file::MatterSpec*, std::shared_ptr<const GammaMatter>> by_spec;
-  std::map<core::MediumId, std::string> unknown;  // medium, and the parts of it
+  std::map<core::MediumId, std::string> unknown;  // media, with the parts that consist of each
   for (const core::RegionId region : scene.regions.ids()) {
     matter_.push_back(nullptr);
     if (const scene_file::MatterSpec* named = matter_named(matter, scene, region)) {
@@ -117,7 +117,7 @@ void GammaTransport::follow_one(Walk& walk, Gamma gamma) const {
   throw core::InternalError("a gamma goes to and fro in \"" + walk.scene.region_names[gamma.region] + "\"");
 }
 
-/// Lets the gamma interact where it is. False when it is no more.
+/// Interaction of the gamma at its position. False when the gamma is absorbed.
 bool GammaTransport::interact(Walk& walk, Gamma& gamma) const {
   const GammaEncounter encounter = matter_[gamma.region]->sample(gamma.energy_keV, walk.rng);
   switch (encounter.process) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Follows gammas through the regions of a scene.
+/// Transport of gammas through the regions of a scene.
 
 #include <memory>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace scintray::source {
 
-/// A gamma on its way.
+/// State of a gamma.
 struct Gamma {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   core::Vec3 direction = core::Vec3::UnitZ();
@@ -20,21 +20,22 @@ struct Gamma {
 };
 
 /// Transport of gammas of 10 keV to 3 MeV: photoelectric absorption, with K X-rays, Compton and Rayleigh
-/// scattering, pair production. Interfaces do not stop or turn gammas. Electrons and positrons leave
-/// their energy where they are made, and positrons annihilate there; so do gammas below 10 keV and X-rays
-/// of other shells. A gamma with no part ahead of it has escaped. Immutable.
+/// scattering, pair production. Interfaces do not affect gammas. Electrons and positrons deposit their energy
+/// at the point of interaction, where positrons annihilate; gammas below 10 keV and X-rays of other shells
+/// are absorbed at that point. A gamma without a part ahead of it has escaped. Immutable.
 class GammaTransport {
  public:
-  /// Throws InputError with every medium that gammas can come through and that states neither what it is
-  /// made of nor that it is empty space.
+  /// Throws InputError with every medium that gammas can reach and that is defined neither by a composition
+  /// nor as empty space.
   /// @param where  of the source, for messages
   GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,
                  bool fluorescence, const core::FileLocation& where);
 
-  /// Follows gammas, and what they make, until all their energy is left or has escaped.
+  /// Adds to `event` the deposits of gammas and their secondaries, which are followed until all energy is
+  /// deposited or has escaped.
   void follow(const scene::Scene& scene, std::vector<Gamma> gammas, core::Rng& rng, Event& event) const;
 
-  /// What a region is made of; nullptr: empty space.
+  /// Matter of a region; nullptr: empty space.
   const GammaMatter* matter(core::RegionId region) const { return matter_[region].get(); }
 
  private:
