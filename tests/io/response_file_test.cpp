@@ -99,7 +99,7 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
   check_contains(refusal(path, file), {"corner or the pitch of the grid", "\"crystal\""});
   file = made_up_map();
   file.map.grids[0].delays_ns[1] = -1.0f;
-  check_contains(refusal(path, file), {"time", "not one"});
+  check_contains(refusal(path, file), {"delay_ns", "not a time"});
   file = made_up_map();
   file.map.grids[0].photons = {0, 0};
   file.map.grids[0].detected = {0, 0, 0, 0};

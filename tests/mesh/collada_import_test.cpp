@@ -102,7 +102,7 @@ TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
   CHECK(read.unit_from_file == "inch");
   CHECK(diagnose(read.mesh).bounds.min().x() == doctest::Approx(254.0));
   check_box(import_mesh(mesh_file("inch.dae", collada_text(inch)), 25.4), 25.4);
-  check_refused(mesh_file("inch.dae", collada_text(inch)), 1.0, "in inch (25.4 mm)");
+  check_refused(mesh_file("inch.dae", collada_text(inch)), 1.0, "unit inch (25.4 mm)");
   check_refused(mesh_file("bad.dae", collada_text(R"(<unit name="inch" meter="none"/>)")), 0.0,
                 {"unit", "\"none\" metres"});
   check_refused(mesh_file("bad.dae", collada_text(R"(<unit meter="-1"/>)")), 0.0, "above 0");

@@ -165,7 +165,7 @@ TEST_CASE("STEP: the unit is the file's, inches too, and another one is refused"
   CHECK(import_mesh(scratch("shape.step"), same).mesh.volume() == doctest::Approx(read.mesh.volume()));
   CHECK(import_mesh(scratch("shape.step"), scaled).mesh.volume() ==
         doctest::Approx(read.mesh.volume() / 8.0));
-  check_contains(message(scratch("shape.step"), other), "in INCH (25.4 mm)");
+  check_contains(message(scratch("shape.step"), other), "unit INCH (25.4 mm)");
   write_step(scratch("metres.step"), {body}, "M");
   CHECK(import_mesh(scratch("metres.step"), 1000.0).mesh.volume() == doctest::Approx(6e9).epsilon(1e-9));
 }

@@ -46,7 +46,7 @@ TEST_CASE("3MF is in the unit of its model, millimetres when it names none") {
     CAPTURE(unit);
     check_box(import_mesh(mesh_file("box.3mf", three_mf(unit)), 0.0), mm);
   }
-  check_refused(mesh_file("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "in inch (25.4 mm)");
+  check_refused(mesh_file("inch.3mf", three_mf(" unit=\"inch\"")), 1.0, "unit inch (25.4 mm)");
   check_refused(mesh_file("bad.3mf", three_mf(" unit=\"ell\"")), 0.0, "is in \"ell\"");
 }
 
