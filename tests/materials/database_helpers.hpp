@@ -11,7 +11,7 @@
 
 #include "scintray/detector/microcells.hpp"
 #include "scintray/materials/database.hpp"
-#include "scintray/materials/microsurface_specs.hpp"
+#include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/optics/unified.hpp"
 #include "support/shared.hpp"
 

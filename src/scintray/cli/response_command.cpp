@@ -66,9 +66,9 @@ void build(const BuildOptions& options) {
   simulation::check_response_path(options.output);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
-  map_options.threads = options.threads;
-  map_options.seed = options.seed;
-  map_options.surface_hooks = watched_surfaces(line);
+  map_options.simulation.threads = options.threads;
+  map_options.simulation.seed = options.seed;
+  map_options.simulation.surface_hooks = watched_surfaces(line);
   map_options.hooks.stop = &InterruptGuard::requested();
   map_options.hooks.progress = [&line](std::uint64_t done, std::uint64_t of) {
     line.show("mapping", static_cast<double>(done), static_cast<double>(of), "cells");

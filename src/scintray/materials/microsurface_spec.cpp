@@ -1,6 +1,6 @@
 #include "scintray/materials/microsurface_spec.hpp"
 
-#include "scintray/materials/microsurface_specs.hpp"
+#include "scintray/materials/built_in_microsurfaces.hpp"
 
 namespace scintray::materials {
 

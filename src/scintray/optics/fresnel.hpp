@@ -79,6 +79,14 @@ inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
   if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
 }
 
+/// Lambertian scattering to the side of the unit normal: the direction is new and, for a polarised ray, the
+/// polarisation is drawn across it.
+inline void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
+  const bool polarised = !ray.polarisation.isZero(0.0);
+  ray.direction = core::sample_lambertian(normal, rng);
+  if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+}
+
 /// Interaction with a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
 /// polarisation and transforms the polarisation accordingly.
 ///

@@ -10,13 +10,6 @@ namespace scintray::optics {
 
 namespace {
 
-void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
-  const bool polarised = !ray.polarisation.isZero(0.0);
-  ray.direction = core::sample_lambertian(normal, rng);
-  if (polarised)
-    ray.polarisation = core::sample_polarisation(ray.direction, rng);  // diffuse: polarisation is lost
-}
-
 bool is_specular(const Reflector& reflector, core::Rng& rng) {
   return reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share;
 }

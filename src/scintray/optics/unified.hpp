@@ -122,8 +122,8 @@ inline void UnifiedSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before,
       ray = {-before.direction, before.polarisation};
       return;
     case Lobe::lambertian:
-      ray.direction = core::sample_lambertian(against, rng);
-      if (!before.polarisation.isZero(0.0)) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+      ray.polarisation = before.polarisation;
+      scatter_lambertian(ray, against, rng);
       return;
   }
 }

@@ -51,6 +51,10 @@ TallyAxisSpec read_tally_axis(const config::TomlTable& table, const TallyVariabl
   TallyAxisSpec axis;
   axis.where = table.where();
   axis.variable = read_variable(table, variables);
+  if (!table.good("variable")) {
+    table.skip();  // what the other keys mean depends on it
+    return axis;
+  }
   const TallyVariable& variable = *axis.variable;
   axis.names = read_names(table, "names", false);
   table.expect("names", variable.is_name(), "names for an axis of numbers", "give from, to and bins");
@@ -61,7 +65,7 @@ TallyAxisSpec read_tally_axis(const config::TomlTable& table, const TallyVariabl
   for (const char* key : {"from", "to", "bins"})
     table.expect(key, !variable.is_name(), std::string("\"") + key + "\" for an axis of names",
                  "give names = [...], or nothing for all");
-  if (variable.is_name() || !table.good("variable")) return axis;
+  if (variable.is_name()) return axis;
   default_bounds(axis);
   table.expect("bins", axis.bins >= 1 && axis.bins <= kMostBins,
                "the number of bins is not in 1 to 10 million",
@@ -80,6 +84,10 @@ TallyRangeSpec read_tally_range(const config::TomlTable& table, const TallyVaria
   TallyRangeSpec range;
   range.where = table.where();
   range.variable = read_variable(table, variables);
+  if (!table.good("variable")) {
+    table.skip();
+    return range;
+  }
   table.expect("variable", !range.variable->is_name(), "a condition on a name is no range",
                "use part, source_part, face or at");
   range.along = read_along(table, variables, *range.variable);

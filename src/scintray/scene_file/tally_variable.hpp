@@ -21,7 +21,7 @@ struct StepView {
   core::StepEvent event = core::StepEvent::emitted;
   // The photon after the event.
   double wavelength_nm = 0.0;
-  double time_ns = 0.0;
+  double time_ns = 0.0;            ///< since the event, or the pulse of light, began
   double path_mm = 0.0;            ///< since emission
   std::uint32_t interactions = 0;  ///< boundary interactions since emission
   std::uint32_t scatterings = 0;   ///< bulk scatterings since emission

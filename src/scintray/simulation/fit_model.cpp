@@ -77,11 +77,10 @@ class SceneCurve : public FitModel {
   std::optional<analysis::ModelCurve> trace(const std::vector<double>& parameters,
                                             std::uint64_t draw) override {
     analysis::ModelCurve curve;
-    std::shared_ptr<const scene::BuiltScene> built;
+    std::unique_ptr<const SimulationPoint> ready;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + i);
-      const auto ready = point_at(parameters, i, built, stream);
-      built = ready->built();
+      ready = point_at(parameters, i, ready.get(), stream);
       const std::optional<analysis::ModelPoint> point = trace_point(*ready, i);
       if (!point) return std::nullopt;
       curve.push_back(*point);
@@ -97,11 +96,6 @@ class SceneCurve : public FitModel {
  private:
   bool energy() const { return fit_.quantity == scene_file::FitQuantity::light_per_keV; }
 
-  /// True when the position only changes the start of light, not the scene.
-  bool only_source_moves() const {
-    return fit_.at.key.rfind("source.region.", 0) == 0 || fit_.at.key.rfind("source.position", 0) == 0;
-  }
-
   scene_file::SceneSpec spec_at(const std::vector<double>& parameters, std::size_t point) const {
     std::vector<scene_file::KeySetting> settings = settings_of(fit_, parameters);
     settings.push_back(fit_.position(measured_.points[point].x, measured_.points[point].where));
@@ -111,13 +105,12 @@ class SceneCurve : public FitModel {
     return spec;
   }
 
-  /// @param built  at the previous position; null: none yet
+  /// @param previous  at another position, whose scene is shared where it is the same; null: none yet
   std::unique_ptr<const SimulationPoint> point_at(const std::vector<double>& parameters, std::size_t point,
-                                                  const std::shared_ptr<const scene::BuiltScene>& built,
-                                                  std::uint32_t stream = 0) {
+                                                  const SimulationPoint* previous, std::uint32_t stream = 0) {
     scene_file::SceneSpec spec = spec_at(parameters, point);
-    if (built && only_source_moves())
-      return std::make_unique<const SimulationPoint>(std::move(spec), built, stream);
+    if (previous && builder_.serves(*previous->built(), previous->spec(), spec))
+      return std::make_unique<const SimulationPoint>(std::move(spec), previous->built(), stream);
     return std::make_unique<const SimulationPoint>(std::move(spec), builder_, stream);
   }
 
@@ -138,7 +131,7 @@ class SceneCurve : public FitModel {
   void check_position(const std::vector<double>& starts, std::size_t point) {
     const analysis::MeasuredCurve::Point& measured = measured_.points[point];
     try {
-      checked_ = point_at(starts, point, checked_)->built();
+      checked_ = point_at(starts, point, checked_.get());
     } catch (const core::InputError& error) {
       std::vector<core::Problem> problems = error.problems();
       for (core::Problem& problem : problems)
@@ -203,7 +196,7 @@ class SceneCurve : public FitModel {
   const analysis::MeasuredCurve& measured_;
   const FitModelSettings& settings_;
   scene::SceneBuilder builder_;
-  std::shared_ptr<const scene::BuiltScene> checked_;  ///< of the last position that was checked
+  std::unique_ptr<const SimulationPoint> checked_;  ///< at the last position that was checked
   std::uint64_t count_ = 0, seed_ = 0;
   std::vector<std::string> notes_;
 };

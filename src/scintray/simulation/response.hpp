@@ -33,12 +33,8 @@ ResponseFile read_response(const std::filesystem::path& path);
 
 struct MapOptions {
   ResponseSettings settings;
-  std::optional<int> threads;  ///< in place of the scene's
-  std::optional<std::uint64_t> seed;
   ResponseHooks hooks;
-  materials::SurfaceFactory::Hooks surface_hooks;  ///< called while surface tables are built
-  const mesh::MeshFormats* mesh_formats = &mesh::MeshFormats::built_in();  ///< as in SimulationOptions
-  materials::DefinitionModels models;  ///< surface and sensor models that the scene may name
+  SimulationOptions simulation;
 };
 
 /// Map of all parts that scintillate. The scene's [source] states whether light is polarised and, as an event

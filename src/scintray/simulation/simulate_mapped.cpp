@@ -65,10 +65,14 @@ bool counts_photons(const scene_file::SceneSpec& spec) {
   return !spec.tallies.empty() || spec.run.photon_list || spec.run.photon_history;
 }
 
-/// Removes the output that requires traced photons.
-void leave_photons_out(scene_file::SceneSpec& spec) {
-  spec.tallies.clear();
-  spec.run.photon_list = spec.run.photon_history = false;
+/// The options, changing every scene to one without the output that requires traced photons.
+SimulationOptions without_photons(SimulationOptions options) {
+  options.change = [change = std::move(options.change)](scene_file::SceneSpec& spec) {
+    if (change) change(spec);
+    spec.tallies.clear();
+    spec.run.photon_list = spec.run.photon_history = false;
+  };
+  return options;
 }
 
 std::string origin_note(const std::filesystem::path& path, const ResponseFile& response) {
@@ -83,14 +87,7 @@ std::string origin_note(const std::filesystem::path& path, const ResponseFile& r
 ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options) {
   refuse_sweep(file);
   require_energy(file.spec(0));
-  SimulationOptions run;
-  run.threads = options.threads;
-  run.seed = options.seed;
-  run.surface_hooks = options.surface_hooks;
-  run.mesh_formats = options.mesh_formats;
-  run.models = options.models;
-  run.change = leave_photons_out;
-  Simulation simulation(file, run);
+  Simulation simulation(file, without_photons(options.simulation));
   const auto point = simulation.point(0);
   const scene_file::SceneSpec& spec = point->spec();
   return {build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
@@ -121,12 +118,7 @@ tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::f
   refuse_sweep(file);
   const scene_file::SceneSpec as_written = file.spec(0);
   require_energy(as_written);
-  SimulationOptions without_photons = options;
-  without_photons.change = [&](scene_file::SceneSpec& spec) {
-    if (options.change) options.change(spec);
-    leave_photons_out(spec);
-  };
-  Simulation simulation(file, without_photons);
+  Simulation simulation(file, without_photons(options));
   simulation.spec(0);  // errors of the options come first
   ResponseFile response = read_response(map_file);
   require_same_scene(file, response);

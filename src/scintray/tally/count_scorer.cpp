@@ -29,17 +29,21 @@ void CountScorer::start(const source::Photon& photon) {
 }
 
 void CountScorer::step(const source::Photon& photon, const transport::Step& step) {
-  core::PartId part = scene_.regions[photon.region].part;
   if (photon.region != step.region) {
     ++view_.crossings;
     if (plan_.follows_regions) visited_.push_back(photon.region);
   }
-  if (step.event == core::StepEvent::detected || step.event == core::StepEvent::not_detected)
-    part = step.sensor_part;
-  score_anywhere(photon, step.event, part);
-  if (step.triangle != scene::kNoTriangle) score_at_faces(photon, step, part);
+  if (plan_.counts_event(step.event)) score_step(photon, step);
   if (plan_.follows_reflections) view_.direction_before = photon.ray.direction;
   if (core::is_final(step.event)) end(step.event);
+}
+
+void CountScorer::score_step(const source::Photon& photon, const transport::Step& step) {
+  const bool at_sensor =
+      step.event == core::StepEvent::detected || step.event == core::StepEvent::not_detected;
+  const core::PartId part = at_sensor ? step.sensor_part : scene_.regions[photon.region].part;
+  score_anywhere(photon, step.event, part);
+  if (step.triangle != scene::kNoTriangle) score_at_faces(photon, step, part);
 }
 
 void CountScorer::cut(const source::Photon& photon, core::Fate fate) {

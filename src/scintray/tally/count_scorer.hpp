@@ -34,6 +34,7 @@ class CountScorer {
  private:
   /// Scores an event in the counts that are bound to no face, and in those bound to the faces of its
   /// interface.
+  void score_step(const source::Photon& photon, const transport::Step& step);
   void score_anywhere(const source::Photon& photon, core::StepEvent event, core::PartId part);
   void score_at_faces(const source::Photon& photon, const transport::Step& step, core::PartId part);
   void score(std::uint32_t number);

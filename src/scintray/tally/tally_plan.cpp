@@ -46,6 +46,7 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
       if (tally.faces.empty()) counts_on[static_cast<std::size_t>(event)].push_back(number);
     }
     events_of.push_back(events);
+    events_counted |= events;
     for (const core::FaceId face : faces_of(tally, scene))
       counts_of_face[face].emplace_back(number, tally.way);
     follows_reflections = follows_reflections || needs_reflections(tally);
@@ -73,7 +74,7 @@ void TallyPlan::bind_readout(const scene_file::SceneSpec& spec, const scene::Sce
   if (!spec.energy_source)
     throw core::InputError({spec.readout->where,
                             "[readout] makes pulses of events, but this is a source of photons",
-                            "use a source of energy (docs/gamma_sources.md), or remove [readout]"});
+                            "use an event source (docs/gamma_sources.md), or remove [readout]"});
   for (const ReadoutChannel& channel : channels.list) {
     try {
       readout.emplace_back(scene.sensors[channel.sensor], *spec.readout,

@@ -73,10 +73,15 @@ struct TallyPlan {
   };
   PerCrossing<std::vector<CountAtFace>> counts_at;  ///< empty without such counts
   std::vector<std::uint32_t> events_of;             ///< per count: bits of StepEvent
+  std::uint32_t events_counted = 0;                 ///< bits of StepEvent: those of all counts
   /// Counts bound to no face, per step event.
   std::array<std::vector<std::uint32_t>, core::kStepEventCount> counts_on;
   bool follows_regions = false;      ///< a count depends on the regions that a photon visited
   bool follows_reflections = false;  ///< a count depends on every total reflection passed
+  /// True when some count may count the event.
+  bool counts_event(core::StepEvent event) const {
+    return (events_counted >> static_cast<unsigned>(event) & 1u) != 0;
+  }
 
   bool photon_list = false;
   std::optional<HistoryPlan> history;  ///< when histories are requested

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scintray/config/toml_reader.hpp"
-#include "scintray/materials/microsurface_specs.hpp"
+#include "scintray/materials/built_in_microsurfaces.hpp"
 
 namespace scintray::materials {
 

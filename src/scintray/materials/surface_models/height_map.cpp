@@ -4,7 +4,7 @@
 
 #include "scintray/core/input_file.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
-#include "scintray/materials/microsurface_specs.hpp"
+#include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/surface_models.hpp"
 
 namespace scintray::materials {
