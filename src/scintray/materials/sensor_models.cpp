@@ -2,9 +2,15 @@
 
 namespace scintray::materials {
 
-// Each is defined in sensor_models/NAME.cpp.
-SensorModel proportional_model();
-SensorModel microcells_model();
+// The models that are built in, a line each: NAME is the function NAME_model that sensor_models/NAME.cpp
+// defines.
+#define SCINTRAY_SENSOR_MODELS(ADD) \
+  ADD(proportional)                 \
+  ADD(microcells)
+
+#define SCINTRAY_DECLARE(name) SensorModel name##_model();
+SCINTRAY_SENSOR_MODELS(SCINTRAY_DECLARE)
+#undef SCINTRAY_DECLARE
 
 namespace {
 
@@ -13,7 +19,9 @@ constexpr const char* kModelKey = "model";
 }  // namespace
 
 SensorModels::SensorModels() {
-  for (const auto model : {proportional_model, microcells_model}) add(model());
+#define SCINTRAY_ADD(name) add(name##_model());
+  SCINTRAY_SENSOR_MODELS(SCINTRAY_ADD)
+#undef SCINTRAY_ADD
 }
 
 std::string SensorModels::stated_by(const config::TomlNode& sensor) const {

@@ -2,18 +2,24 @@
 
 namespace scintray::materials {
 
-// Each is defined in surface_models/NAME.cpp.
-SurfaceModel smooth_model();
-SurfaceModel painted_model();
-SurfaceModel unified_model();
-SurfaceModel table_model();
-SurfaceModel height_map_model();
-SurfaceModel recipe_model();
+// The models that are built in, a line each: NAME is the function NAME_model that surface_models/NAME.cpp
+// defines.
+#define SCINTRAY_SURFACE_MODELS(ADD) \
+  ADD(smooth)                        \
+  ADD(painted)                       \
+  ADD(unified)                       \
+  ADD(table)                         \
+  ADD(height_map)                    \
+  ADD(recipe)
+
+#define SCINTRAY_DECLARE(name) SurfaceModel name##_model();
+SCINTRAY_SURFACE_MODELS(SCINTRAY_DECLARE)
+#undef SCINTRAY_DECLARE
 
 SurfaceModels::SurfaceModels() {
-  for (const auto model :
-       {smooth_model, painted_model, unified_model, table_model, height_map_model, recipe_model})
-    add(model());
+#define SCINTRAY_ADD(name) add(name##_model());
+  SCINTRAY_SURFACE_MODELS(SCINTRAY_ADD)
+#undef SCINTRAY_ADD
 }
 
 }  // namespace scintray::materials

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "scintray/core/error.hpp"
-#include "scintray/scene_file/detail/built_in_variables.hpp"
 
 namespace scintray::scene_file {
 
@@ -34,10 +33,21 @@ const char* TallyVariable::unit() const {
   throw core::InternalError("a dimension without a unit");
 }
 
+// The variables that are built in, a file to a line: KIND is the function add_KIND_variables that
+// detail/KIND_variables.cpp defines.
+#define SCINTRAY_TALLY_VARIABLES(ADD) \
+  ADD(photon)                         \
+  ADD(face)                           \
+  ADD(name)
+
+#define SCINTRAY_DECLARE(kind) void add_##kind##_variables(TallyVariables& variables);
+SCINTRAY_TALLY_VARIABLES(SCINTRAY_DECLARE)
+#undef SCINTRAY_DECLARE
+
 TallyVariables::TallyVariables() {
-  add_photon_variables(*this);
-  add_face_variables(*this);
-  add_name_variables(*this);
+#define SCINTRAY_ADD(kind) add_##kind##_variables(*this);
+  SCINTRAY_TALLY_VARIABLES(SCINTRAY_ADD)
+#undef SCINTRAY_ADD
 }
 
 const TallyVariables& TallyVariables::built_in() {

@@ -3,21 +3,31 @@
 #include <algorithm>
 
 #include "scintray/core/error.hpp"
-#include "scintray/mesh/import/detail/formats.hpp"
 
 namespace scintray::mesh {
 
+// The formats that are built in, a line each: the function that reads a file, which detail/NAME_import.cpp
+// defines, and the format's properties. It throws InputError for content that is malformed.
+#define SCINTRAY_MESH_FORMATS(ADD)                                             \
+  ADD(import_through_assimp, .extension = ".stl")                              \
+  ADD(import_through_assimp, .extension = ".obj")                              \
+  ADD(import_ply, .extension = ".ply")                                         \
+  ADD(import_through_assimp, .extension = ".off")                              \
+  ADD(import_3mf, .extension = ".3mf", .states_unit = true)                    \
+  ADD(import_collada, .extension = ".dae", .states_unit = true)                \
+  ADD(import_gltf, .extension = ".gltf", .states_unit = true)                  \
+  ADD(import_glb, .extension = ".glb", .states_unit = true)                    \
+  ADD(import_step, .extension = ".step", .states_unit = true, .is_step = true) \
+  ADD(import_step, .extension = ".stp", .states_unit = true, .is_step = true)
+
+#define SCINTRAY_DECLARE(function, ...) RawMesh function(const MeshFile& file);
+SCINTRAY_MESH_FORMATS(SCINTRAY_DECLARE)
+#undef SCINTRAY_DECLARE
+
 MeshFormats::MeshFormats() {
-  add({.extension = ".stl", .read = import_through_assimp});
-  add({.extension = ".obj", .read = import_through_assimp});
-  add({.extension = ".ply", .read = import_ply});
-  add({.extension = ".off", .read = import_through_assimp});
-  add({.extension = ".3mf", .states_unit = true, .read = import_3mf});
-  add({.extension = ".dae", .states_unit = true, .read = import_collada});
-  add({.extension = ".gltf", .states_unit = true, .read = import_gltf});
-  add({.extension = ".glb", .states_unit = true, .read = import_glb});
-  add({.extension = ".step", .states_unit = true, .is_step = true, .read = import_step});
-  add({.extension = ".stp", .states_unit = true, .is_step = true, .read = import_step});
+#define SCINTRAY_ADD(function, ...) add({__VA_ARGS__, .read = function});
+  SCINTRAY_MESH_FORMATS(SCINTRAY_ADD)
+#undef SCINTRAY_ADD
 }
 
 const MeshFormats& MeshFormats::built_in() {

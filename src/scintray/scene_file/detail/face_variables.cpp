@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "scintray/core/face_axes.hpp"
-#include "scintray/scene_file/detail/built_in_variables.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
 
 namespace scintray::scene_file {
 

@@ -1,4 +1,4 @@
-#include "scintray/scene_file/detail/built_in_variables.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
 
 namespace scintray::scene_file {
 

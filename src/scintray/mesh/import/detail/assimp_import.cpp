@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/formats.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
@@ -174,6 +174,7 @@ class SceneReader {
 
 }  // namespace
 
+/// Mesh of an STL, OBJ or OFF file, by assimp. The sizes that the file states must have been checked.
 RawMesh import_through_assimp(const MeshFile& file) {
   const std::filesystem::path& path = file.path;
   WarningCapture warnings;

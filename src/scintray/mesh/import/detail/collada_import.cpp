@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/formats.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -383,6 +383,14 @@ class ColladaReader {
 
 }  // namespace
 
+/// Mesh of a COLLADA file (1.4.1, 1.5: Khronos Group, "COLLADA - Digital Asset Schema"): the meshes that the
+/// visual scene places, with the transforms of its nodes, in the file's own axes and unit (<asset><unit
+/// meter="..."/>; one metre when it is left out). Triangles, polylists, polygons, strips and fans; skins
+/// unposed, with a note. Bodies are placed geometries, called after their node; groups are geometry and
+/// material. Throws InputError also for references without a target, nodes inside themselves, holes in
+/// polygons, and instances that multiply to more than 20 million triangles.
+///
+/// Assimp is not used: up to 5.3 it reads beyond its arrays when a file's counts do not fit each other.
 RawMesh import_collada(const MeshFile& file) { return ColladaReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/formats.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 #include <tiny_gltf.h>
 
@@ -343,8 +343,13 @@ RawMesh read_gltf(const MeshFile& file, bool binary) {
 
 }  // namespace
 
+/// Mesh of a glTF 2.0 file, by tinygltf: text, with buffers embedded or in files beside it. Coordinates in
+/// metres, in glTF's axes (y up). Reads the default scene, else the first, else every root node; groups are
+/// material names, tags the scalar extras of nodes, mesh, material and primitive, the later ones taking
+/// precedence; bodies are nodes with a mesh. Throws InputError also for extensions that hide the geometry.
 RawMesh import_gltf(const MeshFile& file) { return read_gltf(file, false); }
 
+/// The same for a binary file (.glb).
 RawMesh import_glb(const MeshFile& file) { return read_gltf(file, true); }
 
 }  // namespace scintray::mesh

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/formats.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 #include <bit>
 #include <charconv>
@@ -340,6 +340,12 @@ const core::Word<PlyReader::Reader> PlyReader::kElements[2] = {{"vertex", &PlyRe
 
 }  // namespace
 
+/// Mesh of a PLY file (G. Turk 1994, "The PLY Polygon File Format", version 1.0), ASCII or binary of either
+/// byte order. Coordinates keep double precision. One group, "default". Elements other than "vertex" and
+/// "face" are left out with a note. Time and memory are bounded by the length of the content.
+///
+/// Other readers are not used: assimp up to 5.3 skips data bytes of binary files that look like white space
+/// after the header, and CGAL 5.5 crashes on headers whose lines stand in an unexpected order.
 RawMesh import_ply(const MeshFile& file) { return PlyReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

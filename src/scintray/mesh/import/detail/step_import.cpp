@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/detail/formats.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 #include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -339,6 +339,16 @@ std::string step_answer(const std::filesystem::path& path, const std::string& co
 
 }  // namespace
 
+/// Mesh of a STEP file (ISO 10303-21; AP203, AP214, AP242), by Open CASCADE, with its faces tessellated.
+/// Coordinates are in mm; RawMesh::unit is the file's own unit.
+///
+/// Bodies are solids, each instance of an assembly one of its own, called after its product; a product
+/// without solids is one body of its shells. Every CAD face is a group, called after its name, else its
+/// colour ("#rrggbb", sRGB), else its number in the file ("face12"); its tags are "face", the number, and
+/// "color", its own colour or that of its solid or product.
+///
+/// Throws InputError also for content that has no faces, or that Open CASCADE cannot read or tessellate; for
+/// a deviation below a millionth of the size of the shape; and when ScintRay was built without Open CASCADE.
 RawMesh import_step(const MeshFile& file) {
   constexpr std::size_t kAlways = std::size_t{2} << 30, kPerByte = 2000;
   constexpr unsigned kMostSeconds = 3600;

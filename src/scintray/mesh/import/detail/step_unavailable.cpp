@@ -1,5 +1,5 @@
-#include "scintray/mesh/import/detail/formats.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/import/mesh_format.hpp"
 
 namespace scintray::mesh {
 
