@@ -10,8 +10,8 @@
 #include <type_traits>
 
 #include "scintray/detector/microcells.hpp"
-#include "scintray/materials/database.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/materials/database.hpp"
 #include "scintray/optics/unified.hpp"
 #include "support/shared.hpp"
 

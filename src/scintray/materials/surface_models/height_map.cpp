@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "scintray/core/input_file.hpp"
-#include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/surface_models.hpp"
 
 namespace scintray::materials {

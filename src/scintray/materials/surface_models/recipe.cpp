@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/power_spectrum.hpp"
 #include "scintray/materials/surface_models.hpp"
 

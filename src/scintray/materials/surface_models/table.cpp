@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "scintray/materials/index_tolerance.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/materials/index_tolerance.hpp"
 #include "scintray/materials/surface_models.hpp"
 
 namespace scintray::materials {
