@@ -10,7 +10,7 @@ ambient = "air"
 name = "crystal"
 box = ["2 mm", "2 mm", "20 mm"]
 medium = "LSO"
-surface = "ground"
+surface = "lso_polished"
 [[part.face]]
 name = "exit"
 select = { normal = [0, 0, -1] }

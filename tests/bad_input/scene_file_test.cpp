@@ -120,7 +120,8 @@ TEST_CASE("names must refer to something, and be unique") {
   check_mistake("part = \"crystal\", slab_z", "part = @@\"cristal\", slab_z", {"no part", "\"cristal\""},
                 "did you mean \"crystal\"?");
   check_mistake("touch = \"crystal\"", "touch = @@\"pmt\"", "does not stand before", "earlier");
-  const std::string third = "box = [\"1 mm\", \"1 mm\", \"1 mm\"]\nmedium = \"LSO\"\nsurface = \"ground\"\n";
+  const std::string third =
+      "box = [\"1 mm\", \"1 mm\", \"1 mm\"]\nmedium = \"LSO\"\nsurface = \"lso_polished\"\n";
   check_mistake("[[contact]]", "[[part]]\nname = @@\"crystal\"\n" + third + "[[contact]]",
                 {"\"crystal\"", "already taken", "part"}, "name of its own");
   check_mistake("[[contact]]", "[[part]]\nname = @@\"pmt_fill\"\n" + third + "[[contact]]",
@@ -138,7 +139,8 @@ TEST_CASE("names must refer to something, and be unique") {
       "already taken", "no rule matches");
   check_mistake("[[contact]]", "[[part]]\nname = @@\"crys.tal\"\n" + third + "[[contact]]", "contains a dot",
                 "letters");
-  check_mistake("[media.grease]", "@@[media.opaque]", "cannot be defined", "another name");
+  check_mistake("[media.grease]", "@@[media.opaque]\nindex = { n = 1.5 }\n[media.grease]",
+                "cannot be defined", "another name");
 }
 
 TEST_CASE("one shape, one origin") {

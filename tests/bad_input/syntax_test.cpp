@@ -21,21 +21,58 @@ void check_syntax(const std::string& marked, const Fragments& what, const Fragme
 }  // namespace
 
 TEST_CASE("malformed TOML is reported at its line and column") {
-  check_syntax("a = 1\nb = @@\n", "missing value", "value after the =");
-  check_syntax("a = @@\"abc\n", "not a valid string", "close the string");
-  check_syntax("a = 1\na = @@2\n", "already exists", "once");
-  check_syntax("x = 1\ny@@ 2\n", "missing key-value separator", "key = value");
-  check_syntax("gap = 2 @@mm\n", "expected newline", "\"2 mm\"");
-  check_syntax("a = [1,\n2\n @@b = 3\n", "array separator", "commas");
-  check_syntax("[a]\nx = 1\n@@[a]\ny = 2\n", "defined twice", "[[name]]");
-  check_syntax("a = @@tru\n", {"not valid TOML", "boolean"}, "toml.io");
-  check_syntax("a = { x = 1,@@\n b = 2 }\n", "not a valid key", "one line");
+  check_syntax("a = 1\nb = @@\n", "nothing stands after \"b =\"", "value there");
+  check_syntax("a = @@\"abc\n", "not closed", "on the same line");
+  check_syntax("a = 1\na = @@2\n", {"\"a\"", "twice", "line 1"}, "keep one");
+  check_syntax("x = 1\ny@@ 2\n", "no =", "y = 2");
+  check_syntax("gap = @@2 mm\n", {"\"2 mm\"", "without quotes"}, "gap = \"2 mm\"");
+  check_syntax("a = [1,\n2\n @@b = 3\n", {"opens with [ in line 1", "not closed"}, "]");
+  check_syntax("a = [1,\n@@b = 3\n", {"opens with [ in line 1", "not closed"}, "]");
+  check_syntax("a = [1 @@2]\n", "without a comma", "commas");
+  check_syntax("[a]\nx = 1\n@@[a]\ny = 2\n", {"[a]", "twice", "line 1"}, "[[name]]");
+  check_syntax("@@[a]\nx = 1\n[[a]]\ny = 2\n", {"[a]", "single brackets", "line 3"}, "[[a]]");
+  check_syntax("[[a]]\nx = 1\n@@[a]\ny = 2\n", {"[a]", "single brackets", "line 1"}, "[[a]]");
+  check_syntax("a = { x = 1,@@\n b = 2 }\n", "line 1 goes on", "on one line");
+  check_syntax("a = { x = 1, @@}\n", "comma", "remove");
+  check_syntax("a = { x = 1 @@y = 2 }\n", "without a comma", "commas");
   check_syntax("a = @@99999999999999999999\n", {"not fit", "64 bits"}, "below");
 }
 
+TEST_CASE("values that are none are read as they were meant") {
+  check_syntax("a = @@LYSO\n", {"\"LYSO\"", "without quotes"}, "a = \"LYSO\"");
+  check_syntax("a = [@@LSO, LYSO]\n", {"\"LSO\"", "without quotes"}, "\"LSO\"");
+  check_syntax("a = @@tru\n", "neither true nor false", "a = true");
+  check_syntax("a = @@No\n", "neither true nor false", "a = false");
+  check_syntax("a = @@0,5\n", "comma in the number", "a = 0.5");
+  check_syntax("a = @@.5\n", "number", "a = 0.5");
+  check_syntax("a = @@007\n", "number", "a = 7");
+  check_syntax("a = @@97 %\n", "without quotes", "a = \"97 %\"");
+  check_syntax("a = @@2*mm\n", "without quotes", "a = \"2 mm\"");
+  check_syntax("a = @@10*100\n", "calculation", "result");
+  check_syntax("a = @@1;\n", "semicolon", "a = 1");
+  check_syntax("a = @@1 // one\n", "no comment", "#");
+  check_syntax("a = @@\"x\", \"y\"\n", "list without brackets", "a = [\"x\", \"y\"]");
+  check_syntax("a = @@(1, 2)\n", "round brackets", "square brackets");
+  check_syntax("a = @@\u201cLYSO\u201d\n", "typographic quote", "a = \"LYSO\"");
+  check_syntax("a = [0, 0, @@\u22121]\n", "typographic minus", "-1");
+  check_syntax("a = @@\"C:\\data\\x.stl\"\n", "backslash", "C:/data/x.stl");
+}
+
+TEST_CASE("keys and headers that are none are read as they were meant") {
+  check_syntax("a@@: 1\n", "colon", "a = 1");
+  check_syntax("@@// one\n", "no comment", "#");
+  check_syntax("@@[part\nx = 1\n", "does not close", "[part]");
+  check_syntax("@@[[part]\nx = 1\n", "does not close", "[[part]]");
+  check_syntax("@@[my part]\nx = 1\n", "blank", "[my_part]");
+  check_syntax("max@@ n = 1\n", "blank", "max_n");
+  check_syntax("@@<?xml version=\"1.0\"?>\n", "XML", "import");
+  check_syntax("@@/gate/world x\n", "macro", "key = value");
+  check_syntax("@@]\n", "closes nothing", "remove");
+}
+
 TEST_CASE("columns count characters, not bytes") {
-  check_syntax("@@µ = 1\n", "not valid TOML", "");
-  check_syntax("a = { b = \"µµµ\", b = @@2 }\n", "already exists", "once");
+  check_syntax("@@µ = 1\n", "character that keys cannot have", "letters");
+  check_syntax("a = { b = \"µµµ\", b = @@2 }\n", {"\"b\"", "twice"}, "keep one");
 }
 
 TEST_CASE("a file that is not text is refused") {

@@ -47,3 +47,12 @@ TEST_CASE("The nearest word is found within a third of the length, at least two 
   CHECK(nearest_word("wavelengt", {"wavel", "wavelength"}) == "wavelength");
   CHECK(nearest_word("x", {}).empty());
 }
+
+TEST_CASE("Case and separators do not make a word another one, and a replaced word is no near one") {
+  CHECK(nearest_word("lyso", {"LSO", "LYSO"}) == "LYSO");
+  CHECK(nearest_word("LYS0", {"LSO", "LYSO"}) == "LYSO");
+  CHECK(nearest_word("S13360-6050", {"S13360_6050VE", "R6231"}) == "S13360_6050VE");
+  CHECK(nearest_word("Optical Grease", {"optical_grease", "optical_gel"}) == "optical_grease");
+  CHECK(nearest_word("kg", {"mm", "m"}).empty());
+  CHECK(nearest_word("q", {"x", "y"}).empty());
+}

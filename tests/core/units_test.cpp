@@ -83,3 +83,34 @@ TEST_CASE("A photon energy must be positive to be a wavelength") {
   CHECK(contains(problem_of("0 eV", Dimension::wavelength).hint, "positive"));
   CHECK(contains(problem_of("-1 eV", Dimension::wavelength).hint, "positive"));
 }
+
+TEST_CASE("A unit with a slip, in other letters or of other programs names the one that is meant") {
+  const auto hint = [](const std::string& text, Dimension dimension) {
+    return problem_of(text, dimension).hint;
+  };
+  CHECK(contains(hint("20 mms", Dimension::length), "\"20 mm\""));
+  CHECK(contains(hint("511 KEV", Dimension::energy), "\"511 keV\""));
+  CHECK(contains(hint("90 degrees", Dimension::angle), "\"90 deg\""));
+  CHECK(contains(hint("90°", Dimension::angle), "\"90 deg\""));
+  CHECK(contains(hint("7.4 g/cm^3", Dimension::density), "\"7.4 g/cm3\""));
+  CHECK(contains(hint("20*mm", Dimension::length), "\"20 mm\""));
+}
+
+TEST_CASE("A unit of another dimension is named as such, and articles fit") {
+  CHECK(contains(problem_of("5 mm", Dimension::time).what, "not a unit of time, but of length"));
+  CHECK(contains(problem_of("5", Dimension::angle).what, "an angle is expected"));
+  CHECK(contains(problem_of("5", Dimension::length).what, "a length is expected"));
+}
+
+TEST_CASE("A decimal comma and a typographic minus are named") {
+  const Problem comma = problem_of("0,1 mm", Dimension::length);
+  CHECK(contains(comma.what, "comma"));
+  CHECK(contains(comma.hint, "\"0.1 mm\""));
+  const Problem minus = problem_of("\u22123 mm", Dimension::length);
+  CHECK(contains(minus.what, "minus"));
+  CHECK(contains(minus.hint, "\"-3 mm\""));
+}
+
+TEST_CASE("The Greek mu stands for the micro sign, which looks the same") {
+  CHECK(parse_quantity("1 \u03bcm", Dimension::length) == Approx(1e-3));
+}

@@ -28,7 +28,7 @@ TEST_CASE("every shipped surface loads, or names the keys that the user has to s
     } catch (const InputError& error) {
       REQUIRE(error.problems().size() == 1);
       CHECK(error.problems()[0].where.line == 3);
-      CHECK(error.problems()[0].what.find("leaves to you") != std::string::npos);
+      CHECK(error.problems()[0].what.find("requires parameters that are not given") != std::string::npos);
       CHECK(error.problems()[0].hint.find("base = \"" + name + "\"") != std::string::npos);
       incomplete.push_back(name);
     }

@@ -118,7 +118,7 @@ TEST_CASE("the page of surfaces has for each its model, what it needs, or why it
   failed.not_made = "no index at <420> nm";
   const std::string page = surface_page({preset, failed, shown}, "LSO to air");
   CHECK(times(page, "<svg") == 2);
-  CHECK(page.find("leaves to you: unified.sigma_alpha, gap") != std::string::npos);
+  CHECK(page.find("required parameters: unified.sigma_alpha, gap") != std::string::npos);
   CHECK(page.find("based on other") != std::string::npos);
   CHECK(page.find("not made here: no index at &lt;420&gt; nm") != std::string::npos);
   CHECK(page.find("<h2>flat</h2>") < page.find("<h2>preset</h2>"));  // what shows something comes first

@@ -64,6 +64,21 @@ TEST_CASE("a value that was made in code has an empty span") {
   CHECK(span.size == 0);
 }
 
+TEST_CASE("an error about two places has the line of the other one") {
+  try {
+    parsed("a = 1\n\na = 2\n");
+    FAIL_CHECK("no syntax error");
+  } catch (const toml::exception& error) {
+    CHECK(toml11::syntax_error(error).other_line == 1);
+  }
+  try {
+    parsed("a = @\n");
+    FAIL_CHECK("no syntax error");
+  } catch (const toml::exception& error) {
+    CHECK(toml11::syntax_error(error).other_line == 0);
+  }
+}
+
 TEST_CASE("a syntax error has its place and its kind") {
   check_error("gap = 2 mm\n", 1, 9, Mistake::more_on_the_line);
   check_error("a = 1\na = 2\n", 2, 5, Mistake::defined_twice);
@@ -74,5 +89,11 @@ TEST_CASE("a syntax error has its place and its kind") {
   check_error("a = { x = 1,\n b = 2 }\n", 1, 13, Mistake::bad_key);
   check_error("a = [1,\n2\n b = 3\n", 3, 2, Mistake::open_array);
   check_error("a = 1\nb = \n", 2, 5, Mistake::no_value);
-  check_error("a = tru\n", 1, 5, Mistake::other);
+  check_error("a = tru\n", 1, 5, Mistake::bad_value);
+  check_error("a = .5\n", 1, 5, Mistake::bad_value);
+  check_error("a = [0, x]\n", 1, 9, Mistake::bad_value);
+  check_error("a = { x = 1 y = 2 }\n", 1, 13, Mistake::open_table);
+  check_error("[a]\nx = 1\n[[a]]\ny = 2\n", 3, 1, Mistake::defined_twice);
+  check_error("a = 'abc\"\n", 1, 5, Mistake::open_string);
+  check_error("[my part]\n", 1, 1, Mistake::bad_key);
 }

@@ -89,7 +89,8 @@ void print_entry(const report::SurfaceEntry& entry) {
   for (const std::string& base : entry.outline.bases) std::cout << ", based on " << base;
   std::cout << "\n";
   for (const std::string& source : entry.outline.sources) print_wrapped(source);
-  if (!entry.outline.needs.empty()) print_wrapped("leaves to you: " + core::list_of(entry.outline.needs));
+  if (!entry.outline.needs.empty())
+    print_wrapped("required parameters: " + core::list_of(entry.outline.needs));
   if (!entry.not_made.empty()) print_wrapped("not made here: " + entry.not_made);
   if (!entry.readings) return;
   std::cout << "    reflected";

@@ -35,8 +35,8 @@ struct TomlTable::Session {
   }
 };
 
-TomlTable::TomlTable(TomlNodePtr table, core::Problems& problems)
-    : node_(std::move(table)), path_(node_->key), session_(std::make_shared<Session>()) {
+TomlTable::TomlTable(TomlNodePtr table, core::Problems& problems, std::optional<std::string> path)
+    : node_(std::move(table)), path_(path.value_or(node_->key)), session_(std::make_shared<Session>()) {
   session_->problems = &problems;
   Session::Marks& marks = session_->of(node_, path_);
   if (node_->kind == Kind::table) return;
@@ -108,13 +108,15 @@ std::optional<std::string> TomlTable::one_of(const std::vector<std::string>& cho
   std::vector<std::string> found;
   for (const std::string& choice : choices)
     if (has(choice)) found.push_back(choice);
-  const Session::Marks& marks = session_->of(node_, path_);
+  Session::Marks& marks = session_->of(node_, path_);
   if (found.empty()) {
-    if (required && !marks.absent)
+    if (required && !marks.absent) {
+      marks.bad.insert(choices.begin(), choices.end());
       session_->problems->add(node_->where,
                               (path_.empty() ? "the file" : "[" + path_ + "]") + " has none of " +
                                   core::list_quoted(choices) + ", and one of them is needed",
                               "add one of them");
+    }
     return std::nullopt;
   }
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -210,21 +212,54 @@ void TomlTable::skip() const {
   for (const std::string& key : keys()) session_->of(node_, path_).read.insert(key);
 }
 
+std::string TomlTable::hint_for_unknown(const TomlNode& table, const std::string& key) const {
+  const Session::Marks& here = session_->tables.at(&table);
+  const auto within = [](const std::string& path, const std::string& outer) {
+    return outer.empty() || path.rfind(outer + ".", 0) == 0;
+  };
+  // The innermost table around this one where the key is known; else the only other table where it is.
+  const Session::Marks* around = nullptr;
+  std::map<std::string, const Session::Marks*> elsewhere;
+  for (const auto& [node, marks] : session_->tables) {
+    if (marks.known.count(key) == 0 || marks.path == here.path) continue;
+    elsewhere.emplace(marks.path, &marks);
+    if (within(here.path, marks.path) && (!around || marks.path.size() > around->path.size()))
+      around = &marks;
+  }
+  const auto header = [](const Session::Marks& marks) {
+    return marks.path.empty()        ? std::string("the top of the file")
+           : marks.node->key.empty() ? "[[" + marks.path + "]]"
+                                     : "[" + marks.path + "]";
+  };
+  const std::vector<std::string> known(here.known.begin(), here.known.end());
+  const std::string list = "known keys here: " + core::list_of(known);
+  if (around && table.header)
+    return "it belongs to " + header(*around) + ", but all keys below the line " + header(here) + " (line " +
+           std::to_string(table.where.line) + ") are that table's: move it above that line; " + list;
+  if (around)
+    return "it belongs to " + header(*around) + ": write it outside of the { ... } of " + header(here) +
+           "; " + list;
+  const std::string near = did_you_mean(key, known);
+  if (near.empty() && elsewhere.size() == 1)
+    return "it belongs to " + header(*elsewhere.begin()->second) + "; " + list;
+  return near + list;
+}
+
 void TomlTable::finish() const {
   std::vector<core::Problem> found;
   for (const auto& [node, marks] : session_->tables) {
     if (node->kind != Kind::table) continue;
-    const std::vector<std::string> known(marks.known.begin(), marks.known.end());
     const std::string place = marks.path.empty() ? "at the top of the file" : "in [" + marks.path + "]";
     for (const TomlNode& member : node->items) {
       if (marks.read.count(member.key) > 0) continue;
-      if (marks.known.count(member.key) > 0)
+      const bool known = marks.known.count(member.key) > 0;
+      if (known && marks.bad.empty())
         found.push_back({member.key_where,
                          "\"" + member.key + "\" " + place + " has no meaning beside the other keys there",
                          "remove it"});
-      else
+      if (!known)
         found.push_back({member.key_where, "unknown key \"" + member.key + "\" " + place,
-                         did_you_mean(member.key, known) + "known keys here: " + core::list_of(known)});
+                         hint_for_unknown(*node, member.key)});
     }
   }
   const auto order = [](const core::Problem& p) { return std::tie(p.where.line, p.where.column); };

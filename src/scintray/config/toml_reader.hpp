@@ -33,6 +33,7 @@ struct TomlNode {
   std::string key;               ///< name within its table; empty in an array and at the root
   core::FileLocation where;      ///< of the value; of its header for a [table]
   core::FileLocation key_where;  ///< of the key; that of the value where there is none
+  bool header = false;           ///< a table that is written as [key] or [[key]], not as { ... }
   std::string text;              ///< a string's content; any other scalar as written
   double number = 0.0;           ///< of an integer or number
   std::int64_t integer = 0;
@@ -68,7 +69,8 @@ std::string read_text_file(const std::filesystem::path& path, const core::FileLo
 class TomlTable {
  public:
   /// The outermost table of a document, or a table within one. A value of another kind is a problem.
-  TomlTable(TomlNodePtr table, core::Problems& problems);
+  /// @param path  name in messages, as "surfaces.rough"; that of its key without one
+  TomlTable(TomlNodePtr table, core::Problems& problems, std::optional<std::string> path = std::nullopt);
 
   /// Place of the table, of a key's value (the table's place when absent), and name as in
   /// "part.face".
@@ -181,7 +183,9 @@ class TomlTable {
   void skip() const;
 
   /// Reports keys that were not read, here and in every sub-table that was opened, with the nearest known
-  /// key. Call once, on the outermost table, when everything has been read.
+  /// key, or the table where a key of this name is known. A known key that was not read is not reported in a
+  /// table with another problem, which may be why it was not. Call once, on the outermost table, when
+  /// everything has been read.
   void finish() const;
 
   /// Every key read so far from this document, as "part.face.select", sorted. For tests that
@@ -195,6 +199,7 @@ class TomlTable {
   void report_at(const core::FileLocation& where, const std::string& key, std::string what,
                  std::string hint) const;
   void mark_bad(const std::string& key) const;
+  std::string hint_for_unknown(const TomlNode& table, const std::string& key) const;
   std::string quoted(const std::string& key) const;
   TomlTable child(const TomlNode& node, const std::string& key) const;
   std::optional<double> quantity_of(const std::string& key, const TomlNode& value,

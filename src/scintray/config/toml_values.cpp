@@ -1,5 +1,6 @@
 // Values of a table, one by one and in arrays, with their units.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "scintray/config/detail/toml_words.hpp"
@@ -10,6 +11,16 @@ namespace scintray::config {
 namespace {
 
 using Kind = TomlNode::Kind;
+
+/// The whole number that a value stands for, else an example.
+std::string whole_number(const TomlNode& value) {
+  constexpr double kLargest = 9007199254740992.0;  // 2^53: every smaller one is exact
+  double number = value.number;
+  if (value.kind == Kind::string)
+    std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
+  const bool whole = number != 0.0 && std::abs(number) < kLargest && number == std::floor(number);
+  return whole ? std::to_string(static_cast<std::int64_t>(number)) : "1_000_000";
+}
 
 }  // namespace
 
@@ -54,7 +65,7 @@ std::optional<std::int64_t> TomlTable::optional_integer(const std::string& key) 
   if (!value) return std::nullopt;
   if (value->kind == Kind::integer) return value->integer;
   report_at(value->where, key, quoted(key) + " is " + kind_name(*value) + ", but an integer is expected",
-            "write a whole number without quotes, point or exponent, as 1_000_000");
+            "write a whole number without quotes, point or exponent, as " + whole_number(*value));
   return std::nullopt;
 }
 
@@ -99,7 +110,7 @@ std::optional<double> TomlTable::quantity_of(const std::string& key, const TomlN
     report_at(
         value.where, key,
         quoted(key) + " is " + kind_name(value) + ", but " + expected_quantity(dimension) + ", is expected",
-        bare ? "write it as a string with its unit, as \"" + value.text + " " + usual_unit(dimension) + "\""
+        bare ? with_unit_hint(value.text, dimension)
              : "accepted units: " + core::list_of(core::units_of(dimension)));
     return std::nullopt;
   }
@@ -149,7 +160,7 @@ const TomlNode* TomlTable::array(const std::string& key, std::size_t count, bool
   if (value->kind != Kind::array) {
     report_at(value->where, key,
               quoted(key) + " is " + kind_name(*value) + ", but " + wanted + " is expected",
-              "write the elements in brackets, with commas");
+              "write the elements in brackets with commas between them: " + key + " = [..., ...]");
     return nullptr;
   }
   const std::size_t size = value->items.size();

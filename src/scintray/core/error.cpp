@@ -1,6 +1,7 @@
 #include "scintray/core/error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 #include "scintray/core/text.hpp"
@@ -9,6 +10,16 @@ namespace scintray::core {
 
 namespace {
 
+/// How much a substitution of one character by another costs: letters that differ in case only, and the
+/// characters that separate words in names, are the same to a reader.
+std::size_t substitution_cost(char a, char b) {
+  const auto folded = [](char c) {
+    return c == ' ' || c == '-' || c == '.' ? '_'
+                                            : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  };
+  return folded(a) == folded(b) ? 0 : 1;
+}
+
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -16,12 +27,17 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      const std::size_t substitution = diagonal + substitution_cost(a[i - 1], b[j - 1]);
       diagonal = row[j];
       row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
     }
   }
   return row.back();
+}
+
+/// Number of characters at the beginning that both have.
+std::size_t common_beginning(const std::string& a, const std::string& b) {
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
 }
 
 }  // namespace
@@ -70,10 +86,14 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   std::size_t best_distance = limit + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
+    // All of a short word replaced is another word.
+    if (distance > limit || distance >= std::max(word.size(), candidate.size())) continue;
+    const bool nearer =
+        distance < best_distance ||
+        (distance == best_distance && common_beginning(word, candidate) > common_beginning(word, best));
+    if (!nearer) continue;
+    best_distance = distance;
+    best = candidate;
   }
   return best;
 }

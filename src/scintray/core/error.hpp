@@ -81,7 +81,8 @@ class Problems {
 };
 
 /// The candidate closest to `word` by edit distance (Levenshtein 1966), or "" when none is near
-/// (distance above a third of the word's length, at least 2). For "did you mean" hints.
+/// (distance above a third of the word's length, at least 2, or all of it replaced). The case of letters and
+/// the choice of blank, hyphen, dot or underscore do not count. For "did you mean" hints.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 /// The error "no face is called "x"", with the nearest name there is and the first of the names.

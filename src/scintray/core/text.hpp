@@ -1,5 +1,5 @@
 #pragma once
-/// Lists of items as text.
+/// Lists of items as text, and words in sentences.
 
 #include <span>
 #include <string>
@@ -26,5 +26,11 @@ std::string list_of(std::span<const std::string> words, std::string_view between
 
 /// The same with each word in quotes.
 std::string list_quoted(std::span<const std::string> words);
+
+/// The noun after "a" or "an", by its first letter.
+std::string with_article(const std::string& noun);
+
+/// Two texts that differ only in the case of ASCII letters.
+bool same_but_case(std::string_view a, std::string_view b);
 
 }  // namespace scintray::core

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
@@ -69,6 +70,61 @@ std::string example(Dimension dimension) {
   return std::string("\"2 ") + (own != units.end() ? own->name : units.front().name) + "\"";
 }
 
+/// Spellings of units that are not accepted, and what is meant.
+struct Spelling {
+  const char* written;
+  const char* meant;
+};
+constexpr Spelling kSpellings[] = {
+    {"°", "deg"},          {"degree", "deg"},         {"degrees", "deg"},
+    {"grad", "deg"},       {"radian", "rad"},         {"radians", "rad"},
+    {"micron", "um"},      {"microns", "um"},         {"micrometer", "um"},
+    {"millimeter", "mm"},  {"millimeters", "mm"},     {"millimetre", "mm"},
+    {"millimetres", "mm"}, {"centimeter", "cm"},      {"meter", "m"},
+    {"nanometer", "nm"},   {"nanometers", "nm"},      {"inches", "inch"},
+    {"\"", "inch"},        {"second", "s"},           {"sec", "s"},
+    {"seconds", "s"},      {"percent", "%"},          {"mm-1", "1/mm"},
+    {"mm^-1", "1/mm"},     {"cm-1", "1/cm"},          {"cm^-1", "1/cm"},
+    {"/mm", "1/mm"},       {"/cm", "1/cm"},           {"/MeV", "1/MeV"},
+    {"/keV", "1/keV"},     {"ph/MeV", "photons/MeV"}, {"ph/keV", "photons/keV"},
+    {"g/cm^3", "g/cm3"},   {"g/cm³", "g/cm3"},        {"g/cc", "g/cm3"},
+    {"kg/m^3", "kg/m3"}};
+
+bool is_unit_of(std::string_view unit, Dimension dimension) {
+  const std::vector<Unit>& units = table_of(dimension);
+  return std::any_of(units.begin(), units.end(), [&](const Unit& known) { return unit == known.name; });
+}
+
+/// The unit of a dimension that a word stands for, by another spelling or with a slip; empty when none is.
+std::string meant_unit(std::string_view unit, Dimension dimension) {
+  for (const Spelling& spelling : kSpellings)
+    if (same_but_case(unit, spelling.written) && is_unit_of(spelling.meant, dimension)) return spelling.meant;
+  return nearest_word(std::string(unit), units_of(dimension));
+}
+
+/// A dimension of which the word is a unit.
+std::optional<Dimension> dimension_of(std::string_view unit) {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::time, Dimension::angle, Dimension::energy, Dimension::inverse_length,
+        Dimension::frequency, Dimension::density, Dimension::photons_per_energy, Dimension::dimensionless})
+    if (is_unit_of(unit, dimension)) return dimension;
+  return std::nullopt;
+}
+
+/// The error of a unit that is none of the dimension's.
+/// @param number  that it follows, for the hint; empty: the unit stands alone
+Problem unknown_unit(std::string_view number, std::string_view unit, Dimension dimension) {
+  std::string what = "\"" + std::string(unit) + "\" is not a unit of " + dimension_name(dimension);
+  std::string hint = "use one of " + accepted(dimension);
+  if (const auto other = dimension_of(unit)) {
+    what += *other == Dimension::dimensionless ? "" : ", but of " + dimension_name(*other);
+  } else if (const std::string meant = meant_unit(unit, dimension); !meant.empty()) {
+    const std::string written = number.empty() ? meant : std::string(number) + " " + meant;
+    hint = "did you mean \"" + written + "\"? " + hint;
+  }
+  return {{}, what, hint};
+}
+
 std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -112,33 +168,67 @@ std::vector<std::string> units_of(Dimension dimension) {
 double unit_factor(std::string_view unit, Dimension dimension) {
   for (const Unit& known : table_of(dimension))
     if (unit == known.name && known.factor > 0.0) return known.factor;
-  throw InputError({{},
-                    "\"" + std::string(unit) + "\" is not a unit of " + dimension_name(dimension),
-                    "use one of " + accepted(dimension)});
+  throw InputError(unknown_unit("", unit, dimension));
 }
+
+namespace {
+
+/// The error of a text that does not begin with a number.
+Problem no_number(std::string_view text, Dimension dimension) {
+  const std::string minus = "\u2212";
+  if (text.rfind(minus, 0) == 0)
+    return {{},
+            "\"" + std::string(text) + "\" begins with a typographic minus sign",
+            "type a plain one: \"-" + std::string(text.substr(minus.size())) + "\""};
+  return {{},
+          "\"" + std::string(text) + "\" does not start with a finite number",
+          "write a number and a unit of " + dimension_name(dimension) + ", as " + example(dimension)};
+}
+
+/// The error of what follows a number and is no unit of the dimension.
+Problem no_unit(std::string_view number, std::string_view rest, Dimension dimension) {
+  const std::string all = std::string(number) + std::string(rest);
+  if (rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9')
+    return {{},
+            "\"" + all + "\" has a comma in its number",
+            "write a point: \"" + std::string(number) + "." + std::string(rest.substr(1)) + "\""};
+  if (rest[0] == '*' && is_unit_of(trim(rest.substr(1)), dimension))
+    return {{},
+            "\"" + all + "\" has a * between number and unit",
+            "leave it out: \"" + std::string(number) + " " + std::string(trim(rest.substr(1))) + "\""};
+  return unknown_unit(number, rest, dimension);
+}
+
+/// A Greek mu, which looks like the micro sign, as the micro sign.
+std::string with_micro_sign(std::string_view unit) {
+  std::string same(unit);
+  const std::string mu = "\u03bc";
+  if (same.rfind(mu, 0) == 0) same.replace(0, mu.size(), "\u00b5");
+  return same;
+}
+
+}  // namespace
 
 double parse_quantity(std::string_view text, Dimension dimension) {
   const std::string_view trimmed = trim(text);
   double value = 0.0;
   const auto [end, status] = std::from_chars(trimmed.data(), trimmed.data() + trimmed.size(), value);
-  if (status != std::errc{} || !std::isfinite(value))
-    throw InputError(
-        {{},
-         "\"" + std::string(text) + "\" does not start with a finite number",
-         "write a number and a unit of " + dimension_name(dimension) + ", as " + example(dimension)});
-  const std::string_view unit = trim(trimmed.substr(static_cast<std::size_t>(end - trimmed.data())));
+  if (status != std::errc{} || !std::isfinite(value)) throw InputError(no_number(trimmed, dimension));
+  const auto digits = static_cast<std::size_t>(end - trimmed.data());
+  const std::string unit = with_micro_sign(trim(trimmed.substr(digits)));
   if (unit.empty()) {
     if (dimension == Dimension::dimensionless) return value;
-    throw InputError(
-        {{},
-         "\"" + std::string(text) + "\" has no unit, but a " + dimension_name(dimension) + " is expected",
-         "add one of " + accepted(dimension)});
+    throw InputError({{},
+                      "\"" + std::string(text) + "\" has no unit, but " +
+                          with_article(dimension_name(dimension)) + " is expected",
+                      "add one of " + accepted(dimension)});
   }
   if (dimension == Dimension::wavelength && unit == "eV") {
     if (!(value > 0.0))
       throw InputError({{}, "a photon energy of \"" + std::string(text) + "\"", "give a positive energy"});
     return kHc_eV_nm / value;
   }
+  if (!is_unit_of(unit, dimension)) throw InputError(no_unit(trimmed.substr(0, digits), unit, dimension));
   return value * unit_factor(unit, dimension);
 }
 

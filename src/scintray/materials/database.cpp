@@ -26,6 +26,11 @@ constexpr std::array<KindWords, 4> kKinds{
 
 constexpr std::size_t index_of(DefinitionKind kind) { return static_cast<std::size_t>(kind); }
 
+/// Path of a definition in messages: "surfaces.rough" of a scene's own; empty for a file of its own.
+std::string path_of(DefinitionKind kind, const config::TomlNode& definition) {
+  return definition.key.empty() ? "" : std::string(kKinds[index_of(kind)].folder) + "." + definition.key;
+}
+
 std::string list_or_none(const std::vector<std::string>& words) {
   return words.empty() ? "none" : core::list_of(words);
 }
@@ -133,6 +138,23 @@ std::vector<std::string> MaterialDatabase::names(DefinitionKind kind) const {
   return {all.begin(), all.end()};
 }
 
+bool MaterialDatabase::has(DefinitionKind kind, const std::string& name) const {
+  return own_[index_of(kind)].contains(name) || files_[index_of(kind)].contains(name);
+}
+
+core::Problem MaterialDatabase::unknown(DefinitionKind kind, const std::string& name,
+                                        const core::FileLocation& where) const {
+  const KindWords& words = kKinds[index_of(kind)];
+  const std::vector<std::string> known = names(kind);
+  const std::string near = core::nearest_word(name, known);
+  std::vector<std::string> places;
+  for (const std::filesystem::path& folder : folders_) places.push_back((folder / words.folder).string());
+  places.push_back(std::string("[") + words.folder + ".NAME] of the scene");
+  return {where, std::string("there is no ") + words.one + " \"" + name + "\"",
+          (near.empty() ? "" : "did you mean \"" + near + "\"? ") + std::string("known: ") +
+              list_or_none(known) + "; searched: " + list_or_none(places)};
+}
+
 MaterialDatabase::Definition MaterialDatabase::find(DefinitionKind kind, const std::string& name,
                                                     const core::FileLocation& where) const {
   const auto& own = own_[index_of(kind)];
@@ -140,16 +162,7 @@ MaterialDatabase::Definition MaterialDatabase::find(DefinitionKind kind, const s
   const auto& files = files_[index_of(kind)];
   if (const auto found = files.find(name); found != files.end())
     return {read_->document(found->second), true};
-
-  const KindWords& words = kKinds[index_of(kind)];
-  const std::vector<std::string> known = names(kind);
-  const std::string near = core::nearest_word(name, known);
-  std::vector<std::string> places;
-  for (const std::filesystem::path& folder : folders_) places.push_back((folder / words.folder).string());
-  places.push_back(std::string("[") + words.folder + ".NAME] of the scene");
-  throw core::InputError({where, std::string("there is no ") + words.one + " \"" + name + "\"",
-                          (near.empty() ? "" : "did you mean \"" + near + "\"? ") + std::string("known: ") +
-                              list_or_none(known) + "; searched: " + list_or_none(places)});
+  throw core::InputError(unknown(kind, name, where));
 }
 
 const optics::Medium& MaterialDatabase::medium(const std::string& name,
@@ -163,7 +176,7 @@ optics::Medium MaterialDatabase::read_medium_of(const std::string& name,
                                                 const core::FileLocation& where) const {
   const Definition definition = find(DefinitionKind::medium, name, where);
   core::Problems problems;
-  const config::TomlTable table(definition.node, problems);
+  const config::TomlTable table(definition.node, problems, path_of(DefinitionKind::medium, *definition.node));
   optics::Medium medium =
       read_medium(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
@@ -195,7 +208,8 @@ detector::Sensor MaterialDatabase::read_sensor_of(const std::string& name,
   const Definition& own = ancestors.front().definition;
   config::TomlNode merged = merged_sensor(ancestors);
   core::Problems problems;
-  const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(merged)), problems);
+  const std::string path = path_of(DefinitionKind::sensor, merged);
+  const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(merged)), problems, path);
   table.optional_string("base");  // followed above
   detector::Sensor sensor =
       read_sensor(table, name, own.from_file ? SourceRule::required : SourceRule::optional, models_->sensors);
@@ -216,7 +230,8 @@ optics::Reflector MaterialDatabase::read_reflector_of(const std::string& name,
                                                       const core::FileLocation& where) const {
   const Definition definition = find(DefinitionKind::reflector, name, where);
   core::Problems problems;
-  const config::TomlTable table(definition.node, problems);
+  const config::TomlTable table(definition.node, problems,
+                                path_of(DefinitionKind::reflector, *definition.node));
   optics::Reflector reflector =
       read_reflector(table, name, definition.from_file ? SourceRule::required : SourceRule::optional);
   table.finish();
@@ -302,11 +317,12 @@ SurfaceSpec MaterialDatabase::read_surface_of(const std::string& name, const cor
   Chain chain = this->chain(name, where, problems);
   const std::vector<std::string> missing = missing_needs(chain.merged);
   if (!missing.empty())
-    throw core::InputError({chain.names.size() == 1 && !where.file.empty() ? where : chain.merged.where,
-                            "the surface \"" + name + "\" leaves to you: " + list_or_none(missing),
-                            chain.names.size() == 1
-                                ? "write [surfaces.NAME] with base = \"" + name + "\" and these keys"
-                                : "add these keys beside base = \"" + chain.names[1] + "\""});
+    throw core::InputError(
+        {chain.names.size() == 1 && !where.file.empty() ? where : chain.merged.where,
+         "the surface \"" + name + "\" requires parameters that are not given: " + list_or_none(missing),
+         chain.names.size() == 1 ? "define your own: [surfaces.NAME] with base = \"" + name +
+                                       "\" and these keys, and name that one"
+                                 : "add these keys beside base = \"" + chain.names[1] + "\""});
 
   const SurfaceLookup lookup{[this](const std::string& medium_name, const core::FileLocation& at) {
                                return medium(medium_name, at);
@@ -320,7 +336,9 @@ SurfaceSpec MaterialDatabase::read_surface_of(const std::string& name, const cor
                                return reflector(reflector_name, at);
                              },
                              models_->surfaces};
-  const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(chain.merged)), problems);
+  const std::string path = path_of(DefinitionKind::surface, chain.merged);
+  const config::TomlTable table(std::make_shared<const config::TomlNode>(std::move(chain.merged)), problems,
+                                path);
   SurfaceSpec surface = read_surface(table, name, lookup, problems);
   table.finish();
   problems.throw_if_any();

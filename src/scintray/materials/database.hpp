@@ -65,6 +65,11 @@ class MaterialDatabase {
   const detector::Sensor& sensor(const std::string& name, const core::FileLocation& where = {}) const;
   const optics::Reflector& reflector(const std::string& name, const core::FileLocation& where = {}) const;
 
+  /// True when there is a definition of this name, sound or not.
+  bool has(DefinitionKind kind, const std::string& name) const;
+  /// The error of a name without a definition: the nearest name, and the places searched.
+  core::Problem unknown(DefinitionKind kind, const std::string& name, const core::FileLocation& where) const;
+
   /// Every name of a kind, sorted.
   std::vector<std::string> names(DefinitionKind kind) const;
 

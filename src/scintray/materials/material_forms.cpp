@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scintray/core/share_hint.hpp"
 #include "scintray/materials/detail/forms.hpp"
 
 namespace scintray::materials {
@@ -247,10 +248,11 @@ constexpr core::Word<CompositionReader> kCompositionForms[] = {{"formula", read_
 
 void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,
                   const std::string& what) {
-  block.expect(key, curve.min_y() >= 0.0 && curve.max_y() <= 1.0,
-               what + " lies between 0 and 1, but this one runs from " + std::to_string(curve.min_y()) +
-                   " to " + std::to_string(curve.max_y()),
-               "percent are written with value_unit = \"%\", or as \"97 %\"");
+  const double low = curve.min_y(), high = curve.max_y();
+  const std::string found =
+      low == high ? fmt::format("is {:g}", high) : fmt::format("runs from {:g} to {:g}", low, high);
+  block.expect(key, low >= 0.0 && high <= 1.0, what + " lies between 0 and 1, but this one " + found,
+               low == high ? core::share_hint(high) : "per cent are written with value_unit = \"%\"");
   expect_wavelengths(block, key, curve);
 }
 
@@ -269,6 +271,14 @@ optics::Composition read_composition(const config::TomlTable& block) {
 optics::Medium read_medium(const config::TomlTable& table, const std::string& name, SourceRule rule) {
   optics::Medium medium;
   medium.name = name;
+  if (table.node()->find("base")) {
+    table.take("base");
+    table.report(
+        "base", "a medium has a base, but only surfaces and sensors can be based on another",
+        "write the medium in full: [media.NAME.index] and so on, as in the files of materials/media");
+    table.skip();
+    return medium;
+  }
   const config::TomlTable index = table.table("index");
   if (table.has("index")) {
     read_source(index, rule, medium.sources);
@@ -338,8 +348,10 @@ optics::Reflector read_reflector(const config::TomlTable& table, const std::stri
   if (table.has("direction")) {
     read_source(direction, rule, sources);
     reflector.specular_share = direction.quantity("specular_share", core::Dimension::dimensionless);
-    direction.expect("specular_share", reflector.specular_share >= 0.0 && reflector.specular_share <= 1.0,
-                     "a share lies between 0 and 1");
+    direction.expect(
+        "specular_share", reflector.specular_share >= 0.0 && reflector.specular_share <= 1.0,
+        fmt::format("a share lies between 0 and 1, but this one is {:g}", reflector.specular_share),
+        core::share_hint(reflector.specular_share));
   }
   if (table.has("volume")) {
     const config::TomlTable volume = table.table("volume");

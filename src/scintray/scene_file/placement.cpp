@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "scintray/core/text.hpp"
 #include "scintray/scene_file/detail/names.hpp"
 
 namespace scintray::scene_file {
@@ -18,6 +19,26 @@ RotationSpec read_rotation(const config::TomlTable& table) {
   return rotation;
 }
 
+/// Sides as they are called in words. z points up.
+constexpr core::Word<const char*> kSideNames[] = {
+    {"bottom", "-z"}, {"down", "-z"}, {"below", "-z"}, {"top", "+z"},   {"up", "+z"},
+    {"above", "+z"},  {"left", "-x"}, {"right", "+x"}, {"front", "-y"}, {"back", "+y"},
+    {"x", "+x"},      {"y", "+y"},    {"z", "+z"}};
+
+/// The side of a part that is touched.
+BoxSide read_side(const config::TomlTable& table) {
+  const std::string word = table.string("side", "");
+  if (const auto meant = core::find_word(kSideNames, word)) {
+    table.report("side",
+                 "\"part.place.side\" is \"" + word + "\", but one of " +
+                     core::list_quoted(core::word_list(kBoxSides)) + " is expected",
+                 std::string("did you mean \"") + *meant + "\", the side towards " +
+                     ((*meant)[0] == '-' ? "lower " : "higher ") + (*meant)[1] + "?");
+    return *core::find_word(kBoxSides, *meant);
+  }
+  return table.choice("side", kBoxSides);
+}
+
 TouchSpec read_touch(const config::TomlTable& table, const std::vector<std::string>& earlier) {
   TouchSpec touch;
   touch.where = table.where();
@@ -25,7 +46,7 @@ TouchSpec read_touch(const config::TomlTable& table, const std::vector<std::stri
   table.expect("touch", std::find(earlier.begin(), earlier.end(), touch.part.name) != earlier.end(),
                "the part \"" + touch.part.name + "\" to be touched does not stand before this one",
                "name a part that stands earlier in the file");
-  touch.side = table.choice("side", kBoxSides);
+  touch.side = read_side(table);
   touch.gap_mm = table.quantity("gap", core::Dimension::length, 0.0);
   table.expect("gap", touch.gap_mm >= 0.0, "a gap below 0 would make the parts overlap",
                "give a length of 0 or more");

@@ -37,6 +37,13 @@ InlineTables read_definitions(const config::TomlTable& scene, const std::string&
   return definitions;
 }
 
+void read_all_definitions(const config::TomlTable& root, SceneSpec& scene) {
+  scene.media = read_definitions(root, "media");
+  scene.surfaces = read_definitions(root, "surfaces");
+  scene.sensors = read_definitions(root, "sensors");
+  scene.reflectors = read_definitions(root, "reflectors");
+}
+
 /// [source], of any type, into `scene`; `parts` are the names of its parts.
 void read_source(const config::TomlTable& root, const std::vector<std::string>& parts, SceneSpec& scene) {
   const config::TomlTable table = root.table("source");
@@ -65,6 +72,7 @@ class DistinctProblems {
     for (const core::Problem& problem : problems.list())
       if (seen_.insert(problem.text()).second) kept_.add(problem);
   }
+  bool empty() const { return kept_.empty(); }
   void throw_if_any() { kept_.throw_if_any(); }
 
  private:
@@ -120,11 +128,8 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   scene.criteria = read_criteria(root);
   scene.goniometers = read_goniometers(root);
   scene.tallies = read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), variables);
-  scene.media = read_definitions(root, "media");
-  scene.surfaces = read_definitions(root, "surfaces");
+  read_all_definitions(root, scene);
   scene.surfaces.merge(bodies.surfaces);
-  scene.sensors = read_definitions(root, "sensors");
-  scene.reflectors = read_definitions(root, "reflectors");
   scene.fit = read_fit(root);
   read_sweeps(root);
   return scene;
@@ -178,8 +183,34 @@ SceneFile SceneFile::from_text(const std::string& text, const std::string& file,
     stride /= sweep.values.size();
     for (std::size_t i = 1; i < sweep.values.size(); ++i) try_point(i * stride);
   }
+  if (!found.empty()) {  // definitions will not be read
+    core::Problems names;
+    expect_definitions(first, names);
+    found.add(names);
+  }
   found.throw_if_any();
   return scene;
+}
+
+SceneSpec SceneFile::load_readable(const std::filesystem::path& path) {
+  const std::string text = config::read_text_file(path);
+  core::Problems reported_by_load;
+  return read_scene(config::parse_toml(text, path.string()), text, reported_by_load);
+}
+
+SceneSpec SceneFile::load_definitions(const std::filesystem::path& path) {
+  const std::string text = config::read_text_file(path);
+  const config::TomlNodePtr document = config::parse_toml(text, path.string());
+  core::Problems problems, of_the_scene;
+  SceneSpec scene;
+  read_all_definitions(config::TomlTable(document, problems), scene);
+  problems.throw_if_any();
+  scene.surfaces.merge(read_bodies(config::TomlTable(document, of_the_scene)).surfaces);
+  return scene;
+}
+
+std::vector<DefinitionRef> SceneFile::unused_definitions() const {
+  return scene_file::unused_definitions(spec(0), *document_);
 }
 
 std::size_t SceneFile::points() const {

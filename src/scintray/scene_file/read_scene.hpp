@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/scene_file/definitions.hpp"
 #include "scintray/scene_file/spec.hpp"
 #include "scintray/scene_file/sweep.hpp"
 
@@ -23,13 +24,22 @@ std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
 class SceneFile {
  public:
   /// The scene file of a path; every value of its sweeps and of its fit's starts and bounds is read at least
-  /// once. Throws InputError with every distinct problem.
+  /// once. Throws InputError with every distinct problem; names without a definition are then reported too.
   /// @param variables  that its tallies may name
   static SceneFile load(const std::filesystem::path& path,
                         const TallyVariables& variables = TallyVariables::built_in());
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
   static SceneFile from_text(const std::string& text, const std::string& file,
                              const TallyVariables& variables = TallyVariables::built_in());
+
+  /// The scene of a path, without its sweeps, as far as it can be read: for pictures of what load() refuses.
+  /// Throws InputError for a file that is not TOML.
+  static SceneSpec load_readable(const std::filesystem::path& path);
+
+  /// The definitions of a file, [media.NAME] and the like, with those that its builders make: a scene, or a
+  /// file that holds nothing else. Throws InputError for a file that is not TOML, and for definitions that
+  /// are no tables.
+  static SceneSpec load_definitions(const std::filesystem::path& path);
 
   /// Product of the numbers of swept values; 1 without a sweep.
   std::size_t points() const;
@@ -45,6 +55,8 @@ class SceneFile {
   /// The same with further keys set after those of the sweeps, which may be the same keys.
   SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
   const std::string& text() const { return text_; }
+  /// Its own definitions that nothing in it names.
+  std::vector<DefinitionRef> unused_definitions() const;
 
  private:
   const config::TomlNode& value_at(std::size_t point, std::size_t sweep) const;

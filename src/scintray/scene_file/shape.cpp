@@ -81,7 +81,7 @@ BoxSpec read_box(const config::TomlTable& table) {
   box.where = node->where;
   const core::Vec3 size =
       table.optional_quantity3("box", core::Dimension::length).value_or(core::Vec3::Zero());
-  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive",
+  table.expect("box", size.minCoeff() > 0.0, "a side of the box is not positive: " + node->as_written(),
                "give three lengths above 0");
   box.low = core::Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
   box.high = core::Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());

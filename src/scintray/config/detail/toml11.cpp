@@ -10,13 +10,22 @@ namespace {
 Mistake mistake_in(const std::string& message) {
   const auto has = [&](const char* words) { return message.find(words) != std::string::npos; };
   if (has("expected newline")) return Mistake::more_on_the_line;
-  if (has("defined twice") || has("already exists")) return Mistake::defined_twice;
-  if (has("valid string")) return Mistake::open_string;
+  for (const char* words : {"defined twice", "already exists", "already defined", "cannot be defined",
+                            "conflicts with", "collides", "neither table"})
+    if (has(words)) return Mistake::defined_twice;
+  for (const char* words : {"valid string", "valid literal string", "valid multiline string"})
+    if (has(words)) return Mistake::open_string;
   if (has("utf8") || has("UTF-8")) return Mistake::not_utf8;
   if (has("separator `=`")) return Mistake::no_equals_sign;
-  if (has("valid key")) return Mistake::bad_key;
+  if (has("valid key") || has("invalid key") || has("character in key") || has("empty key"))
+    return Mistake::bad_key;
   if (has("array separator")) return Mistake::open_array;
+  for (const char* words : {"table separator", "curly brace", "should be `}`"})
+    if (has(words)) return Mistake::open_table;
   if (has("missing value") || has("got nothing")) return Mistake::no_value;
+  for (const char* words :
+       {"unknown value", "valid value", "bad float", "bad integer", "not an integer", "not a boolean"})
+    if (has(words)) return Mistake::bad_value;
   return Mistake::other;
 }
 
@@ -45,7 +54,8 @@ Span span_of(const toml::value& value) {
 // The drawing: "[error] toml::function: message\n --> file\n   |\n 3 | line\n   |   ^--- comment". The last
 // caret marks the error; the public location() is the start of the value.
 SyntaxError syntax_error(const toml::exception& error) {
-  SyntaxError result{error.location().line(), error.location().column(), {}, Mistake::other};
+  SyntaxError result{error.location().line(), error.location().column(), 0, {}, Mistake::other};
+  bool placed = false;
   std::istringstream drawing(error.what());
   std::string line;
   std::getline(drawing, line);
@@ -60,6 +70,8 @@ SyntaxError syntax_error(const toml::exception& error) {
       continue;
     const auto caret = line.find_first_not_of(' ', bar + 3);
     if (number == 0 || caret == std::string::npos || (line[caret] != '^' && line[caret] != '~')) continue;
+    result.other_line = placed ? result.line : 0;
+    placed = true;
     result.line = number;
     result.byte_column = caret - bar - 2;
     const auto words = line.find_first_not_of("^~- ", caret);

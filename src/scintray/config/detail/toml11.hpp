@@ -31,13 +31,16 @@ enum class Mistake {
   no_equals_sign,
   bad_key,
   open_array,
+  open_table,  ///< { ... } that is not closed, or without a comma between two keys
   no_value,
+  bad_value,  ///< a value that is neither text in quotes nor a number, list, true or false
   other,
 };
 
 /// A syntax error: its kind, its place and its message.
 struct SyntaxError {
   std::size_t line = 0, byte_column = 0;  ///< from 1
+  std::size_t other_line = 0;             ///< of the earlier place that the error is about; 0 without one
   std::string message;                    ///< one line, with toml11's comment on the place in brackets
   Mistake mistake = Mistake::other;
 };

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "scintray/config/detail/toml11.hpp"
+#include "scintray/config/detail/toml_mistakes.hpp"
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/input_file.hpp"
 
@@ -46,26 +47,6 @@ class TextPlaces {
   std::vector<std::size_t> starts_;
 };
 
-/// End of the string that starts at `i` (one past its closing quotes, or the end of the text).
-std::size_t skip_string(const std::string& text, std::size_t i) {
-  const char quote = text[i];
-  const bool multiline = text.compare(i, 3, std::string(3, quote)) == 0;
-  const std::string close(multiline ? 3 : 1, quote);
-  i += close.size();
-  while (i < text.size()) {
-    if (text[i] == '\\' && quote == '"') {
-      i += 2;
-    } else if (text.compare(i, close.size(), close) == 0) {
-      return i + close.size();
-    } else if (text[i] == '\n' && !multiline) {
-      return i;
-    } else {
-      ++i;
-    }
-  }
-  return text.size();
-}
-
 /// Throws InputError for nesting that would exhaust the stack of a recursive parser.
 void refuse_deep_nesting(const TextPlaces& places) {
   const std::string& text = places.text();
@@ -91,32 +72,6 @@ void refuse_deep_nesting(const TextPlaces& places) {
            "arrays, tables or dotted keys nested more than " + std::to_string(kDeepestNesting) + " deep",
            "close the brackets that are left open before here"});
   }
-}
-
-std::string hint_for(toml11::Mistake mistake) {
-  using toml11::Mistake;
-  switch (mistake) {
-    case toml11::Mistake::more_on_the_line:
-      return "one key = value a line; a quantity with its unit is a string, as \"2 mm\"";
-    case toml11::Mistake::defined_twice:
-      return "give each key and each [table] once; a list of tables is written [[name]]";
-    case toml11::Mistake::open_string:
-      return "close the string with the quote that opened it";
-    case toml11::Mistake::not_utf8:
-      return "save the file as UTF-8 text";
-    case toml11::Mistake::no_equals_sign:
-      return "write key = value";
-    case toml11::Mistake::bad_key:
-      return "a key is of letters, digits, _ and -, or in quotes; an inline table { ... } must stand on one "
-             "line";
-    case toml11::Mistake::open_array:
-      return "separate elements with commas and close the array with ]";
-    case toml11::Mistake::no_value:
-      return "write a value after the =";
-    case toml11::Mistake::other:
-      return "see https://toml.io for the grammar";
-  }
-  throw core::InternalError("unknown mistake in a TOML file");
 }
 
 bool is_bare(char c) {
@@ -154,6 +109,7 @@ class Converter {
     node.where = places_.at(offset);
     const std::size_t key_at = key_offset(places_.text(), offset);
     node.key_where = key.empty() || key_at == offset ? node.where : places_.at(key_at);
+    node.header = value.is_table() && size > 0 && places_.text()[offset] == '[';
     const std::string written = places_.text().substr(offset, size);
     switch (value.type()) {
       case toml::value_t::table:
@@ -262,12 +218,13 @@ TomlNodePtr parse_toml(const std::string& text, const std::string& file) {
     document = toml::parse(stream, file);
   } catch (const toml::exception& error) {
     const toml11::SyntaxError found = toml11::syntax_error(error);
-    throw core::InputError({places.at(places.offset(found.line, found.byte_column)),
-                            "not valid TOML: " + found.message, hint_for(found.mistake)});
+    const ExplainedMistake mistake =
+        explain_mistake(body, places.offset(found.line, found.byte_column), found);
+    throw core::InputError({places.at(mistake.offset), mistake.what, mistake.hint});
   } catch (const std::exception& error) {
     throw core::InputError({{file, 1, 1},
-                            std::string("not valid TOML: ") + error.what(),
-                            "see https://toml.io for the grammar"});
+                            std::string("the file cannot be read as TOML: ") + error.what(),
+                            "see https://toml.io for how it is written"});
   }
   Converter converter(places);
   TomlNode root = converter.convert(document, "");

@@ -1,10 +1,63 @@
 #include "scintray/config/detail/toml_words.hpp"
 
+#include <algorithm>
+
 namespace scintray::config {
 
 namespace {
 
 using Kind = TomlNode::Kind;
+
+/// Words for a key in other programs. The first that is known in a table is meant.
+struct OtherWord {
+  const char* word;
+  const char* meant;
+};
+constexpr OtherWord kOtherWords[] = {{"material", "medium"},
+                                     {"finish", "surface"},
+                                     {"solid", "box"},
+                                     {"size", "box"},
+                                     {"dimensions", "box"},
+                                     {"file", "mesh"},
+                                     {"stl", "mesh"},
+                                     {"detector", "sensor"},
+                                     {"pmt", "sensor"},
+                                     {"sipm", "sensor"},
+                                     {"position", "translate"},
+                                     {"location", "translate"},
+                                     {"centre", "translate"},
+                                     {"center", "translate"},
+                                     {"rotation", "rotate"},
+                                     {"placement", "place"},
+                                     {"number", "photons"},
+                                     {"number", "events"},
+                                     {"count", "photons"},
+                                     {"primaries", "events"},
+                                     {"volume", "region"},
+                                     {"particle", "type"},
+                                     {"random_seed", "seed"},
+                                     {"cores", "threads"},
+                                     {"background", "ambient"},
+                                     {"world", "ambient"},
+                                     {"length", "height"},
+                                     {"diameter", "radius"},
+                                     {"refractive_index", "index"},
+                                     {"rindex", "index"},
+                                     {"abslength", "absorption"},
+                                     {"absorption_length", "absorption"},
+                                     {"coupling", "fill"},
+                                     {"grease", "fill"},
+                                     {"finish", "model"},
+                                     {"reflectivity", "reflectance"},
+                                     {"reflection", "reflectance"},
+                                     {"qe", "efficiency"},
+                                     {"pde", "efficiency"},
+                                     {"quantum_efficiency", "efficiency"},
+                                     {"lambda", "wavelength"},
+                                     {"sigmaalpha", "sigma_alpha"},
+                                     {"specular_lobe", "lobe"},
+                                     {"specular_spike", "spike"},
+                                     {"back_scatter", "backscatter"}};
 
 }  // namespace
 
@@ -56,12 +109,25 @@ std::string usual_unit(core::Dimension dimension) {
 
 std::string expected_quantity(core::Dimension dimension) {
   if (dimension == core::Dimension::dimensionless) return "a number, or a string as \"97 %\"";
-  const std::string name = core::dimension_name(dimension);
-  return (name.find_first_of("aeiou") == 0 ? "an " : "a ") + name + " with its unit, as \"2 " +
+  return core::with_article(core::dimension_name(dimension)) + " with its unit, as \"2 " +
          usual_unit(dimension) + "\"";
 }
 
+std::string with_unit_hint(const std::string& number, core::Dimension dimension) {
+  const auto with = [&](const std::string& unit) { return "\"" + number + " " + unit + "\""; };
+  std::string hint = "write it as a string with its unit, as " + with(usual_unit(dimension));
+  // Bare numbers come from programs that have a unit of their own.
+  if (dimension == core::Dimension::angle) hint += ", or as " + with("rad") + ": Geant4's are in radians";
+  if (dimension == core::Dimension::energy) hint += ", or as " + with("MeV") + ": Geant4's are in MeV";
+  if (dimension == core::Dimension::wavelength) hint += ", or as " + with("eV") + " for a photon energy";
+  return hint;
+}
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  for (const OtherWord& other : kOtherWords)
+    if (core::same_but_case(word, other.word) &&
+        std::find(known.begin(), known.end(), other.meant) != known.end())
+      return std::string("did you mean \"") + other.meant + "\"? ";
   const std::string near = core::nearest_word(word, known);
   return near.empty() ? "" : "did you mean \"" + near + "\"? ";
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/core/text.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/material_forms.hpp"
 
@@ -68,6 +69,13 @@ MicrosurfaceSpec read_microsurface(const config::TomlTable& table, const Surface
   for (const SurfaceModel& model : models.all())
     if (!model.table.empty()) table.has(model.table);
   table.has("tracing");
+  if (!table.has("model")) {
+    table.report("model", "this surface has neither \"model\" nor \"base\"",
+                 "add model = " + core::list_of(models.words(), " or ", [](const std::string& word) {
+                   return '"' + word + '"';
+                 }) + ", or the base = \"...\" of another surface");
+    return FixedMicrosurface(optics::SmoothSurface());
+  }
   const std::string word = table.choice("model", models.words());
   const SurfaceModel* model = table.good("model") ? models.find(word) : nullptr;
   return model ? model->read(table) : FixedMicrosurface(optics::SmoothSurface());
@@ -138,8 +146,12 @@ std::optional<optics::Reflector> read_own_reflector(const config::TomlTable& tab
   optics::Reflector reflector;
   reflector.name = surface.name;
   reflector.reflectance = table.curve("reflectance", core::Dimension::dimensionless);
-  table.expect("reflectance", reflector.reflectance.min_y() >= 0.0 && reflector.reflectance.max_y() <= 1.0,
-               "a reflectance lies between 0 and 1");
+  expect_share(table, "reflectance", reflector.reflectance, "a reflectance");
+  if (!table.has("specular_share")) {
+    table.report("specular_share", "a reflectance is given without \"specular_share\", its direction",
+                 "add specular_share = 0 for diffuse light (paint, PTFE), 1 for a mirror (foil), or between");
+    return reflector;
+  }
   reflector.specular_share = read_share(table, "specular_share", std::nullopt);
   return reflector;
 }
@@ -158,9 +170,7 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
   optics::Reflector& reflector = *read;
   if (table.has("transmittance")) {
     reflector.transmittance = table.curve("transmittance", core::Dimension::dimensionless);
-    table.expect("transmittance",
-                 reflector.transmittance->min_y() >= 0.0 && reflector.transmittance->max_y() <= 1.0,
-                 "a transmittance lies between 0 and 1");
+    expect_share(table, "transmittance", *reflector.transmittance, "a transmittance");
     expect_sheet(table, "transmittance", reflector);
   }
   if (reflector.transmittance && reflector.transmittance->max_y() <= 0.0) reflector.transmittance.reset();

@@ -1,7 +1,11 @@
 #include "scintray/materials/detail/surface_values.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
+
+#include "scintray/core/share_hint.hpp"
 
 namespace scintray::materials {
 
@@ -44,7 +48,9 @@ double read_um(const config::TomlTable& table, const std::string& key, double fa
 double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback) {
   const double share = fallback ? table.quantity(key, core::Dimension::dimensionless, *fallback)
                                 : table.quantity(key, core::Dimension::dimensionless);
-  table.expect(key, share >= 0.0 && share <= 1.0, "\"" + key + "\" is a share and lies between 0 and 1");
+  table.expect(key, share >= 0.0 && share <= 1.0,
+               fmt::format("\"{}\" is {:g}, but a share between 0 and 1 is expected", key, share),
+               core::share_hint(share));
   return share;
 }
 

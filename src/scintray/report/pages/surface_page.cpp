@@ -68,7 +68,8 @@ std::string card(const SurfaceEntry& entry) {
   if (!outline.bases.empty()) out += ", based on " + escape_html(core::list_of(outline.bases, ", "));
   out += "</p>\n<p>" + escape_html(core::list_of(outline.sources, "; ")) + "</p>\n";
   if (!outline.needs.empty())
-    out += "<p class=\"needs\">leaves to you: " + escape_html(core::list_of(outline.needs, ", ")) + "</p>\n";
+    out += "<p class=\"needs\">required parameters: " + escape_html(core::list_of(outline.needs, ", ")) +
+           "</p>\n";
   if (entry.readings)
     out += "<div class=\"plots\">\n" + incidence(*entry.readings, entry.name) +
            profile(*entry.readings, entry.name) + "</div>\n";

@@ -23,8 +23,10 @@ double resolve_unit(const std::filesystem::path& path, double given_mm, const Fi
     reject_file(path, "the mesh's unit is not a positive length", "give for example unit = \"mm\"");
   const bool known = unit.mm > 0.0;
   if (given_mm == 0.0 && !known)
-    reject_file(path, "the file does not state the unit of its coordinates",
-                "state it beside the mesh, for example unit = \"mm\" (or \"um\", \"cm\", \"m\", \"inch\")");
+    reject_file(
+        path, "the file does not state the unit of its coordinates",
+        "state it (um, mm, cm, m or inch): in a scene as unit = \"mm\" beside the mesh, on the command line "
+        "as --unit mm");
   const bool contradicts = known && given_mm > 0.0 && std::abs(given_mm - unit.mm) > kRounding * unit.mm;
   const std::string stated = unit.name + " (" + number(unit.mm) + " mm)";
   if (contradicts && unit.written)
