@@ -242,3 +242,15 @@ TEST_CASE("check reports several bodies in a mesh and gaps that look like mistak
   check_contains(ended.output, {"warning:", "\"two\"", "\"plate\"", "0.001 mm apart at ("});
   CHECK(contains(content(folder / "gaps.svg"), "are 0.001 mm apart"));
 }
+
+TEST_CASE("check draws an imported scene whose media are still to be filled in") {
+  const auto folder = scratch_folder("doctor_imported");
+  write_stl(folder / "crystal.stl", make_box({0, 0, 0}, {3, 3, 20}));
+  REQUIRE(run_program({"import", "crystal.stl", "--unit", "mm", "-o", "scene.toml"}, folder).exit_code == 0);
+  const Ended ended = run_program({"check", "scene.toml", "--picture", "scene.svg"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == 1);
+  check_contains(ended.output, {"picture: scene.svg", "parts: 1"});
+  check_contains(ended.output, {"\"medium\""});
+  CHECK(contains(content(folder / "scene.svg"), "crystal"));
+}

@@ -13,9 +13,6 @@ namespace scintray::cli {
 /// numbers only (crystal[1,2], pad7) and that agree in the content of a line share one, unless `every_one`.
 void print_scene(const scene::BuiltScene& built, bool every_one);
 
-/// One line for each warning; warnings that differ in numbers only share one, unless `every_one`.
-void print_warnings(const std::vector<core::Problem>& warnings, bool every_one);
-
 /// The parts of a scene as far as they can be placed, also with errors.
 std::vector<contact::PlacedMesh> placed_for_picture(const scene_file::SceneSpec& spec);
 

@@ -6,8 +6,8 @@
 
 #include "scintray/cli/check.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
-#include "scintray/contact/neighbours.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
@@ -20,21 +20,6 @@ struct CheckOptions {
   bool all = false;
 };
 
-/// Warnings of a scene that can run.
-std::vector<core::Problem> gap_warnings(const std::vector<contact::PlacedMesh>& parts, double tolerance_mm) {
-  std::vector<core::Problem> warnings;
-  for (const contact::SmallGap& gap : contact::find_small_gaps(parts, tolerance_mm))
-    warnings.push_back({{},
-                        fmt::format("parts \"{}\" and \"{}\" are {:.3g} mm apart at ({:.5g}, {:.5g}, {:.5g}) "
-                                    "mm: more than the contact tolerance of {:.3g} mm, less than 1/{:.0f} of "
-                                    "the smaller one's diagonal",
-                                    gap.a, gap.b, gap.gap_mm, gap.place.x(), gap.place.y(), gap.place.z(),
-                                    tolerance_mm, 1.0 / contact::kSmallGapShare),
-                        "if they are meant to touch, move one of them or raise run.contact_tolerance",
-                        {{gap.place.x(), gap.place.y(), gap.place.z()}}});
-  return warnings;
-}
-
 void print_source(const source::LightSource& source, const scene::Scene& scene) {
   const std::vector<core::RegionId> origins = source.regions();
   std::cout << "\nsource: "
@@ -46,10 +31,24 @@ void print_source(const source::LightSource& source, const scene::Scene& scene) 
   std::cout << "\n";
 }
 
+/// The scene file. One with errors is drawn as far as it can be read, before they are thrown.
+scene_file::SceneFile load_or_draw(const CheckOptions& options) {
+  try {
+    return scene_file::SceneFile::load(options.scene);
+  } catch (const core::InputError& error) {
+    if (!options.picture.empty()) {
+      const std::vector<contact::PlacedMesh> parts =
+          placed_for_picture(scene_file::SceneFile::load_readable(options.scene));
+      if (!parts.empty()) draw_scene(options.picture, parts, error.problems());
+    }
+    throw;
+  }
+}
+
 void check_scene(const CheckOptions& options) {
   const std::filesystem::path& path = options.scene;
   if (!options.picture.empty()) expect_picture_name(options.picture);
-  const scene_file::SceneFile file = scene_file::SceneFile::load(path);
+  const scene_file::SceneFile file = load_or_draw(options);
   ProgressLine line(true);
   simulation::SimulationOptions run;
   run.surface_hooks = watched_surfaces(line);
@@ -70,7 +69,7 @@ void check_scene(const CheckOptions& options) {
     if (!shown) continue;
     const scene_file::SceneSpec& spec = ready->spec();
     const scene::BuiltScene& built = *ready->built();
-    const std::vector<core::Problem> gaps = gap_warnings(built.placed, spec.run.contact_tolerance_mm);
+    const std::vector<core::Problem> gaps = gap_warnings(*ready);
     if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
     if (file.points() > 1) {
       std::cout << (point > 0 ? "\n" : "") << "point " << point + 1 << " of " << file.points() << ":";
@@ -85,9 +84,8 @@ void check_scene(const CheckOptions& options) {
         spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_scene(built, options.all);
     print_source(ready->source(), built.scene);
-    for (const std::string& note : ready->source_notes()) std::cout << "note: " << note << "\n";
-    for (const std::string& warning : built.warnings) std::cout << "warning: " << warning << "\n";
-    print_warnings(gaps, options.all);
+    print_notes(std::cout, file, *ready);
+    print_warnings(std::cout, gaps, options.all);
   }
   std::cout << "\n"
             << path.string() << ": no errors in " << file.points() << " point"

@@ -1,13 +1,18 @@
 #include "scintray/cli/check.hpp"
 
 #include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <iostream>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "scintray/cli/alike.hpp"
 
 namespace scintray::cli {
 namespace {
@@ -35,30 +40,6 @@ std::string pattern_of(const std::string& name) {
   if (begin == end || begin == 0) return name;
   return name.substr(0, begin) + "*" + name.substr(end);
 }
-
-/// Items that share a line, in order of first appearance.
-template <typename Thing>
-class Alike {
- public:
-  struct Line {
-    std::size_t count = 0;
-    Thing first;
-  };
-
-  /// The line of `key`, created with `first` when it is new, and counted.
-  Line& add(const std::string& key, const Thing& first) {
-    const auto [known, is_new] = index_.try_emplace(key, lines_.size());
-    if (is_new) lines_.push_back({0, first});
-    Line& line = lines_[known->second];
-    ++line.count;
-    return line;
-  }
-  const std::vector<Line>& lines() const { return lines_; }
-
- private:
-  std::map<std::string, std::size_t> index_;
-  std::vector<Line> lines_;
-};
 
 std::string yes_no(bool value) { return value ? "yes" : "NO"; }
 
@@ -98,34 +79,68 @@ class Printer {
     rows.add(shown(name) + '\n' + rest + (every_one_ ? name : ""), {name, rest});
   }
 
+  static std::string size(const Eigen::AlignedBox3d& box) {
+    const core::Vec3 edges = box.sizes();
+    return fmt::format("{:.4g} x {:.4g} x {:.4g}", edges.x(), edges.y(), edges.z());
+  }
+  static std::string extent(const Eigen::AlignedBox3d& box) {
+    return vector_text(box.min()) + " to " + vector_text(box.max());
+  }
+  static std::string vector_text(const core::Vec3& v) {
+    const auto rounded = [](double x) { return std::abs(x) < 5e-7 ? 0.0 : x; };  // no "-0", no noise
+    return fmt::format("({:.5g}, {:.5g}, {:.5g})", rounded(v.x()), rounded(v.y()), rounded(v.z()));
+  }
+
+  /// The outward normal of a flat face.
+  static std::string normal_of(const scene::FaceInfo& face) {
+    constexpr double kFlat = 1.0 - 1e-6;
+    const double length = face.area_vector_mm2.norm();
+    if (face.area_mm2 <= 0.0) return "-";
+    return length >= kFlat * face.area_mm2 ? vector_text(face.area_vector_mm2 / length) : "not flat";
+  }
+
+  /// The middle of a face's bounding box, where every face has a line of its own.
+  std::string centre_of(const scene::FaceInfo& face) const {
+    if (!every_one_ || face.corners.empty()) return "";
+    Eigen::AlignedBox3d box;
+    for (const core::Vec3& corner : face.corners) box.extend(corner);
+    return ", " + vector_text(box.center());
+  }
+
   void print_parts() const {
     std::cout << fmt::format("\nparts ({})\n", built_.parts.size());
-    std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}\n", "name", "medium",
-                             "volume mm3", "area mm2", "triangles", "closed", "outwards", "degenerate");
+    std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}  {}\n", "name", "medium",
+                             "volume mm3", "area mm2", "triangles", "closed", "outwards", "degenerate",
+                             every_one_ ? "from, to mm" : "size mm");
     Alike<Row> rows;
+    Eigen::AlignedBox3d all;
     for (const core::PartId id : scene_.parts.ids()) {
       const scene::PartReport& part = built_.parts[id.index()];
       const mesh::MeshDiagnosis& d = part.diagnosis;
       const scene::Region& region = scene_.regions[scene_.parts[id].region];
       std::string rest =
-          fmt::format("{:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}",
+          fmt::format("{:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}  {}",
                       scene_.media[region.medium].medium().name, d.volume_mm3, d.area_mm2, d.triangles,
-                      yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count);
+                      yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count,
+                      every_one_ ? extent(d.bounds) : size(d.bounds));
+      all.extend(d.bounds);
       for (const std::string& note : part.notes) rest += "\n    note: " + note;
       add(rows, part.name, rest);
     }
     print_rows(rows, 20);
+    if (!all.isEmpty())
+      std::cout << "  bounding box of all parts: " << extent(all) << " mm, size " << size(all) << " mm\n";
   }
 
   void print_faces() const {
     std::cout << "\nfaces\n";
-    std::cout << fmt::format("  {:<28} {:<28} {:>11} {:>14} {:>9}\n", "part:face", "surface", "area mm2",
-                             "in contact mm2", "triangles");
+    std::cout << fmt::format("  {:<28} {:<28} {:>11} {:>14} {:>9}  {}\n", "part:face", "surface", "area mm2",
+                             "in contact mm2", "triangles", every_one_ ? "normal, centre mm" : "normal");
     Alike<Row> rows;
     for (const scene::FaceInfo& face : scene_.faces)
       add(rows, face.name,
-          fmt::format("{:<28} {:>11.6g} {:>14.6g} {:>9}", face.surface, face.area_mm2, face.contact_area_mm2,
-                      face.triangles));
+          fmt::format("{:<28} {:>11.6g} {:>14.6g} {:>9}  {}", face.surface, face.area_mm2,
+                      face.contact_area_mm2, face.triangles, normal_of(face) + centre_of(face)));
     print_rows(rows, 28);
   }
 
@@ -225,33 +240,8 @@ class Printer {
   bool every_one_;
 };
 
-/// The text with every number replaced by a star, and quoted names by patterns.
-std::string without_numbers(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const bool digit = std::string("0123456789.-+e").find(c) != std::string::npos;
-    if (!digit) {
-      result += c;
-    } else if (result.empty() || result.back() != '*') {
-      result += '*';
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 void print_scene(const scene::BuiltScene& built, bool every_one) { Printer(built, every_one).print(); }
-
-void print_warnings(const std::vector<core::Problem>& warnings, bool every_one) {
-  Alike<core::Problem> lines;
-  for (const core::Problem& warning : warnings)
-    lines.add(every_one ? warning.what : without_numbers(warning.what), warning);
-  for (const auto& line : lines.lines()) {
-    std::cout << "warning: " << line.first.what;
-    if (line.count > 1) std::cout << " (and " << line.count - 1 << " more like this; --all prints them)";
-    std::cout << "\n  hint: " << line.first.hint << "\n";
-  }
-}
 
 }  // namespace scintray::cli

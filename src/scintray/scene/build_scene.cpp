@@ -221,6 +221,7 @@ BuiltScene SceneBuilder::build(const scene_file::SceneSpec& spec) {
   BuiltScene built;
   AssemblyMaker factory(spec, database, surface_factory_, problems);
   const Assembly assembly = factory.make(placed, built.warnings);
+  check_definitions(spec, database, problems);
   problems.throw_if_any();
   built.scene = assemble(assembly);
   check_sensors(spec, placed, built.scene, problems, built.warnings);

@@ -124,11 +124,23 @@ Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uin
   return photon;
 }
 
+/// A note on photons that start outside every part.
+void note_outside(const PhotonSource& source, const scene::Scene& scene, std::vector<std::string>& notes) {
+  const std::vector<core::RegionId> regions = source.regions();
+  if (std::find(regions.begin(), regions.end(), scene::kAmbientRegion) == regions.end()) return;
+  notes.push_back("the photons start outside every part, in the ambient medium (" +
+                  scene.media[scene.regions[scene::kAmbientRegion].medium].medium().name + ")");
+}
+
 }  // namespace
 
 std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec, const scene::Scene& scene,
                                                std::vector<std::string>* notes) {
-  if (!spec.energy_source) return std::make_unique<PhotonSource>(spec.source, scene);
+  if (!spec.energy_source) {
+    auto photons = std::make_unique<PhotonSource>(spec.source, scene);
+    if (notes) note_outside(*photons, scene, *notes);
+    return photons;
+  }
   const scene_file::GammaSpec& source = *spec.energy_source;
   try {
     return std::make_unique<ScintillationSource>(make_event_source(source, scene, notes), scene,

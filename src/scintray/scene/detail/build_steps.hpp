@@ -29,6 +29,11 @@ WavelengthRange find_wavelengths(const scene_file::SceneSpec& spec,
                                  const std::vector<contact::PlacedMesh>& placed,
                                  const materials::MaterialDatabase& database, core::Problems& problems);
 
+/// Adds to `problems` the errors of the scene's own definitions, used or not, that are not there yet. A
+/// surface that lacks what those based on it give is sound.
+void check_definitions(const scene_file::SceneSpec& spec, const materials::MaterialDatabase& database,
+                       core::Problems& problems);
+
 /// Adds to `problems` the sensors that light of the source cannot reach, and to `warnings` a scene without
 /// any sensor.
 /// @param placed  the parts of the scene, in their order there

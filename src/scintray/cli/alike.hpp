@@ -1,0 +1,35 @@
+#pragma once
+/// Output lines that share one line.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scintray::cli {
+
+/// Items that share a line, in order of first appearance.
+template <typename Thing>
+class Alike {
+ public:
+  struct Line {
+    std::size_t count = 0;
+    Thing first;
+  };
+
+  /// The line of `key`, created with `first` when it is new, and counted.
+  Line& add(const std::string& key, const Thing& first) {
+    const auto [known, is_new] = index_.try_emplace(key, lines_.size());
+    if (is_new) lines_.push_back({0, first});
+    Line& line = lines_[known->second];
+    ++line.count;
+    return line;
+  }
+  const std::vector<Line>& lines() const { return lines_; }
+
+ private:
+  std::map<std::string, std::size_t> index_;
+  std::vector<Line> lines_;
+};
+
+}  // namespace scintray::cli
