@@ -9,6 +9,15 @@ using namespace scintray;
 using namespace scintray::results;
 using namespace scintray::test;
 
+namespace {
+
+std::string page_of(const std::filesystem::path& path) {
+  std::ifstream page(path);
+  return {std::istreambuf_iterator<char>(page), {}};
+}
+
+}  // namespace
+
 TEST_CASE("A map is built, events are made from it, and its result is reported like any other") {
   const auto folder = scratch_folder("response_program");
   std::ofstream(folder / "scene.toml") << kSmallCrystal;
@@ -22,12 +31,14 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
       cli::kSuccess, "crystal: 2 x 2 x 4 cells");
   did({"response", "run", "scene.toml", "map.h5", "-o", "result.h5", "--events", "500"}, cli::kSuccess,
       "500 events");
+  CHECK(contains(page_of(folder / "result.html"), "without tracing photons"));
+  CHECK(contains(page_of(folder / "result.html"), "events/s"));
+  CHECK_FALSE(contains(page_of(folder / "result.html"), "0 photons/s"));
   CHECK(read_events(folder / "result.h5", 0, 1'000).size() == 500);
   did({"report", "result.h5", "--text"}, cli::kSuccess, "Lost photons: 0");
   did({"report", "result.h5"}, cli::kSuccess, "result.html");
   did({"analyze", "result.h5"}, cli::kSuccess, "pulses: 500 of 500 events");
-  std::ifstream page(folder / "result.html");
-  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  const std::string text = page_of(folder / "result.html");
   CHECK(contains(text, "<h2>Events"));
   CHECK_FALSE(contains(text, "Where every photon ended"));  // none was traced
   did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");

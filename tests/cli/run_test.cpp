@@ -182,3 +182,57 @@ TEST_CASE("reweight prints light under other optics and writes a table, and refu
   CHECK(run_program({"run", "scene.toml", "--no-report"}, folder).exit_code == cli::kSuccess);
   did({"--reflectance", "white=0.8"}, cli::kBadInput, "photon_history = true");
 }
+
+TEST_CASE("replay prints the start of a photon, and takes the results file of a run") {
+  const auto folder = folder_with("replay_result", scene_text(1'000, true));
+  REQUIRE(run_program({"run", "scene.toml", "--seed", "5", "-q"}, folder).exit_code == cli::kSuccess);
+  const std::vector<std::string> photon{"--event", "0", "--photon", "3"};
+  const auto replay = [&](std::vector<std::string> words) {
+    words.insert(words.end(), photon.begin(), photon.end());
+    const Ended ended = run_program(words, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kSuccess);
+    return ended.output;
+  };
+  const std::string from_result = replay({"replay", "scene.h5"});
+  check_contains(from_result, {"     0 ", "emitted in crystal", "420.00 nm"});
+  check_contains(from_result, {"DETECTED"});
+  CHECK(from_result == replay({"replay", "scene.toml", "--seed", "5"}));
+  CHECK(from_result != replay({"replay", "scene.toml"}));
+}
+
+TEST_CASE("results are not written under the name of another format") {
+  const auto folder = folder_with("names", scene_text(10, false));
+  const Ended ended = run_program({"run", "scene.toml", "-o", "out.csv"}, folder);
+  CHECK(ended.exit_code == cli::kBadInput);
+  check_contains(ended.output, {"HDF5", "\".csv\""});
+  check_contains(ended.output, {"out.h5"});
+  CHECK_FALSE(std::filesystem::exists(folder / "out.csv"));
+}
+
+TEST_CASE("run prints the notes and warnings of check") {
+  std::string text = scene_text(10, false);
+  const std::string touch = "place = { touch = \"crystal\", side = \"-z\" }";
+  text.replace(text.find(touch), touch.size(),
+               "place = { touch = \"crystal\", side = \"-z\", gap = \"0.00015 mm\" }");
+  text += "[surfaces.never_used]\nmodel = \"smooth\"\n";
+  const auto folder = folder_with("notes", text);
+  for (const char* command : {"check", "run"}) {
+    const Ended ended = run_program({command, "scene.toml"}, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kSuccess);
+    check_contains(ended.output, {"note", "[surfaces.never_used]"});
+    check_contains(ended.output, {"warning", "\"crystal\"", "\"sensor\"", "0.00015 mm apart"});
+  }
+}
+
+TEST_CASE("check prints the size of parts and of the scene, and the normals of faces") {
+  const auto folder = folder_with("sizes", scene_text(10, false));
+  const Ended ended = run_program({"check", "scene.toml"}, folder);
+  check_contains(ended.output, {"crystal ", "2 x 2 x 2"});
+  check_contains(ended.output, {"bounding box", "(-1, -1, -1) to (1, 1, 2) mm", "2 x 2 x 3 mm"});
+  check_contains(ended.output, {"crystal:exit", "(0, 0, -1)"});
+  check_contains(ended.output, {"crystal:other", "not flat"});
+  check_contains(run_program({"check", "scene.toml", "--all"}, folder).output,
+                 {"crystal:exit", "(0, 0, -1), (0, 0, 0)"});
+}

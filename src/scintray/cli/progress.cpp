@@ -10,7 +10,8 @@ namespace scintray::cli {
 
 namespace {
 
-constexpr std::chrono::milliseconds kInterval{100};
+constexpr std::chrono::milliseconds kTerminalInterval{100};
+constexpr std::chrono::seconds kLogInterval{60};
 
 /// 1234567 as "1.23 M".
 std::string rate_text(double per_second) {
@@ -28,29 +29,38 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", total / 3600, (total % 3600) / 60);
 }
 
-ProgressLine::ProgressLine(bool wanted)
-    : active_(wanted && isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()), last_() {}
+ProgressOutput ProgressOutput::standard() {
+  return {isatty(STDERR_FILENO) == 1, &std::cerr, ProgressOutput::Clock::now};
+}
+
+// Nothing is due at once in a log: work of less than a minute leaves no line there.
+ProgressLine::ProgressLine(bool wanted, ProgressOutput output)
+    : active_(wanted),
+      output_(std::move(output)),
+      start_(output_.now()),
+      last_(output_.terminal ? Clock::time_point() : start_) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
-void ProgressLine::restart() { start_ = std::chrono::steady_clock::now(); }
+void ProgressLine::restart() { start_ = output_.now(); }
 
 void ProgressLine::show(const std::string& what, double done, double total, const std::string& thing) {
   if (!active_) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < kInterval) return;
+  const Clock::time_point now = output_.now();
+  const Clock::duration interval = output_.terminal ? Clock::duration(kTerminalInterval) : kLogInterval;
+  if (now - last_ < interval) return;
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = elapsed > 0.0 ? done / elapsed : 0.0;
   std::string line = fmt::format("{}  {:3.0f} %", what, total > 0.0 ? 100.0 * done / total : 0.0);
   if (!thing.empty() && rate > 0.0) line += fmt::format("  {}{}/s", rate_text(rate), thing);
   if (rate > 0.0 && done < total) line += "  " + duration_text((total - done) / rate) + " left";
-  std::cerr << "\r\033[K" << line << std::flush;
-  shown_ = true;
+  *output_.stream << (output_.terminal ? "\r\033[K" + line : line + "\n") << std::flush;
+  shown_ = output_.terminal;
 }
 
 void ProgressLine::clear() {
-  if (shown_) std::cerr << "\r\033[K" << std::flush;
+  if (shown_) *output_.stream << "\r\033[K" << std::flush;
   shown_ = false;
 }
 

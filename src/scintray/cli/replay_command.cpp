@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <fstream>
 #include <iostream>
 #include <memory>
+#include <string_view>
 
 #include "scintray/core/error.hpp"
+#include "scintray/results/results.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
@@ -48,23 +52,46 @@ std::string describe(const scene::Scene& scene, const transport::Step& step) {
   throw core::InternalError("unknown step");
 }
 
+/// True for a file that begins as HDF5 files do.
+bool is_hdf5(const std::filesystem::path& path) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  std::array<char, kSignature.size()> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == kSignature;
+}
+
+/// The scene of a scene file or of a results file, which also holds the seed of its run.
+scene_file::SceneFile scene_of(const ReplayOptions& options, simulation::SimulationOptions& run) {
+  if (!is_hdf5(options.scene)) return scene_file::SceneFile::load(options.scene);
+  const tally::RunHeader header = results::read_results(options.scene).header;
+  if (!run.seed) run.seed = header.seed;
+  return scene_file::SceneFile::from_text(header.scene_text, header.scene_file);
+}
+
+void print_row(std::uint64_t number, const source::Photon& photon, const std::string& event) {
+  const core::Vec3 p = photon.position, d = photon.ray.direction;
+  std::cout << fmt::format(
+      "{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n", number,
+      p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns, event);
+}
+
 void replay_photon(const ReplayOptions& options) {
   simulation::SimulationOptions run;
   run.seed = options.seed;
-  simulation::Simulation simulation(scene_file::SceneFile::load(options.scene), run);
+  simulation::Simulation simulation(scene_of(options, run), run);
   const auto point = simulation.point(options.point);
 
+  const source::Photon start = point->start(options.event, options.photon);
   std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",
                            "x mm", "y mm", "z mm", "dx", "dy", "dz", "path mm", "time ns");
+  print_row(0, start,
+            fmt::format("emitted in {}, {:.2f} nm", point->scene().region_names[start.region],
+                        start.wavelength_nm));
   std::uint64_t number = 0;
-  point->replay(
-      options.event, options.photon, [&](const source::Photon& photon, const transport::Step& step) {
-        const core::Vec3 &p = photon.position, &d = photon.ray.direction;
-        std::cout << fmt::format(
-            "{:>6} {:>10.5f} {:>10.5f} {:>10.5f} {:>8.4f} {:>8.4f} {:>8.4f} {:>10.4f} {:>10.4f}  {}\n",
-            ++number, p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns,
-            describe(point->scene(), step));
-      });
+  point->replay(options.event, options.photon,
+                [&](const source::Photon& photon, const transport::Step& step) {
+                  print_row(++number, photon, describe(point->scene(), step));
+                });
 }
 
 }  // namespace
@@ -72,11 +99,12 @@ void replay_photon(const ReplayOptions& options) {
 void add_replay_command(CLI::App& app) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Trace one photon of a run again, step by step");
-  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("SCENE", options->scene, "scene file (TOML), or a results file of its run (HDF5)")
+      ->required();
   command->add_option("--event", options->event, "event number, as in the photon list")->required();
   command->add_option("--photon", options->photon, "photon number within the event")->required();
-  command->add_option("--point", options->point, "point of the sweep, from 0");
-  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_option("--point", options->point, "point of the sweep, from 0 (default: 0)");
+  command->add_option("--seed", options->seed, "seed, in place of that of the scene or the run");
   command->callback([options] { replay_photon(*options); });
 }
 

@@ -4,11 +4,14 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/report/text/text_summary.hpp"
 #include "scintray/simulation/response.hpp"
 #include "scintray/simulation/results_file.hpp"
 
@@ -30,6 +33,7 @@ struct MappedRunOptions {
   std::filesystem::path scene, map, output;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed, events;
+  bool no_report = false;
   bool quiet = false;
 };
 
@@ -84,14 +88,9 @@ void build(const BuildOptions& options) {
   std::cout << "map      " << options.output.string() << "\n";
 }
 
-void print_events(const tally::PointResult& point) {
-  const tally::EnergyBalance& energy = point.energy;
-  const core::Estimate mean = energy.detected.mean();
-  std::cout << fmt::format(
-      "{} events, {} of them without energy in a scintillator; {:.6g} ± {:.2g} photons detected in each of "
-      "the others\n{:.3g} s, {:.3g} events a second\n",
-      energy.events, energy.silent, mean.value, mean.error, point.wall_seconds,
-      static_cast<double>(energy.events) / point.wall_seconds);
+void print_speed(const tally::PointResult& point) {
+  std::cout << fmt::format("{:.3g} s, {:.3g} events a second\n", point.wall_seconds,
+                           static_cast<double>(point.energy.events) / point.wall_seconds);
 }
 
 void run(const MappedRunOptions& options) {
@@ -110,8 +109,13 @@ void run(const MappedRunOptions& options) {
   simulation::ResultsFile results(options.output);
   const tally::RunResult result = simulation::simulate_mapped(scene, options.map, results, simulation, hooks);
   line.clear();
-  if (!options.quiet) print_events(result.points.front());
+  const report::RunAnalysis analyses = analysis_of(options.output, result);
+  if (!options.quiet) {
+    std::cout << report::text_summary(result, analyses);
+    print_speed(result.points.front());
+  }
   std::cout << "results  " << options.output.string() << "\n";
+  if (!options.no_report) write_page(options.output, result, analyses);
   if (!result.complete()) {
     std::cerr << "stopped: the results are partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
@@ -126,13 +130,13 @@ void add_build(CLI::App& response) {
   command->add_option("-o,--output", options->output, "the map (HDF5)")->required();
   command->add_option("--pitch", options->pitch, "largest edge of a cell (default: \"1 mm\")");
   command->add_option("--photons", options->photons, "photons from each cell (default: 10000)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--delays", options->delays,
                    "limit of the delays kept of each cell and channel (default: 64)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
   command->callback([options] {
@@ -151,11 +155,11 @@ void add_run(CLI::App& response) {
       ->required();
   command->add_option("MAP", options->map, "the map (HDF5)")->required();
   command->add_option("-o,--output", options->output, "results file")->required();
-  command->add_option("--events", options->events, "events, in place of the scene's")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--events", options->events, "events, in place of the scene's")->check(above_zero());
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
   command->callback([options] {
     const InterruptGuard guard;

@@ -1,6 +1,9 @@
 #include "scintray/cli/run_analysis.hpp"
 
+#include <iostream>
+
 #include "scintray/report/acceptance.hpp"
+#include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/surface_acceptance.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/analysis.hpp"
@@ -25,6 +28,14 @@ report::RunAnalysis analysis_of(const std::filesystem::path& results, const tall
   return {simulation::analyze_results(results, run, analysis), analysis.reference,
           scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
           results::read_surfaces(results)};
+}
+
+void write_page(const std::filesystem::path& results, const tally::RunResult& run,
+                const report::RunAnalysis& analyses) {
+  auto page = results;
+  page.replace_extension(".html");
+  report::write_report(page, run, analyses);
+  std::cout << "report   " << page.string() << "\n";
 }
 
 }  // namespace scintray::cli

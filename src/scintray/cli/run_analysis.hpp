@@ -1,5 +1,5 @@
 #pragma once
-/// Analyses of the events of a results file, for commands.
+/// Analyses of the events of a results file, and its page, for commands.
 
 #include <filesystem>
 
@@ -15,5 +15,9 @@ void check_criteria(const scene_file::SceneFile& scene);
 /// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene that the run
 /// is of.
 report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
+
+/// Writes the page of a run beside its results file, and prints its path.
+void write_page(const std::filesystem::path& results, const tally::RunResult& run,
+                const report::RunAnalysis& analyses);
 
 }  // namespace scintray::cli

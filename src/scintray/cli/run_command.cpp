@@ -4,13 +4,14 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_analysis.hpp"
+#include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -59,12 +60,23 @@ simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
   return hooks;
 }
 
+/// Prints what `scintray check` says of the scene's first point, on standard error.
+void say_before_tracing(simulation::Simulation& simulation, const scene_file::SceneFile& file,
+                        ProgressLine& line) {
+  const std::shared_ptr<const simulation::SimulationPoint> first = simulation.point(0);
+  const std::vector<core::Problem> gaps = gap_warnings(*first);
+  line.clear();
+  print_notes(std::cerr, file, *first);
+  print_warnings(std::cerr, gaps, false);
+}
+
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
   check_criteria(file);
   ProgressLine line(!options.quiet);
   const std::filesystem::path output = output_path(options, scene, file);
   simulation::Simulation simulation(file, simulation_options(options, line));
+  if (!options.quiet) say_before_tracing(simulation, file, line);
   simulation::ResultsFile results(output);
   const tally::RunResult result = simulation.run_all(results, simulation_hooks(line));
   line.clear();
@@ -72,12 +84,7 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const report::RunAnalysis analyses = analysis_of(output, result);
   if (!options.quiet) std::cout << report::text_summary(result, analyses);
   std::cout << "results  " << output.string() << "\n";
-  if (!options.no_report) {
-    auto page = output;
-    page.replace_extension(".html");
-    report::write_report(page, result, analyses);
-    std::cout << "report   " << page.string() << "\n";
-  }
+  if (!options.no_report) write_page(output, result, analyses);
   if (!result.complete()) {
     std::cerr << "stopped: the results are partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
@@ -92,12 +99,12 @@ void add_run_command(CLI::App& app) {
   command->add_option("SCENE", options->scenes, "scene files (TOML)")->required();
   command->add_option("-o,--output", options->output, "results file (default: SCENE's name with .h5, here)");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--events", options->events, "events per point, in place of the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_flag("--quick", options->quick,
                     "take the scene's quick_events or quick_photons: fewer, for a test");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");

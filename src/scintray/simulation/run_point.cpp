@@ -131,23 +131,41 @@ tally::PointResult run_point(const scene::Scene& scene, const source::LightSourc
   return total;
 }
 
-source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
-                      const RunSettings& settings, std::uint64_t event, std::uint64_t number,
-                      transport::StepVisitor visit) {
+namespace {
+
+/// A photon of an event as it starts.
+/// @param rng  becomes its random stream
+source::Photon emitted(const scene::Scene& scene, const source::LightSource& source,
+                       const RunSettings& settings, const PhotonNumber& number, core::Rng& rng) {
+  const auto [event, photon] = number;
   source::EventLight light;
   if (event < source.events()) {
-    core::Rng rng = event_stream(settings, event);
-    source.begin(scene, event, rng, light);
+    core::Rng event_rng = event_stream(settings, event);
+    source.begin(scene, event, event_rng, light);
   }
-  if (number >= light.photons)
+  if (photon >= light.photons)
     throw core::InputError(core::Problem{
         {},
-        "there is no photon " + std::to_string(number) + " of event " + std::to_string(event) + ": " +
+        "there is no photon " + std::to_string(photon) + " of event " + std::to_string(event) + ": " +
             (event < source.events() ? "that event has " + std::to_string(light.photons) + " photons"
                                      : "there are " + std::to_string(source.events()) + " events"),
         "both count from 0"});
-  core::Rng rng = photon_stream(settings, event, number);
-  source::Photon photon = source.emit(scene, light, number, rng);
+  rng = photon_stream(settings, event, photon);
+  return source.emit(scene, light, photon, rng);
+}
+
+}  // namespace
+
+source::Photon start_of_photon(const scene::Scene& scene, const source::LightSource& source,
+                               const RunSettings& settings, const PhotonNumber& number) {
+  core::Rng rng = photon_stream(settings, number.event, number.photon);
+  return emitted(scene, source, settings, number, rng);
+}
+
+source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
+                      const RunSettings& settings, const PhotonNumber& number, transport::StepVisitor visit) {
+  core::Rng rng = photon_stream(settings, number.event, number.photon);
+  source::Photon photon = emitted(scene, source, settings, number, rng);
   transport::PropagationLimits limits = limits_of(settings);
   limits.passed = visit;
   for (;;) {

@@ -56,11 +56,19 @@ tally::PointResult run_point(const scene::Scene& scene, const source::LightSourc
                              const tally::TallyPlan& plan, const RunSettings& settings,
                              const RunHooks& hooks = {});
 
+/// Identifies a photon of a run: its event, and its index within the event.
+struct PhotonNumber {
+  std::uint64_t event = 0, photon = 0;
+};
+
+/// One photon as it starts. Throws InputError when there is no such photon.
+source::Photon start_of_photon(const scene::Scene& scene, const source::LightSource& source,
+                               const RunSettings& settings, const PhotonNumber& number);
+
 /// Replays one photon; `visit` is called for every step, each total reflection included. Returns the photon
 /// as it ended. Throws InputError when there is no such photon.
 source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
-                      const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
-                      transport::StepVisitor visit);
+                      const RunSettings& settings, const PhotonNumber& number, transport::StepVisitor visit);
 
 /// Events of an event source: the same deposits and numbers of photons, to the last bit, as run_point
 /// produces with this seed. The number of them that each channel detects is multinomial with the map's

@@ -79,7 +79,11 @@ tally::PointResult SimulationPoint::trace(const MappedResponse& response, const 
 
 source::Photon SimulationPoint::replay(std::uint64_t event, std::uint64_t photon,
                                        const transport::StepVisitor& visit) const {
-  return scintray::simulation::replay(scene(), *source_, settings_, event, photon, visit);
+  return scintray::simulation::replay(scene(), *source_, settings_, {event, photon}, visit);
+}
+
+source::Photon SimulationPoint::start(std::uint64_t event, std::uint64_t photon) const {
+  return start_of_photon(scene(), *source_, settings_, {event, photon});
 }
 
 }  // namespace scintray::simulation

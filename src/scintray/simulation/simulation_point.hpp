@@ -55,6 +55,8 @@ class SimulationPoint {
   /// Replays one photon of trace(); `visit` is called for every step. Returns the photon as it ended.
   /// @throws InputError when there is no such photon
   source::Photon replay(std::uint64_t event, std::uint64_t photon, const transport::StepVisitor& visit) const;
+  /// The photon that replay() follows, as it starts. @throws InputError when there is no such photon
+  source::Photon start(std::uint64_t event, std::uint64_t photon) const;
 
  private:
   scene_file::SceneSpec spec_;

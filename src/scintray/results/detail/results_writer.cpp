@@ -5,6 +5,7 @@
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/results/detail/columns.hpp"
 #include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
@@ -198,6 +199,19 @@ void put_header(core::h5::Group& root, const tally::RunHeader& header) {
   format::put_text(root, "fate_names", fates);
 }
 
+/// Refuses a name that promises another format.
+void refuse_other_name(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  for (const char* known : {"", ".h5", ".hdf5", ".hdf"})
+    if (core::same_but_case(extension, known)) return;
+  auto other = path;
+  other.replace_extension(".h5");
+  throw core::InputError({{path.string()},
+                          "results are an HDF5 file, but this name ends in \"" + extension + "\"",
+                          "name it " + other.string() +
+                              "; the page beside it ends in .html, and h5dump or Python reads its tables"});
+}
+
 /// A result may be overwritten; any other file may be the only copy.
 void refuse_foreign_file(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path);
@@ -225,6 +239,7 @@ struct ResultsWriter::State {
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const tally::RunHeader& header,
                              bool photon_list) {
+  refuse_other_name(path);
   refuse_foreign_file(path);
   core::h5::File file = core::h5::File::create(path);
   core::h5::Group root = file.root();

@@ -322,10 +322,11 @@ std::string path_section(const tally::RunResult& run) {
 }
 
 std::string condition_section(const tally::RunResult& run) {
-  std::uint64_t photons = 0, segments = 0, misses = 0, lost = 0;
+  std::uint64_t photons = 0, events = 0, segments = 0, misses = 0, lost = 0;
   double seconds = 0.0, bias = 0.0;
   for (const tally::PointResult& point : run.points) {
     photons += point.photons;
+    events += point.energy.events;
     segments += point.segments;
     misses += point.resolved_misses;
     lost += point.lost;
@@ -339,16 +340,22 @@ std::string condition_section(const tally::RunResult& run) {
   row("ScintRay", run.header.version);
   row("scene", run.header.scene_file);
   row("seed", std::to_string(run.header.seed));
-  row("photons", grouped(photons) + " in " + grouped(run.points.size()) +
-                     (run.points.size() == 1 ? " point" : " points"));
-  row("lost photons", grouped(lost));
-  row("largest bias from cut photons",
-      bias == 0.0 ? "none: no photon was cut" : compact(bias, 2) + " of a fraction");
-  row("straight segments", grouped(segments) + ", " + grouped(misses) + " resolved by the exact query");
+  const std::string in_points =
+      " in " + grouped(run.points.size()) + (run.points.size() == 1 ? " point" : " points");
+  if (run.traced_photons()) {
+    row("photons", grouped(photons) + in_points);
+    row("lost photons", grouped(lost));
+    row("largest bias from cut photons",
+        bias == 0.0 ? "none: no photon was cut" : compact(bias, 2) + " of a fraction");
+    row("straight segments", grouped(segments) + ", " + grouped(misses) + " resolved by the exact query");
+  } else {
+    row("events", grouped(events) + in_points + ", without tracing photons");
+  }
   row("time", compact(seconds, 3) + " s");
   if (seconds > 0.0)
-    row("speed", rate(static_cast<double>(segments) / seconds) + " segments/s, " +
-                     rate(static_cast<double>(photons) / seconds) + " photons/s");
+    row("speed", run.traced_photons() ? rate(static_cast<double>(segments) / seconds) + " segments/s, " +
+                                            rate(static_cast<double>(photons) / seconds) + " photons/s"
+                                      : rate(static_cast<double>(events) / seconds) + " events/s");
   std::string notes;
   if (!run.header.note.empty()) {
     notes = "<h3>Warnings</h3>\n<ul>\n";
