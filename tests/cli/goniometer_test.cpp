@@ -93,6 +93,37 @@ photons = 10
   CHECK(contains(ended.output, "80.000"));
 }
 
+TEST_CASE(
+    "a file of definitions alone serves goniometer and table stack, and a table is measured by its name") {
+  const auto folder = scratch_folder("goniometer_definitions");
+  std::ofstream(folder / "mine.toml") << R"(
+[media.thick]
+index = { n = 2.0 }
+absorption = { none = true }
+scattering = { none = true }
+[surfaces.wrapped]
+model = "smooth"
+gap = "air"
+reflectance = 0.9
+specular_share = 0
+)";
+  const auto done = [&](const std::vector<std::string>& words) {
+    const Ended ended = run_program(words, folder);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kSuccess);
+    return ended.output;
+  };
+  done({"table", "stack", "wrapped", "--scene", "mine.toml", "--inside", "thick", "--outside", "air",
+        "--wavelength", "420 nm", "--rays", "200", "--incidence-step", "15 deg", "--azimuth-step", "90 deg",
+        "-o", "stack.h5"});
+  check_contains(done({"goniometer", "wrapped", "--scene", "mine.toml", "--inside", "thick", "--angle",
+                       "10 deg", "--rays", "2000"}),
+                 {"n 2.0000"});
+  check_contains(done({"goniometer", "stack.h5", "--scene", "mine.toml", "--inside", "thick", "--angle",
+                       "10 deg", "--rays", "2000"}),
+                 {"surface", "stack.h5"});
+}
+
 TEST_CASE("goniometer explains what it cannot do") {
   CHECK(contains(refusal({"goniometer", "polished", "--angle", "90 deg"}), "less than 90 deg"));
   CHECK(contains(refusal({"goniometer", "polished", "--angle", "45"}), "no unit"));
@@ -138,7 +169,7 @@ TEST_CASE("table list prints every surface with model, source, needs and reflect
   REQUIRE(ended.exit_code == cli::kSuccess);
   for (const std::string part :
        {"lso_ground_30um\n", "model recipe, based on lso_polished", "M. Born and E. Wolf",
-        "leaves to you: unified.sigma_alpha", "80 deg 1.00000", "written      surfaces.html"})
+        "required parameters: unified.sigma_alpha", "80 deg 1.00000", "written      surfaces.html"})
     CHECK(contains(ended.output, part));
   const std::string page = content_of(folder / "surfaces.html");
   std::size_t shown = 0;

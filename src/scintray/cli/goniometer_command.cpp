@@ -125,8 +125,10 @@ void run_goniometer(const GoniometerOptions& options) {
   materials::SurfaceFactory factory = watched_factory(line);
   const analysis::SamplePlace place = place_of(options.sample, options.surface, options.outside);
   settings.wavelength_nm = place.wavelength_nm;
+  materials::MaterialDatabase database = database_of(options.sample);
+  add_file_surface(database, options.surface);
   const analysis::SampleSurface sample =
-      analysis::make_sample_surface(database_of(options.sample), factory, place, options.on_the_spot);
+      analysis::make_sample_surface(database, factory, place, options.on_the_spot);
   line.clear();
   const auto readings = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);
 
@@ -154,7 +156,9 @@ void add_goniometer_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "goniometer",
       "Measure the directions of light from a surface of the material database with a parallel beam");
-  command->add_option("SURFACE", options->surface, "Surface of the material database, or of the scene")
+  command
+      ->add_option("SURFACE", options->surface,
+                   "Surface of the material database or of the scene, or file of a table (.h5) or height map")
       ->required();
   command->add_option("--angle", options->angles, "Angle of incidence, as \"45 deg\"; several are allowed")
       ->required()

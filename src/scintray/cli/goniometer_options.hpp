@@ -22,6 +22,9 @@ void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t ray
 
 /// The shipped database, with the definitions of the scene file where one is named.
 materials::MaterialDatabase database_of(const SampleOptions& options);
+/// Adds to a database, under its path, the surface of a table (.h5) or height map, levelled by a plane, where
+/// `surface` is the path of a file.
+void add_file_surface(materials::MaterialDatabase& database, const std::string& surface);
 analysis::SamplePlace place_of(const SampleOptions& options, const std::string& surface,
                                const std::string& outside);
 double angle_rad(const std::string& text);

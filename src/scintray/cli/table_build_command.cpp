@@ -23,7 +23,8 @@ struct BuildArguments {
 };
 
 void build(const BuildArguments& arguments) {
-  const std::vector<topography::SpectralPoint> spectrum = between(arguments.tracing).spectrum();
+  const std::vector<topography::SpectralPoint> spectrum =
+      between(arguments.tracing, database_of(arguments.tracing)).spectrum();
   topography::HeightMap map = read_map(arguments.map);
   topography::prepare(map, preparation_of(arguments.preparation));
   print_summary(map);

@@ -5,23 +5,27 @@
 #include <algorithm>
 #include <iostream>
 
+#include "scintray/cli/count_option.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/wavelength_cover.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
 
 namespace scintray::cli {
 
 namespace {
 
-optics::Medium side_medium(const std::string& name, double index, const std::string& side) {
+optics::Medium side_medium(const materials::MaterialDatabase& database, const std::string& name, double index,
+                           const std::string& side) {
   if (name.empty() == (index == 0.0))
     throw core::InputError({{},
                             "the medium " + side + " is " + (name.empty() ? "not given" : "given twice"),
                             "give either --" + side + " MEDIUM, as LSO, or --" + side + "-index, as 1.82"});
-  if (!name.empty()) return materials::MaterialDatabase::shipped().medium(name);
+  if (!name.empty()) return database.medium(name);
   optics::Medium medium;
   medium.name = fmt::format("index {:g}", index);
   medium.index = core::Curve::constant(index);
@@ -31,12 +35,13 @@ optics::Medium side_medium(const std::string& name, double index, const std::str
 }  // namespace
 
 void add_tracing_options(CLI::App& app, TracingOptions& options) {
+  app.add_option("--scene", options.scene,
+                 "Scene file, or file of definitions, whose own media and surfaces are used as well");
   app.add_option("--inside", options.inside, "Medium of the part with the face, as LSO");
-  app.add_option("--inside-index", options.inside_index, "... or its refractive index")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--inside-index", options.inside_index, "... or its refractive index")->check(above_zero());
   app.add_option("--outside", options.outside, "Medium outside, as air");
   app.add_option("--outside-index", options.outside_index, "... or its refractive index")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--wavelength", options.wavelengths,
                  "Wavelengths to tabulate, as \"420 nm\"; required with media")
       ->delimiter(',');
@@ -57,9 +62,14 @@ void add_tracing_options(CLI::App& app, TracingOptions& options) {
   app.add_flag("--no-refine", options.no_refine, "No extra nodes where the reflectance changes fast");
 }
 
-Between between(const TracingOptions& options) {
-  Between result{side_medium(options.inside, options.inside_index, "inside"),
-                 side_medium(options.outside, options.outside_index, "outside"),
+materials::MaterialDatabase database_of(const TracingOptions& options) {
+  return options.scene.empty() ? materials::MaterialDatabase::shipped()
+                               : scene::database_for(scene_file::SceneFile::load_definitions(options.scene));
+}
+
+Between between(const TracingOptions& options, const materials::MaterialDatabase& database) {
+  Between result{side_medium(database, options.inside, options.inside_index, "inside"),
+                 side_medium(database, options.outside, options.outside_index, "outside"),
                  {}};
   for (const std::string& text : options.wavelengths)
     result.wavelengths_nm.push_back(core::parse_quantity(text, core::Dimension::wavelength));

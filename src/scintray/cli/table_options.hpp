@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/materials/database.hpp"
 #include "scintray/optics/medium.hpp"
 #include "scintray/topography/build_table.hpp"
 
@@ -13,6 +14,7 @@ namespace scintray::cli {
 /// Options of the tracing of a table: media, wavelengths, rays.
 struct TracingOptions {
   std::string inside, outside;                     ///< media of the database
+  std::string scene;                               ///< file whose own definitions are used as well
   double inside_index = 0.0, outside_index = 0.0;  ///< in place of media; 0: not set
   std::vector<std::string> wavelengths;
   std::string incidence_step, azimuth_step;
@@ -21,15 +23,18 @@ struct TracingOptions {
 };
 void add_tracing_options(CLI::App& app, TracingOptions& options);
 
+/// The shipped database, with the definitions of the scene file where one is named.
+materials::MaterialDatabase database_of(const TracingOptions& options);
+
 /// Media on both sides, and the wavelengths.
 struct Between {
   optics::Medium inside, outside;
   std::vector<double> wavelengths_nm;  ///< empty where only indices are set
   std::vector<topography::SpectralPoint> spectrum() const;
 };
-/// Media and wavelengths of the options. InputError when a side has neither an index nor a medium, for media
-/// without wavelengths, and for wavelengths beyond their indices.
-Between between(const TracingOptions& options);
+/// Media, of this database, and wavelengths of the options. InputError when a side has neither an index nor a
+/// medium, for media without wavelengths, and for wavelengths beyond their indices.
+Between between(const TracingOptions& options, const materials::MaterialDatabase& database);
 topography::TableSettings settings_of(const TracingOptions& options);
 
 /// Table traced with a progress line; stops at Ctrl-C.

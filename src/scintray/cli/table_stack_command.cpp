@@ -7,8 +7,6 @@
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/materials/wavelength_cover.hpp"
-#include "scintray/scene/build_scene.hpp"
-#include "scintray/scene_file/read_scene.hpp"
 
 namespace scintray::cli {
 
@@ -16,7 +14,6 @@ namespace {
 
 struct StackArguments {
   std::string surface, output;
-  std::filesystem::path scene;
   TracingOptions tracing;
 };
 
@@ -35,11 +32,9 @@ std::string describe(const materials::SurfaceSpec& spec) {
 }
 
 void build(const StackArguments& arguments) {
-  materials::MaterialDatabase database = materials::MaterialDatabase::shipped();
-  if (!arguments.scene.empty())
-    scene::add_definitions(database, scene_file::SceneFile::load(arguments.scene).spec(0));
+  const materials::MaterialDatabase database = database_of(arguments.tracing);
   const materials::SurfaceSpec spec = materials::traced_on_the_spot(database.surface(arguments.surface));
-  const Between media = between(arguments.tracing);
+  const Between media = between(arguments.tracing, database);
   core::Problems problems;
   for (const double at : media.wavelengths_nm) materials::check_cover(problems, spec, at, at);
   problems.throw_if_any();
@@ -70,7 +65,6 @@ void add_table_stack_command(CLI::App& table) {
                                        "Trace a complete surface of the material database, with its gap, "
                                        "reflector and shares, into one table");
   app->add_option("surface", arguments->surface, "Name of the surface")->required();
-  app->add_option("--scene", arguments->scene, "Scene file whose own definitions are used, too");
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   add_tracing_options(*app, arguments->tracing);
   app->callback([arguments] { build(*arguments); });
