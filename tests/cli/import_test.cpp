@@ -50,7 +50,8 @@ TEST_CASE("import makes a scene of a GDML file that check and run accept") {
 TEST_CASE("import makes a part of each body, and check names what is left to fill in") {
   const auto folder = scratch_folder("cli_import_model");
   write(folder / "two.obj", kTwoBodies);
-  check_contains(run_program({"import", "two.obj", "-o", "two.toml"}, folder), 1, "unit = \"mm\"");
+  check_contains(run_program({"import", "two.obj", "-o", "two.toml"}, folder), 1,
+                 {"unit = \"mm\"", "--unit mm"});
   check_contains(run_program({"import", "two.obj", "--unit", "inch", "-o", "two.toml"}, folder), 0,
                  {"medium", "surface", "every part"});
   const std::string scene = read(folder / "two.toml");
@@ -75,6 +76,9 @@ TEST_CASE("import explains options that do not fit") {
                  "does not have");
   check_contains(run_program({"import", "d.gdml", "-o", "x", "--angle", "200 deg"}, folder), 1,
                  {"0.1", "90 deg"});
+  write(folder / "Surfaces.xml", "<surfaces/>");
+  check_contains(run_program({"import", "Surfaces.xml", "-o", "x"}, folder), 1,
+                 {"[surfaces.NAME]", "docs/surfaces.md"});
   check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "mesh file not found");
   CHECK_FALSE(std::filesystem::exists(folder / "x"));
 }

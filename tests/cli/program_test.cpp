@@ -8,6 +8,7 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/version.hpp"
 #include "support/shared.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -46,4 +47,24 @@ TEST_CASE("--help succeeds, a wrong command line is bad usage and shows the help
   CHECK(nothing.exit_code == cli::kBadUsage);
   CHECK(nothing.output.find("Usage: scintray") != std::string::npos);
   CHECK(run_program("frobnicate").exit_code == cli::kBadUsage);
+}
+
+TEST_CASE("a command or option with a slip names the one that is meant") {
+  const auto refusal = [](const std::string& arguments) {
+    const Answer answer = run_program(arguments);
+    CHECK(answer.exit_code == cli::kBadUsage);
+    return answer.output;
+  };
+  test::check_contains(refusal("runn scene.toml"), {"no command \"runn\""});
+  test::check_contains(refusal("runn scene.toml"), {"did you mean run?"});
+  test::check_contains(refusal("map descibe a.gsf"), {"did you mean describe?"});
+  test::check_contains(refusal("run scene.toml --photns 5"), {"did you mean --photons?"});
+  test::check_contains(refusal("frobnicate"), {"scintray --help"});
+}
+
+TEST_CASE("a count of zero is refused in words") {
+  const Answer answer = run_program("run scene.toml -t 0");
+  CHECK(answer.exit_code == cli::kBadUsage);
+  test::check_contains(answer.output, {"--threads", "\"0\" is not a number above 0"});
+  CHECK(answer.output.find("00000000") == std::string::npos);
 }

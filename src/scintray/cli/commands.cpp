@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/error.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray::cli {
@@ -56,6 +57,36 @@ int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out
   return asked_for ? code : static_cast<int>(kBadUsage);
 }
 
+/// The innermost command of a command line that was parsed as far as it went.
+const CLI::App& innermost(const CLI::App& app) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  return parsed.empty() ? app : innermost(*parsed.back());
+}
+
+/// The first word that is no command or option of a command line, and what may be meant; empty where every
+/// word is one.
+std::string unknown_word(const CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  if (left.empty()) return "";
+  const CLI::App& command = innermost(app);
+  const std::string word = left.front().substr(0, left.front().find('='));
+  const bool option = word.rfind('-', 0) == 0;
+  std::vector<std::string> known;
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(inner->get_name());
+  if (!option && known.empty()) return "";
+  if (option) {
+    known.clear();
+    for (const CLI::Option* one : command.get_options())
+      for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+  }
+  const std::string of = "scintray" + (command.get_parent() ? " " + command.get_name() : "");
+  const std::string near = core::nearest_word(word, known);
+  return "error: " + of + " has no " + (option ? "option" : "command") + " " + core::in_quotes(word) +
+         "\n  hint: " + (near.empty() ? "" : "did you mean " + near + "? ") + of + " --help lists the " +
+         (option ? "options" : "commands") + "\n";
+}
+
 #define SCINTRAY_ENTRY(name) add_##name##_command,
 constexpr AddCommand kCommands[] = {SCINTRAY_COMMANDS(SCINTRAY_ENTRY)};
 constexpr AddCommand kMapCommands[] = {SCINTRAY_MAP_COMMANDS(SCINTRAY_ENTRY)};
@@ -81,7 +112,11 @@ int run_program(std::span<const AddCommand> available, int argc, const char* con
   try {
     return run_guarded([&] { app.parse(argc, argv); }, err);
   } catch (const CLI::ParseError& error) {
-    return explain(app, error, out, err);
+    const bool left_over = error.get_name() == "ExtrasError" || error.get_name() == "RequiredError";
+    const std::string unknown = left_over ? unknown_word(app) : "";
+    if (unknown.empty()) return explain(app, error, out, err);
+    err << unknown;
+    return kBadUsage;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
@@ -85,12 +86,12 @@ void add_fit_command(CLI::App& app) {
   command
       ->add_option("--photons", options->photons,
                    "photons, or rays on a surface, at each point of a curve, in place of the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--events", options->events, "events at each point, in place of the scene's")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps of the search");
   command->callback([options] {
     const InterruptGuard guard;

@@ -46,7 +46,23 @@ mesh::Tessellation tessellation_of(const SceneImportArguments& arguments) {
   return tessellation;
 }
 
+/// Refuses files of Geant4 and GATE that hold no geometry.
+void refuse_other_files(const std::filesystem::path& file) {
+  const std::string extension = mesh::lower_extension(file);
+  if (extension != ".xml" && extension != ".mac" && extension != ".db" && extension != ".toml") return;
+  throw core::InputError(core::Problem{
+      {file.string()},
+      extension == ".toml" ? "this is a scene already" : "this file holds no geometry that can be imported",
+      extension == ".toml"
+          ? "inspect it with: scintray check " + file.string()
+          : "geometry is imported from GDML, STEP and mesh files. Surfaces and materials of Geant4 and GATE "
+            "(Surfaces.xml, Materials.xml, GateMaterials.db) are written in the scene: [surfaces.NAME] with "
+            "base = "
+            "\"geant4_ground\" or another finish (docs/surfaces.md), [media.NAME] (docs/materials.md)"});
+}
+
 exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::filesystem::path& scene) {
+  refuse_other_files(arguments.file);
   const mesh::Tessellation tessellation = tessellation_of(arguments);
   if (mesh::lower_extension(arguments.file) == ".gdml") {
     if (!arguments.unit.empty())
@@ -76,6 +92,7 @@ void import_scene(const SceneImportArguments& arguments) {
   std::cout << "wrote " << scene.string();
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
   std::cout << "\n";
+  if (!draft.size.empty()) std::cout << "size " << draft.size << ": a wrong --unit shows here\n";
   for (const std::string& missing : draft.missing) std::cout << "to be filled in: " << missing << "\n";
   if (draft.missing.empty()) std::cout << "inspect it with: scintray check " << scene.string() << "\n";
 }

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
+#include <span>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
+#include "scintray/mesh/group_summary.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/import.hpp"
 
@@ -81,15 +83,21 @@ SceneDraft draft_of_model(const std::filesystem::path& file, const ModelImport& 
                       options.tessellation.deviation_mm, options.tessellation.angle_rad / core::kDegree);
     draft.toml += "# medium = \"LSO\"  # required\n# surface = \"polished\"  # required\n";
   }
-  std::set<std::string> groups(model.mesh.groups.begin(), model.mesh.groups.end());
+  const std::vector<mesh::GroupSummary> groups = mesh::summarize_groups(model.mesh);
   if (groups.size() > 1) {
     constexpr std::size_t kMost = 100;
-    std::size_t shown = 0;
-    draft.toml += "# The file's names for faces, for select = { group = \"...\" } of [[part.face]]:\n";
-    for (const std::string& group : groups)
-      if (++shown <= kMost) draft.toml += "#   " + toml_string(group) + "\n";
+    draft.toml +=
+        "# The file's names for faces, for select = { group = \"...\" } of [[part.face]], the largest "
+        "first:\n";
+    for (const mesh::GroupSummary& group : std::span(groups).first(std::min(groups.size(), kMost)))
+      draft.toml += "#   " + toml_string(group.name) + "  " + mesh::text_of(group) + "\n";
     if (groups.size() > kMost) draft.toml += fmt::format("#   and {} more\n", groups.size() - kMost);
   }
+  Eigen::AlignedBox3d box;
+  for (const core::Vec3& vertex : model.mesh.vertices) box.extend(vertex);
+  const core::Vec3 size = box.isEmpty() ? core::Vec3(core::Vec3::Zero()) : core::Vec3(box.sizes());
+  draft.size = fmt::format("{:.5g} x {:.5g} x {:.5g} mm", size.x(), size.y(), size.z());
+  draft.toml += "# Size of all bodies together: " + draft.size + "\n";
   draft.toml += "\n# [source]  # required\n# type = \"photons\"\n# region = { part = " +
                 toml_string(part_name(bodies.front().empty() ? file.stem().string() : bodies.front())) +
                 " }\n# wavelength = \"420 nm\"\n# photons = 100_000\n";

@@ -1,0 +1,29 @@
+#pragma once
+/// Size, place and direction of the groups of a mesh, for lists that users choose faces from.
+
+#include <string>
+#include <vector>
+
+#include "scintray/mesh/trimesh.hpp"
+
+namespace scintray::mesh {
+
+/// The triangles of all groups of one name.
+struct GroupSummary {
+  std::string name;
+  double area_mm2 = 0.0;
+  core::Vec3 centre = core::Vec3::Zero();  ///< of area, mm
+  core::Vec3 area_vector_mm2 =
+      core::Vec3::Zero();  ///< sum of normal times area: as long as the area when flat
+
+  /// True when all triangles have one normal, to 1e-6 of the area.
+  bool flat() const;
+};
+
+/// The groups of a mesh by name, the largest area first; of equal areas in the order of their names.
+std::vector<GroupSummary> summarize_groups(const TriMesh& mesh);
+
+/// "12.3 mm2, centre (0, 0, 1) mm, normal (0, 0, 1)", or "curved" in place of the normal.
+std::string text_of(const GroupSummary& group);
+
+}  // namespace scintray::mesh
