@@ -6,51 +6,71 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <chrono>
 #include <limits>
+
+#include "clock.hpp"
 
 namespace scintray::bench {
 
-struct RawEmbree::State {
+namespace {
+
+/// Distance (mm) from the origin at which rays start, as most rays do that start on a boundary.
+constexpr float kStartMm = 1e-5f;
+
+RTCScene make_scene(RTCDevice device, const scene::Boundary& boundary) {
+  RTCScene scene = rtcNewScene(device);
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), boundary.vertices.size()));
+  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), boundary.size()));
+  for (const core::PlainVec3& vertex : boundary.vertices)
+    for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex.vec()[axis]);
+  for (const std::uint32_t corner : boundary.corners) *corners++ = corner;
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  return scene;
+}
+
+}  // namespace
+
+/// Embree's scenes, one for each accelerator that has rays.
+struct RawEmbree::Boundaries {
+  Boundaries() : device(rtcNewDevice(nullptr)) {}
+  ~Boundaries() {
+    for (const RTCScene scene : scenes)
+      if (scene) rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Boundaries(const Boundaries&) = delete;
+  Boundaries& operator=(const Boundaries&) = delete;
+
   RTCDevice device;
-  RTCScene scene;
+  core::IdVector<core::AcceleratorId, RTCScene> scenes;
 };
 
-RawEmbree::RawEmbree(const std::vector<scene::BoundaryTriangle>& triangles) : state_(new State) {
-  state_->device = rtcNewDevice(nullptr);
-  state_->scene = rtcNewScene(state_->device);
-  rtcSetSceneBuildQuality(state_->scene, RTC_BUILD_QUALITY_HIGH);
-  RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * triangles.size()));
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
-  unsigned next = 0;
-  for (const scene::BoundaryTriangle& triangle : triangles)
-    for (const core::Vec3& vertex : triangle) {
-      for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
-      *indices++ = next++;
-    }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(state_->scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(state_->scene);
+RawEmbree::RawEmbree(const scene::Scene& scene, std::vector<RecordedRay> rays)
+    : rays_(std::move(rays)), boundaries_(std::make_unique<Boundaries>()) {
+  boundaries_->scenes.resize(scene.accelerators.size());
+  for (const RecordedRay& ray : rays_) {
+    RTCScene& mine = boundaries_->scenes[ray.accelerator];
+    if (!mine) mine = make_scene(boundaries_->device, scene.accelerators[ray.accelerator]->boundary());
+  }
 }
 
-RawEmbree::~RawEmbree() {
-  rtcReleaseScene(state_->scene);
-  rtcReleaseDevice(state_->device);
-  delete state_;
-}
+RawEmbree::~RawEmbree() = default;
 
-double RawEmbree::rays_per_second(const std::vector<RawRay>& rays) {
-  const auto start = std::chrono::steady_clock::now();
-  double sum = 0.0;
+void RawEmbree::trace_once() {
 #if !defined(RTC_VERSION_MAJOR) || RTC_VERSION_MAJOR < 4
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
 #endif
-  for (const RawRay& ray : rays) {
+  double sum_mm = 0.0;
+  std::uint64_t hits = 0;
+  for (const RecordedRay& ray : rays_) {
     RTCRayHit hit;
     hit.ray.org_x = ray.origin[0];
     hit.ray.org_y = ray.origin[1];
@@ -58,7 +78,7 @@ double RawEmbree::rays_per_second(const std::vector<RawRay>& rays) {
     hit.ray.dir_x = ray.direction[0];
     hit.ray.dir_y = ray.direction[1];
     hit.ray.dir_z = ray.direction[2];
-    hit.ray.tnear = 1e-5f;
+    hit.ray.tnear = kStartMm;
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.time = 0.0f;
     hit.ray.mask = 0xffffffffu;
@@ -66,15 +86,31 @@ double RawEmbree::rays_per_second(const std::vector<RawRay>& rays) {
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(state_->scene, &hit);
+    rtcIntersect1(boundaries_->scenes[ray.accelerator], &hit);
 #else
-    rtcIntersect1(state_->scene, &context, &hit);
+    rtcIntersect1(boundaries_->scenes[ray.accelerator], &context, &hit);
 #endif
-    if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID) sum += static_cast<double>(hit.ray.tfar);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
+    ++hits;
+    sum_mm += static_cast<double>(hit.ray.tfar);
   }
-  checksum_ = sum;
-  return static_cast<double>(rays.size()) /
-         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  hits_ = hits;
+  sum_mm_ = sum_mm;
 }
+
+double RawEmbree::rays_per_second(double seconds) {
+  if (rays_.empty()) return 0.0;
+  const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+  double elapsed = 0.0;
+  std::size_t passes = 0;
+  do {
+    trace_once();
+    ++passes;
+    elapsed = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+  } while (elapsed < seconds);
+  return static_cast<double>(passes * rays_.size()) / elapsed;
+}
+
+const char* embree_version() { return RTC_VERSION_STRING; }
 
 }  // namespace scintray::bench

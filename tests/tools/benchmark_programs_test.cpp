@@ -1,0 +1,95 @@
+// Two benchmark programs that trace in turns, and the lines that they exchange.
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "child_program.hpp"
+#include "pairing.hpp"
+#include "scintray/core/error.hpp"
+#include "server.hpp"
+#include "support/folders.hpp"
+
+using namespace scintray;
+using namespace scintray::bench;
+
+namespace {
+
+/// Answers of a server to requests.
+std::vector<std::string> answers_to(const std::vector<std::string>& requests) {
+  std::stringstream in, out;
+  for (const std::string& request : requests) in << request << '\n';
+  serve(in, out);
+  std::vector<std::string> answers;
+  for (std::string line; std::getline(out, line);) answers.push_back(line);
+  return answers;
+}
+
+std::string bench_program() { return (test::build_folder() / "bin" / "scintray_bench").string(); }
+
+}  // namespace
+
+TEST_CASE("A server answers each request with a line, and goes on after an error") {
+  const auto answers =
+      answers_to({trace_request("polished", 64, 1), trace_request("polishd", 64, 1), "nonsense",
+                  calibration_request("polished", 1e-6), trace_request("polished", 64, 2)});
+  REQUIRE(answers.size() == 5);
+  const Trace trace = trace_of_answer(answers[0]);
+  CHECK(trace.photons == 64);
+  CHECK(trace.events == 0);
+  CHECK(trace.segments > 64);
+  CHECK_THROWS_AS(trace_of_answer(answers[1]), core::InputError);
+  CHECK_THROWS_AS(trace_of_answer(answers[2]), core::InputError);
+  CHECK(work_of_answer(answers[3]) == 8192);  // never less than eight blocks
+  CHECK(trace_of_answer(answers[4]).segments == trace.segments);
+}
+
+TEST_CASE("An answer of another program is refused") {
+  CHECK_THROWS_AS(trace_of_answer("usage: something"), core::InputError);
+  CHECK_THROWS_AS(work_of_answer("[]"), core::InputError);
+}
+
+TEST_CASE(
+    "Paired figures are the other's time over this one's: processor time of one thread, else elapsed time") {
+  const Trace mine{.segments = 100, .wall_s = 2.0, .cpu_s = 1.0};
+  Trace other{.segments = 100, .wall_s = 6.0, .cpu_s = 1.5};
+  CHECK(paired_figures("s", 1, {mine}, {other}).ratio.median == 1.5);
+  CHECK(paired_figures("s", 2, {mine}, {other}).ratio.median == 3.0);
+  CHECK(paired_figures("s", 1, {mine}, {other}).segments_per_s == 100.0);
+  CHECK(paired_figures("s", 1, {mine}, {other}).same_photons);
+  other.segments = 101;
+  CHECK_FALSE(paired_figures("s", 1, {mine}, {other}).same_photons);
+}
+
+TEST_CASE(
+    "A program compared with itself traces the same photons; a scene that one lacks is said to be missing") {
+  MeasureSettings settings;
+  settings.seconds = 0.01;
+  settings.rounds = 2;
+  BenchScene missing = scene_named("polished");
+  missing.name = "missing";
+  std::size_t seen = 0;
+  const auto pairs = pair_programs(bench_program(), bench_program(), {missing, scene_named("polished")},
+                                   settings, [&](const PairedFigures&) { ++seen; });
+  REQUIRE(pairs.size() == 3);
+  CHECK(seen == 3);
+  CHECK(pairs[0].trouble.find("\"missing\"") != std::string::npos);
+  CHECK(text_of_pair(pairs[0]).find("\"missing\"") != std::string::npos);
+  for (std::size_t i = 1; i < 3; ++i) {
+    CHECK(pairs[i].scene == "polished");
+    CHECK(pairs[i].threads == static_cast<int>(i));
+    CHECK(pairs[i].same_photons);
+    CHECK(pairs[i].ratio.values.size() == 2);
+  }
+}
+
+TEST_CASE("A program beside this one reads and writes lines, and one that does not exist is an error") {
+  ChildProgram program({"cat"});
+  program.write_line("one");
+  program.write_line("two");
+  CHECK(program.read_line() == "one");
+  CHECK(program.read_line() == "two");
+  ChildProgram ended({"true"});
+  CHECK_FALSE(ended.read_line().has_value());
+  CHECK_THROWS_AS(ChildProgram({"/nowhere/program"}), core::SystemError);
+}

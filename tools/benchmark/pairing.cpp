@@ -1,0 +1,148 @@
+#include "pairing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "child_program.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/core/version.hpp"
+#include "server.hpp"
+
+namespace scintray::bench {
+
+namespace {
+
+std::string ask(ChildProgram& program, const std::string& request) {
+  program.write_line(request);
+  const auto answer = program.read_line();
+  if (!answer) throw core::SystemError("a benchmark program has ended before its answer");
+  return *answer;
+}
+
+/// The numbers of threads to be measured, one first.
+std::vector<int> thread_numbers(const MeasureSettings& settings) {
+  std::vector<int> numbers{1};
+  for (const int threads : settings.threads)
+    if (threads != 1) numbers.push_back(threads);
+  return numbers;
+}
+
+/// The two programs on one scene.
+class Pair {
+ public:
+  Pair(const std::string& self, const std::string& other, std::string scene)
+      : scene_(std::move(scene)), mine_({self, "--serve"}), other_({other, "--serve"}) {}
+
+  /// Work that takes this time; both programs have built the scene and are warm.
+  std::uint64_t calibrate(double seconds) {
+    const std::uint64_t work = work_of_answer(ask(mine_, calibration_request(scene_, seconds)));
+    trace(other_, work, 1);
+    return work;
+  }
+
+  PairedFigures measure(std::uint64_t work, int threads, int rounds) {
+    std::vector<Trace> mine, others;
+    for (int round = 0; round < rounds; ++round) {
+      const bool mine_first = round % 2 == 0;
+      if (mine_first) mine.push_back(trace(mine_, work, threads));
+      others.push_back(trace(other_, work, threads));
+      if (!mine_first) mine.push_back(trace(mine_, work, threads));
+    }
+    return paired_figures(scene_, threads, mine, others);
+  }
+
+ private:
+  Trace trace(ChildProgram& program, std::uint64_t work, int threads) {
+    return trace_of_answer(ask(program, trace_request(scene_, work, threads)));
+  }
+
+  std::string scene_;
+  ChildProgram mine_, other_;
+};
+
+}  // namespace
+
+PairedFigures paired_figures(const std::string& scene, int threads, const std::vector<Trace>& mine,
+                             const std::vector<Trace>& others) {
+  PairedFigures figures;
+  figures.scene = scene;
+  figures.threads = threads;
+  std::vector<double> my_s, other_s, speeds;
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    my_s.push_back(threads == 1 ? mine[i].cpu_s : mine[i].wall_s);
+    other_s.push_back(threads == 1 ? others[i].cpu_s : others[i].wall_s);
+    speeds.push_back(static_cast<double>(mine[i].segments) / my_s.back());
+    figures.same_photons = figures.same_photons && mine[i].segments == others[i].segments;
+  }
+  figures.ratio = paired_ratio(other_s, my_s);
+  figures.segments_per_s = spread_of(speeds).median;
+  return figures;
+}
+
+std::vector<PairedFigures> pair_programs(const std::string& self, const std::string& other,
+                                         const std::vector<BenchScene>& scenes,
+                                         const MeasureSettings& settings,
+                                         const std::function<void(const PairedFigures&)>& done) {
+  const std::vector<int> numbers = thread_numbers(settings);
+  std::vector<PairedFigures> pairs;
+  const auto add = [&](const PairedFigures& figures) {
+    pairs.push_back(figures);
+    done(figures);
+  };
+  for (const BenchScene& scene : scenes) {
+    try {
+      Pair pair(self, other, scene.name);
+      const double turn_s = settings.seconds / (2.0 * settings.rounds * static_cast<double>(numbers.size()));
+      const std::uint64_t work = pair.calibrate(turn_s);
+      for (const int threads : numbers) add(pair.measure(work, threads, settings.rounds));
+    } catch (const core::InputError& error) {
+      PairedFigures figures;
+      figures.scene = scene.name;
+      figures.trouble = error.problems().front().what;
+      add(figures);
+    }
+  }
+  return pairs;
+}
+
+std::string pair_headings() {
+  return fmt::format("{:<18}  {:>7}  {:>10}  {:>12}  {:>16}\n", "scene", "threads", "Mseg/s", "this / other",
+                     "quartiles");
+}
+
+std::string text_of_pair(const PairedFigures& pair) {
+  if (!pair.trouble.empty()) return fmt::format("{:<18}  not compared: {}\n", pair.scene, pair.trouble);
+  return fmt::format("{:<18}  {:>7}  {:>10.2f}  {:>12.3f}  {:>7.3f} to {:.3f}{}\n", pair.scene, pair.threads,
+                     pair.segments_per_s / 1e6, pair.ratio.median, pair.ratio.low, pair.ratio.high,
+                     pair.same_photons ? "" : "  (photons differ)");
+}
+
+std::string json_of_pairs(const std::string& other, const std::vector<PairedFigures>& pairs) {
+  using nlohmann::json;
+  json list = json::array();
+  for (const PairedFigures& pair : pairs) {
+    if (!pair.trouble.empty()) {
+      list.push_back({{"scene", pair.scene}, {"trouble", pair.trouble}});
+      continue;
+    }
+    list.push_back({{"scene", pair.scene},
+                    {"threads", pair.threads},
+                    {"segments_per_s", pair.segments_per_s},
+                    {"same_photons", pair.same_photons},
+                    {"ratio",
+                     {{"median", pair.ratio.median},
+                      {"low", pair.ratio.low},
+                      {"high", pair.ratio.high},
+                      {"values", pair.ratio.values}}}});
+  }
+  const json node = {{"format", "scintray benchmark pairs"},
+                     {"format_version", 1},
+                     {"version", core::version()},
+                     {"other", other},
+                     {"pairs", list}};
+  return node.dump(1) + "\n";
+}
+
+}  // namespace scintray::bench
