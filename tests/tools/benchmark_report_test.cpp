@@ -18,7 +18,7 @@ namespace {
 /// A report of one scene, all of whose optional figures are there, and of one that has none of them.
 Report made_up_report(double segments_per_s) {
   const auto about = [](double value) { return spread_of({0.9 * value, value, 1.1 * value}); };
-  RunFigures one{.lane_width = 1, .threads = 1};
+  RunFigures one;
   one.segments_per_s = about(segments_per_s);
   one.photons_per_s = about(segments_per_s / 10);
   one.processor_share = about(1.0);
@@ -92,10 +92,10 @@ TEST_CASE("The JSON of a report has the documented keys") {
     CHECK_MESSAGE(run.contains(key), key);
   for (const char* key : {"median", "low", "high", "values"})
     CHECK_MESSAGE(run.at("segments_per_s").contains(key), key);
-  CHECK(scene.at("work").at("by") == "line");
+  CHECK(scene.at("work").at("by").get<std::string>() == "line");
   for (const auto& kind : kWorkKinds)
     CHECK_MESSAGE(scene.at("work").at("shares").contains(kind.word), kind.word);
-  CHECK(scene.at("work").at("shares").at("ray query") == 0.75);
+  CHECK(scene.at("work").at("shares").at("ray query").get<double>() == 0.75);
   // A scene has no keys for what was not measured.
   CHECK_FALSE(node.at("scenes").at(1).contains("work"));
   CHECK_FALSE(node.at("scenes").at(1).at("runs").at(0).contains("speedup"));
