@@ -105,7 +105,7 @@ class SurfaceTable : public MicrosurfaceModel {
   /// Two per slice: from inside, from outside.
   using Samplers = std::vector<TableSampler>;
   /// Equal copies, distributed over threads: two threads that read the same copy take 2 to 4 % longer, since
-  /// its cache lines are then shared between cores (tools/bench crystal).
+  /// its cache lines are then shared between cores (tools/bench --scene table).
   std::vector<Samplers> samplers_;
   std::vector<double> wavelengths_nm_;
   std::size_t azimuths_ = 1;

@@ -37,7 +37,7 @@ constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
 constexpr int kMostSelfHits = 2;
 
 /// Single rays do not profit from the widest vectors, which lower the clock frequency: with them a step in a
-/// box takes 3 % longer (tools/bench crystal), one in a million triangles as long.
+/// box takes 3 % longer (tools/bench --scene polished_embree), one in a million triangles as long.
 constexpr const char* kDevice = "set_affinity=0,max_isa=avx2";
 
 /// Number of triangles from which Embree builds its hierarchy without splitting them.

@@ -74,7 +74,7 @@ class StoredPropagation {
 /// A photon between Embree's walls, in registers. The latency is that of Embree and then of the numbers of
 /// the next ray, so the next ray starts from Embree's own hit, in single precision, while the exact one is
 /// computed beside it; every segment starts again from exact numbers. No address of a member that changes may
-/// be taken, which would place it in memory. tools/bench crystal measures the gain.
+/// be taken, which would place it in memory. tools/bench --scene polished_embree measures the gain.
 class EmbreePropagation {
  public:
   EmbreePropagation(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
