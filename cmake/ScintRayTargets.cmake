@@ -8,6 +8,8 @@ target_compile_options(scintray_options INTERFACE
   # GCC 12 takes temporaries of a throw expression for uninitialised, and "literal" + std::string for
   # overlapping memory (its bugs 105562 and 105651).
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-restrict>>
+  # A product and a sum are two operations everywhere: results have the same bits on every processor.
+  $<BUILD_INTERFACE:-ffp-contract=off>
   # Nothing here asks errno about a square root.
   $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)

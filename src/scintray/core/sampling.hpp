@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "scintray/core/elementary.hpp"
 #include "scintray/core/philox.hpp"
 #include "scintray/core/vec.hpp"
 
@@ -13,8 +14,8 @@ namespace scintray::core {
 inline Vec3 sample_isotropic(Rng& rng) {
   const double cosine = 2.0 * rng.uniform() - 1.0;
   const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const double azimuth = kTwoPi * rng.uniform();
-  return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+  const SineCosine azimuth = sincos_of_turn(rng.uniform());
+  return {sine * azimuth.cosine, sine * azimuth.sine, cosine};
 }
 
 /// Unit vector at the polar angle of cosine `cosine` from the unit vector `axis`, at an azimuth about it.
@@ -29,9 +30,9 @@ inline Vec3 turned(const Vec3& axis, double cosine, double azimuth_rad) {
 inline Vec3 sample_lambertian(const Vec3& normal, Rng& rng) {
   const double sine2 = rng.uniform();
   const double sine = std::sqrt(sine2);
-  const double azimuth = kTwoPi * rng.uniform();
+  const SineCosine azimuth = sincos_of_turn(rng.uniform());
   const Frame frame = Frame::about(normal);
-  return sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y +
+  return sine * azimuth.cosine * frame.x + sine * azimuth.sine * frame.y +
          std::sqrt(1.0 - sine2) * frame.z;
 }
 
@@ -55,12 +56,12 @@ inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
 }
 
 /// Exponential deviate with mean 1.
-inline double sample_exponential(Rng& rng) { return -std::log(rng.uniform_positive()); }
+inline double sample_exponential(Rng& rng) { return -log(rng.uniform_positive()); }
 
 /// Standard normal deviate (Box and Muller 1958).
 inline double sample_normal(Rng& rng) {
-  const double radius = std::sqrt(-2.0 * std::log(rng.uniform_positive()));
-  return radius * std::cos(kTwoPi * rng.uniform());
+  const double radius = std::sqrt(-2.0 * log(rng.uniform_positive()));
+  return radius * sincos_of_turn(rng.uniform()).cosine;
 }
 
 /// Gamma deviate with mean 1 and standard deviation `spread` above 0 (G. Marsaglia and W. W. Tsang 2000,

@@ -220,9 +220,9 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
   if (const ReciprocalKernel* kernel = slices_[slice].reciprocal.get()) {
     const ReciprocalKernel::Sample exit = kernel->sample(side, std::min(1.0, sine * sine), rng);
     const double cos2 = std::max(1.0 - exit.sine2, kLeastCosine * kLeastCosine);
-    const double sin_turn = std::sin(exit.turn);
+    const core::SineCosine turn = core::sincos(exit.turn);
     return leave(exit.side, std::sqrt(1.0 - cos2), std::sqrt(cos2),
-                 (rng.bits() & 1) != 0 ? sin_turn : -sin_turn, std::cos(exit.turn));
+                 (rng.bits() & 1) != 0 ? turn.sine : -turn.sine, turn.cosine);
   }
   const Samplers& samplers = samplers_[core::thread_slot() % samplers_.size()];
   const TableSampler& sampler = samplers[2 * slice + static_cast<std::size_t>(side)];
@@ -235,12 +235,11 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
     return SurfaceOutcome::absorbed;
   const ExitAngles exit = sampler.sample(at, reflected, rng);
 
-  // Cosines in single precision, as the table holds the angles, with sines that match them exactly. A
-  // direction exactly in the surface would be on neither side.
-  const double cos_polar = std::max<double>(std::cos(exit.polar), kLeastCosine);
-  const double cos_azimuth = std::cos(exit.azimuth);
-  return leave(reflected ? side : other(side), std::sqrt(1.0 - cos_polar * cos_polar), cos_polar,
-               std::copysign(std::sqrt(1.0 - cos_azimuth * cos_azimuth), exit.azimuth), cos_azimuth);
+  core::SineCosine polar = core::sincos(exit.polar);
+  // A direction exactly in the surface would be on neither side.
+  if (polar.cosine < kLeastCosine) polar = {1.0, kLeastCosine};
+  const core::SineCosine azimuth = core::sincos(exit.azimuth);
+  return leave(reflected ? side : other(side), polar.sine, polar.cosine, azimuth.sine, azimuth.cosine);
 }
 
 SurfaceOutcome SurfaceTable::scatter(Ray& ray, Side side, const IndexPair&,

@@ -71,14 +71,18 @@ inline double UnifiedSurface::sample_facet_angle(core::Rng& rng) const {
     }
     // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
     const double alpha = sigma * std::sqrt(2.0 * core::sample_exponential(rng));
-    if (alpha < 0.5 * core::kPi && rng.uniform() * alpha <= std::sin(alpha)) return alpha;
+    if (alpha < 0.5 * core::kPi && rng.uniform() * alpha <= core::sincos(alpha).sine) return alpha;
   }
 }
 
 inline double UnifiedSurface::greatest_facing(double cos_incidence) const {
   const double widest = kWidestFacet_sigma * sigma_alpha_rad;
-  const double incidence = std::acos(std::clamp(cos_incidence, 0.0, 1.0));
-  return incidence <= widest ? 1.0 : std::cos(incidence - widest);
+  if (widest >= 0.5 * core::kPi) return 1.0;
+  const core::SineCosine of_widest = core::sincos(widest);
+  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
+  if (cosine >= of_widest.cosine) return 1.0;
+  // The cosine of the incidence less the widest angle.
+  return cosine * of_widest.cosine + std::sqrt(1.0 - cosine * cosine) * of_widest.sine;
 }
 
 inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
@@ -89,10 +93,10 @@ inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::
   for (;;) {
     const double alpha = sample_facet_angle(rng);
     if (weighted && alpha > kWidestFacet_sigma * sigma_alpha_rad) continue;
-    const double azimuth = core::kTwoPi * rng.uniform();
-    const double sine = std::sin(alpha);
+    const core::SineCosine azimuth = core::sincos_of_turn(rng.uniform());
+    const core::SineCosine tilt = core::sincos(alpha);
     const core::Vec3 m =
-        sine * std::cos(azimuth) * frame.x + sine * std::sin(azimuth) * frame.y + std::cos(alpha) * frame.z;
+        tilt.sine * azimuth.cosine * frame.x + tilt.sine * azimuth.sine * frame.y + tilt.cosine * frame.z;
     const double facing = -k.dot(m);
     if (facing <= 0.0) continue;
     if (weighted && rng.uniform() * bound > facing) continue;
