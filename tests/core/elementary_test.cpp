@@ -64,10 +64,10 @@ TEST_CASE("The logarithm is within one unit in the last place of that in extende
     const double x = std::exp(80.0 * rng.uniform() - 40.0);
     const auto exact = static_cast<double>(std::log(static_cast<long double>(x)));
     const double unit = std::nextafter(std::abs(exact), INFINITY) - std::abs(exact);
-    worst = std::max(worst, std::abs(log(x) - exact) / unit);
+    worst = std::max(worst, std::abs(scintray::core::log(x) - exact) / unit);
   }
   CHECK(worst <= 1.0);
-  CHECK(log(1.0) == 0.0);
+  CHECK(scintray::core::log(1.0) == 0.0);
 }
 
 TEST_CASE("The bits of the elementary functions are the same on every processor") {
@@ -75,7 +75,7 @@ TEST_CASE("The bits of the elementary functions are the same on every processor"
   std::uint64_t logarithms = 0, sines = 0;
   for (int i = 1; i <= 1000; ++i) {
     const double x = i / 1001.0;
-    logarithms += std::bit_cast<std::uint64_t>(log(x));
+    logarithms += std::bit_cast<std::uint64_t>(scintray::core::log(x));
     sines += std::bit_cast<std::uint64_t>(sincos_of_turn(x).sine);
     sines += std::bit_cast<std::uint64_t>(sincos(10.0 * x).cosine);
   }

@@ -105,7 +105,7 @@ TEST_CASE("A scene is measured in rounds with every number of threads, a pair of
   for (std::size_t i = 0; i < 3; ++i) {
     const RunFigures& run = figures.runs[i];
     CHECK(run.threads == static_cast<int>(i) + 1);
-    CHECK(run.lane_width == 1);
+    CHECK(run.lane_width == workload.point().lane_width());
     CHECK(run.segments_per_s.values.size() == 3);
     CHECK(run.speedup.has_value() == (i > 0));
     CHECK(run.cpu_cost.has_value() == (i > 0));

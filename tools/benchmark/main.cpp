@@ -19,6 +19,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
+#include "scintray/transport/lane_width.hpp"
 #include "server.hpp"
 
 namespace {
@@ -43,6 +44,9 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_option("--lane-width", measure.lane_width,
+                 "photons propagated at once, where a scene allows it; by default the widest up to 4")
+      ->check(CLI::IsMember(transport::lane_widths()));
   app.add_option("--seconds", measure.seconds, "timed tracing per scene, about")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
@@ -71,14 +75,16 @@ void list_scenes(const std::vector<BenchScene>& scenes) {
 /// Workloads of scenes that others are compared with, each built once and kept.
 class References {
  public:
+  explicit References(std::optional<int> lane_width) : lane_width_(lane_width) {}
   const Workload* of(const BenchScene& scene) {
     if (scene.relative_to.empty()) return nullptr;
     auto& mine = built_[scene.relative_to];
-    if (!mine) mine = std::make_unique<Workload>(scene_named(scene.relative_to));
+    if (!mine) mine = std::make_unique<Workload>(scene_named(scene.relative_to), lane_width_);
     return mine.get();
   }
 
  private:
+  std::optional<int> lane_width_;
   std::map<std::string, std::unique_ptr<const Workload>> built_;
 };
 
@@ -104,11 +110,11 @@ Report measure_all(const std::vector<BenchScene>& scenes, const MeasureSettings&
   report.machine = this_machine();
   report.seconds = settings.seconds;
   report.rounds = settings.rounds;
-  References references;
+  References references(settings.lane_width);
   std::vector<std::vector<std::uintptr_t>> samples(scenes.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     std::cerr << fmt::format("[{}/{}] {}\n", i + 1, scenes.size(), scenes[i].name);
-    const Workload workload(scenes[i]);
+    const Workload workload(scenes[i], settings.lane_width);
     report.scenes.push_back(measure(scenes[i], workload, references.of(scenes[i]), settings, samples[i]));
   }
   attribute_all(report, samples);

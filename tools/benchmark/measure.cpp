@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lane_width.hpp"
 #include "raw_embree.hpp"
 
 namespace scintray::bench {
@@ -108,7 +107,7 @@ class Rounds {
     const std::vector<Trace>&traces = traces_[number], &one = traces_.front();
     const int threads = threads_[number];
     RunFigures figures;
-    figures.lane_width = kLaneWidth;
+    figures.lane_width = workload_.point().lane_width();
     figures.threads = threads;
     figures.segments_per_s = rate(traces, threads, &Trace::segments);
     figures.photons_per_s = rate(traces, threads, &Trace::photons);

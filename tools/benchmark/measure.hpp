@@ -9,10 +9,11 @@
 namespace scintray::bench {
 
 struct MeasureSettings {
-  double seconds = 2.0;         ///< timed tracing per scene, about
-  int rounds = 9;               ///< at most; at least 3 are made
-  std::vector<int> threads{2};  ///< beside one thread
-  bool profile = true;          ///< sample the kinds of work, in a run of their own
+  double seconds = 2.0;           ///< timed tracing per scene, about
+  int rounds = 9;                 ///< at most; at least 3 are made
+  std::vector<int> threads{2};    ///< beside one thread
+  std::optional<int> lane_width;  ///< of transport::lane_widths(); nothing: the default
+  bool profile = true;            ///< sample the kinds of work, in a run of their own
 };
 
 /// Work of one measurement.

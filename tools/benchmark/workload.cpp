@@ -53,8 +53,10 @@ std::unique_ptr<const simulation::SimulationPoint> build_point(scene_file::Scene
   return std::make_unique<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 
-std::unique_ptr<const simulation::SimulationPoint> build_scene(const BenchScene& scene) {
+std::unique_ptr<const simulation::SimulationPoint> build_scene(const BenchScene& scene,
+                                                               std::optional<int> lane_width) {
   scene_file::SceneSpec spec = spec_of(scene);
+  spec.run.lane_width = lane_width;
   if (!scene.mesh) return build_point(std::move(spec));
   const MeshFile file(scene.mesh());
   spec.parts.front().shape = file.shape();
@@ -63,10 +65,10 @@ std::unique_ptr<const simulation::SimulationPoint> build_scene(const BenchScene&
 
 }  // namespace
 
-Workload::Workload(const BenchScene& scene) {
+Workload::Workload(const BenchScene& scene, std::optional<int> lane_width) {
   const double before_MB = resident_megabytes();
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  point_ = build_scene(scene);
+  point_ = build_scene(scene, lane_width);
   build_.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   build_.megabytes = resident_megabytes() - before_MB;
 }

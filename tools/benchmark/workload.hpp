@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "scene_list.hpp"
 #include "scintray/simulation/simulation_point.hpp"
@@ -29,7 +30,8 @@ struct BuildCost {
 class Workload {
  public:
   /// Builds the scene. @throws InputError for errors in its file
-  explicit Workload(const BenchScene& scene);
+  /// @param lane_width  of transport::lane_widths(); nothing: the default
+  explicit Workload(const BenchScene& scene, std::optional<int> lane_width = {});
 
   /// Traces the first photons, or the first events of an event source, of the scene.
   /// @param work     number of photons or events, at least 1

@@ -32,8 +32,7 @@ inline Vec3 sample_lambertian(const Vec3& normal, Rng& rng) {
   const double sine = std::sqrt(sine2);
   const SineCosine azimuth = sincos_of_turn(rng.uniform());
   const Frame frame = Frame::about(normal);
-  return sine * azimuth.cosine * frame.x + sine * azimuth.sine * frame.y +
-         std::sqrt(1.0 - sine2) * frame.z;
+  return sine * azimuth.cosine * frame.x + sine * azimuth.sine * frame.y + std::sqrt(1.0 - sine2) * frame.z;
 }
 
 /// A point of the unit circle, uniform in angle, without trigonometry: twice the angle of a point that

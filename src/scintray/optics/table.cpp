@@ -5,6 +5,7 @@
 #include <span>
 #include <thread>
 
+#include "scintray/core/elementary.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/thread_slot.hpp"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/core/elementary.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/microsurface.hpp"
 

@@ -172,6 +172,22 @@ Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles, bool clos
   return boundary;
 }
 
+/// Brings planes of exactly opposite normals together, before all others. @return their number
+std::uint32_t pair_opposite(std::vector<BoundingPlane>& planes) {
+  auto paired = planes.begin();
+  for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
+    const auto opposite = std::find_if(plane + 1, planes.end(), [&](const BoundingPlane& other) {
+      return other.normal == core::PlainVec3(-plane->normal);
+    });
+    if (opposite == planes.end()) continue;
+    std::rotate(paired, plane, plane + 1);
+    std::rotate(paired + 1, opposite, opposite + 1);
+    paired += 2;
+    plane = paired - 1;
+  }
+  return static_cast<std::uint32_t>(paired - planes.begin());
+}
+
 /// Sets the planes of a convex region with few of them; false for any other region.
 bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
   if (!boundary.closed || boundary.size() == 0) return false;
@@ -208,6 +224,7 @@ bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
     plane_triangles.insert(plane_triangles.end(), on[i].begin(), on[i].end());
     plane.triangles_end = static_cast<std::uint32_t>(plane_triangles.size());
   }
+  boundary.opposite_planes = pair_opposite(planes);
   boundary.planes = std::move(planes);
   boundary.plane_triangles = std::move(plane_triangles);
   return true;

@@ -40,6 +40,7 @@ struct Boundary {
   std::vector<std::uint32_t> corners;     ///< three a triangle, indices into `vertices`
   std::vector<TrianglePlane> triangle_planes;
   std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
+  std::uint32_t opposite_planes = 0;           ///< of these, the first: two by two with opposite normals
   std::vector<std::uint32_t> plane_triangles;  ///< ranges of BoundingPlane
   double size_mm = 0.0;                        ///< diagonal of the bounding box
   bool closed = true;                          ///< false for the ambient region

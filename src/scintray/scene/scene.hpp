@@ -105,9 +105,12 @@ struct Region {
   core::MediumId medium;
   core::PartId part;  ///< none: the ambient space
   core::AcceleratorId accelerator;
-  std::uint32_t first_link = 0;                             ///< of its triangles', in SceneRecords::links
-  bool rotated = false;                                     ///< `rotation` is not the identity
-  core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());  ///< origin of the region's frame, mm
+  std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
+  bool rotated = false;          ///< `rotation` is not the identity
+  /// Photons may be propagated in lanes, and gain by it: not rotated, bounded by planes, and most of the
+  /// boundary smooth, so that they are often totally reflected.
+  bool in_lanes = false;
+  core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
 
   core::Vec3 point_to_local(const core::PlainVec3& p) const {

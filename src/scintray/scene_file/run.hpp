@@ -26,6 +26,8 @@ struct RunSpec {
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
   std::optional<double> max_time_ns;
   std::optional<int> threads;  ///< nothing: all cores
+  /// Photons propagated at once, of transport::lane_widths(). No result depends on it, and no key sets it.
+  std::optional<int> lane_width;
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
   bool photon_list = false;      ///< write every detected photon to the results

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "scintray/tally/event_tally.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/in_order.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -20,12 +21,36 @@ struct Block {
   std::uint64_t started = 0;  ///< photons
 };
 
+/// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
+constexpr std::size_t kMostTogether = 8192;
+
+/// True when light may be re-emitted at another wavelength.
+bool shifts_light(const scene::Scene& scene) {
+  return std::any_of(scene.optics.media.begin(), scene.optics.media.end(),
+                     [](const scene::MediumRecord& medium) { return medium.shifts; }) ||
+         std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                     [](const optics::Surface& surface) { return surface.shifts(); });
+}
+
+/// True when light starts where photons are propagated in lanes. Elsewhere each is traced alone, which is
+/// then faster.
+bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& source) {
+  const std::vector<core::RegionId> regions = source.regions();
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](core::RegionId region) { return scene.regions[region].in_lanes; });
+}
+
 /// Traces the blocks of one point.
 class BlockTracer {
  public:
   BlockTracer(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
               const RunSettings& settings)
-      : scene_(scene), source_(source), plan_(plan), settings_(settings), energy_(source.has_energy()) {}
+      : scene_(scene),
+        source_(source),
+        plan_(plan),
+        settings_(settings),
+        energy_(source.has_energy()),
+        lane_width_(lane_width_of(scene, source, plan, settings)) {}
 
   Block trace(std::uint64_t number) const {
     Block block(scene_, plan_);
@@ -33,6 +58,10 @@ class BlockTracer {
       block.photons.pass(photon, passed);
     };
     transport::PropagationLimits limits = limits_of(settings_);
+    if (lane_width_ > 1) {
+      trace_together(source_.block(number), limits, block);
+      return block;
+    }
     if (block.photons.wants_reflections()) limits.passed = pass;
     source::EventLight light;
     for (const source::PhotonSpan& span : source_.block(number)) {
@@ -51,6 +80,61 @@ class BlockTracer {
   }
 
  private:
+  /// A photon of the block.
+  struct Address {
+    std::uint64_t event = 0, photon = 0;
+  };
+
+  /// Traces photons of which only the ends are recorded. Events of energy are traced one by one.
+  void trace_together(const std::vector<source::PhotonSpan>& spans,
+                      const transport::PropagationLimits& limits, Block& block) const {
+    transport::Batch batch(scene_, limits, lane_width_);
+    source::EventLight light;
+    std::vector<Address> photons;
+    for (const source::PhotonSpan& span : spans) {
+      core::Rng rng = event_stream(settings_, span.event);
+      source_.begin(scene_, span.event, rng, light);
+      if (energy_) block.events.begin(span.event, settings_.point, light);
+      const std::uint64_t count = std::min(span.count, light.photons - span.first);
+      for (std::uint64_t i = 0; i < count; ++i) {
+        photons.push_back({span.event, span.first + i});
+        if (photons.size() == kMostTogether) trace_together(photons, light, batch, block);
+      }
+      if (!energy_) continue;
+      trace_together(photons, light, batch, block);
+      block.events.end([&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
+    }
+    trace_together(photons, light, batch, block);
+  }
+
+  /// Traces the photons, and removes them from the list.
+  /// @param light  of their event; for a source of photons of any event
+  void trace_together(std::vector<Address>& photons, const source::EventLight& light, transport::Batch& batch,
+                      Block& block) const {
+    const auto stream = [&](std::uint64_t i) {
+      return photon_stream(settings_, photons[i].event, photons[i].photon);
+    };
+    const auto emit = [&](std::uint64_t i, core::Rng& rng) {
+      return source_.emit(scene_, light, photons[i].photon, rng);
+    };
+    const std::vector<transport::TracedPhoton>& traced = batch.trace(photons.size(), stream, emit);
+    tally::BlockTally& tally = block.photons;
+    tally.count_steps(batch.counts().segments, batch.counts().resolved);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+      const transport::TracedPhoton& end = traced[i];
+      tally.start(photons[i].event, photons[i].photon);
+      if (end.cut) {
+        tally.cut(end.photon, *end.cut);
+        continue;
+      }
+      tally.end(end.photon, end.last, settings_.point);
+      if (energy_ && end.last.event == core::StepEvent::detected)
+        block.events.detected(plan_.channels.at(end.last), end.photon);
+    }
+    block.started += photons.size();
+    photons.clear();
+  }
+
   void trace_photon(const source::EventLight& light, std::uint64_t event, std::uint64_t number,
                     const transport::PropagationLimits& limits, Block& block) const {
     core::Rng rng = photon_stream(settings_, event, number);
@@ -75,6 +159,7 @@ class BlockTracer {
   const tally::TallyPlan& plan_;
   const RunSettings& settings_;
   bool energy_;
+  int lane_width_;
 };
 
 void check_every_photon_has_a_fate(tally::PointResult& result, std::uint64_t traced) {
@@ -98,6 +183,12 @@ core::Rng event_stream(const RunSettings& settings, std::uint64_t event) {
 
 core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel) {
   return core::Rng(settings.seed, core::StreamKind::sensor, event, channel, settings.point);
+}
+
+int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
+                  const RunSettings& settings) {
+  const bool ends_only = plan.counts.empty() && !plan.history && !shifts_light(scene);
+  return ends_only && starts_in_lanes(scene, source) ? settings.lane_width : 1;
 }
 
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,

@@ -8,6 +8,7 @@
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/transport/lane_width.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -16,10 +17,11 @@ class MappedResponse;
 
 struct RunSettings {
   std::uint64_t seed = 1;
-  std::uint32_t point = 0;                   ///< sweep point: each has its own random streams
-  std::uint64_t max_interactions = 100'000;  ///< boundary interactions after which a photon is cut
-  std::optional<double> max_time_ns;         ///< time after which a photon is cut
-  int threads = 0;                           ///< 0: all cores
+  std::uint32_t point = 0;                           ///< sweep point: each has its own random streams
+  std::uint64_t max_interactions = 100'000;          ///< boundary interactions after which a photon is cut
+  std::optional<double> max_time_ns;                 ///< time after which a photon is cut
+  int threads = 0;                                   ///< 0: all cores
+  int lane_width = transport::default_lane_width();  ///< of transport::lane_widths(); no result depends on it
 };
 
 /// Callbacks during a run. Any may be empty. All are called from one thread at a time.
@@ -47,6 +49,11 @@ inline transport::PropagationLimits limits_of(const RunSettings& settings) {
   if (settings.max_time_ns) limits.time_ns = *settings.max_time_ns;
   return limits;
 }
+
+/// Number of photons that a run of this source propagates at once: settings.lane_width where light starts in
+/// regions that gain by it and nothing is recorded of a photon but its end, else 1. No result depends on it.
+int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
+                  const RunSettings& settings);
 
 /// Result of all photons of a source. It does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream and blocks are merged in order. A stopped run contains

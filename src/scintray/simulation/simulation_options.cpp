@@ -9,6 +9,7 @@ RunSettings run_settings(const scene_file::RunSpec& run, std::uint32_t point) {
   settings.max_interactions = run.max_interactions;
   settings.max_time_ns = run.max_time_ns;
   settings.threads = run.threads.value_or(0);
+  if (run.lane_width) settings.lane_width = *run.lane_width;
   return settings;
 }
 

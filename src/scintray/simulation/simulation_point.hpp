@@ -43,6 +43,8 @@ class SimulationPoint {
   std::uint64_t work() const { return source_->has_energy() ? source_->events() : source_->photons(); }
   /// Seed, limits, threads and random streams.
   const RunSettings& settings() const { return settings_; }
+  /// Number of photons that trace() propagates at once. No result depends on it.
+  int lane_width() const { return lane_width_of(scene(), *source_, plan_, settings_); }
 
   /// Distribution of the detection time of a photon, where it is the same for all light.
   std::optional<tally::LightTiming> timing() const;

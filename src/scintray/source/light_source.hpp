@@ -69,6 +69,7 @@ class LightSource {
   virtual void begin(const scene::Scene& scene, std::uint64_t event, core::Rng& rng,
                      EventLight& light) const = 0;
   /// Initial state of a photon of an event.
+  /// @param light   of its event; for a source of photons the light of any of its events
   /// @param photon  0 to light.photons - 1
   /// @param rng     the photon's own stream
   virtual Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,

@@ -60,9 +60,7 @@ BlockTally::BlockTally(const scene::Scene& scene, const TallyPlan& plan)
 }
 
 void BlockTally::start(const source::Photon& emitted, std::uint64_t event, std::uint64_t photon) {
-  event_ = event;
-  photon_ = photon;
-  records_.clear();
+  start(event, photon);
   if (scorer_) scorer_->start(emitted);
   if (history_) history_->start(emitted);
 }

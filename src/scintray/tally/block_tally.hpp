@@ -32,6 +32,17 @@ class BlockTally {
     if (scorer_) scorer_->step(photon, step);
     if (history_) history_->step(photon, step);
   }
+  /// Starts a photon of which only the end is recorded.
+  void start(std::uint64_t event, std::uint64_t photon) {
+    event_ = event;
+    photon_ = photon;
+    records_.clear();
+  }
+  /// Records the segments, and ray queries resolved by the exact query, of steps that are no photon's last.
+  void count_steps(std::uint64_t segments, std::uint64_t resolved) {
+    result_.segments += segments;
+    result_.resolved_misses += resolved;
+  }
   /// Records the end of the photon: by its last step, or by a limit.
   void end(const source::Photon& photon, const transport::Step& step, std::uint32_t point);
   void cut(const source::Photon& photon, core::Fate fate);
@@ -44,10 +55,7 @@ class BlockTally {
   void add_to(PointResult& total) const;
 
  private:
-  void count_step(const transport::Step& step) {
-    result_.segments += step.segments;
-    result_.resolved_misses += step.resolved;
-  }
+  void count_step(const transport::Step& step) { count_steps(step.segments, step.resolved); }
   void finish(const source::Photon& photon, core::Fate fate);
 
   const TallyPlan& plan_;

@@ -5,34 +5,11 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/transport/detail/propagation_states.hpp"
+#include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
 
 namespace {
-
-enum class PropagationEnd {
-  bulk,      ///< absorption or scattering in the medium
-  escape,    ///< the photon leaves the scene
-  boundary,  ///< the photon is at a boundary, whose interaction follows
-  total,     ///< the photon was totally reflected, and the limits are reached
-};
-
-/// End of a propagation, and the segments up to it.
-struct Propagation {
-  PropagationEnd end = PropagationEnd::escape;
-  std::uint32_t triangle = scene::kNoTriangle;  ///< at a boundary: of the region's accelerator
-  double cosine = 0.0;                          ///< of incidence, at a smooth boundary
-  std::uint32_t segments = 0;                   ///< straight segments
-  std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
-};
-
-/// sin^2 of the critical angle towards a medium; above 1 without total reflection, as for no medium.
-double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
-  constexpr double kNever = 2.0;
-  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
-  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
-  return ratio * ratio;
-}
 
 /// The step of a total reflection at this boundary of the photon's region.
 Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
@@ -345,8 +322,12 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {
+  return end_of_step(scene, propagate(scene, photon, limits), photon, rng, records);
+}
+
+Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
+                 core::Rng& rng, source::PhotonRecords* records) {
   const core::RegionId from = photon.region;
-  const Propagation propagation = propagate(scene, photon, limits);
   Step result;
   switch (propagation.end) {
     case PropagationEnd::bulk:

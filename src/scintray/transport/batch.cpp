@@ -1,0 +1,198 @@
+#include "scintray/transport/batch.hpp"
+
+#include <algorithm>
+
+#include "scintray/core/error.hpp"
+#include "scintray/transport/detail/step_parts.hpp"
+#include "scintray/transport/lane_width.hpp"
+
+namespace scintray::transport {
+
+namespace {
+
+/// Photons on their way at once: enough to fill the lanes with photons of one kind of region, few enough for
+/// the first level of the cache.
+constexpr std::size_t kTravellers = 128;
+
+LanePlanes lane_planes(const scene::Boundary& boundary) {
+  using Plane = scene::BoundingPlane;
+  static_assert(std::is_standard_layout_v<Plane> && offsetof(Plane, normal) == 0 &&
+                offsetof(Plane, offset) == 3 * sizeof(double) && sizeof(Plane) % sizeof(double) == 0);
+  return {reinterpret_cast<const double*>(boundary.planes.data()), sizeof(Plane) / sizeof(double),
+          static_cast<std::uint32_t>(boundary.planes.size()), boundary.opposite_planes};
+}
+
+void copy(const core::PlainVec3& from, double (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+}
+core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+}  // namespace
+
+Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width)
+    : scene_(scene), limits_(limits), propagate_(propagate_lanes(lane_width)) {
+  const std::vector<int>& widths = lane_widths();
+  if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
+    throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
+  for (const auto& accelerator : scene.accelerators)
+    most_planes_ = std::max(most_planes_, accelerator->plane_count());
+}
+
+const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
+  counts_ = {};
+  next_ = 0;
+  stream_ = stream;
+  emit_ = emit;
+  traced_.resize(count);
+  travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
+  least_sin2_.resize(travellers_.size() * most_planes_);
+  for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
+  while (!alone_.empty() || !waiting_.empty()) {
+    while (!alone_.empty()) {
+      const std::uint32_t traveller = alone_.back();
+      alone_.pop_back();
+      trace_alone(traveller);
+    }
+    if (!waiting_.empty()) trace_in_lanes();
+  }
+  return traced_;
+}
+
+void Batch::replace(std::uint32_t index) {
+  if (next_ == traced_.size()) return;
+  Traveller& traveller = travellers_[index];
+  traveller.number = next_++;
+  traveller.rng = stream_(traveller.number);
+  traveller.photon = emit_(traveller.number, traveller.rng);
+  traveller.segments = traveller.resolved = 0;
+  traveller.angles_of = {};
+  enqueue(index);
+}
+
+void Batch::enqueue(std::uint32_t index) {
+  const scene::Region& region = scene_.regions[travellers_[index].photon.region];
+  if (propagate_ && region.in_lanes)
+    waiting_.push_back({region.accelerator, index});
+  else
+    alone_.push_back(index);
+}
+
+void Batch::trace_alone(std::uint32_t index) {
+  Traveller& traveller = travellers_[index];
+  do {
+    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
+  } while (!propagate_ || !scene_.regions[traveller.photon.region].in_lanes);
+  enqueue(index);
+}
+
+void Batch::trace_in_lanes() {
+  in_lanes_.swap(waiting_);
+  waiting_.clear();
+  const auto before = [](const Waiting& a, const Waiting& b) { return a.accelerator < b.accelerator; };
+  if (!std::is_sorted(in_lanes_.begin(), in_lanes_.end(), before))
+    std::sort(in_lanes_.begin(), in_lanes_.end(), before);
+  for (auto first = in_lanes_.begin(); first != in_lanes_.end();) {
+    const auto last = std::find_if(first, in_lanes_.end(), [&](const Waiting& waiting) {
+      return waiting.accelerator != first->accelerator;
+    });
+    propagate(&*first, &*first + (last - first));
+    first = last;
+  }
+}
+
+void Batch::propagate(const Waiting* first, const Waiting* last) {
+  const scene::Boundary& boundary = scene_.accelerators[first->accelerator]->boundary();
+  const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
+  work_.clear();
+  for (const Waiting* waiting = first; waiting != last; ++waiting)
+    work_.push_back(work_of(waiting->traveller));
+  propagate_(lane_planes(boundary), limits, work_.data(), work_.size());
+  for (std::size_t i = 0; i < work_.size(); ++i) finish(work_[i], boundary, first[i].traveller);
+}
+
+LaneWork Batch::work_of(std::uint32_t index) {
+  Traveller& traveller = travellers_[index];
+  const source::Photon& photon = traveller.photon;
+  double* const least_sin2 = least_sin2_.data() + index * most_planes_;
+  if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
+    set_critical_angles(traveller, least_sin2);
+  LaneWork work;  // NOLINT(cppcoreguidelines-pro-type-member-init): the kernel sets the results
+  copy(photon.position, work.position);
+  copy(photon.ray.direction, work.direction);
+  copy(photon.ray.polarisation, work.polarisation);
+  work.path_mm = photon.path_mm;
+  work.time_ns = photon.time_ns;
+  work.depth_left = photon.optical_depth;
+  work.group_index = photon.optics.group_index;
+  work.attenuation_per_mm = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  work.interactions = photon.interactions;
+  copy(scene_.regions[photon.region].centre, work.centre);
+  work.least_sin2 = least_sin2;
+  return work;
+}
+
+void Batch::set_critical_angles(Traveller& traveller, double* least_sin2) const {
+  const source::Photon& photon = traveller.photon;
+  const scene::Region& region = scene_.regions[photon.region];
+  const scene::BoundaryLink* const links = scene_.links_of(region);
+  core::MediumId known_medium;
+  double known_sin2 = kNoTotalReflection;
+  for (const scene::BoundingPlane& plane : scene_.accelerator(region).boundary().planes) {
+    if (plane.triangles_begin != plane.triangles_end) {
+      *least_sin2++ = kManyRegions;
+      continue;
+    }
+    const core::MediumId medium = links[plane.first].smooth_to;
+    if (medium != known_medium) {
+      known_medium = medium;
+      known_sin2 = critical_sin2(scene_, medium, photon);
+    }
+    *least_sin2++ = known_sin2;
+  }
+  traveller.angles_of = photon.region;
+  traveller.angles_nm = photon.wavelength_nm;
+}
+
+void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t index) {
+  Traveller& traveller = travellers_[index];
+  source::Photon& photon = traveller.photon;
+  photon.position = vec(work.position);
+  photon.ray.direction = vec(work.direction);
+  photon.ray.polarisation = vec(work.polarisation);
+  photon.path_mm = work.path_mm;
+  photon.time_ns = work.time_ns;
+  photon.optical_depth = work.depth_left;
+  photon.interactions = static_cast<std::uint32_t>(work.interactions);
+  traveller.segments += work.segments;
+  if (work.end == LaneEnd::unclear) return alone_.push_back(index);
+  Propagation propagation;
+  if (work.end != LaneEnd::bulk) {
+    propagation.end = work.end == LaneEnd::total ? PropagationEnd::total : PropagationEnd::boundary;
+    propagation.triangle = boundary.planes[work.plane].first;
+    propagation.cosine = work.cosine;
+  } else {
+    propagation.end = PropagationEnd::bulk;
+  }
+  if (goes_on(traveller, end_of_step(scene_, propagation, photon, traveller.rng, nullptr)))
+    enqueue(index);
+  else
+    replace(index);
+}
+
+bool Batch::goes_on(Traveller& traveller, Step taken) {
+  taken.segments += traveller.segments;
+  taken.resolved += traveller.resolved;
+  traveller.segments = traveller.resolved = 0;
+  TracedPhoton& traced = traced_[traveller.number];
+  if (core::is_final(taken.event)) {
+    traced = {traveller.photon, taken, std::nullopt};
+    return false;
+  }
+  counts_.segments += taken.segments;
+  counts_.resolved += taken.resolved;
+  const std::optional<core::Fate> cut = limits_.reached(traveller.photon);
+  if (cut) traced = {traveller.photon, taken, cut};
+  return !cut;
+}
+
+}  // namespace scintray::transport

@@ -1,0 +1,72 @@
+#pragma once
+/// Propagation of several photons at once, in the lanes of vector registers, through regions that are bounded
+/// by planes.
+///
+/// This header has plain data alone: it is included by files that are compiled for instruction sets which not
+/// every processor has, and a function of a common header, compiled there, could be the one that the linker
+/// keeps for all.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scintray::transport {
+
+/// The end of a photon's way through its region.
+enum class LaneEnd : std::uint32_t {
+  bulk,      ///< the next event is in the medium; the photon is where its last segment began
+  boundary,  ///< the photon is on a plane at which no total reflection follows
+  total,     ///< it was totally reflected, and the limits are reached
+  unclear,   ///< the next plane leads to several regions; the photon is where its last segment began
+};
+
+/// Planes around one shape of region, in the region's frame (mm).
+struct LanePlanes {
+  /// Of each plane four numbers: its normal, of unit length and out of the region, and the product of normal
+  /// and any point of the plane.
+  const double* first = nullptr;
+  std::size_t stride = 4;  ///< from one plane to the next
+  std::uint32_t count = 0;
+  std::uint32_t opposite = 0;  ///< of these, the first: two by two with opposite normals
+
+  /// Always inlined, as nothing of this header may be left to the linker.
+  [[gnu::always_inline]] const double* plane(std::size_t i) const { return first + i * stride; }
+};
+
+/// Values of LaneWork::least_sin2 above every sine squared.
+inline constexpr double kNoTotalReflection =
+    2.0;                                     ///< a plane without total reflection, or that is not smooth
+inline constexpr double kManyRegions = 4.0;  ///< a plane that leads to several regions
+
+/// A photon to be propagated through its region, whose frame must not be rotated.
+struct LaneWork {
+  double position[3], direction[3], polarisation[3];  ///< world, mm
+  double path_mm, time_ns, depth_left;                ///< as of source::Photon
+  double group_index, attenuation_per_mm;             ///< absorption and scattering together
+  double interactions;                                ///< boundary interactions so far: a whole number
+  double centre[3];                                   ///< origin of the region's frame
+  const double* least_sin2;  ///< per plane: sine squared of the angle from which light is totally reflected
+  // Results.
+  double cosine;           ///< of incidence on the plane, at a boundary and at a total reflection
+  std::uint32_t plane;     ///< reached, or unclear; not for LaneEnd::bulk
+  std::uint32_t segments;  ///< straight segments; the last of an unclear end is not counted
+  LaneEnd end;
+};
+
+/// Limits as of PropagationLimits.
+struct LaneLimits {
+  double interactions, time_ns;
+};
+
+/// Propagates each of `count` photons to its end, exactly as propagate() does it one by one.
+using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
+                                std::size_t count);
+
+/// The kernel of a width of lane_widths(); null for 1.
+PropagateLanes propagate_lanes(int width);
+
+// One for each width that this build has; defined where its instruction set is compiled.
+void propagate_lanes_2(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_4(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_8(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
+
+}  // namespace scintray::transport

@@ -1,0 +1,36 @@
+#pragma once
+/// The two parts of a step: propagation to its end, and the event there.
+
+#include "scintray/transport/step.hpp"
+
+namespace scintray::transport {
+
+enum class PropagationEnd {
+  bulk,      ///< absorption or scattering in the medium
+  escape,    ///< the photon leaves the scene
+  boundary,  ///< the photon is at a boundary, whose interaction follows
+  total,     ///< the photon was totally reflected, and the limits are reached
+};
+
+/// End of a propagation, and the segments up to it.
+struct Propagation {
+  PropagationEnd end = PropagationEnd::escape;
+  std::uint32_t triangle = scene::kNoTriangle;  ///< at a boundary: of the region's accelerator
+  double cosine = 0.0;                          ///< of incidence, at a smooth boundary
+  std::uint32_t segments = 0;                   ///< straight segments
+  std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
+};
+
+/// sin^2 of the critical angle towards a medium; above 1 without total reflection, as for no medium.
+inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
+  constexpr double kNever = 2.0;
+  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
+  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
+  return ratio * ratio;
+}
+
+/// The event at the end of a propagation, which completes the step.
+Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
+                 core::Rng& rng, source::PhotonRecords* records);
+
+}  // namespace scintray::transport

@@ -1,0 +1,52 @@
+#include "scintray/transport/lane_width.hpp"
+
+#include <algorithm>
+
+#include "scintray/transport/detail/lanes/lane_kernel.hpp"
+
+namespace scintray::transport {
+
+namespace {
+
+constexpr int kWidestByDefault = 4;
+
+std::vector<int> find_widths() {
+  std::vector<int> widths{1};
+#if defined(__x86_64__)
+  widths.push_back(2);
+  if (__builtin_cpu_supports("avx2")) widths.push_back(4);
+  if (__builtin_cpu_supports("avx512f")) widths.push_back(8);
+#endif
+  return widths;
+}
+
+}  // namespace
+
+const std::vector<int>& lane_widths() {
+  static const std::vector<int> widths = find_widths();
+  return widths;
+}
+
+int default_lane_width() {
+  int width = 1;
+  for (const int known : lane_widths())
+    if (known <= kWidestByDefault) width = std::max(width, known);
+  return width;
+}
+
+PropagateLanes propagate_lanes(int width) {
+  switch (width) {
+#if defined(__x86_64__)
+    case 2:
+      return propagate_lanes_2;
+    case 4:
+      return propagate_lanes_4;
+    case 8:
+      return propagate_lanes_8;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace scintray::transport

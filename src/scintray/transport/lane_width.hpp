@@ -1,0 +1,15 @@
+#pragma once
+/// Numbers of photons that are propagated at once, one in each lane of a vector register.
+
+#include <vector>
+
+namespace scintray::transport {
+
+/// Widths that this build has and this processor can run, ascending, 1 among them: 1, 2 (SSE2), 4 (AVX2) and
+/// 8 (AVX-512) doubles on x86-64.
+const std::vector<int>& lane_widths();
+
+/// The width used by default: the widest of lane_widths() up to 4. With 8 the processor may lower its clock.
+int default_lane_width();
+
+}  // namespace scintray::transport

@@ -1,0 +1,159 @@
+#include <cstring>
+
+#include "physics/traced.hpp"
+#include "scintray/transport/lane_width.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene_file;
+using namespace scintray::tally;
+using namespace scintray::simulation;
+using namespace scintray::test;
+
+namespace {
+
+struct Run {
+  PointResult result;
+  std::vector<DetectedPhoton> list;
+};
+
+Run trace_with(const std::string& scene, int lane_width) {
+  SceneSpec spec = scene_spec(scene);
+  spec.run.lane_width = lane_width;
+  spec.run.photon_list = true;
+  Run traced;
+  RunHooks hooks;
+  hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
+    traced.list.insert(traced.list.end(), photons.begin(), photons.end());
+  };
+  traced.result = ready(std::move(spec))->trace(hooks);
+  return traced;
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Equal to the last bit.
+void check_same(const Run& a, const Run& b) {
+  CHECK(a.result.photons == b.result.photons);
+  CHECK(a.result.fates == b.result.fates);
+  CHECK(a.result.absorbed_in_medium == b.result.absorbed_in_medium);
+  CHECK(a.result.absorbed_at_surface == b.result.absorbed_at_surface);
+  CHECK(a.result.segments == b.result.segments);
+  CHECK(a.result.scatterings == b.result.scatterings);
+  CHECK(a.result.resolved_misses == b.result.resolved_misses);
+  CHECK(a.result.detected_path_histogram == b.result.detected_path_histogram);
+  for (const auto moments : {&PointResult::interactions, &PointResult::detected_path_mm,
+                             &PointResult::detected_time_ns, &PointResult::detected_interactions}) {
+    CHECK((a.result.*moments).count == (b.result.*moments).count);
+    CHECK(same_bits((a.result.*moments).sum, (b.result.*moments).sum));
+    CHECK(same_bits((a.result.*moments).sum_of_squares, (b.result.*moments).sum_of_squares));
+  }
+  REQUIRE(a.list.size() == b.list.size());
+  bool same = true;
+  for (std::size_t i = 0; i < a.list.size(); ++i)
+    same = same && a.list[i].event == b.list[i].event && a.list[i].photon == b.list[i].photon &&
+           a.list[i].position_mm == b.list[i].position_mm && a.list[i].direction == b.list[i].direction &&
+           a.list[i].time_ns == b.list[i].time_ns && a.list[i].path_mm == b.list[i].path_mm &&
+           a.list[i].interactions == b.list[i].interactions;
+  CHECK(same);
+}
+
+/// A crystal of absorbing, scattering LSO with a sensor behind grease.
+std::string crystal(const std::string& surface, const std::string& more = "") {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "3 mm", "20 mm"]
+medium = "LSO_roncali2013"
+surface = ")" +
+         surface + R"("
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "detector"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease_roncali2013" }
+medium = "optical_grease_roncali2013"
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 3_000
+)" + more;
+}
+
+/// Bare crystals that share their light, and one that is turned.
+std::string array(const std::string& source) {
+  return R"(
+ambient = "vacuum"
+[[array]]
+name = "crystal"
+count = [3, 2]
+gap = "0.1 mm"
+[array.element]
+box = ["2 mm", "2 mm", "10 mm"]
+medium = "LSO"
+surface = "polished"
+[[part]]
+name = "turned"
+box = ["3 mm", "2 mm", "4 mm"]
+rotate = { axis = [0.3, 0.5, 1.0], angle = "25 deg" }
+translate = ["0 mm", "9 mm", "0 mm"]
+medium = "LSO"
+surface = "polished"
+[[array]]
+name = "sipm"
+count = [3, 2]
+gap = "0.1 mm"
+place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease" }
+[array.element]
+box = ["2 mm", "2 mm", "0.3 mm"]
+sensor = "ideal"
+)" + source;
+}
+
+}  // namespace
+
+TEST_CASE("Results and photons are the same to the last bit for every width of the lanes") {
+  std::string scene;
+  SUBCASE("polished") { scene = crystal("polished"); }
+  SUBCASE("facets") { scene = crystal("roncali2013_unified_rough"); }
+  SUBCASE("table") { scene = crystal("lso_ground_30um_420nm"); }
+  SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
+  SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
+  SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
+  SUBCASE("array with the spectrum of its light") {
+    scene = array(R"([source]
+type = "photons"
+region = { part = "crystal[*]" }
+wavelength = "emission"
+photons = 3_000
+)");
+  }
+  SUBCASE("events of energy") {
+    scene = array(R"([source]
+type = "gammas"
+events = 3
+emission = "gamma"
+energy = "60 keV"
+plane = { center = ["0 mm", "0 mm", "30 mm"], x = ["6 mm", "0 mm", "0 mm"], y = ["0 mm", "4 mm", "0 mm"] }
+direction = [0, 0, -1]
+vacuum = ["sipm[*]"]
+)");
+  }
+  const Run alone = trace_with(scene, 1);
+  REQUIRE(alone.result.photons >= 3'000);
+  REQUIRE(alone.result.segments > 3'000);
+  for (const int width : transport::lane_widths()) {
+    CAPTURE(width);
+    check_same(alone, trace_with(scene, width));
+  }
+}
+
+TEST_CASE("A width that the processor has not is refused") {
+  CHECK_THROWS_AS(trace_with(crystal("polished"), 3), InternalError);
+}
