@@ -55,13 +55,14 @@ inline void check_propagation(const scene::Scene& scene, const scene_file::Sourc
   std::size_t propagations = 0, astray = 0;
   for (std::uint64_t photon = 0; photon < photons; ++photon) {
     std::optional<source::Photon> before;
-    simulation::replay(scene, source, {}, 0, photon, [&](const source::Photon& now, const transport::Step&) {
-      if (before && (now.position - before->position).norm() > kShort_mm) {
-        ++propagations;
-        astray += !scene.region_contains(before->region, 0.5 * (before->position + now.position));
-      }
-      before = now;
-    });
+    simulation::replay(
+        scene, source, {}, {0, photon}, [&](const source::Photon& now, const transport::Step&) {
+          if (before && (now.position - before->position).norm() > kShort_mm) {
+            ++propagations;
+            astray += !scene.region_contains(before->region, 0.5 * (before->position + now.position));
+          }
+          before = now;
+        });
   }
   CHECK(propagations > photons);
   CHECK(astray == 0);
