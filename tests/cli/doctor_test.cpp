@@ -252,5 +252,5 @@ TEST_CASE("check draws an imported scene whose media are still to be filled in")
   CHECK(ended.exit_code == 1);
   check_contains(ended.output, {"picture: scene.svg", "parts: 1"});
   check_contains(ended.output, {"\"medium\""});
-  CHECK(contains(content(folder / "scene.svg"), "crystal"));
+  CHECK(contains(content(folder / "scene.svg"), "no medium"));
 }

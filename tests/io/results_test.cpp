@@ -187,19 +187,19 @@ TEST_CASE("A result replaces a result, and never anything else") {
   write(folder / "run.h5", run, {});
   CHECK(is_results_file(folder / "run.h5"));
   CHECK_NOTHROW(write(folder / "run.h5", run, {}));
-  std::ofstream(folder / "thesis.tex") << "years of work";
+  std::ofstream(folder / "thesis.h5") << "years of work";
   {
     auto other = h5::File::create(folder / "other.h5");
     other.root().write("x", std::vector<double>{1.0});
     other.commit();
   }
-  for (const auto& path : {folder / "thesis.tex", folder / "other.h5", std::filesystem::path("/dev/full")}) {
+  for (const auto& path : {folder / "thesis.h5", folder / "other.h5", std::filesystem::path("/dev/full")}) {
     const auto message = message_of([&] { ResultsWriter(path, run.header, false); });
     CHECK(contains(message, path.string()));
     CHECK(contains(message, "not written over"));
     CHECK(contains(message, "hint: "));
   }
-  CHECK(text_of(folder / "thesis.tex") == "years of work");
+  CHECK(text_of(folder / "thesis.h5") == "years of work");
   CHECK(contains(message_of([&] { ResultsWriter(folder / "no" / "run.h5", run.header, false); }),
                  "there is no folder"));
 }

@@ -16,7 +16,8 @@ namespace scintray::cli {
 namespace {
 
 std::string medium_of(const contact::PlacedMesh& part) {
-  return part.medium.empty() ? "sensor " + part.sensor.name : part.medium.name;
+  if (!part.medium.empty()) return part.medium.name;
+  return part.sensor.empty() ? "no medium" : "sensor " + part.sensor.name;
 }
 
 std::vector<report::PictureMark> marks_of(const std::vector<core::Problem>& problems) {

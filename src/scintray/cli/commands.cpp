@@ -112,7 +112,9 @@ int run_program(std::span<const AddCommand> available, int argc, const char* con
   try {
     return run_guarded([&] { app.parse(argc, argv); }, err);
   } catch (const CLI::ParseError& error) {
-    const bool left_over = error.get_name() == "ExtrasError" || error.get_name() == "RequiredError";
+    // By type: the name of an ExtrasError is that of its subcommand.
+    const bool left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                           dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     const std::string unknown = left_over ? unknown_word(app) : "";
     if (unknown.empty()) return explain(app, error, out, err);
     err << unknown;

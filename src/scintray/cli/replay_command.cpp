@@ -78,7 +78,8 @@ void print_row(std::uint64_t number, const source::Photon& photon, const std::st
 void replay_photon(const ReplayOptions& options) {
   simulation::SimulationOptions run;
   run.seed = options.seed;
-  simulation::Simulation simulation(scene_of(options, run), run);
+  scene_file::SceneFile scene = scene_of(options, run);
+  simulation::Simulation simulation(std::move(scene), run);
   const auto point = simulation.point(options.point);
 
   const source::Photon start = point->start(options.event, options.photon);
