@@ -23,6 +23,7 @@ class TableFileSpec : public MicrosurfaceDefinition {
   core::FileLocation where;
 
   optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const override;
+  std::optional<std::string> key() const override;
 };
 
 /// Settings of a table traced on a height map: at one wavelength, that of the scene, or at several.
@@ -38,9 +39,13 @@ class ReliefSpec : public MicrosurfaceDefinition {
   core::FileLocation where;
 
   optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const override;
+  std::optional<std::string> key() const override;
 
  protected:
-  virtual Relief relief(ReliefStore& reliefs) const = 0;
+  /// Text of everything on which the height field depends (materials/table_key.hpp).
+  virtual std::string relief_key() const = 0;
+  /// The height field, read or synthesised anew.
+  virtual Relief make_relief() const = 0;
 };
 
 /// A measured height map.
@@ -54,7 +59,8 @@ class HeightMapSpec : public ReliefSpec {
   std::optional<MicrosurfaceSpec> traced_on_the_spot() const override;
 
  protected:
-  Relief relief(ReliefStore& reliefs) const override;
+  std::string relief_key() const override;
+  Relief make_relief() const override;
 };
 
 /// A height map made from a recipe.
@@ -65,7 +71,8 @@ class RecipeSpec : public ReliefSpec {
   std::optional<MicrosurfaceSpec> traced_on_the_spot() const override;
 
  protected:
-  Relief relief(ReliefStore& reliefs) const override;
+  std::string relief_key() const override;
+  Relief make_relief() const override;
 };
 
 }  // namespace scintray::materials

@@ -1,6 +1,7 @@
 #include "scintray/materials/microsurface_spec.hpp"
 
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/materials/table_key.hpp"
 
 namespace scintray::materials {
 
@@ -10,12 +11,21 @@ optics::IndexPair SurfaceSetting::indices(double wavelength_nm) const {
 }
 
 optics::Microsurface ReliefSpec::make(const SurfaceSetting& setting, ReliefStore& reliefs) const {
-  const Relief made = relief(reliefs);
-  if (!table) return made.field;
-  std::vector<topography::SpectralPoint> spectrum;
-  for (const double nm : table->wavelengths_nm) spectrum.push_back({nm, setting.indices(nm)});
-  if (spectrum.empty()) spectrum.push_back({setting.reference_nm, setting.indices(setting.reference_nm)});
-  return reliefs.table(setting.stack.name, made, table->settings, spectrum);
+  const std::string key = relief_key();
+  const auto relief = [&]() -> const Relief& {
+    return reliefs.relief(key, [this] { return make_relief(); });
+  };
+  if (!table) return relief().field;
+  TableRequest request{
+      setting.stack.name, setting.inside.name + " to " + setting.outside.name, key, table->settings, {}};
+  for (const double nm : table->wavelengths_nm) request.spectrum.push_back({nm, setting.indices(nm)});
+  if (request.spectrum.empty())
+    request.spectrum.push_back({setting.reference_nm, setting.indices(setting.reference_nm)});
+  return reliefs.table(request, relief);
+}
+
+std::optional<std::string> ReliefSpec::key() const {
+  return relief_key() + (table ? "; " + tracing_key(*table) : "");
 }
 
 }  // namespace scintray::materials

@@ -2,6 +2,7 @@
 /// Specification of a microsurface, before anything is traced or built.
 
 #include <optional>
+#include <string>
 
 #include "scintray/core/shared.hpp"
 #include "scintray/materials/relief_store.hpp"
@@ -30,6 +31,10 @@ class MicrosurfaceDefinition {
   /// @throws InputError for the content of the definition's files
   virtual optics::Microsurface make(const SurfaceSetting& setting, ReliefStore& reliefs) const = 0;
 
+  /// Text of everything on which the microsurface depends besides the media: definitions of equal keys make
+  /// the same. Nothing where that is not known; tables of stacks on such a microsurface are not cached.
+  virtual std::optional<std::string> key() const { return std::nullopt; }
+
   /// Kind of the microsurface of make().
   virtual optics::MicrosurfaceKind kind() const { return optics::MicrosurfaceKind::rough; }
 
@@ -53,14 +58,18 @@ using MicrosurfaceSpec = core::Shared<MicrosurfaceDefinition>;
 /// A microsurface that is the same between any two media.
 class FixedMicrosurface : public MicrosurfaceDefinition {
  public:
-  explicit FixedMicrosurface(optics::Microsurface microsurface) : microsurface_(std::move(microsurface)) {}
+  /// @param key  as MicrosurfaceDefinition::key
+  explicit FixedMicrosurface(optics::Microsurface microsurface, std::optional<std::string> key = std::nullopt)
+      : microsurface_(std::move(microsurface)), key_(std::move(key)) {}
 
   const optics::Microsurface& microsurface() const { return microsurface_; }
   optics::Microsurface make(const SurfaceSetting&, ReliefStore&) const override { return microsurface_; }
+  std::optional<std::string> key() const override { return key_; }
   optics::MicrosurfaceKind kind() const override { return microsurface_->kind(); }
 
  private:
   optics::Microsurface microsurface_;
+  std::optional<std::string> key_;
 };
 
 }  // namespace scintray::materials

@@ -19,7 +19,7 @@ using ShareSpec = optics::AreaShare<SurfaceSpec>;
 /// share.
 struct SurfaceSpec : optics::SurfaceStack {
   core::FileLocation where;  ///< of the definition
-  MicrosurfaceSpec microsurface = FixedMicrosurface(optics::SmoothSurface());
+  MicrosurfaceSpec microsurface = FixedMicrosurface(optics::SmoothSurface(), "smooth");
   /// One of the two faces of a sheet: `reflector` is this face's share of it (optics/reflector.hpp).
   bool face_of_sheet = false;
   std::vector<ShareSpec> mixture;    ///< shares with a sum of 1; empty: not a mixture

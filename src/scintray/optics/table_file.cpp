@@ -6,6 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/optics/table.hpp"
+#include "scintray/optics/table_group.hpp"
 
 namespace scintray::optics {
 
@@ -198,9 +199,7 @@ void check_version(const std::filesystem::path& path, const core::h5::Group& roo
 
 }  // namespace
 
-void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
-  core::h5::File file = core::h5::File::create(path);
-  core::h5::Group root = file.root();
+void write_table(core::h5::Group root, const SurfaceTable& table) {
   const bool directional = table.azimuth_kind() == AzimuthKind::directional;
   root.set_attribute("", "format", std::string(kFormat));
   root.set_attribute("", "format_version", kTableFileVersion);
@@ -227,11 +226,16 @@ void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
   root.write("index_inside", inside);
   root.write("index_outside", outside);
   write_provenance(root.create_group("provenance"), table.provenance());
+}
+
+void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
+  core::h5::File file = core::h5::File::create(path);
+  write_table(file.root(), table);
   file.commit();
 }
 
-SurfaceTable read_table(const std::filesystem::path& path) {
-  const core::h5::File file = core::h5::File::open(path);
+SurfaceTable read_table(const core::h5::File& file) {
+  const std::filesystem::path& path = file.path();
   const core::h5::Group root = file.root();
   check_version(path, root);
   const Reader reader(path);
@@ -265,5 +269,7 @@ SurfaceTable read_table(const std::filesystem::path& path) {
     throw core::InputError(std::move(problems));
   }
 }
+
+SurfaceTable read_table(const std::filesystem::path& path) { return read_table(core::h5::File::open(path)); }
 
 }  // namespace scintray::optics

@@ -13,6 +13,12 @@
 
 namespace scintray::topography {
 
+/// Version of the content of tables, a part of the key of cached ones (materials/table_key.hpp). Raise it
+/// with every change after which the same recipe or map file, with the same settings, makes another table: in
+/// the tracing, the synthesis, the readers of height maps or their preparation. tests/topography/
+/// table_content_test.cpp fails when such a change is made without.
+inline constexpr int kTableContentVersion = 1;
+
 /// Settings of the tracing of a table. The defaults are those of E. Roncali and S. R. Cherry 2013, Phys. Med.
 /// Biol. 58, 2185, section 2.1: 2.25 deg of incidence, 9 deg of azimuth, 2000 rays each.
 struct TableSettings {

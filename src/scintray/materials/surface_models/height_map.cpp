@@ -1,11 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "scintray/core/input_file.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/surface_models.hpp"
+#include "scintray/materials/table_key.hpp"
 
 namespace scintray::materials {
 
@@ -85,17 +83,16 @@ HeightMapSpec read_height_map_spec(const config::TomlTable& surface) {
 
 }  // namespace
 
-Relief HeightMapSpec::relief(ReliefStore& reliefs) const {
+std::string HeightMapSpec::relief_key() const { return height_map_key({path, options, preparation, tiling}); }
+
+Relief HeightMapSpec::make_relief() const {
   topography::HeightMap map = topography::read_height_map(path, options);
   topography::prepare(map, preparation);
   Relief result;
   result.provenance.map = path.filename().string();
   result.provenance.preparation = map.history();
   result.provenance.tiling = topography::tiling_name(map, tiling);
-  result.key =
-      fmt::format("map {:016x}; {}; {}; pitch {} {}", content_hash(core::read_whole_file(path).value_or("")),
-                  result.provenance.preparation, result.provenance.tiling, map.pitch_x_um, map.pitch_y_um);
-  result.field = reliefs.field(result.key, [&] { return topography::make_height_field(map, tiling); });
+  result.field = std::make_shared<const optics::HeightField>(topography::make_height_field(map, tiling));
   return result;
 }
 

@@ -3,7 +3,9 @@
 namespace scintray::materials {
 
 SurfaceModel painted_model() {
-  const auto read = [](const config::TomlTable&) { return FixedMicrosurface(optics::PaintedSurface()); };
+  const auto read = [](const config::TomlTable&) {
+    return FixedMicrosurface(optics::PaintedSurface(), "painted");
+  };
   return {.word = "painted", .table = "", .read = read};
 }
 

@@ -1,11 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/power_spectrum.hpp"
 #include "scintray/materials/surface_models.hpp"
+#include "scintray/materials/table_key.hpp"
 
 namespace scintray::materials {
 
@@ -143,25 +142,17 @@ RecipeSpec read_recipe(const config::TomlTable& surface) {
   return spec;
 }
 
-/// Unique key of a recipe's height map: the description, and the full spectrum that this only summarises.
-std::string key_of(const topography::SynthesisRecipe& recipe) {
-  const topography::SpectrumRelief& spectrum = recipe.spectrum;
-  std::string points;
-  for (std::size_t k = 0; k < spectrum.frequency_per_um.size(); ++k)
-    points += fmt::format(" {} {}", spectrum.frequency_per_um[k], spectrum.density_um4[k]);
-  return fmt::format("{}, spectrum {:016x}", describe(recipe), content_hash(points));
-}
-
 }  // namespace
 
-Relief RecipeSpec::relief(ReliefStore& reliefs) const {
+std::string RecipeSpec::relief_key() const { return recipe_key(recipe); }
+
+Relief RecipeSpec::make_relief() const {
   Relief result;
-  result.key = key_of(recipe);
   result.provenance.map = describe(recipe);
   result.provenance.preparation = "none";
   result.provenance.tiling = "periodic";
-  result.field = reliefs.field(result.key,
-                               [&] { return topography::make_height_field(topography::synthesize(recipe)); });
+  result.field = std::make_shared<const optics::HeightField>(
+      topography::make_height_field(topography::synthesize(recipe)));
   return result;
 }
 

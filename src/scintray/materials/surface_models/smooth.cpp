@@ -3,7 +3,9 @@
 namespace scintray::materials {
 
 SurfaceModel smooth_model() {
-  const auto read = [](const config::TomlTable&) { return FixedMicrosurface(optics::SmoothSurface()); };
+  const auto read = [](const config::TomlTable&) {
+    return FixedMicrosurface(optics::SmoothSurface(), "smooth");
+  };
   return {.word = "smooth", .table = "", .read = read};
 }
 

@@ -3,6 +3,7 @@
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/index_tolerance.hpp"
 #include "scintray/materials/surface_models.hpp"
+#include "scintray/materials/table_key.hpp"
 
 namespace scintray::materials {
 
@@ -26,6 +27,8 @@ optics::Microsurface TableFileSpec::make(const SurfaceSetting& setting, ReliefSt
   }
   return table;
 }
+
+std::optional<std::string> TableFileSpec::key() const { return "table file " + file_key(path); }
 
 SurfaceModel table_model() {
   const auto read = [](const config::TomlTable& surface) {

@@ -1,5 +1,7 @@
 #include "scintray/optics/unified.hpp"
 
+#include <fmt/format.h>
+
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/surface_models.hpp"
 
@@ -31,11 +33,19 @@ optics::UnifiedSurface read_unified(const config::TomlTable& table) {
   return surface;
 }
 
+std::string key_of(const optics::UnifiedSurface& surface) {
+  return fmt::format("UNIFIED {} rad, {}, {}, lobe {}, spike {}, backscatter {}", surface.sigma_alpha_rad,
+                     core::word_of(kDefinitions, surface.definition),
+                     core::word_of(kFacets, surface.sampling), surface.lobe, surface.spike,
+                     surface.backscatter);
+}
+
 }  // namespace
 
 SurfaceModel unified_model() {
   const auto read = [](const config::TomlTable& surface) {
-    return FixedMicrosurface(read_unified(surface.table("unified")));
+    const optics::UnifiedSurface unified = read_unified(surface.table("unified"));
+    return FixedMicrosurface(unified, key_of(unified));
   };
   return {.word = "unified", .table = "unified", .read = read};
 }
