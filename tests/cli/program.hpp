@@ -61,6 +61,7 @@ class Program {
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
     if (chdir(folder.c_str()) != 0) _exit(120);
+    setenv("SCINTRAY_CACHE_SIZE", "0", 0);  // tables are those of this build, unless a test sets the cache
     if (file_limit_bytes > 0) {
       std::signal(SIGXFSZ, SIG_IGN);
       const rlimit limit{file_limit_bytes, file_limit_bytes};

@@ -24,7 +24,8 @@ namespace scintray::cli {
   ADD(replay)                  \
   ADD(response)                \
   ADD(reweight)                \
-  ADD(fit)
+  ADD(fit)                     \
+  ADD(cache)
 
 // Subcommands of `scintray map`.
 #define SCINTRAY_MAP_COMMANDS(ADD) \
@@ -42,10 +43,16 @@ namespace scintray::cli {
   ADD(table_export)                  \
   ADD(table_import)
 
+// Subcommands of `scintray cache`.
+#define SCINTRAY_CACHE_COMMANDS(ADD) \
+  ADD(cache_list)                    \
+  ADD(cache_clear)
+
 #define SCINTRAY_DECLARE(name) void add_##name##_command(CLI::App& parent);
 SCINTRAY_COMMANDS(SCINTRAY_DECLARE)
 SCINTRAY_MAP_COMMANDS(SCINTRAY_DECLARE)
 SCINTRAY_TABLE_COMMANDS(SCINTRAY_DECLARE)
+SCINTRAY_CACHE_COMMANDS(SCINTRAY_DECLARE)
 
 namespace {
 
@@ -93,6 +100,7 @@ constexpr AddCommand kMapCommands[] = {SCINTRAY_MAP_COMMANDS(SCINTRAY_ENTRY)};
 constexpr AddCommand kTableCommands[] = {
     SCINTRAY_TABLE_COMMANDS(SCINTRAY_ENTRY) add_map_synthesize_command  // as under `map`: no measurement
 };
+constexpr AddCommand kCacheCommands[] = {SCINTRAY_CACHE_COMMANDS(SCINTRAY_ENTRY)};
 
 }  // namespace
 
@@ -101,6 +109,8 @@ std::span<const AddCommand> commands() { return kCommands; }
 std::span<const AddCommand> map_commands() { return kMapCommands; }
 
 std::span<const AddCommand> table_commands() { return kTableCommands; }
+
+std::span<const AddCommand> cache_commands() { return kCacheCommands; }
 
 int run_program(std::span<const AddCommand> available, int argc, const char* const* argv, std::ostream& out,
                 std::ostream& err) {

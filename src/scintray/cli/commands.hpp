@@ -17,6 +17,8 @@ std::span<const AddCommand> commands();
 std::span<const AddCommand> map_commands();
 /// Subcommands of `scintray table`.
 std::span<const AddCommand> table_commands();
+/// Subcommands of `scintray cache`.
+std::span<const AddCommand> cache_commands();
 
 /// Exit code (exit_codes.hpp) of a command line of `scintray`, whose first word is the program's name.
 ///

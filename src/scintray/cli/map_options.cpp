@@ -84,7 +84,7 @@ void add_map_options(CLI::App& app, MapOptions& options) {
   app.add_flag("--periodic", options.periodic, "The map is one period of a periodic surface");
 }
 
-topography::HeightMap read_map(const MapOptions& options) {
+topography::ReadOptions read_options(const MapOptions& options) {
   topography::ReadOptions read;
   if (!options.pitch.empty()) read.pitch_um = length_um(options.pitch);
   if (!options.width.empty()) read.width_um = length_um(options.width);
@@ -92,7 +92,11 @@ topography::HeightMap read_map(const MapOptions& options) {
     read.height_unit_um = core::unit_factor(options.unit, core::Dimension::length) * kUmPerMm;
   if (!options.channel.empty()) read.channel = options.channel;
   read.periodic = options.periodic;
-  return topography::read_height_map(options.map, read);
+  return read;
+}
+
+topography::HeightMap read_map(const MapOptions& options) {
+  return topography::read_height_map(options.map, read_options(options));
 }
 
 void add_preparation_options(CLI::App& app, PreparationOptions& options) {

@@ -18,6 +18,7 @@ struct MapOptions {
   bool periodic = false;
 };
 void add_map_options(CLI::App& app, MapOptions& options);
+topography::ReadOptions read_options(const MapOptions& options);
 topography::HeightMap read_map(const MapOptions& options);
 
 /// Options of the preparation.

@@ -52,7 +52,8 @@ void ProgressLine::show(const std::string& what, double done, double total, cons
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const double rate = elapsed > 0.0 ? done / elapsed : 0.0;
-  std::string line = fmt::format("{}  {:3.0f} %", what, total > 0.0 ? 100.0 * done / total : 0.0);
+  std::string line = what;
+  if (total > 0.0) line += fmt::format("  {:3.0f} %", 100.0 * done / total);
   if (!thing.empty() && rate > 0.0) line += fmt::format("  {}{}/s", rate_text(rate), thing);
   if (rate > 0.0 && done < total) line += "  " + duration_text((total - done) / rate) + " left";
   *output_.stream << (output_.terminal ? "\r\033[K" + line : line + "\n") << std::flush;

@@ -5,6 +5,7 @@
 #include "scintray/cli/map_text.hpp"
 #include "scintray/cli/table_options.hpp"
 #include "scintray/cli/word_option.hpp"
+#include "scintray/materials/table_key.hpp"
 
 namespace scintray::cli {
 
@@ -23,22 +24,29 @@ struct BuildArguments {
 };
 
 void build(const BuildArguments& arguments) {
-  const std::vector<topography::SpectralPoint> spectrum =
-      between(arguments.tracing, database_of(arguments.tracing)).spectrum();
+  const Between media = between(arguments.tracing, database_of(arguments.tracing));
+  const std::vector<topography::SpectralPoint> spectrum = media.spectrum();
   topography::HeightMap map = read_map(arguments.map);
-  topography::prepare(map, preparation_of(arguments.preparation));
+  const topography::Preparation preparation = preparation_of(arguments.preparation);
+  topography::prepare(map, preparation);
   print_summary(map);
   print_warnings(map);
 
-  const optics::HeightField field = topography::make_height_field(map, arguments.tiling);
-  optics::TableProvenance provenance;
-  provenance.map = arguments.map.map;
-  provenance.preparation = map.history();
-  provenance.tiling = topography::tiling_name(map, arguments.tiling);
-  write_and_report(arguments.output, build_with_progress([&](const topography::TableProgress& progress) {
-                     return topography::build_table(field, spectrum, settings_of(arguments.tracing),
-                                                    provenance, progress);
-                   }));
+  const topography::TableSettings settings = settings_of(arguments.tracing);
+  const std::string source = materials::height_map_key(
+      {arguments.map.map, read_options(arguments.map), preparation, arguments.tiling});
+  const materials::CacheEntry entry{
+      materials::table_key("file " + arguments.map.map + ": " + source, settings, spectrum),
+      arguments.map.map, media.names()};
+  const auto trace = [&](const topography::TableProgress& progress) {
+    optics::TableProvenance provenance;
+    provenance.map = arguments.map.map;
+    provenance.preparation = map.history();
+    provenance.tiling = topography::tiling_name(map, arguments.tiling);
+    return topography::build_table(topography::make_height_field(map, arguments.tiling), spectrum, settings,
+                                   provenance, progress);
+  };
+  write_and_report(arguments.output, *table_with_progress(entry, trace));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "scintray/cli/count_option.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/progress.hpp"
+#include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/materials/database.hpp"
@@ -102,14 +103,18 @@ topography::TableSettings settings_of(const TracingOptions& options) {
   return settings;
 }
 
-optics::SurfaceTable build_with_progress(const BuildTable& build) {
+std::shared_ptr<const optics::SurfaceTable> table_with_progress(
+    const std::optional<materials::CacheEntry>& entry, const BuildTable& build) {
   const InterruptGuard guard;
   ProgressLine line(true);
-  const auto progress = [&](double share) {
-    line.show("table", 100.0 * share, 100.0, "percent");
-    return !InterruptGuard::requested();
+  const auto traced = [&] {
+    return build([&](double share) {
+      line.show("table", 100.0 * share, 100.0, "percent");
+      return !InterruptGuard::requested();
+    });
   };
-  optics::SurfaceTable table = build(progress);
+  auto table = entry ? materials::TableCache(watched_surfaces(line)).get(*entry, traced)
+                     : std::make_shared<const optics::SurfaceTable>(traced());
   line.clear();
   return table;
 }

@@ -2,10 +2,14 @@
 /// Options of every command that traces a surface table.
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scintray/materials/database.hpp"
+#include "scintray/materials/table_cache.hpp"
 #include "scintray/optics/medium.hpp"
 #include "scintray/topography/build_table.hpp"
 
@@ -31,15 +35,19 @@ struct Between {
   optics::Medium inside, outside;
   std::vector<double> wavelengths_nm;  ///< empty where only indices are set
   std::vector<topography::SpectralPoint> spectrum() const;
+  /// The names of the media, as "LSO to air".
+  std::string names() const { return inside.name + " to " + outside.name; }
 };
 /// Media, of this database, and wavelengths of the options. InputError when a side has neither an index nor a
 /// medium, for media without wavelengths, and for wavelengths beyond their indices.
 Between between(const TracingOptions& options, const materials::MaterialDatabase& database);
 topography::TableSettings settings_of(const TracingOptions& options);
 
-/// Table traced with a progress line; stops at Ctrl-C.
+/// Table from the cache, else traced with a progress line and kept; stops at Ctrl-C. Without an entry it is
+/// traced, and not kept.
 using BuildTable = std::function<optics::SurfaceTable(const topography::TableProgress&)>;
-optics::SurfaceTable build_with_progress(const BuildTable& build);
+std::shared_ptr<const optics::SurfaceTable> table_with_progress(
+    const std::optional<materials::CacheEntry>& entry, const BuildTable& build);
 
 /// Writes the table and prints its content, with a warning when the target error was not reached.
 void write_and_report(const std::string& path, const optics::SurfaceTable& table);

@@ -6,6 +6,7 @@
 #include "scintray/cli/table_options.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
+#include "scintray/materials/table_key.hpp"
 #include "scintray/materials/wavelength_cover.hpp"
 
 namespace scintray::cli {
@@ -31,6 +32,28 @@ std::string describe(const materials::SurfaceSpec& spec) {
   return text;
 }
 
+/// The surface between the media, with its height maps. @throws InputError when it shifts wavelengths
+optics::Surface surface_of(const materials::SurfaceSpec& spec, const Between& media) {
+  const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
+  optics::Surface surface =
+      materials::SurfaceFactory().make(spec, media.inside, media.outside, nm, nm, nm).surface;
+  if (surface.shifts())
+    throw core::InputError(core::Problem{
+        spec.where,
+        "surface \"" + spec.name + "\" re-emits light at other wavelengths, which a table cannot represent",
+        "use the surface itself in a scene"});
+  return surface;
+}
+
+optics::TableProvenance provenance_of(const materials::SurfaceSpec& spec) {
+  optics::TableProvenance provenance;
+  provenance.map = spec.name;
+  provenance.stack = describe(spec);
+  provenance.preparation = "as in the surface's definition";
+  provenance.tiling = "as in the surface's definition";
+  return provenance;
+}
+
 void build(const StackArguments& arguments) {
   const materials::MaterialDatabase database = database_of(arguments.tracing);
   const materials::SurfaceSpec spec = materials::traced_on_the_spot(database.surface(arguments.surface));
@@ -38,23 +61,18 @@ void build(const StackArguments& arguments) {
   core::Problems problems;
   for (const double at : media.wavelengths_nm) materials::check_cover(problems, spec, at, at);
   problems.throw_if_any();
-  const double nm = media.wavelengths_nm.empty() ? 0.0 : media.wavelengths_nm.front();
-  const optics::Surface surface =
-      materials::SurfaceFactory().make(spec, media.inside, media.outside, nm, nm, nm).surface;
-  optics::TableProvenance provenance;
-  if (surface.shifts())
-    throw core::InputError(core::Problem{
-        spec.where,
-        "surface \"" + spec.name + "\" re-emits light at other wavelengths, which a table cannot represent",
-        "use the surface itself in a scene"});
-  provenance.map = spec.name;
-  provenance.stack = describe(spec);
-  provenance.preparation = "as in the surface's definition";
-  provenance.tiling = "as in the surface's definition";
-  write_and_report(arguments.output, build_with_progress([&](const topography::TableProgress& progress) {
-                     return topography::build_stack_table(
-                         surface, media.spectrum(), settings_of(arguments.tracing), provenance, progress);
-                   }));
+  const std::vector<topography::SpectralPoint> spectrum = media.spectrum();
+  const topography::TableSettings settings = settings_of(arguments.tracing);
+  std::optional<materials::CacheEntry> entry;
+  if (const std::optional<std::string> stack = materials::stack_key(spec)) {
+    const std::string named = fmt::format("stack {}, {}: {}", spec.name, describe(spec), *stack);
+    entry = {materials::table_key(named, settings, spectrum), spec.name, media.names()};
+  }
+  const auto trace = [&](const topography::TableProgress& progress) {
+    return topography::build_stack_table(surface_of(spec, media), spectrum, settings, provenance_of(spec),
+                                         progress);
+  };
+  write_and_report(arguments.output, *table_with_progress(entry, trace));
 }
 
 }  // namespace

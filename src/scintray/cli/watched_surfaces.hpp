@@ -6,7 +6,8 @@
 
 namespace scintray::cli {
 
-/// Hooks that show the progress of a table on the line and stop on Ctrl-C. The line must outlive them.
+/// Hooks that show the progress of a table on the line, print warnings of the cache on standard error and
+/// stop on Ctrl-C. The line must outlive them.
 materials::SurfaceFactory::Hooks watched_surfaces(ProgressLine& line);
 
 }  // namespace scintray::cli
