@@ -9,6 +9,7 @@
 
 #include "scintray/core/byte_size.hpp"
 #include "scintray/core/text.hpp"
+#include "scintray/materials/cache_folder.hpp"
 #include "scintray/materials/table_cache.hpp"
 
 namespace scintray::cli {

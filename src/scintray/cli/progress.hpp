@@ -29,8 +29,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows `done` of `total` items, at most ten times a second on a terminal and once a minute elsewhere; only
-  /// `what` when `total` is 0. `what` comes first, such as "point 3/15".
+  /// Shows `done` of `total` items, at most ten times a second on a terminal and once a minute elsewhere;
+  /// only `what` when `total` is 0. `what` comes first, such as "point 3/15".
   void show(const std::string& what, double done, double total, const std::string& thing);
   /// Removes the line from a terminal.
   void clear();
