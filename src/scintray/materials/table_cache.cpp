@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "scintray/core/byte_size.hpp"
-#include "scintray/core/file_lock.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/core/input_file.hpp"
 #include "scintray/core/sha256.hpp"
