@@ -64,7 +64,7 @@ void Batch::replace(std::uint32_t index) {
   traveller.number = next_++;
   traveller.rng = stream_(traveller.number);
   traveller.photon = emit_(traveller.number, traveller.rng);
-  traveller.segments = traveller.resolved = 0;
+  traveller.segments = 0;
   traveller.angles_of = {};
   enqueue(index);
 }
@@ -181,8 +181,7 @@ void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::u
 
 bool Batch::goes_on(Traveller& traveller, Step taken) {
   taken.segments += traveller.segments;
-  taken.resolved += traveller.resolved;
-  traveller.segments = traveller.resolved = 0;
+  traveller.segments = 0;
   TracedPhoton& traced = traced_[traveller.number];
   if (core::is_final(taken.event)) {
     traced = {traveller.photon, taken, std::nullopt};

@@ -48,8 +48,8 @@ class Batch {
     source::Photon photon;
     core::Rng rng{0, core::StreamKind::photon, 0};
     std::uint64_t number = 0;
-    std::uint32_t segments = 0, resolved = 0;  ///< of the present step so far
-    core::RegionId angles_of;                  ///< region and wavelength of its least_sin2_; none: not set
+    std::uint32_t segments = 0;  ///< of the present step so far
+    core::RegionId angles_of;    ///< region and wavelength of its least_sin2_; none: not set
     double angles_nm = 0.0;
   };
   /// A photon to be propagated in lanes.
