@@ -1,6 +1,8 @@
-# scintray_module(NAME [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]) makes the static
-# library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT. Headers are included as
-# "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not installed.
+# scintray_module(NAME [NOT_TRACING] [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]
+# [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
+# Headers are included as "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not
+# installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
+# NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
@@ -37,7 +39,10 @@ if(SCINTRAY_FUZZ)
 endif()
 
 function(scintray_module name)
-  cmake_parse_arguments(MODULE "" "" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  cmake_parse_arguments(MODULE "NOT_TRACING" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  if(NOT MODULE_JOIN)
+    set(MODULE_JOIN 12)
+  endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   foreach(source IN LISTS MODULE_WITHOUT)
     if(NOT source IN_LIST sources)
@@ -52,7 +57,10 @@ function(scintray_module name)
   set(target scintray_${name})
   add_library(${target} STATIC ${sources})
   add_library(scintray::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON UNITY_BUILD_BATCH_SIZE ${MODULE_JOIN})
+  if(MODULE_NOT_TRACING)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   target_sources(${target}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${headers}
     PRIVATE FILE_SET internal TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${internal_headers})
