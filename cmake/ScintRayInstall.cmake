@@ -1,4 +1,5 @@
-# cmake --install: libraries, headers, program, data, and the package that find_package(ScintRay) reads.
+# cmake --install: libraries, headers, program, data, and the package that find_package(ScintRay) reads. Two
+# components: program, and development for programs of one's own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/ScintRay)
@@ -11,17 +12,20 @@ target_link_libraries(scintray INTERFACE ${libraries})
 set_target_properties(scintray_options PROPERTIES EXPORT_NAME options)
 
 install(TARGETS scintray scintray_options ${libraries} EXPORT ScintRayTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 if(TARGET scintray_cli)
-  install(TARGETS scintray_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS scintray_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endif()
-install(DIRECTORY materials scenes geometry DESTINATION share/scintray)
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/scintray)
+install(DIRECTORY materials scenes geometry DESTINATION share/scintray COMPONENT program)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/scintray COMPONENT program)
 
-install(EXPORT ScintRayTargets NAMESPACE scintray:: DESTINATION ${package_folder})
+install(EXPORT ScintRayTargets NAMESPACE scintray:: DESTINATION ${package_folder}
+  COMPONENT development)
 configure_package_config_file(cmake/ScintRayConfig.cmake.in
   ${PROJECT_BINARY_DIR}/ScintRayConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ScintRayConfig.cmake ${PROJECT_BINARY_DIR}/ScintRayConfigVersion.cmake
-  third_party/dependencies.cmake cmake/FindXraylib.cmake DESTINATION ${package_folder})
+  third_party/dependencies.cmake cmake/FindXraylib.cmake DESTINATION ${package_folder}
+  COMPONENT development)

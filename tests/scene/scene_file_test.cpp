@@ -270,3 +270,40 @@ TEST_CASE("faces without a name are called after what selects them") {
                               .spec(0);
   CHECK(scene.parts[0].faces[0].name == "-z");
 }
+
+TEST_CASE("definitions that parts, faces, contacts and definitions name are used") {
+  const SceneFile scene = SceneFile::from_text(R"(
+ambient = "gas"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "2 mm"]
+medium = "LSO"
+surface = "side"
+[[part.face]]
+name = "top"
+select = { normal = [0, 0, 1] }
+surface = "coated"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 1
+[media.gas]
+index = { n = 1.0 }
+absorption = { none = true }
+scattering = { none = true }
+[media.crystal]
+base = "gas"
+[surfaces.side]
+base = "polished"
+[surfaces.coated]
+base = "inner"
+[surfaces.inner]
+base = "polished"
+)",
+                                               "scene.toml");
+  std::vector<std::string> unused;
+  for (const DefinitionRef& definition : scene.unused_definitions())
+    unused.push_back(definition_key(definition));
+  CHECK(unused == std::vector<std::string>{"media.crystal"});  // the name of a part is not that of its medium
+}

@@ -12,6 +12,7 @@ namespace scintray::cli {
 // The subcommands, a line each, in the order of the help: NAME is the function add_NAME_command that
 // NAME_command.cpp defines.
 #define SCINTRAY_COMMANDS(ADD) \
+  ADD(new)                     \
   ADD(run)                     \
   ADD(check)                   \
   ADD(import)                  \

@@ -47,10 +47,13 @@ void add_part(const PartSpec& part, Collector& names) {
   }
 }
 
-void add_values(const config::TomlNode& node, std::set<std::string>& values) {
-  if (node.kind == config::TomlNode::Kind::string) values.insert(node.text);
+/// Adds all texts of the node but the values of those keys: tables of the same name, [[part]], have their own
+/// keys.
+/// @param other  the node is the value of such a key, or in its list
+void add_values(const config::TomlNode& node, bool other, std::set<std::string>& values) {
+  if (node.kind == config::TomlNode::Kind::string && !other) values.insert(node.text);
   for (const config::TomlNode& item : node.items)
-    if (!kOtherNames.contains(item.key)) add_values(item, values);
+    add_values(item, item.key.empty() ? other : kOtherNames.contains(item.key), values);
 }
 
 }  // namespace
@@ -94,7 +97,7 @@ std::vector<DefinitionRef> own_definitions(const SceneSpec& scene) {
 
 std::vector<DefinitionRef> unused_definitions(const SceneSpec& scene, const config::TomlNode& document) {
   std::set<std::string> values;
-  add_values(document, values);
+  add_values(document, false, values);
   std::vector<DefinitionRef> unused;
   for (const DefinitionRef& own : own_definitions(scene)) {
     const config::TomlNode* table = document.find(core::word_of(kTables, own.kind));
