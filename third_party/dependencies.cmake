@@ -22,6 +22,7 @@ scintray_dependency(PNG)
 scintray_dependency(Xraylib)
 scintray_dependency(Boost 1.74)
 scintray_dependency(GSL 2.7)
+scintray_dependency(nlohmann_json 3)
 
 # Reads STEP. The build does without it where it is missing, unless told to insist with SCINTRAY_STEP=ON.
 if(SCINTRAY_STEP)

@@ -15,6 +15,7 @@ namespace scintray::cli {
   ADD(new)                     \
   ADD(run)                     \
   ADD(check)                   \
+  ADD(view)                    \
   ADD(import)                  \
   ADD(repair)                  \
   ADD(report)                  \

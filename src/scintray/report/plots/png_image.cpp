@@ -13,17 +13,18 @@
 
 namespace scintray::report {
 
-namespace {
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
+std::string base64(std::span<const std::byte> bytes) {
   using namespace boost::archive::iterators;
-  using Digits = base64_from_binary<transform_width<std::vector<std::uint8_t>::const_iterator, 6, 8>>;
-  std::string text(Digits(bytes.begin()), Digits(bytes.end()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
+  using Digits = base64_from_binary<transform_width<const unsigned char*, 6, 8>>;
+  const auto* const first = reinterpret_cast<const unsigned char*>(bytes.data());
+  // The digits of the last bytes take up to two bytes more, which are zero here.
+  std::vector<unsigned char> filled(first, first + bytes.size());
+  filled.resize((bytes.size() + 2) / 3 * 3, 0);
+  std::string text(Digits(filled.data()), Digits(filled.data() + filled.size()));
+  const std::size_t padding = filled.size() - bytes.size();
+  text.replace(text.size() - padding, padding, padding, '=');
   return text;
 }
-
-}  // namespace
 
 Colour viridis(double share) {
   constexpr std::array<std::array<double, 3>, 9> kViridis{{{68, 1, 84},
@@ -65,7 +66,7 @@ std::string png_data(const std::vector<Colour>& pixels, std::uint32_t width, std
   if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr))
     throw core::SystemError(std::string("cannot make a PNG picture: ") + image.message);
   bytes.resize(size);
-  return "data:image/png;base64," + base64(bytes);
+  return "data:image/png;base64," + base64(std::as_bytes(std::span(bytes)));
 }
 
 }  // namespace scintray::report

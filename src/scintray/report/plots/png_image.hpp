@@ -1,7 +1,9 @@
 #pragma once
 /// Pixel images for pages.
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ struct Colour {
 Colour viridis(double share);
 /// The same colours from left to right, as a CSS background.
 std::string viridis_gradient();
+
+/// Bytes as text (RFC 4648, section 4).
+std::string base64(std::span<const std::byte> bytes);
 
 /// Pixels, row by row from the top, as "data:image/png;base64,...". `pixels` has width x height values.
 /// Throws SystemError when the PNG library fails.

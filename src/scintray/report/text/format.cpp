@@ -18,6 +18,12 @@ int decimals_of(double error) {
 
 }  // namespace
 
+std::string fate_text(core::Fate fate) {
+  std::string name = fate == core::Fate::not_detected ? "not detected" : core::fate_name(fate);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 std::string escape_html(const std::string& text) {
   std::string safe;
   for (const char c : text) {

@@ -51,9 +51,7 @@ std::string fate_table(const tally::PointResult& point) {
   Table table{{"fate", "photons", "fraction"}};
   for (int i = 0; i < core::kFateCount; ++i) {
     const core::Fate fate = core::fate_at(i);
-    std::string name = fate == core::Fate::not_detected ? "not detected" : core::fate_name(fate);
-    std::replace(name.begin(), name.end(), '_', ' ');
-    table.push_back({name, std::to_string(point.count(fate)), with_error(point.fraction(fate))});
+    table.push_back({fate_text(fate), std::to_string(point.count(fate)), with_error(point.fraction(fate))});
   }
   table.push_back({"all", std::to_string(point.photons), ""});
   return aligned(table);

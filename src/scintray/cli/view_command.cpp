@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "scintray/cli/scene_notes.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/report/view/view_page.hpp"
+#include "scintray/simulation/photon_paths.hpp"
+#include "scintray/simulation/simulation.hpp"
+
+namespace scintray::cli {
+
+namespace {
+
+struct ViewOptions {
+  std::filesystem::path scene, page;
+  std::uint64_t paths = 200, point = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+std::vector<report::ViewPart> parts_of(const std::vector<contact::PlacedMesh>& placed) {
+  std::vector<report::ViewPart> parts;
+  for (const contact::PlacedMesh& part : placed) {
+    report::ViewPart shown{part.name,
+                           part.medium.empty() ? "sensor " + part.sensor.name : part.medium.name,
+                           &part.mesh,
+                           {},
+                           part.face_of};
+    for (const contact::PlacedFace& face : part.faces)
+      shown.faces.push_back(
+          {face.name, face.surface.name, (face.sensor.empty() ? part.sensor : face.sensor).name});
+    parts.push_back(std::move(shown));
+  }
+  return parts;
+}
+
+std::vector<report::ViewPath> paths_of(const simulation::SimulationPoint& point, std::uint64_t count) {
+  std::vector<report::ViewPath> paths;
+  for (simulation::PhotonPath& path : simulation::photon_paths(point, count)) {
+    report::ViewPath shown{fmt::format("event {}, photon {}", path.event, path.photon), path.fate, {}};
+    for (simulation::PathVertex& vertex : path.vertices)
+      shown.vertices.push_back(
+          {vertex.position, vertex.time_ns, vertex.wavelength_nm, std::move(vertex.event)});
+    paths.push_back(std::move(shown));
+  }
+  return paths;
+}
+
+void view_scene(const ViewOptions& options) {
+  simulation::SimulationOptions settings;
+  settings.seed = options.seed;
+  simulation::Simulation simulation(scene_file::SceneFile::load(options.scene), settings);
+  const auto point = simulation.point(options.point);
+  report::SceneView view{
+      point->spec().title, parts_of(point->built()->placed), paths_of(*point, options.paths), {}};
+  if (view.title.empty()) view.title = options.scene.filename().string();
+  for (const core::Problem& warning : gap_warnings(*point)) {
+    report::ViewMark mark{warning.what, {}};
+    for (const auto& [x, y, z] : warning.places_mm) mark.places.emplace_back(x, y, z);
+    view.marks.push_back(std::move(mark));
+  }
+  const std::filesystem::path page = options.page.empty()
+                                         ? std::filesystem::path(options.scene.stem().string() + "_view.html")
+                                         : options.page;
+  const std::string content = report::view_page(view);
+  core::write_whole_file(page, content);
+  std::cout << fmt::format("{}: {} parts, {} photon paths, {:.1f} MB\n", page.string(), view.parts.size(),
+                           view.paths.size(), 1e-6 * static_cast<double>(content.size()));
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* command =
+      app.add_subcommand("view", "Write a page with the scene and paths of photons in three dimensions");
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("-o,--output", options->page, "page to write (default: SCENE_view.html)");
+  command->add_option("--paths", options->paths, "photons to follow (default: 200)");
+  command->add_option("--point", options->point, "point of the sweep, from 0 (default: 0)");
+  command->add_option("--seed", options->seed, "seed, in place of the scene's");
+  command->footer("Example: scintray view quickstart.toml --paths 500");
+  command->callback([options] { view_scene(*options); });
+}
+
+}  // namespace scintray::cli
