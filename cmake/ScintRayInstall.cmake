@@ -16,6 +16,20 @@ install(TARGETS scintray scintray_options ${libraries} EXPORT ScintRayTargets
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 if(TARGET scintray_cli)
   install(TARGETS scintray_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  # The program writes its own manual pages and completions, from the same text as its help.
+  install(CODE "
+    set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share\")
+    set(scintray \"$<TARGET_FILE:scintray_cli>\")
+    file(MAKE_DIRECTORY \"\${share}/bash-completion/completions\" \"\${share}/fish/vendor_completions.d\"
+      \"\${share}/zsh/vendor-completions\")
+    execute_process(COMMAND \"\${scintray}\" manual \"\${share}/man/man1\" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"\${scintray}\" completion bash
+      OUTPUT_FILE \"\${share}/bash-completion/completions/scintray\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"\${scintray}\" completion zsh
+      OUTPUT_FILE \"\${share}/zsh/vendor-completions/_scintray\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND \"\${scintray}\" completion fish
+      OUTPUT_FILE \"\${share}/fish/vendor_completions.d/scintray.fish\" COMMAND_ERROR_IS_FATAL ANY)
+  " COMPONENT program)
 endif()
 install(DIRECTORY materials scenes geometry DESTINATION share/scintray COMPONENT program)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION share/doc/scintray COMPONENT program)

@@ -27,7 +27,9 @@ namespace scintray::cli {
   ADD(response)                \
   ADD(reweight)                \
   ADD(fit)                     \
-  ADD(cache)
+  ADD(cache)                   \
+  ADD(manual)                  \
+  ADD(completion)
 
 // Subcommands of `scintray map`.
 #define SCINTRAY_MAP_COMMANDS(ADD) \
