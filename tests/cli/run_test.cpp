@@ -67,7 +67,7 @@ TEST_CASE("run writes results and a report, prints where they are, and is quiet 
   CHECK_FALSE(contains(ended.output, "\033"));
   const RunResult result = read_results(folder / "scene.h5");
   CHECK(result.complete());
-  CHECK(result.points.at(0).photons == 20'000);
+  CHECK(result.points.at(0).emitted == 20'000);
   CHECK(result.points.at(0).lost == 0);
   const auto listed = read_photons(folder / "scene.h5", 0, 100'000);
   CHECK(listed.size() == result.points.at(0).count(Fate::detected));
@@ -84,8 +84,8 @@ TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") 
   CHECK(contains(ended.output, "partial"));
   const RunResult result = read_results(folder / "scene.h5");
   CHECK_FALSE(result.complete());
-  CHECK(result.points.at(0).photons > 0);
-  CHECK(result.points.at(0).photons < 2'000'000'000);
+  CHECK(result.points.at(0).emitted > 0);
+  CHECK(result.points.at(0).emitted < 2'000'000'000);
   CHECK(read_results_status(folder / "scene.h5").reason == "stopped by the user");
 }
 

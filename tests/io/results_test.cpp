@@ -215,8 +215,8 @@ TEST_CASE("Files that are not results of this version are refused with a reason"
     file.commit();
   }
   const auto newer = message_of([&] { read_results(path); });
-  CHECK(contains(newer, "format version 2 (written by ScintRay 9.8.7)"));
-  CHECK(contains(newer, "reads version 1"));
+  CHECK(contains(newer, "format version 3 (written by ScintRay 9.8.7)"));
+  CHECK(contains(newer, "reads versions 1 to 2"));
   CHECK(contains(newer, "use a newer ScintRay"));
   {
     auto file = h5::File::create(folder / "other.h5");

@@ -1,4 +1,6 @@
 // The tables of a sensor's definition beside its efficiency.
+#include <fmt/format.h>
+
 #include <set>
 #include <sstream>
 
@@ -219,4 +221,36 @@ TEST_CASE("docs/materials.md has every key of a sensor, and no other") {
     for (std::string word; words >> word;) documented.insert(block + "." + word);
   }
   CHECK(documented == read);
+}
+
+TEST_CASE("No efficiency at any angle or wavelength exceeds the sensor's bound") {
+  for (const char* definition : {"internal", "external"})
+    for (const char* measured_in : {"window", "outside"}) {
+      const std::string text = fmt::format(
+          R"([window]
+index = 1.5
+[efficiency]
+value = {{ wavelength = [300, 400, 450, 700], wavelength_unit = "nm", value = [0.1, 0.3, 0.25, 0.02] }}
+definition = "internal"
+[angle]
+factor = {{ angle = [0, 20, 35], angle_unit = "deg", value = [1, 1.05, 0.9] }}
+measured_in = "{}"
+definition = "{}"
+reference_index = 1.0
+)",
+          measured_in, definition);
+      CAPTURE(text);
+      const Sensor sensor = sensor_of(text);
+      for (const auto& [low, high] :
+           {std::pair{310.0, 390.0}, std::pair{350.0, 480.0}, std::pair{500.0, 500.0}}) {
+        const double bound = sensor.conversion_bound(low, high);
+        double largest = 0.0;
+        for (int i = 0; i <= 60; ++i)
+          for (int j = 0; j <= 300; ++j)
+            largest = std::max(largest,
+                               sensor.conversion_probability(low + (high - low) * i / 60.0, 1.5 * j / 300.0));
+        CHECK(largest <= bound);
+        CHECK(largest > 0.85 * bound);  // and it is not far above
+      }
+    }
 }

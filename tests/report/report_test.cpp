@@ -214,3 +214,21 @@ TEST_CASE("A report that cannot be written leaves nothing and is an error with t
     CHECK(contains(error.what(), "run.html: cannot write the report: No such file or directory"));
   }
 }
+
+TEST_CASE("Page and summary say how many photons were traced, and count each fate for all photons") {
+  tally::RunResult run = test::made_up_run();
+  tally::PointResult& point = run.points[0];
+  run.points.resize(1);
+  point.emitted = 4 * point.photons;
+  point.birth_efficiency = 0.25;
+  const std::string page = html_report(run);
+  CHECK(contains(page, "of them traced"));
+  const double detected = 0.25 * static_cast<double>(point.count(core::Fate::detected));
+  const double photons = static_cast<double>(point.photons);
+  CHECK(point.fraction(core::Fate::detected).value == detected / photons);
+  CHECK(point.fraction(core::Fate::not_detected).value ==
+        doctest::Approx((static_cast<double>(point.count(core::Fate::not_detected)) + 3.0 * detected) /
+                        photons));
+  CHECK(contains(page, percent_with_error(point.fraction(core::Fate::detected))));
+  CHECK(contains(text_summary(run), "no sensor converts more than 0.25"));
+}

@@ -62,7 +62,7 @@ TEST_CASE("A scene made of structs has the numbers of the same scene's file, to 
   CHECK(in_code.parameters(0).empty());
   const PointResult a = from_file.run(0), b = in_code.run(0);
   CHECK(a.complete);
-  CHECK(a.photons == 3'000);
+  CHECK(a.emitted == 3'000);
   CHECK(a.count(Fate::detected) > 100);
   CHECK(a.fates == b.fates);
   CHECK(a.absorbed_in_medium == b.absorbed_in_medium);
@@ -101,7 +101,7 @@ TEST_CASE("Options replace the settings of the scene") {
   const RunResult result = simulation.run_all();
   CHECK(result.header.seed == 9);
   CHECK(result.header.title == "A crystal, changed");
-  CHECK(result.points.at(0).photons == 500);
+  CHECK(result.points.at(0).emitted == 500);
   CHECK(simulation.spec(0).run.threads == 1);
   options.events = 3;
   CHECK_THROWS_AS(Simulation(crystal_in_code(), options).run(0), InputError);

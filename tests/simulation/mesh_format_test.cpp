@@ -43,7 +43,7 @@ TEST_CASE(
 
   const tally::RunResult a = toy.run_all(), b = built_in.run_all();
   REQUIRE(a.points.size() == 1);
-  CHECK(a.points[0].photons == 3'000);
+  CHECK(a.points[0].emitted == 3'000);
   CHECK(a.points[0].fraction(core::Fate::detected).value > 0.0);
   CHECK(a.points[0].fates == b.points[0].fates);
   CHECK(a.points[0].segments == b.points[0].segments);

@@ -18,6 +18,8 @@ type = "photons"
 position = ["0.5 mm", "0.5 mm", "2 mm"]
 wavelength = "420 nm"
 photons = 400
+[run]
+efficiency_at_birth = false
 )"));
   const auto point = simulation.point(0);
   const tally::PointResult result = point->trace();

@@ -167,8 +167,8 @@ TEST_CASE("A stopped run keeps whole points and whole blocks, and is marked as p
   REQUIRE(result.points.size() == 2);
   CHECK(result.points[0].complete);
   CHECK_FALSE(result.points[1].complete);
-  CHECK(result.points[1].photons >= 10'000);
-  CHECK(result.points[1].photons < 100'000);
+  CHECK(result.points[1].emitted >= 10'000);
+  CHECK(result.points[1].emitted < 100'000);
   CHECK_FALSE(result.complete());
   CHECK(result.partial_reason == kStopped);
   CHECK(memory.result.points.size() == 2);

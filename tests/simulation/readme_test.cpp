@@ -44,7 +44,7 @@ TEST_CASE("The scenes of the README are complete, and detect light") {
     simulation::Simulation simulation(scene_file::SceneFile::from_text(block, "README.md"), options);
     const tally::RunResult result = simulation.run_all();
     REQUIRE(result.points.size() == 1);
-    CHECK(result.points[0].photons == 1000);
+    CHECK(result.points[0].emitted == 1000);
     CHECK(result.points[0].count(core::Fate::detected) > 0);
     CHECK(result.points[0].lost == 0);
   }

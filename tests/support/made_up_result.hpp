@@ -13,7 +13,7 @@ inline tally::PointResult made_up_point(std::vector<std::string> parameters, dou
                                         std::uint64_t photons) {
   tally::PointResult point;
   point.parameters = std::move(parameters);
-  point.photons_requested = point.photons = photons;
+  point.photons_requested = point.emitted = point.photons = photons;
   point.complete = true;
   const auto share = [&](double fraction) {
     return static_cast<std::uint64_t>(fraction * static_cast<double>(photons));

@@ -21,9 +21,10 @@ enum class StreamKind : std::uint64_t {
   table = 2,      ///< (incidence node and side, ray): building a surface table
   synthesis = 3,  ///< synthesising a height map
   other = 4,
-  sensor = 5,  ///< (event, channel): noise of a sensor and its electronics
-  cell = 6,    ///< (cell, photon) of a grid: building a response map
-  mapped = 7,  ///< (event, 0): an event simulated with a response map
+  sensor = 5,      ///< (event, channel): noise of a sensor and its electronics
+  cell = 6,        ///< (cell, photon) of a grid: building a response map
+  mapped = 7,      ///< (event, 0): an event simulated with a response map
+  conversion = 8,  ///< (event, photon / 4): the conversion draws of four photons
 };
 
 /// A random stream addressed by (seed, kind, a, b, set). Streams with different addresses are
@@ -40,7 +41,8 @@ class Rng {
   }
 
   /// Uniform on [0, 1), 53 bits.
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+  double uniform() { return to_uniform(bits()); }
+  static double to_uniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
 
   /// Uniform on (0, 1]: safe as the argument of a logarithm.
   double uniform_positive() { return static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53; }

@@ -19,19 +19,31 @@ double Sensor::conversion_probability(double wavelength_nm, double transverse_in
   return angle ? std::min(1.0, normal * angle_factor(transverse_index)) : normal;
 }
 
+double Sensor::conversion_bound(double low_nm, double high_nm) const {
+  double bound = std::max(conversion_probability(low_nm), conversion_probability(high_nm));
+  for (const double nm : efficiency.x())
+    if (nm > low_nm && nm < high_nm) bound = std::max(bound, conversion_probability(nm));
+  if (!angle) return bound;
+  // The transmission of unpolarised light into a window falls with angle.
+  return std::min(1.0, bound * angle->factor.max_y() * entrance_correction(largest_angle_rad()));
+}
+
 double Sensor::angle_factor(double transverse_index) const {
   const double index = angle->measured_in == AngleMedium::outside ? angle->reference_index : window_index;
-  const double angle_rad =
-      std::min(std::asin(std::min(1.0, transverse_index / index)), angle->factor.x().back());
-  const double published = angle->factor(angle_rad);
-  if (angle->definition == EfficiencyDefinition::internal) return published;
-  // The transmission into the window at this angle, relative to normal incidence, is included in the
-  // published number.
+  const double angle_rad = std::min(std::asin(std::min(1.0, transverse_index / index)), largest_angle_rad());
+  return angle->factor(angle_rad) * entrance_correction(angle_rad);
+}
+
+double Sensor::largest_angle_rad() const { return std::min(core::kPi / 2.0, angle->factor.x().back()); }
+
+double Sensor::entrance_correction(double angle_rad) const {
+  if (angle->definition == EfficiencyDefinition::internal) return 1.0;
+  const double index = angle->measured_in == AngleMedium::outside ? angle->reference_index : window_index;
   const auto entering = [this](double cosine) {
     return 1.0 - optics::fresnel(cosine, angle->reference_index, window_index).unpolarised();
   };
   const double sine = std::min(1.0, std::sin(angle_rad) * index / angle->reference_index);
-  return published * entering(1.0) / entering(std::sqrt(1.0 - sine * sine));
+  return entering(1.0) / entering(std::sqrt(1.0 - sine * sine));
 }
 
 }  // namespace scintray::detector

@@ -67,10 +67,19 @@ struct Sensor {
   /// @param transverse_index  refractive index times sine of the angle to the normal, which is the same
   ///                          on both sides of every face of the window
   double conversion_probability(double wavelength_nm, double transverse_index) const;
+  /// An upper bound of the conversion probability at every angle, for wavelengths (nm) of a range. At most 1.
+  double conversion_bound(double low_nm, double high_nm) const;
   /// Conversion probability at an angle, relative to normal incidence, per photon inside the window. Requires
   /// `angle`. Constant beyond the last tabulated angle and beyond the range of refraction from the reference
   /// index.
   double angle_factor(double transverse_index) const;
+
+ private:
+  /// Largest angle of `angle` at which light can arrive.
+  double largest_angle_rad() const;
+  /// Transmission into the window at normal incidence over that at an angle of `angle`, where the published
+  /// numbers include it, else 1.
+  double entrance_correction(double angle_rad) const;
 };
 
 }  // namespace scintray::detector

@@ -18,7 +18,7 @@
 namespace scintray::results {
 
 /// Version of the layout; grows when a reader of the older one would misread the newer.
-inline constexpr std::int64_t kResultsVersion = 1;
+inline constexpr std::int64_t kResultsVersion = 2;
 
 /// Writer of one results file during a run. There is no file at `path` before commit().
 class ResultsWriter {

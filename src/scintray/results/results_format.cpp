@@ -24,9 +24,12 @@ constexpr std::array kFields = {
     Field{"parameters", "", "value of each swept key at this point, as written"},
     Field{"photons_requested", "1", "photons requested"},
     Field{"photons_traced", "1", "photons followed to their end"},
-    Field{"fate_count", "1", "photons per fate"},
-    Field{"fate_fraction", "1", "fate_count / photons_traced"},
-    Field{"fate_error", "1", "binomial standard error of fate_fraction"},
+    Field{"birth_efficiency", "1",
+          "photons that no sensor would convert, all but this share, were not traced; 1: all were traced"},
+    Field{"fate_count", "1", "traced photons per fate"},
+    Field{"fate_fraction", "1",
+          "share of the emitted photons: fate_count / photons_traced where birth_efficiency is 1"},
+    Field{"fate_error", "1", "standard error of fate_fraction"},
     Field{"absorbed_in_medium", "1", "photons absorbed in each medium"},
     Field{"absorbed_at_surface", "1", "photons absorbed at each surface"},
     Field{"shifter_absorbed", "1", "photons absorbed by the wavelength shifter"},
@@ -195,11 +198,13 @@ core::h5::File open_results(const std::filesystem::path& path) {
                             "this HDF5 file is not a ScintRay result",
                             "name a file that `scintray run` wrote"});
   const std::int64_t version = root.integer_attribute("", "version");
-  if (version != kResultsVersion)
+  constexpr std::int64_t kOldest = 1;
+  if (version < kOldest || version > kResultsVersion)
     throw core::InputError({{path.string()},
                             "this result has format version " + std::to_string(version) +
                                 " (written by ScintRay " + root.string_attribute("", "scintray_version") +
-                                "), but this program reads version " + std::to_string(kResultsVersion),
+                                "), but this program reads versions " + std::to_string(kOldest) + " to " +
+                                std::to_string(kResultsVersion),
                             version > kResultsVersion ? "use a newer ScintRay"
                                                       : "run the scene again, or use the older ScintRay"});
   return file;

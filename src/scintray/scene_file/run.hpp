@@ -30,9 +30,10 @@ struct RunSpec {
   std::optional<int> lane_width;
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
-  bool photon_list = false;      ///< write every detected photon to the results
-  bool photon_history = false;   ///< write the history of each, for reweighting
-  std::filesystem::path output;  ///< results file; empty: default of the command
+  bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
+  bool photon_list = false;         ///< write every detected photon to the results
+  bool photon_history = false;      ///< write the history of each, for reweighting
+  std::filesystem::path output;     ///< results file; empty: default of the command
   core::FileLocation where;
 };
 

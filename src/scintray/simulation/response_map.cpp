@@ -32,7 +32,12 @@ class CellTracer {
  public:
   CellTracer(const scene::Scene& scene, const tally::ReadoutChannels& channels, const ResponseMap& map,
              const ResponseGrid& grid, const RunSettings& run)
-      : scene_(scene), channels_(channels), map_(map), grid_(grid), run_(run) {
+      : scene_(scene),
+        channels_(channels),
+        map_(map),
+        grid_(grid),
+        run_(run),
+        efficiency_bound_(efficiency_bound(scene)) {
     medium_ = scene.regions[grid.region].medium;
     emission_ = core::CurveSampler(scene.media[medium_].medium().emission);
   }
@@ -84,6 +89,8 @@ class CellTracer {
     source::Photon photon;
     if (!place(box, rng, photon.position)) return;
     ++response.photons;
+    photon.conversion_draw = rng.uniform();
+    if (photon.conversion_draw >= efficiency_bound_) return;  // no sensor would convert it
     photon.region = grid_.region;
     photon.ray.direction = core::sample_isotropic(rng);
     photon.ray.polarisation = map_.unpolarised ? core::Vec3(core::Vec3::Zero())
@@ -108,6 +115,7 @@ class CellTracer {
   const ResponseMap& map_;
   const ResponseGrid& grid_;
   const RunSettings& run_;
+  double efficiency_bound_;
   core::MediumId medium_;
   core::CurveSampler emission_;
 };

@@ -18,7 +18,8 @@ struct Block {
       : photons(scene, plan), events(scene, plan) {}
   tally::BlockTally photons;
   tally::EventTally events;
-  std::uint64_t started = 0;  ///< photons
+  std::uint64_t emitted = 0;  ///< photons
+  std::uint64_t traced = 0;   ///< of them, those that were traced
 };
 
 /// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
@@ -64,14 +65,19 @@ class BlockTracer {
     }
     if (block.photons.wants_reflections()) limits.passed = pass;
     source::EventLight light;
+    ConversionDraws draws(settings_);
     for (const source::PhotonSpan& span : source_.block(number)) {
       core::Rng rng = event_stream(settings_, span.event);
       source_.begin(scene_, span.event, rng, light);
       if (energy_) block.events.begin(span.event, settings_.point, light);
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      for (std::uint64_t i = 0; i < count; ++i)
-        trace_photon(light, span.event, span.first + i, limits, block);
-      block.started += count;
+      for (std::uint64_t i = span.first; i < span.first + count; ++i) {
+        const double draw = draws.at(span.event, i);
+        if (draw >= settings_.birth_efficiency) continue;
+        trace_photon(light, {span.event, i, draw}, limits, block);
+        ++block.traced;
+      }
+      block.emitted += count;
       if (energy_)
         block.events.end(
             [&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
@@ -83,6 +89,7 @@ class BlockTracer {
   /// A photon of the block.
   struct Address {
     std::uint64_t event = 0, photon = 0;
+    double conversion_draw = 0.0;
   };
 
   /// Traces photons of which only the ends are recorded. Events of energy are traced one by one.
@@ -90,14 +97,18 @@ class BlockTracer {
                       const transport::PropagationLimits& limits, Block& block) const {
     transport::Batch batch(scene_, limits, lane_width_);
     source::EventLight light;
+    ConversionDraws draws(settings_);
     std::vector<Address> photons;
     for (const source::PhotonSpan& span : spans) {
       core::Rng rng = event_stream(settings_, span.event);
       source_.begin(scene_, span.event, rng, light);
       if (energy_) block.events.begin(span.event, settings_.point, light);
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      for (std::uint64_t i = 0; i < count; ++i) {
-        photons.push_back({span.event, span.first + i});
+      block.emitted += count;
+      for (std::uint64_t i = span.first; i < span.first + count; ++i) {
+        const double draw = draws.at(span.event, i);
+        if (draw >= settings_.birth_efficiency) continue;
+        photons.push_back({span.event, i, draw});
         if (photons.size() == kMostTogether) trace_together(photons, light, batch, block);
       }
       if (!energy_) continue;
@@ -115,7 +126,9 @@ class BlockTracer {
       return photon_stream(settings_, photons[i].event, photons[i].photon);
     };
     const auto emit = [&](std::uint64_t i, core::Rng& rng) {
-      return source_.emit(scene_, light, photons[i].photon, rng);
+      source::Photon photon = source_.emit(scene_, light, photons[i].photon, rng);
+      photon.conversion_draw = photons[i].conversion_draw;
+      return photon;
     };
     const std::vector<transport::TracedPhoton>& traced = batch.trace(photons.size(), stream, emit);
     tally::BlockTally& tally = block.photons;
@@ -131,16 +144,17 @@ class BlockTracer {
       if (energy_ && end.last.event == core::StepEvent::detected)
         block.events.detected(plan_.channels.at(end.last), end.photon);
     }
-    block.started += photons.size();
+    block.traced += photons.size();
     photons.clear();
   }
 
-  void trace_photon(const source::EventLight& light, std::uint64_t event, std::uint64_t number,
+  void trace_photon(const source::EventLight& light, const Address& address,
                     const transport::PropagationLimits& limits, Block& block) const {
-    core::Rng rng = photon_stream(settings_, event, number);
-    source::Photon photon = source_.emit(scene_, light, number, rng);
+    core::Rng rng = photon_stream(settings_, address.event, address.photon);
+    source::Photon photon = source_.emit(scene_, light, address.photon, rng);
+    photon.conversion_draw = address.conversion_draw;
     tally::BlockTally& tally = block.photons;
-    tally.start(photon, event, number);
+    tally.start(photon, address.event, address.photon);
     for (;;) {
       const transport::Step taken = transport::step(scene_, photon, rng, limits, &tally.records());
       if (core::is_final(taken.event)) {
@@ -173,6 +187,26 @@ void check_every_photon_has_a_fate(tally::PointResult& result, std::uint64_t tra
 
 }  // namespace
 
+double efficiency_bound(const scene::Scene& scene) {
+  double bound = 0.0;
+  for (const detector::Sensor& sensor : scene.sensors)
+    bound = std::max(bound, sensor.conversion_bound(scene.low_nm, scene.high_nm));
+  return bound > 0.0 ? bound : 1.0;
+}
+
+double ConversionDraws::at(std::uint64_t event, std::uint64_t photon) {
+  constexpr std::uint64_t kNumbers = std::tuple_size_v<decltype(numbers_)>;
+  const std::uint64_t block = photon / kNumbers;
+  if (!has_numbers_ || event_ != event || block_ != block) {
+    core::Rng rng(seed_, core::StreamKind::conversion, event, block, point_);
+    for (std::uint64_t& number : numbers_) number = rng.bits();
+    event_ = event;
+    block_ = block;
+    has_numbers_ = true;
+  }
+  return core::Rng::to_uniform(numbers_[photon % kNumbers]);
+}
+
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon) {
   return core::Rng(settings.seed, core::StreamKind::photon, event, photon, settings.point);
 }
@@ -199,24 +233,26 @@ tally::PointResult run_point(const scene::Scene& scene, const source::LightSourc
   const BlockTracer tracer(scene, source, plan, settings);
   const bool energy = source.has_energy();
   const std::uint64_t blocks = source.blocks();
-  std::uint64_t started = 0;
+  std::uint64_t traced = 0;
 
   const auto trace = [&](std::uint64_t block) { return tracer.trace(block); };
   const auto collect = [&](std::uint64_t, const Block& block) {
     block.photons.add_to(total);
     block.events.add_to(total.energy);
-    started += block.started;
+    total.emitted += block.emitted;
+    traced += block.traced;
     if (hooks.detected && !block.photons.photons().empty()) hooks.detected(block.photons.photons());
     if (hooks.histories && block.photons.histories()) hooks.histories(*block.photons.histories());
     if (hooks.events && !block.events.events().empty()) hooks.events(block.events.events());
-    if (hooks.progress) hooks.progress(energy ? total.energy.events : started);
+    if (hooks.progress) hooks.progress(energy ? total.energy.events : total.emitted);
   };
   const std::uint64_t blocks_done =
       transport::work_in_order(blocks, settings.threads, hooks.stop, trace, collect);
 
-  check_every_photon_has_a_fate(total, started);
+  check_every_photon_has_a_fate(total, traced);
   total.complete = blocks_done == blocks;
-  total.photons_requested = energy ? started : source.photons();
+  total.photons_requested = energy ? total.emitted : source.photons();
+  total.birth_efficiency = settings.birth_efficiency;
   total.energy.events_requested = energy ? source.events() : 0;
   total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return total;
@@ -242,7 +278,9 @@ source::Photon emitted(const scene::Scene& scene, const source::LightSource& sou
                                      : "there are " + std::to_string(source.events()) + " events"),
         "both count from 0"});
   rng = photon_stream(settings, event, photon);
-  return source.emit(scene, light, photon, rng);
+  source::Photon start = source.emit(scene, light, photon, rng);
+  start.conversion_draw = ConversionDraws(settings).at(event, photon);
+  return start;
 }
 
 }  // namespace

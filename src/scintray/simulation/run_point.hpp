@@ -22,6 +22,9 @@ struct RunSettings {
   std::optional<double> max_time_ns;                 ///< time after which a photon is cut
   int threads = 0;                                   ///< 0: all cores
   int lane_width = transport::default_lane_width();  ///< of transport::lane_widths(); no result depends on it
+  /// Photons whose conversion draw is not below this are not traced: no sensor would convert them. The
+  /// detected photons are the same for any value that no efficiency exceeds.
+  double birth_efficiency = 1.0;
 };
 
 /// Callbacks during a run. Any may be empty. All are called from one thread at a time.
@@ -41,6 +44,25 @@ core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
 
 /// The random stream of the noise of a sensor and its electronics in an event.
 core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
+
+/// An upper bound of the efficiency of every sensor of a scene for its light; 1 where that is 0 or there is
+/// no sensor.
+double efficiency_bound(const scene::Scene& scene);
+
+/// The conversion draws of a run's photons. Each depends on seed, point, event and photon number alone, so
+/// that it is known before the photon is traced.
+class ConversionDraws {
+ public:
+  explicit ConversionDraws(const RunSettings& settings) : seed_(settings.seed), point_(settings.point) {}
+  /// Uniform on [0, 1). Photons of an event in their order cost a quarter of a random block each.
+  double at(std::uint64_t event, std::uint64_t photon);
+
+ private:
+  std::uint64_t seed_, point_;
+  std::uint64_t event_ = 0, block_ = 0;  ///< of the kept numbers
+  bool has_numbers_ = false;
+  std::array<std::uint64_t, 4> numbers_{};
+};
 
 /// The limits of a run, at which photons are cut.
 inline transport::PropagationLimits limits_of(const RunSettings& settings) {
@@ -73,7 +95,8 @@ source::Photon start_of_photon(const scene::Scene& scene, const source::LightSou
                                const RunSettings& settings, const PhotonNumber& number);
 
 /// Replays one photon; `visit` is called for every step, each total reflection included. Returns the photon
-/// as it ended. Throws InputError when there is no such photon.
+/// as it ended. A photon that the run did not trace is followed all the same: no sensor converts it.
+/// Throws InputError when there is no such photon.
 source::Photon replay(const scene::Scene& scene, const source::LightSource& source,
                       const RunSettings& settings, const PhotonNumber& number, transport::StepVisitor visit);
 

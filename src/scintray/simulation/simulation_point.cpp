@@ -47,6 +47,22 @@ std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const 
   return timing;
 }
 
+/// True when nothing is recorded of photons that are not detected but their fates.
+bool only_detected_count(const tally::TallyPlan& plan) {
+  constexpr std::uint32_t kDetected = 1u << static_cast<unsigned>(core::StepEvent::detected);
+  return !plan.history &&
+         std::all_of(plan.counts.begin(), plan.counts.end(),
+                     [](const tally::CountRequest& count) { return count.fates == kDetected; });
+}
+
+RunSettings settings_of(const scene_file::SceneSpec& spec, const scene::Scene& scene,
+                        const tally::TallyPlan& plan, std::uint32_t number) {
+  RunSettings settings = run_settings(spec.run, number);
+  if (spec.run.efficiency_at_birth && only_detected_count(plan))
+    settings.birth_efficiency = efficiency_bound(scene);
+  return settings;
+}
+
 }  // namespace
 
 SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, std::shared_ptr<const scene::BuiltScene> built,
@@ -55,7 +71,7 @@ SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, std::shared_ptr<con
       built_(std::move(built)),
       source_(source::make_light_source(spec_, built_->scene, &source_notes_)),
       plan_(built_->scene, spec_),
-      settings_(run_settings(spec_.run, number)) {}
+      settings_(settings_of(spec_, built_->scene, plan_, number)) {}
 
 SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, scene::SceneBuilder& builder,
                                  std::uint32_t number)

@@ -22,9 +22,11 @@ struct Photon {
   double wavelength_nm = 0.0;
   double time_ns = 0.0;
   double path_mm = 0.0;
-  double optical_depth = 0.0;      ///< remaining until absorption or scattering in the bulk
-  optics::MediumOptics optics;     ///< of the region's medium at this wavelength
-  core::RegionId region = {};      ///< that contains the photon
+  double optical_depth = 0.0;  ///< remaining until absorption or scattering in the bulk
+  double conversion_draw =
+      0.0;                      ///< uniform on [0, 1): a sensor converts it when this is below its efficiency
+  optics::MediumOptics optics;  ///< of the region's medium at this wavelength
+  core::RegionId region = {};   ///< that contains the photon
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
 };

@@ -36,6 +36,28 @@ optics::ShiftCount PointResult::shifted() const {
   return total;
 }
 
+core::Estimate PointResult::detected_fraction(std::uint64_t detected) const {
+  const core::Estimate share = core::binomial_estimate(detected, photons);
+  return {birth_efficiency * share.value, birth_efficiency * share.error};
+}
+
+core::Estimate PointResult::not_detected_fraction(std::uint64_t not_detected, std::uint64_t detected) const {
+  if (birth_efficiency == 1.0 || photons == 0) return core::binomial_estimate(not_detected, photons);
+  // The mean over the traced photons of 1 for a photon that is not detected and 1 - b for one that is.
+  const double n = static_cast<double>(photons), weight = 1.0 - birth_efficiency;
+  const double whole = static_cast<double>(not_detected), partial = static_cast<double>(detected);
+  const double mean = (whole + weight * partial) / n;
+  const double square = (whole + weight * weight * partial) / n;
+  return {mean, std::sqrt(std::max(1.0 / n, square - mean * mean) / n)};
+}
+
+core::Estimate PointResult::fraction(core::Fate fate) const {
+  if (fate == core::Fate::detected) return detected_fraction(count(fate));
+  if (fate == core::Fate::not_detected)
+    return not_detected_fraction(count(fate), count(core::Fate::detected));
+  return core::binomial_estimate(count(fate), photons);
+}
+
 double PointResult::cut_bias_bound() const {
   if (photons == 0) return 0.0;
   const std::uint64_t cut = count(core::Fate::cut_interactions) + count(core::Fate::cut_time);

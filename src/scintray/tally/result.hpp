@@ -83,8 +83,14 @@ struct LightTiming {
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
   std::uint64_t photons_requested = 0;  ///< for events, the number emitted by those traced
+  std::uint64_t emitted = 0;            ///< photons, those that were not traced included
   std::uint64_t photons = 0;            ///< traced to their end
-  bool complete = false;                ///< false when interrupted
+  /// Upper bound of the efficiency of every sensor, with which photons were drawn at their birth: the others,
+  /// which no sensor would have converted, were not traced. 1: all were. Fates and what is derived from them
+  /// are those of the traced photons, a random sample of all but in one respect: each detected photon stands
+  /// for this many photons of the sample, and the rest of it reached the sensor as well but was not detected.
+  double birth_efficiency = 1.0;
+  bool complete = false;  ///< false when interrupted
   EnergyBalance energy;
   std::optional<LightTiming> light_timing;  ///< of an event source, where it is the same for all light
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
@@ -108,7 +114,13 @@ struct PointResult {
   std::uint64_t count(core::Fate fate) const { return fates[core::fate_index(fate)]; }
   /// Sum over all wavelength shifters.
   optics::ShiftCount shifted() const;
-  core::Estimate fraction(core::Fate fate) const { return core::binomial_estimate(count(fate), photons); }
+  /// Share of the emitted photons with a fate. With a birth efficiency b below 1 and n photons traced: b
+  /// detected / n, (not detected + (1 - b) detected) / n, and count / n for any other fate. Their sum is 1.
+  core::Estimate fraction(core::Fate fate) const;
+  /// Share of the emitted photons that some of the detected photons stand for.
+  core::Estimate detected_fraction(std::uint64_t detected) const;
+  /// Share of the emitted photons that reach a sensor and are not detected, from the counts there.
+  core::Estimate not_detected_fraction(std::uint64_t not_detected, std::uint64_t detected) const;
   /// Upper bound of the error of any fraction from cut photons: cut photons / photons.
   double cut_bias_bound() const;
 };

@@ -307,7 +307,8 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
     const double probability =
         scene.sensors[sensor].conversion_probability(photon.wavelength_nm, there * sine);
-    result.event = rng.uniform() < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
+    result.event =
+        photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
     result.sensor_part = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
   } else if (next_opaque) {
     result.event = core::StepEvent::absorbed_in_medium;

@@ -63,7 +63,7 @@ std::string partial_banner(const tally::RunResult& run) {
   std::uint64_t wanted = 0, traced = 0;
   for (const tally::PointResult& point : run.points) {
     wanted += point.photons_requested;
-    traced += point.photons;
+    traced += point.emitted;
   }
   return "<p class=\"partial\"><b>Partial result.</b> " +
          escape_html(run.partial_reason.empty() ? "Not every point was finished" : run.partial_reason) +

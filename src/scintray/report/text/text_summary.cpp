@@ -48,13 +48,17 @@ std::string point_table(const tally::RunResult& run) {
 }
 
 std::string fate_table(const tally::PointResult& point) {
-  Table table{{"fate", "photons", "fraction"}};
+  Table table{{"fate", point.birth_efficiency < 1.0 ? "photons traced" : "photons", "fraction"}};
   for (int i = 0; i < core::kFateCount; ++i) {
     const core::Fate fate = core::fate_at(i);
     table.push_back({fate_text(fate), std::to_string(point.count(fate)), with_error(point.fraction(fate))});
   }
   table.push_back({"all", std::to_string(point.photons), ""});
-  return aligned(table);
+  if (point.birth_efficiency == 1.0) return aligned(table);
+  return aligned(table) + "Traced are " + std::to_string(point.photons) + " of " +
+         std::to_string(point.emitted) + " photons: no sensor converts more than " +
+         compact(point.birth_efficiency, 4) +
+         " of them, and that share was drawn at birth. Fractions are of all photons.\n";
 }
 
 std::string warnings(const tally::RunResult& run) {

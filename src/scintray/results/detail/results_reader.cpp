@@ -73,6 +73,14 @@ class PointReader {
     require(point.parameters.size() == header_.sweep_keys.size(), "parameters do not match the swept keys");
     point.photons_requested = get<std::uint64_t>(group_, "photons_requested");
     point.photons = get<std::uint64_t>(group_, "photons_traced");
+    // Version 1 has neither of the two.
+    point.emitted = point.photons;
+    if (group_.has("birth_efficiency")) {
+      point.emitted = get<std::uint64_t>(group_, "photons_emitted");
+      point.birth_efficiency = get<double>(group_, "birth_efficiency");
+      require(point.birth_efficiency > 0.0 && point.birth_efficiency <= 1.0,
+              "birth_efficiency is not in 0 to 1");
+    }
     point.complete = group_.integer_attribute("", "complete") != 0;
     copy("fate_count", point.fates);
     copy("detected_path_histogram", point.detected_path_histogram);

@@ -322,7 +322,9 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
   format::put_text(group, "parameters", point.parameters);
   format::put(group, "photons_requested", point.photons_requested);
+  format::put(group, "photons_emitted", point.emitted);
   format::put(group, "photons_traced", point.photons);
+  format::put(group, "birth_efficiency", point.birth_efficiency);
   put_fates(group, point);
   format::put(group, "absorbed_in_medium", point.absorbed_in_medium.values());
   format::put(group, "absorbed_at_surface", point.absorbed_at_surface.values());

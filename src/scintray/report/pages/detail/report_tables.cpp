@@ -22,49 +22,54 @@ std::uint64_t total(const std::vector<std::uint64_t>& counts) {
 /// One fate as listed on the page, by name of its medium or surface.
 struct LedgerEntry {
   std::string name;
-  std::string colour;                 ///< class of the bar
-  std::vector<std::uint64_t> counts;  ///< per point
+  std::string colour;                  ///< class of the bar
+  std::vector<core::Estimate> shares;  ///< of the photons, per point
+  bool seen = false;                   ///< some photon had this fate
 };
 
 std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
   std::vector<LedgerEntry> entries;
-  const auto add = [&](const std::string& name, const std::string& colour, const auto& count) {
+  const auto add = [&](const std::string& name, const std::string& colour, const auto& share) {
     LedgerEntry entry{name, colour, {}};
-    for (const tally::PointResult& point : run.points) entry.counts.push_back(count(point));
+    for (const tally::PointResult& point : run.points) {
+      entry.shares.push_back(share(point));
+      entry.seen = entry.seen || entry.shares.back().value > 0.0;
+    }
     entries.push_back(std::move(entry));
   };
-  const auto fate = [](core::Fate f) {
-    return [f](const tally::PointResult& point) { return point.count(f); };
+  const auto add_fate = [&](const std::string& name, const std::string& colour, core::Fate fate) {
+    add(name, colour, [fate](const tally::PointResult& point) { return point.fraction(fate); });
   };
-  add("detected", "f0", fate(core::Fate::detected));
-  add("not detected", "f1", fate(core::Fate::not_detected));
+  const auto add_absorbed = [&](const std::string& name, const std::string& colour, auto id, auto counts) {
+    add(name, colour, [id, counts](const tally::PointResult& point) {
+      const auto& of = point.*counts;
+      return core::binomial_estimate(of.contains(id) ? of[id] : 0, point.photons);
+    });
+  };
+  add_fate("detected", "f0", core::Fate::detected);
+  add_fate("not detected", "f1", core::Fate::not_detected);
   for (const core::MediumId medium : run.header.media.ids())
-    add("absorbed in " + run.header.media[medium], "f2", [medium](const tally::PointResult& point) {
-      return point.absorbed_in_medium.contains(medium) ? point.absorbed_in_medium[medium] : 0;
-    });
+    add_absorbed("absorbed in " + run.header.media[medium], "f2", medium,
+                 &tally::PointResult::absorbed_in_medium);
   for (const core::SurfaceId surface : run.header.surfaces.ids())
-    add("absorbed at " + run.header.surfaces[surface], "f3", [surface](const tally::PointResult& point) {
-      return point.absorbed_at_surface.contains(surface) ? point.absorbed_at_surface[surface] : 0;
-    });
-  add("escaped", "f4", fate(core::Fate::escaped));
-  add("cut: interactions", "f5", fate(core::Fate::cut_interactions));
-  add("cut: time", "f5", fate(core::Fate::cut_time));
+    add_absorbed("absorbed at " + run.header.surfaces[surface], "f3", surface,
+                 &tally::PointResult::absorbed_at_surface);
+  add_fate("escaped", "f4", core::Fate::escaped);
+  add_fate("cut: interactions", "f5", core::Fate::cut_interactions);
+  add_fate("cut: time", "f5", core::Fate::cut_time);
   // Media and surfaces without absorption carry no information; that none was cut does.
-  std::erase_if(entries,
-                [](const LedgerEntry& entry) { return entry.colour != "f5" && total(entry.counts) == 0; });
+  std::erase_if(entries, [](const LedgerEntry& entry) { return entry.colour != "f5" && !entry.seen; });
   return entries;
 }
 
 std::string bar(const std::vector<LedgerEntry>& entries, const tally::PointResult& point, std::size_t index) {
   std::string out = "<div class=\"bar\">";
   for (const LedgerEntry& entry : entries) {
-    if (entry.counts[index] == 0 || point.photons == 0) continue;
-    const double share =
-        100.0 * static_cast<double>(entry.counts[index]) / static_cast<double>(point.photons);
+    if (entry.shares[index].value == 0.0 || point.photons == 0) continue;
+    const double share = 100.0 * entry.shares[index].value;
     out += "<span class=\"" + entry.colour + "\" style=\"width:" + compact(share, 6) + "%\" title=\"" +
-           escape_html(entry.name + ": " +
-                       percent_with_error(core::binomial_estimate(entry.counts[index], point.photons))) +
-           "\">" + (share > 7.0 ? fixed(share, 1) + " %" : "") + "</span>";
+           escape_html(entry.name + ": " + percent_with_error(entry.shares[index])) + "\">" +
+           (share > 7.0 ? fixed(share, 1) + " %" : "") + "</span>";
   }
   return out + "</div>";
 }
@@ -112,13 +117,12 @@ LedgerTable ledger_table(const tally::RunResult& run, const std::vector<LedgerEn
     const tally::PointResult& point = run.points[i];
     std::vector<std::string> row{point_label(point)};
     for (const LedgerEntry& entry : entries) {
-      const core::Estimate share = core::binomial_estimate(entry.counts[i], point.photons);
-      row.push_back(entry.counts[i] == 0 ? "0" : with_error({100.0 * share.value, 100.0 * share.error}));
+      const core::Estimate share = entry.shares[i];
+      row.push_back(share.value == 0.0 ? "0" : with_error({100.0 * share.value, 100.0 * share.error}));
     }
-    const auto sum =
-        static_cast<double>(std::accumulate(point.fates.begin(), point.fates.end(), std::uint64_t{0}));
-    row.push_back(point.photons == 0 ? "no photons"
-                                     : compact(100.0 * sum / static_cast<double>(point.photons), 6));
+    double sum = 0.0;
+    for (int fate = 0; fate < core::kFateCount; ++fate) sum += point.fraction(core::fate_at(fate)).value;
+    row.push_back(point.photons == 0 ? "no photons" : compact(100.0 * sum, 6));
     row.push_back(grouped(point.lost));
     cells.push_back(std::move(row));
   }
@@ -248,10 +252,12 @@ std::string sensor_section(const tally::RunResult& run) {
   std::string rows;
   for (const tally::PointResult& point : run.points)
     for (const tally::SensorFaceCount& count : point.sensor_faces)
-      rows += "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
-              cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
-              number_cell(percent_with_error(core::binomial_estimate(count.detected, point.photons))) +
-              number_cell(grouped(count.not_detected)) + "</tr>\n";
+      rows +=
+          "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
+          cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
+          number_cell(percent_with_error(point.detected_fraction(count.detected))) +
+          number_cell(percent_with_error(point.not_detected_fraction(count.not_detected, count.detected))) +
+          "</tr>\n";
   if (rows.empty()) return "";
   return section(
       "Sensors, face by face",
@@ -322,9 +328,10 @@ std::string path_section(const tally::RunResult& run) {
 }
 
 std::string condition_section(const tally::RunResult& run) {
-  std::uint64_t photons = 0, events = 0, segments = 0, misses = 0, lost = 0;
+  std::uint64_t emitted = 0, photons = 0, events = 0, segments = 0, misses = 0, lost = 0;
   double seconds = 0.0, bias = 0.0;
   for (const tally::PointResult& point : run.points) {
+    emitted += point.emitted;
     photons += point.photons;
     events += point.energy.events;
     segments += point.segments;
@@ -343,7 +350,10 @@ std::string condition_section(const tally::RunResult& run) {
   const std::string in_points =
       " in " + grouped(run.points.size()) + (run.points.size() == 1 ? " point" : " points");
   if (run.traced_photons()) {
-    row("photons", grouped(photons) + in_points);
+    row("photons", grouped(emitted) + in_points);
+    if (photons < emitted)
+      row("of them traced",
+          grouped(photons) + ": the others were drawn at birth as photons that no sensor would convert");
     row("lost photons", grouped(lost));
     row("largest bias from cut photons",
         bias == 0.0 ? "none: no photon was cut" : compact(bias, 2) + " of a fraction");
@@ -354,7 +364,7 @@ std::string condition_section(const tally::RunResult& run) {
   row("time", compact(seconds, 3) + " s");
   if (seconds > 0.0)
     row("speed", run.traced_photons() ? rate(static_cast<double>(segments) / seconds) + " segments/s, " +
-                                            rate(static_cast<double>(photons) / seconds) + " photons/s"
+                                            rate(static_cast<double>(emitted) / seconds) + " photons/s"
                                       : rate(static_cast<double>(events) / seconds) + " events/s");
   std::string notes;
   if (!run.header.note.empty()) {

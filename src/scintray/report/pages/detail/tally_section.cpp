@@ -171,7 +171,7 @@ std::string drawing(const tally::TallyResult& tally, const tally::PointResult& p
     caption += ". Share of the light of each row that each sensor detected.";
     return crosstalk_table(point, tally);
   }
-  if (tally.axes.empty()) return "<p>" + escape_html(with_error(tally.at(0, point.photons))) + "</p>\n";
+  if (tally.axes.empty()) return "<p>" + escape_html(with_error(tally.at(0, point.emitted))) + "</p>\n";
   if (view == TallyView::etendue) {
     caption += ": " + etendue_text(tally);
     return "";
@@ -188,9 +188,9 @@ std::string drawing(const tally::TallyResult& tally, const tally::PointResult& p
     return polar_map(turned);
   }
   if (both(tally, is_position)) caption += ". " + spread_text(tally);
-  if (both(tally, is_named) && tally.axes[1].bins() <= kMostCells) return matrix_table(tally, point.photons);
+  if (both(tally, is_named) && tally.axes[1].bins() <= kMostCells) return matrix_table(tally, point.emitted);
   if (tally.axes.size() == 2) return grid_map(map_of(tally));
-  if (tally.axes.size() == 1 && is_named(tally.axes[0])) return names_table(tally, point.photons);
+  if (tally.axes.size() == 1 && is_named(tally.axes[0])) return names_table(tally, point.emitted);
   if (tally.axes.size() == 1 && is_number(tally.axes[0])) return histogram(tally, point);
   caption += fmt::format(". {} axes, {} bins: in the results file.", tally.axes.size(), tally.sum.size());
   return "";
@@ -240,7 +240,7 @@ std::string tally_lines(const tally::PointResult& point) {
     const TallyView view = view_of(tally);
     if (view == TallyView::hidden) continue;
     if (tally.axes.empty())
-      lines += tally.name + ": " + with_error(tally.per_photon(0, point.photons)) + " " + tally.score +
+      lines += tally.name + ": " + with_error(tally.per_photon(0, point.emitted)) + " " + tally.score +
                " per photon\n";
     else if (view == TallyView::etendue)
       lines += tally.name + ": " + etendue_text(tally) + "\n";
