@@ -94,6 +94,16 @@ TEST_CASE("values outside their range") {
   check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
                 "cylinder = { radius = \"1 mm\", height = \"2 mm\", segments = @@2 }", "2 segments",
                 "3 or more");
+  // More triangles than any memory would hold, or than rounding leaves.
+  check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+                "cylinder = { radius = \"1 mm\", height = \"2 mm\", segments = @@1000000 }",
+                "1000000 segments", "10000");
+  check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+                "sphere = { radius = \"1 mm\", subdivisions = @@1000 }", "1000 subdivisions", {"1", "150"});
+  check_mistake(
+      "box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+      "winston = { exit_radius = \"1 mm\", acceptance = \"30 deg\", segments = 10000, rings = @@1000 }",
+      {"10000 segments", "1000 rings", "20000000 triangles"}, "250000");
   check_mistake("normal = [0, 0, -1]", "normal = @@[0, 0, 0]", "no length", "[0, 0, 1]");
   check_mistake("photons = 1000", "photons = @@0", "at least 1", "positive");
   check_mistake("seed = 7", "seed = @@-1", "seed below 0", "0 to");

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -245,6 +246,27 @@ TEST_CASE("A result whose parts contradict each other is refused") {
   const auto message = message_of([&] { read_results(folder / "face.h5"); });
   CHECK(contains(message, "in point 0001"));
   check_contains(message, {"face", "not exist"});
+}
+
+TEST_CASE("A result with impossible numbers is refused with what is wrong") {
+  const auto folder = test::scratch_folder("results_impossible");
+  const auto refused = [&](const auto& change) {
+    RunResult run = test::made_up_run();
+    change(run.points[1]);
+    write(folder / "run.h5", run, {});
+    return message_of([&] { read_results(folder / "run.h5"); });
+  };
+  check_contains(refused([](PointResult& p) { p.photons = 7; }), {"point 0001", "fates"});
+  check_contains(refused([](PointResult& p) { p.fates[0] += 1ULL << 62; }), {"point 0001", "fates"});
+  check_contains(refused([](PointResult& p) { p.absorbed_at_surface[core::SurfaceId(0)] += 1; }),
+                 "absorbed_at_surface");
+  check_contains(refused([](PointResult& p) { p.sensor_faces[0].detected += 1; }), "sensor_faces");
+  check_contains(refused([](PointResult& p) { p.interactions.sum = NAN; }), "interactions_per_photon");
+  check_contains(refused([](PointResult& p) { p.detected_path_mm.sum *= 1e9; }), "detected_path");
+  check_contains(refused([](PointResult& p) { p.wall_seconds = -1.0; }), "wall_seconds");
+  check_contains(refused([](PointResult& p) { p.tallies[0].sum_of_squares[3] = INFINITY; }),
+                 "sum of squares");
+  CHECK(refused([](PointResult&) {}).empty());
 }
 
 TEST_CASE("A list of three million photons streams through bounded memory") {

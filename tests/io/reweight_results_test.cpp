@@ -42,6 +42,10 @@ struct MadeUp {
       point.fates = {};
       point.fates[0] = 600;
       point.fates[4] = point.photons - 600;
+      for (std::uint64_t& count : point.absorbed_in_medium) count = 0;
+      for (std::uint64_t& count : point.absorbed_at_surface) count = 0;
+      point.sensor_faces = {{PartId(1), FaceId(2), 600, 0}};
+      point.detected_path_histogram = {};
     }
     run.header.surfaces = {"rough (LSO to air)", "bare (LSO to air)"};
   }

@@ -105,3 +105,21 @@ TEST_CASE("3MF objects are bodies, with the transforms of their items") {
   check_box(second, 25.4);
   CHECK(diagnose(second.mesh).bounds.min().x() == doctest::Approx(254.0));
 }
+
+TEST_CASE("3MF: extensions that a file requires and that carry geometry are refused by name") {
+  const auto with = [](const std::string& attributes, const std::string& build = "<item objectid=\"1\"/>") {
+    return mesh_file("extension.3mf", three_mf(attributes, build));
+  };
+  const std::string lattice = " xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"";
+  const std::string others =
+      " xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\""
+      " xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\"";
+  check_refused(with(lattice + others + " requiredextensions=\"m b\""), 0.0,
+                {"requires", "beamlattice/2017/02", "missing"});
+  check_refused(with(" requiredextensions=\"x\""), 0.0, {"requires", "\"x\""});
+  check_box(import_mesh(with(others + " requiredextensions=\" m  p \""), 0.0), 1.0);
+  check_box(import_mesh(with(lattice), 0.0), 1.0);
+  check_refused(
+      with(others + " requiredextensions=\"p\"", "<item objectid=\"1\" p:path=\"/3D/other.model\"/>"), 0.0,
+      "\"/3D/other.model\"");
+}

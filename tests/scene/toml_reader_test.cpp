@@ -223,3 +223,17 @@ TEST_CASE("whether a value is an array") {
   CHECK_FALSE(reading.table.is_array("b"));
   CHECK_FALSE(reading.table.is_array("c"));
 }
+
+TEST_CASE("places in a line that holds a whole file count characters, not bytes") {
+  std::string list;
+  const int values = 40'000;
+  for (int i = 0; i < values; ++i) list += "{ name = \"µm\", at = 1 }, ";
+  const MarkedText input("rows = [" + list + "{ name = @@7 }]\n");
+  Reading reading(input.text);
+  const TomlNode* rows = reading.table.node()->find("rows");
+  REQUIRE(rows->items.size() == values + 1);
+  const std::size_t each = std::string_view("{ name = \"m\", at = 1 }, ").size() + 1;
+  CHECK(rows->items[1].where.column == static_cast<long>(10 + each - 1));
+  CHECK(rows->items[values].where.column == static_cast<long>(9 + values * each));
+  CHECK(rows->items[values].where.line == 1);
+}

@@ -162,3 +162,15 @@ TEST_CASE("small published text files are read with their units") {
   CHECK(gauge->pitch_x_um == doctest::Approx(1.0));
   CHECK(gauge->at(6, 3) == doctest::Approx(0.97986));
 }
+
+TEST_CASE("a published Nanoscope file of version 7.2 has the heights of its full scale") {
+  const auto path = test::shared_file("data/topography/di-1.di");
+  if (!path) return;
+  const HeightMap map = read_height_map(*path);
+  CHECK(map.columns == 512);
+  CHECK(map.pitch_x_um == doctest::Approx(0.5 / 512));
+  const auto [low, high] = std::minmax_element(map.heights_um.begin(), map.heights_um.end());
+  // 2.910461 V of full scale at 20.82646 nm/V: all heights lie within 60.615 nm.
+  CHECK(*high - *low <= 0.060615);
+  CHECK(*high - *low > 0.0);
+}

@@ -206,6 +206,38 @@ TEST_CASE("Nanoscope files are read with 16 and 32 bits, and with 32 that are de
   check_made_up(read(nanoscope_file(made)), 1e-3);
 }
 
+TEST_CASE("Nanoscope files before 9.2 may state the step of the electronics; the full scale counts") {
+  for (const char* version : {"0x05120000", "0x07200000", "0x09010201"}) {
+    CAPTURE(version);
+    MadeUpNanoscope made;
+    made.version = version;
+    check_made_up(read(replaced(nanoscope_file(made), "(0.0001", "(0.0113")), 1e-3);
+  }
+}
+
+TEST_CASE("heights that no surface of the size of its map has are refused at once") {
+  const auto map_in = [](const std::string& unit) {
+    return "# Channel: Main\n# Width: 10 µm\n# Height: 10 µm\n# Value units: " + unit +
+           "\n 1.0 2.0 3.0 4.0\n 5.0 6.0 7.0 8.0\n 9.0 10.0 11.0 12.0\n";
+  };
+  const std::string found = complaint_about(map_in("m"));
+  CHECK(contains(found, "1.1e+07 um"));
+  CHECK(contains(found, "10 x 10 um"));
+  CHECK(contains(found, "--unit um"));
+  CHECK(read(map_in("µm")).heights_um[11] == doctest::Approx(12.0));
+  ReadOptions stated = channel();
+  stated.height_unit_um = 1.0;
+  CHECK(read(map_in("m"), stated).heights_um[11] == doctest::Approx(12.0));
+  // A single wrong point is left for outlier removal.
+  std::string large = "# Channel: Main\n# Width: 20 µm\n# Height: 20 µm\n# Value units: µm\n";
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column)
+      large += row == 3 && column == 7 ? " 1e9" : " " + std::to_string((row * column) % 3);
+    large += "\n";
+  }
+  CHECK(read(large).heights_um[67] == doctest::Approx(1e9));
+}
+
 TEST_CASE("Nanoscope headers that lack something or contradict themselves are refused with the line") {
   const std::string good = nanoscope_file();
   CHECK(contains(complaint_about(replaced(good, "\\*File list end", "\\*Anything  end")), "without its end"));
@@ -217,7 +249,11 @@ TEST_CASE("Nanoscope headers that lack something or contradict themselves are re
   CHECK(contains(complaint_about(replaced(good, "Data offset: 4096", "Data offset: 99999999")),
                  "0 bytes of heights"));
   CHECK(contains(complaint_about(replaced(good, "Bytes/pixel: 2", "Bytes/pixel: 3")), "expected 2 or 4"));
-  CHECK(contains(complaint_about(replaced(good, "(0.0001", "(0.0002")), "full scale of 2^16"));
+  MadeUpNanoscope recent;
+  recent.version = "0x09200000";
+  CHECK(contains(complaint_about(replaced(nanoscope_file(recent), "(0.0001", "(0.0002")),
+                 "full scale of 2^16"));
+  CHECK(contains(complaint_about(replaced(good, "(0.0001", "(0.00001")), "full scale of 2^16"));
   CHECK(contains(complaint_about(replaced(good, "@2:Z scale", "@2:X scale")), "without \"\\@2:Z scale\""));
   CHECK(contains(complaint_about(replaced(good, "10 3 ~m", "10 3 V")), "their unit"));
   CHECK(contains(complaint_about(nanoscope_file({{{"Amplitude", "mV"}}})), "\"Amplitude\" is in \"mV\""));

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "scintray/cli/count_option.hpp"
@@ -91,6 +92,21 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   }
 }
 
+/// Throws CLI::ValidationError when two scenes would write to one results file.
+void require_own_outputs(const RunOptions& options) {
+  std::map<std::filesystem::path, std::filesystem::path> scenes;  // by what they write
+  for (const auto& scene : options.scenes) {
+    const auto output = output_path(options, scene, scene_file::SceneFile::load(scene));
+    const auto [other, is_new] = scenes.try_emplace(std::filesystem::weakly_canonical(output), scene);
+    if (!is_new)
+      throw CLI::ValidationError(
+          "SCENE",
+          fmt::format("{} and {} would both write {}; run them one at a time with --output, or state "
+                      "output in their [run]",
+                      other->second.string(), scene.string(), output.string()));
+  }
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app) {
@@ -113,6 +129,7 @@ void add_run_command(CLI::App& app) {
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
     const InterruptGuard guard;
+    if (options->scenes.size() > 1) require_own_outputs(*options);
     for (const auto& scene : options->scenes) run_scene(*options, scene);
   });
 }

@@ -2,7 +2,9 @@
 /// A thin, exception-safe layer over the HDF5 C library.
 ///
 /// Files are written under a temporary name beside the target and renamed when committed, so that a partly
-/// written file is never taken for a complete one.
+/// written file is never taken for a complete one. A committed file ends in a seal, the digest of all bytes
+/// before it, which HDF5 ignores: a file with an intact seal is what was written. Other files are read to
+/// their end in a child process before they are opened, since HDF5 crashes on some that are damaged.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +16,15 @@ namespace scintray::core::h5 {
 
 /// Shape of a dataset, slowest dimension first; empty for a scalar.
 using Shape = std::vector<std::uint64_t>;
+
+/// The line behind the end of an HDF5 file that holds the SHA-256 of all bytes before it.
+enum class Seal {
+  none,    ///< written by another program or by ScintRay 0.1, or changed by another program
+  intact,  ///< the bytes are those that were written
+  broken,
+};
+/// The seal of a file; `none` for a file that does not exist. Reads the whole file.
+Seal seal_of(const std::filesystem::path& path);
 
 /// A group of a file, usable during the lifetime of its File.
 /// T below is one of: double, float, std::int32_t, std::uint32_t, std::int64_t, std::uint64_t,
@@ -75,9 +86,10 @@ class Group {
 class File {
  public:
   /// Creates a file under a temporary name; `commit` renames it. Without a commit the temporary file is
-  /// removed.
+  /// removed. Throws InputError when `path` is something else than an HDF5 file (require_replaceable).
   static File create(const std::filesystem::path& path);
-  /// Opens for reading. Throws InputError when the file is missing or is not HDF5.
+  /// Opens for reading. Throws InputError when the file is missing, is not HDF5, is damaged, or refers to
+  /// other files (external links, external storage, virtual datasets).
   static File open(const std::filesystem::path& path);
   File(File&&) noexcept;
   File& operator=(File&&) noexcept;

@@ -7,6 +7,7 @@
 
 #include "scintray/core/detail/h5_internal.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
 
 namespace scintray::core::h5 {
 
@@ -30,14 +31,6 @@ void sync_to_disk(const std::filesystem::path& path, const std::filesystem::path
   if (descriptor >= 0) ::close(descriptor);
   if (status != 0 && cause != EINVAL)  // EINVAL: a file system that cannot sync
     throw SystemError(name.string() + ": cannot write to disk: " + std::strerror(cause));
-}
-
-Handle access_properties() {
-  Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(properties.id(), H5F_CLOSE_STRONG);
-  // Some cluster file systems have no locks; a results file is readable there, too.
-  H5Pset_file_locking(properties.id(), true, true);
-  return properties;
 }
 
 /// Releases the disk space allocated in advance; that HDF5 opens the file shows that it is complete.
@@ -78,6 +71,7 @@ File File::create(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw SystemError(path.string() + ": cannot write: there is no folder " + folder.string());
+  require_replaceable(path, "\x89HDF\r\n\x1a\n");
   const Quiet quiet;
   File file;
   file.state_->path = path;
@@ -102,11 +96,14 @@ File File::open(const std::filesystem::path& path) {
     throw wrong("there is no such file", "check the name and the folder");
   if (std::filesystem::is_directory(path))
     throw wrong("this is a folder, not a file", "name the file inside it");
+  if (!std::filesystem::is_regular_file(path))
+    throw wrong("this is a pipe or a device, not a file", "name the file that holds the data");
   if (::access(path.c_str(), R_OK) != 0)
     throw SystemError(path.string() + ": cannot read: " + std::strerror(errno));
   const Quiet quiet;
   if (H5Fis_hdf5(path.c_str()) <= 0)
     throw wrong("this is not an HDF5 file", "name a file that ScintRay wrote, or make it again");
+  require_sound(path);
   File file;
   file.state_->path = path;
   const Handle access = access_properties();
@@ -141,6 +138,7 @@ void File::commit() {
   if (H5Fclose(state_->life->file) < 0) state_->give_up();
   state_->life->file = -1;
   drop_unused_end(state_->temporary, state_->path);
+  append_seal(state_->temporary, state_->path);
   sync_to_disk(state_->temporary, state_->path);
   std::error_code error;
   std::filesystem::rename(state_->temporary, state_->path, error);

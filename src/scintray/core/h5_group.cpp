@@ -93,7 +93,8 @@ Group Group::create_group(const std::string& name) {
 Group Group::open_group(const std::string& name) const {
   state_->require_open();
   const Quiet quiet;
-  Handle opened(H5Gopen2(state_->group.id(), name.c_str(), H5P_DEFAULT), H5Gclose);
+  const Handle inside = inside_properties(H5P_GROUP_ACCESS);
+  Handle opened(H5Gopen2(state_->group.id(), name.c_str(), inside.id()), H5Gclose);
   if (!opened.valid()) state_->fail("open group", name);
   Group group;
   group.state_.reset(new State{state_->file, state_->object(name), std::move(opened), {}, state_->life});

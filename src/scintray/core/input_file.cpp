@@ -6,6 +6,9 @@
 namespace scintray::core {
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    return std::nullopt;  // reading a pipe could wait for ever
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   std::string content;

@@ -7,7 +7,8 @@
 
 namespace scintray::core {
 
-/// All bytes of a file; empty (nullopt) when it cannot be opened or read, for example a folder.
+/// All bytes of a regular file; empty (nullopt) for a folder, a pipe or a device, and when it cannot be
+/// opened or read.
 [[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
 
 }  // namespace scintray::core

@@ -3,8 +3,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +16,73 @@
 #include "scintray/core/zlib_stream.hpp"
 
 namespace scintray::core {
+
+namespace {
+
+bool starts_like(std::string_view text, std::string_view start) {
+  return text.size() >= start.size() &&
+         std::equal(start.begin(), start.end(), text.begin(), [](char wanted, char found) {
+           return wanted == std::tolower(static_cast<unsigned char>(found));
+         });
+}
+
+/// True when the first line that is no comment is a header or a key of TOML.
+bool is_toml(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r";
+  while (!text.empty()) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
+    line = line.substr(0, line.find_last_not_of(kSpace) + 1);
+    if (line.empty() || line.front() == '#') continue;
+    const auto is_key = [](std::string_view key) {
+      return !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_-.\"' ").find(static_cast<char>(c)) != std::string_view::npos;
+      });
+    };
+    if (line.front() != '[') return line.find('=') != line.npos && is_key(line.substr(0, line.find('=')));
+    const std::string_view name = line.substr(line.starts_with("[[") ? 2 : 1);
+    return is_key(name.substr(0, name.find(']'))) &&
+           std::isdigit(static_cast<unsigned char>(name.front())) == 0;
+  }
+  return false;
+}
+
+/// Kind of a file by its first bytes, with its article; nullptr for one of no special kind.
+const char* kind_of(std::string_view content) {
+  if (content.starts_with("\x89HDF\r\n\x1a\n")) return "an HDF5 file";
+  if (starts_like(content, "<!doctype html") || starts_like(content, "<html")) return "an HTML page";
+  if (starts_like(content, "<svg") || starts_like(content, "<?xml")) return "an SVG or XML file";
+  if (content.starts_with("Gwyddion Simple Field")) return "a height map";
+  if (content.starts_with("glTF")) return "a binary glTF file";
+  return is_toml(content) ? "a TOML file" : nullptr;
+}
+
+}  // namespace
+
+void require_replaceable(const std::filesystem::path& path, std::string_view content) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return;
+  const auto refuse = [&path](const std::string& what) {
+    throw InputError({{path.string()},
+                      what + ", so it is not written over",
+                      "choose another name for what is written, or move what is there away"});
+  };
+  if (std::filesystem::is_directory(status)) refuse("this is a folder");
+  if (!std::filesystem::is_regular_file(status)) refuse("this is a device, a pipe or a socket");
+  constexpr std::size_t kHead = 1 << 16;
+  std::string head(kHead, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  if (head.empty()) return;
+  const char *there = kind_of(head), *to_be = kind_of(content);
+  if (there == to_be || (there != nullptr && to_be != nullptr && std::string_view(there) == to_be)) return;
+  refuse(std::string("this exists and is ") + (there == nullptr ? "a file of another kind" : there) +
+         ", not " + (to_be == nullptr ? "of the kind that is to be written" : to_be));
+}
 
 struct OutputFile::State {
   std::filesystem::path path, temporary;
@@ -41,12 +111,14 @@ struct OutputFile::State {
   }
 };
 
-OutputFile::OutputFile(std::filesystem::path path, Container container, const std::string& what)
+OutputFile::OutputFile(std::filesystem::path path, Container container, const std::string& what,
+                       std::string_view head)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.path = std::move(path);
   if (!what.empty()) s.what = " " + what;
   if (std::filesystem::is_directory(s.path)) s.fail(EISDIR);
+  require_replaceable(s.path, head);
   s.temporary = s.path;
   s.temporary.replace_filename("." + s.path.filename().string() + "." + std::to_string(::getpid()) +
                                ".unfinished");
@@ -89,7 +161,7 @@ void OutputFile::commit() {
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content, const std::string& what) {
-  OutputFile file(path, Container::plain, what);
+  OutputFile file(path, Container::plain, what, content);
   file.write(content);
   file.commit();
 }

@@ -15,13 +15,22 @@ enum class Container {
   zlib,   ///< one zlib stream (RFC 1950), as Geant4's data from 2.2 on
 };
 
+/// Throws InputError when `path` exists and may not be replaced by a file that begins with `content`: what is
+/// no regular file (a folder, a device, a pipe), and a file of another kind, as HDF5, TOML, HTML, SVG, a
+/// height map
+/// (.gsf), glTF and all others, known by their first bytes. An empty file may become anything.
+void require_replaceable(const std::filesystem::path& path, std::string_view content);
+
 /// A file written as a stream to a temporary file beside the target; `commit` renames it. Without a commit
 /// the temporary file is removed, so that a partly written file is never taken for a complete one. Members
-/// throw SystemError with the file's name and the reason.
+/// throw SystemError with the file's name and the reason; the constructor also as require_replaceable, for
+/// content of no special kind.
 class OutputFile {
  public:
   /// @param what name of the content in messages, such as "the report"; may be empty
-  OutputFile(std::filesystem::path path, Container container, const std::string& what = {});
+  /// @param head  beginning of the content, which decides what it may replace
+  OutputFile(std::filesystem::path path, Container container, const std::string& what = {},
+             std::string_view head = {});
   OutputFile(OutputFile&&) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
   ~OutputFile();
@@ -37,7 +46,7 @@ class OutputFile {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a whole file. @throws SystemError as OutputFile does.
+/// Writes a whole file. @throws SystemError as OutputFile does, and InputError as require_replaceable
 void write_whole_file(const std::filesystem::path& path, std::string_view content,
                       const std::string& what = {});
 

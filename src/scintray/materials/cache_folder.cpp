@@ -31,8 +31,8 @@ std::string_view hash_of(std::string_view name, std::string_view ending) {
   return right_length && only(name, "0123456789abcdef") ? name : std::string_view();
 }
 
-/// The hash in ".table-HASH.h5.PROCESS.unfinished", as TableCache names a file until it is sealed; and in
-/// that name within another such, as core::h5::File names it until it is committed.
+/// The hash in ".table-HASH.h5.PROCESS.unfinished", as core::h5::File names a file until it is committed;
+/// and in that name within another such, which earlier versions left.
 std::string_view unfinished_hash_of(std::string_view name) {
   bool unfinished = false;
   while (name.starts_with('.') && name.ends_with(kUnfinished)) {

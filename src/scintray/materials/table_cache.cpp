@@ -1,19 +1,15 @@
 #include "scintray/materials/table_cache.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 #include "scintray/core/byte_size.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
 #include "scintray/core/h5.hpp"
-#include "scintray/core/input_file.hpp"
-#include "scintray/core/sha256.hpp"
 #include "scintray/optics/table_group.hpp"
 
 namespace scintray::materials {
@@ -30,30 +26,9 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// Digits of the SHA-256 that ends a file of the cache. HDF5 ignores bytes beyond its own end.
-constexpr std::size_t kDigestDigits = 64;
-
-/// True when the bytes of a file are those that were written. HDF5 checks neither plain arrays nor all of its
-/// own structure, and reads from wherever a damaged one points to.
-bool is_whole(const std::filesystem::path& path) {
-  const std::string bytes = core::read_whole_file(path).value_or("");
-  if (bytes.size() < kDigestDigits) return false;
-  const std::string_view content(bytes.data(), bytes.size() - kDigestDigits);
-  return core::sha256(content) == std::string_view(bytes).substr(content.size());
-}
-
-/// Appends the digest of a file.
-void seal(const std::filesystem::path& path) {
-  const std::string digest = core::sha256(core::read_whole_file(path).value_or(""));
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file << digest << std::flush;
-  if (!file) throw core::SystemError(path.string() + ": cannot be written");
-}
-
-/// Name of a file until it is sealed, which CacheFolder knows as that of an unfinished one.
-std::filesystem::path unsealed(const std::filesystem::path& path) {
-  return path.parent_path() / fmt::format(".{}.{}.unfinished", path.filename().string(), ::getpid());
-}
+/// True when the bytes of a file are those that were written. A file of an earlier ScintRay has no such seal
+/// and is made again.
+bool is_whole(const std::filesystem::path& path) { return core::h5::seal_of(path) == core::h5::Seal::intact; }
 
 /// A text of the group; empty when it is missing.
 std::string read_text(const core::h5::Group& group, const std::string& name) {
@@ -158,19 +133,15 @@ std::optional<core::FileLock> TableCache::lock(const CacheEntry& entry) {
 
 void TableCache::keep(const CacheEntry& entry, const optics::SurfaceTable& table) {
   const std::filesystem::path path = folder_.file_of(entry.key);
-  const std::filesystem::path made = unsealed(path);
   std::error_code ignored;
   try {
-    core::h5::File file = core::h5::File::create(made);
+    core::h5::File file = core::h5::File::create(path);
     optics::write_table(file.root(), table);
     core::h5::Group group = file.root().create_group(kGroup);
     group.write_strings("key", {entry.key});
     write_description(group, entry, table);
     file.commit();
-    seal(made);
-    std::filesystem::rename(made, path);
   } catch (const std::exception& error) {
-    std::filesystem::remove(made, ignored);
     return warn(std::string("surface tables are not kept for later runs: ") + error.what(), "write");
   }
   if (const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);

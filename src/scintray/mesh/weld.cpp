@@ -204,10 +204,11 @@ void drop_unused_vertices(TriMesh& mesh) {
 
 std::size_t weld_vertices(TriMesh& mesh, double length_mm) {
   const std::size_t before = mesh.vertices.size();
-  std::vector<std::uint32_t> index(before);
+  drop_unused_vertices(mesh);  // they may be anywhere, beyond the cells of the grid too
+  std::vector<std::uint32_t> index(mesh.vertices.size());
   std::vector<core::Vec3> kept;
   VertexGrid grid(length_mm);
-  for (std::size_t v = 0; v < before; ++v) {
+  for (std::size_t v = 0; v < index.size(); ++v) {
     const core::Vec3& point = mesh.vertices[v];
     std::uint32_t representative = grid.find(point, kept);
     if (representative == kNone) {
@@ -221,7 +222,6 @@ std::size_t weld_vertices(TriMesh& mesh, double length_mm) {
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& v : triangle) v = index[v];
   }
-  drop_unused_vertices(mesh);
   return before - mesh.vertices.size();
 }
 

@@ -5,6 +5,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/core/output_file.hpp"
 #include "scintray/optics/table.hpp"
 #include "scintray/optics/table_group.hpp"
 
@@ -197,6 +198,19 @@ void check_version(const std::filesystem::path& path, const core::h5::Group& roo
            "rebuild the table with `scintray table build`");
 }
 
+/// True when nothing is lost by writing a table there: no file, an empty one, or a table.
+bool may_hold_table(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) || std::filesystem::is_empty(path, error)) return true;
+  try {
+    const core::h5::File file = core::h5::File::open(path);
+    const core::h5::Group root = file.root();
+    return root.has_attribute("", "format") && root.string_attribute("", "format") == kFormat;
+  } catch (const core::Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void write_table(core::h5::Group root, const SurfaceTable& table) {
@@ -229,6 +243,11 @@ void write_table(core::h5::Group root, const SurfaceTable& table) {
 }
 
 void write_table(const std::filesystem::path& path, const SurfaceTable& table) {
+  core::require_replaceable(path, "\x89HDF\r\n\x1a\n");
+  if (!may_hold_table(path))
+    throw core::InputError({{path.string()},
+                            "this exists and is not a surface table, so it is not written over",
+                            "choose another name for the table, or move what is there away"});
   core::h5::File file = core::h5::File::create(path);
   write_table(file.root(), table);
   file.commit();

@@ -96,15 +96,19 @@ double positive_length(const config::TomlTable& table, const std::string& key, c
   return value;
 }
 
-/// A whole number from `least` to 1000000; `what` follows the number in the message of an error.
+/// Largest number of flat sides around: with more, a side is narrower than the rounding of its corners in
+/// single precision, which ray queries use.
+constexpr int kMostSegments = 10'000;
+
+/// A whole number from `least` to kMostSegments; `what` follows the number in the message of an error.
 int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
                      const std::string& what) {
   const std::int64_t value = table.integer(key, fallback);
-  table.expect(key, value >= least && value <= 1000000,
+  table.expect(key, value >= least && value <= kMostSegments,
                "a " + what + " of " + std::to_string(value) + " " + key,
                "give " + std::to_string(least) + " or more (" + std::to_string(fallback) +
-                   " is the default), up to 1000000");
-  return static_cast<int>(std::clamp<std::int64_t>(value, least, 1000000));
+                   " is the default), up to " + std::to_string(kMostSegments));
+  return static_cast<int>(std::clamp<std::int64_t>(value, least, kMostSegments));
 }
 
 CylinderSpec read_cylinder(const config::TomlTable& part) {
@@ -200,6 +204,12 @@ WinstonSpec read_winston(const config::TomlTable& part) {
   }
   shape.segments = number_of_pieces(table, "segments", shape.segments, 3, "Winston cone");
   shape.rings = number_of_pieces(table, "rings", shape.rings, 1, "Winston cone");
+  constexpr std::int64_t kMostPieces = 250'000;  // two triangles each
+  table.expect("rings", std::int64_t{shape.segments} * shape.rings <= kMostPieces,
+               "a Winston cone of " + std::to_string(shape.segments) + " segments and " +
+                   std::to_string(shape.rings) + " rings has " +
+                   std::to_string(2 * std::int64_t{shape.segments} * shape.rings) + " triangles",
+               "give fewer: segments times rings may be " + std::to_string(kMostPieces));
   return winston;
 }
 
@@ -209,10 +219,12 @@ SphereSpec read_sphere(const config::TomlTable& part) {
   sphere.where = table.where();
   sphere.radius_mm = positive_length(table, "radius", "sphere");
   const std::int64_t subdivisions = table.integer("subdivisions", sphere.subdivisions);
-  table.expect("subdivisions", subdivisions >= 1 && subdivisions <= 1000,
+  constexpr std::int64_t kMostSubdivisions = 150;
+  table.expect("subdivisions", subdivisions >= 1 && subdivisions <= kMostSubdivisions,
                "a sphere of " + std::to_string(subdivisions) + " subdivisions",
-               "give 1 (an icosahedron) to 1000 (20 million triangles); 16 is the default");
-  sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, 1000));
+               "give 1 (an icosahedron) to " + std::to_string(kMostSubdivisions) +
+                   " (450,000 triangles); 16 is the default");
+  sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, kMostSubdivisions));
   return sphere;
 }
 

@@ -146,7 +146,7 @@ bool may_be_set(const std::string& key) {
 
 std::vector<SweepSpec> read_sweeps(const config::TomlTable& scene) {
   /// Largest accepted number of points: the results of more would not fit in memory.
-  constexpr std::size_t kMostPoints = 1000000;
+  constexpr std::size_t kMostPoints = 100000;
   std::vector<SweepSpec> sweeps;
   std::set<std::string> keys;
   std::size_t points = 1;

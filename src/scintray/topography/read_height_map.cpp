@@ -111,6 +111,30 @@ void scale_heights(HeightMap& map, double unit_um, const std::string& file) {
   }
 }
 
+/// Throws for heights that no surface of this size has, most often metres read as if the sides were metres
+/// too: light would be followed through millions of facets. Single wrong points do not count, which outlier
+/// removal is for.
+void require_plausible_relief(const HeightMap& map, const std::string& file) {
+  constexpr double kTail = 0.01, kMostRatio = 100.0;
+  std::vector<double> heights;
+  for (const double height : map.heights_um)
+    if (!std::isnan(height)) heights.push_back(height);
+  const auto tail = static_cast<std::ptrdiff_t>(kTail * static_cast<double>(heights.size()));
+  const auto low = heights.begin() + tail, high = heights.end() - 1 - tail;
+  std::nth_element(heights.begin(), low, heights.end());
+  const double lowest = *low;
+  std::nth_element(heights.begin(), high, heights.end());
+  const double range_um = *high - lowest;
+  const double width_um = map.columns * map.pitch_x_um, length_um = map.rows * map.pitch_y_um;
+  if (range_um <= kMostRatio * std::max(width_um, length_um)) return;
+  throw core::InputError(
+      {{file},
+       "the heights span " + shortest(range_um) + " um on a map of " + shortest(width_um) + " x " +
+           shortest(length_um) + " um, which is no surface",
+       "heights and sides are in different units: state that of the heights, --unit um (in a scene "
+       "height_unit = \"1 um\"), or the size of the map, --width"});
+}
+
 std::string source_step(const std::filesystem::path& path, const RawMap& raw, const ReadOptions& options) {
   std::string step = "read " + path.filename().string() + " (" + raw.format;
   if (!raw.channel.empty()) step += ", channel " + core::in_quotes(raw.channel);
@@ -151,6 +175,7 @@ HeightMap read_height_map(const std::filesystem::path& path, const ReadOptions& 
   else if (missing > 0)
     map.steps.push_back(std::to_string(missing) + " of " + std::to_string(map.heights_um.size()) +
                         " points missing");
+  require_plausible_relief(map, request.file);
   return map;
 }
 

@@ -20,8 +20,13 @@ class TextPlaces {
  public:
   TextPlaces(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {
     starts_.push_back(0);
-    for (std::size_t i = 0; i < text.size(); ++i)
+    long characters = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (i % kBlock == 0) before_block_.push_back(characters);
+      characters += begins_character(text[i]) ? 1 : 0;
       if (text[i] == '\n') starts_.push_back(i + 1);
+    }
+    before_block_.push_back(characters);
   }
 
   std::size_t offset(std::size_t line, std::size_t byte_column) const {
@@ -32,19 +37,32 @@ class TextPlaces {
   core::FileLocation at(std::size_t offset) const {
     const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
     const auto line = static_cast<std::size_t>(next - starts_.begin());
-    long column = 1;
-    for (std::size_t i = starts_[line - 1]; i < std::min(offset, text_.size()); ++i)
-      if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) ++column;
-    return {file_, static_cast<long>(line), column};
+    const std::size_t end = std::max(starts_[line - 1], std::min(offset, text_.size()));
+    return {file_, static_cast<long>(line),
+            1 + characters_before(end) - characters_before(starts_[line - 1])};
   }
 
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
 
  private:
+  /// Bytes between two counts of characters: a line may hold a whole file, in which every value has a place.
+  static constexpr std::size_t kBlock = 256;
+
+  static bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
+
+  long characters_before(std::size_t offset) const {
+    if (text_.empty()) return 0;
+    const std::size_t block = std::min(offset, text_.size() - 1) / kBlock;
+    long characters = before_block_[block];
+    for (std::size_t i = block * kBlock; i < offset; ++i) characters += begins_character(text_[i]) ? 1 : 0;
+    return characters;
+  }
+
   const std::string& text_;
   std::string file_;
   std::vector<std::size_t> starts_;
+  std::vector<long> before_block_;  ///< characters before each block of bytes
 };
 
 /// Throws InputError for nesting that would exhaust the stack of a recursive parser.
@@ -110,7 +128,8 @@ class Converter {
     const std::size_t key_at = key_offset(places_.text(), offset);
     node.key_where = key.empty() || key_at == offset ? node.where : places_.at(key_at);
     node.header = value.is_table() && size > 0 && places_.text()[offset] == '[';
-    const std::string written = places_.text().substr(offset, size);
+    const bool has_members = value.is_table() || value.is_array();
+    const std::string written = has_members ? std::string() : places_.text().substr(offset, size);
     switch (value.type()) {
       case toml::value_t::table:
         convert_members(value, node);

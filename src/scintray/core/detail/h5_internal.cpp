@@ -56,6 +56,30 @@ Handle creation_order_properties(hid_t kind) {
   return properties;
 }
 
+Handle access_properties() {
+  Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(properties.id(), H5F_CLOSE_STRONG);
+  // Some cluster file systems have no locks; a results file is readable there, too.
+  H5Pset_file_locking(properties.id(), true, true);
+  return properties;
+}
+
+Handle inside_properties(hid_t kind) {
+  Handle properties(H5Pcreate(kind), H5Pclose);
+  const auto refuse = [](const char*, const char*, const char*, const char*, unsigned*, hid_t,
+                         void*) -> herr_t { return -1; };
+  H5Pset_elink_cb(properties.id(), refuse, nullptr);
+  return properties;
+}
+
+bool fits_storage(const Handle& dataset, const Shape& shape) {
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+  const double stated = std::accumulate(shape.begin(), shape.end(),
+                                        static_cast<double>(H5Tget_size(type.id())), std::multiplies<>());
+  return stated <=
+         static_cast<double>(H5Dget_storage_size(dataset.id())) * static_cast<double>(kLargestDeflateRatio);
+}
+
 int allocate(int descriptor, off_t from, off_t to) {
   if (::fallocate(descriptor, 0, from, to - from) == 0) return 0;
   if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
@@ -150,15 +174,19 @@ void Group::State::reserve(std::uint64_t bytes, const std::string& action, const
 
 Handle Group::State::attribute_owner(const std::string& member) const {
   require_open();
-  Handle owner(H5Oopen(group.id(), member.empty() ? "." : member.c_str(), H5P_DEFAULT), H5Oclose);
+  const Handle inside = inside_properties(H5P_LINK_ACCESS);
+  Handle owner(H5Oopen(group.id(), member.empty() ? "." : member.c_str(), inside.id()), H5Oclose);
   if (!owner.valid()) fail("open", member);
   return owner;
 }
 
 Handle Group::State::open_dataset(const std::string& member) const {
   require_open();
-  Handle dataset(H5Dopen2(group.id(), member.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle inside = inside_properties(H5P_DATASET_ACCESS);
+  Handle dataset(H5Dopen2(group.id(), member.c_str(), inside.id()), H5Dclose);
   if (!dataset.valid()) fail("open dataset", member);
+  if (const std::string foreign = foreign_storage(dataset); !foreign.empty())
+    refuse("read", member, "it " + foreign);
   return dataset;
 }
 
@@ -170,12 +198,10 @@ Shape Group::State::checked_shape(const Handle& dataset, const std::string& memb
   H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
   Shape shape(extent.begin(), extent.end());
   if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) shape = {0};
-  const Handle type(H5Dget_type(dataset.id()), H5Tclose);
-  const auto stored = H5Dget_storage_size(dataset.id());
-  const double stated = std::accumulate(shape.begin(), shape.end(),
-                                        static_cast<double>(H5Tget_size(type.id())), std::multiplies<>());
-  if (stated > static_cast<double>(stored) * static_cast<double>(kLargestDeflateRatio))
-    refuse("read", member, "its shape does not fit the " + std::to_string(stored) + " bytes stored for it");
+  if (!fits_storage(dataset, shape))
+    refuse("read", member,
+           "its shape does not fit the " + std::to_string(H5Dget_storage_size(dataset.id())) +
+               " bytes stored for it");
   return shape;
 }
 

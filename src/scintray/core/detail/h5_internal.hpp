@@ -63,6 +63,27 @@ Handle text_type();
 /// equal results are equal files.
 Handle creation_order_properties(hid_t kind);
 
+/// Access properties of a file: closed with everything in it, without locks where there are none.
+Handle access_properties();
+
+/// Access properties of a group, dataset or object (`kind`) that is opened by its name: links to other files
+/// are not followed.
+Handle inside_properties(hid_t kind);
+
+/// True when a dataset of that shape can be what is stored for it.
+bool fits_storage(const Handle& dataset, const Shape& shape);
+
+/// "keeps its numbers in another file, ...", for a virtual dataset or one with external storage; else empty.
+std::string foreign_storage(const Handle& dataset);
+
+/// Appends the digest of a finished file to it (Seal). `name` is for messages. @throws SystemError
+void append_seal(const std::filesystem::path& path, const std::filesystem::path& name);
+
+/// Throws InputError for a file that HDF5 cannot be trusted with. What has an intact seal is what this
+/// library wrote; any other file is first read to its end in a child process, since HDF5 1.10 crashes, hangs
+/// or allocates without bound on some damaged files, and follows links to wherever they point.
+void require_sound(const std::filesystem::path& path);
+
 /// Allocates disk space for [from, to) of a file. Returns 0 or an errno value.
 int allocate(int descriptor, off_t from, off_t to);
 

@@ -97,14 +97,21 @@ void check_off(const std::filesystem::path& path, const std::string& content) {
 
 std::size_t xml_depth(std::string_view text) {
   std::size_t depth = 0, deepest = 0;
+  std::size_t close = 0;  ///< the first ">" after `at`; it moves forward only, so that the cost is linear
   for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {
-    const char next = at + 1 < text.size() ? text[at + 1] : '\0';
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("<!--") || rest.starts_with("<![CDATA[")) {
+      at = text.find(rest[2] == '-' ? "-->" : "]]>", at);
+      if (at == std::string_view::npos) break;
+      continue;
+    }
+    const char next = rest.size() > 1 ? rest[1] : '\0';
     if (next == '/') {
       if (depth > 0) --depth;
       continue;
     }
     if (next == '!' || next == '?') continue;
-    const std::size_t close = text.find('>', at);
+    if (close <= at) close = text.find('>', at);
     if (close == std::string_view::npos) break;
     if (text[close - 1] != '/') deepest = std::max(deepest, ++depth);
   }
@@ -134,6 +141,23 @@ std::string read_mesh_file(const std::filesystem::path& path) {
   if (!content) reject_file(path, "the mesh file cannot be read", "check its permissions");
   if (content->empty()) reject_file(path, "the mesh file is empty", "export it again");
   return *std::move(content);
+}
+
+std::filesystem::path file_beside(const std::filesystem::path& path, const std::string& name) {
+  const auto reject = [&](const std::string& what) {
+    reject_file(path, "the file names " + core::in_quotes(name) + ", " + what,
+                "put the file beside the mesh file, or export with everything embedded");
+  };
+  std::error_code error;
+  const auto folder =
+      std::filesystem::weakly_canonical(path.parent_path().empty() ? "." : path.parent_path(), error);
+  const auto there = std::filesystem::weakly_canonical(folder / name, error);  // without links
+  if (error || std::filesystem::path(name).is_absolute() ||
+      std::mismatch(folder.begin(), folder.end(), there.begin(), there.end()).first != folder.end())
+    reject("which is not in its folder or below, and is not opened");
+  if (!std::filesystem::exists(there, error)) reject("which does not exist");
+  if (!std::filesystem::is_regular_file(there, error)) reject("which is not a file");
+  return there;
 }
 
 void check_stated_sizes(const std::filesystem::path& path, const std::string& extension,

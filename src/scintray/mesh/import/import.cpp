@@ -24,7 +24,15 @@ RawMesh read_raw(const std::filesystem::path& path, const MeshFormat& format,
                  const Tessellation& tessellation) {
   const std::string content = read_mesh_file(path);
   check_stated_sizes(path, format.extension, content);
-  return format.read({path, content, tessellation});
+  RawMesh raw = format.read({path, content, tessellation});
+  for (std::string& group : raw.mesh.groups) group = plain_name(group);
+  for (FaceTags& tags : raw.mesh.group_tags) {
+    FaceTags plain;
+    for (const auto& [key, value] : tags) plain[plain_name(key)] = plain_name(value);
+    tags = std::move(plain);
+  }
+  for (std::string& note : raw.notes) note = plain_name(note);
+  return raw;
 }
 
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {

@@ -12,7 +12,7 @@ namespace scintray::mesh {
   ADD(import_through_assimp, .extension = ".stl")                              \
   ADD(import_through_assimp, .extension = ".obj")                              \
   ADD(import_ply, .extension = ".ply")                                         \
-  ADD(import_through_assimp, .extension = ".off")                              \
+  ADD(import_off, .extension = ".off")                                         \
   ADD(import_3mf, .extension = ".3mf", .states_unit = true)                    \
   ADD(import_collada, .extension = ".dae", .states_unit = true)                \
   ADD(import_gltf, .extension = ".gltf", .states_unit = true)                  \

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scintray/mesh/trimesh.hpp"
@@ -44,6 +45,10 @@ struct RawMesh {
   [[nodiscard]] bool add_polygon(const std::vector<std::uint32_t>& corners, std::uint32_t group,
                                  bool mirrored);
 };
+
+/// A name of a file as text that can be shown, written to other files and typed again: bytes that are not
+/// UTF-8 are taken as Latin-1, and control characters become "_".
+std::string plain_name(std::string_view name);
 
 /// The group of triangles of an object in a material: "object:material", the one of them that has a name, or
 /// "default".

@@ -1,6 +1,7 @@
 #include "scintray/mesh/repair/repair.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -85,7 +86,7 @@ class Repairer {
   }
 
   void orient(const std::string& what) {
-    Defects where = diagnose(mesh()).flipped_edges;
+    const Defects where = edge_defects(mesh()).flipped_edges;
     if (!orient_outwards(mesh()) || what.empty()) return;
     if (where.count > 0)
       note(what, where);
@@ -126,12 +127,37 @@ class Repairer {
     Bodies bodies;
     std::size_t count = 0;
     const auto label = connected_bodies(mesh(), count);
+    bodies.body.resize(count);
+    for (TriMesh& body : bodies.body) {
+      body.groups = mesh().groups;
+      body.group_tags = mesh().group_tags;
+    }
+    // Bodies may share a vertex: each gets its own, so that the cost is that of the mesh, however many there
+    // are.
+    constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::vector<std::uint32_t>> triangles_of(count);
+    for (std::uint32_t t = 0; t < label.size(); ++t) triangles_of[label[t]].push_back(t);
+    std::vector<std::uint32_t> own(mesh().vertices.size(), kNone), touched;
     for (std::uint32_t b = 0; b < count; ++b) {
-      bodies.body.push_back(mesh());
-      std::vector<char> wanted;
-      for (const std::uint32_t l : label) wanted.push_back(l == b);
-      keep_triangles(bodies.body.back(), wanted);
-      drop_unused_vertices(bodies.body.back());
+      TriMesh& body = bodies.body[b];
+      touched.clear();
+      for (const std::uint32_t t : triangles_of[b])
+        for (const std::uint32_t v : mesh().triangles[t])
+          if (own[v] == kNone) {
+            own[v] = 0;
+            touched.push_back(v);
+          }
+      std::sort(touched.begin(), touched.end());
+      for (const std::uint32_t v : touched) {
+        own[v] = static_cast<std::uint32_t>(body.vertices.size());
+        body.vertices.push_back(mesh().vertices[v]);
+      }
+      for (const std::uint32_t t : triangles_of[b]) {
+        const auto& [i, j, k] = mesh().triangles[t];
+        body.triangles.push_back({own[i], own[j], own[k]});
+        body.group.push_back(mesh().group[t]);
+      }
+      for (const std::uint32_t v : touched) own[v] = kNone;
     }
     bodies.tangled.resize(count);
     for (const auto& [s, t] : crossings) {
@@ -163,12 +189,15 @@ class Repairer {
   void turn_outwards(Bodies& bodies) {
     Defects turned;
     std::vector<Eigen::AlignedBox3d> box;
-    for (const TriMesh& body : bodies.body) box.push_back(diagnose(body).bounds);
+    for (const TriMesh& body : bodies.body) {
+      box.emplace_back();
+      for (const core::Vec3& vertex : body.vertices) box.back().extend(vertex);
+    }
     for (std::size_t b = 0; b < box.size(); ++b) {
       const bool inner = std::any_of(box.begin(), box.end(), [&](const Eigen::AlignedBox3d& other) {
         return &other != &box[b] && other.contains(box[b]);
       });
-      if (inner || bodies.body[b].volume() >= 0.0 || !diagnose(bodies.body[b]).closed()) continue;
+      if (inner || bodies.body[b].volume() >= 0.0 || !edge_defects(bodies.body[b]).closed()) continue;
       reverse_orientation(bodies.body[b]);
       turned.add(box[b].center());
     }
@@ -181,7 +210,10 @@ class Repairer {
     for (std::size_t b = 0; b < bodies.body.size(); ++b) {
       const Defects& tangled = bodies.tangled[b];
       if (tangled.count == 0) continue;
-      auto better = diagnose(bodies.body[b]).closed() ? untangled(bodies.body[b]) : std::nullopt;
+      // Crossings beyond this are no local defect, and CGAL takes minutes to find that it cannot mend them.
+      constexpr std::size_t kMostTangled = 2000;
+      const bool local = tangled.count <= kMostTangled && edge_defects(bodies.body[b]).closed();
+      auto better = local ? untangled(bodies.body[b]) : std::nullopt;
       if (!better || !diagnose(*better).sound()) {
         ++refused;
         continue;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "scintray/analysis/light_analysis.hpp"
@@ -110,12 +111,80 @@ class PointReader {
     point.wall_seconds = get<double>(group_, "wall_seconds");
     if (group_.has("energy")) point.energy = energy();
     if (group_.has("light_timing")) point.light_timing = light_timing();
+    check_counts(point);
+    check_numbers(point);
     return point;
   }
 
  private:
   void require(bool holds, const std::string& what) const {
     if (!holds) throw format::damaged(path_, "in point " + name_ + ", " + what);
+  }
+
+  template <typename Counts>
+  void require_sum(const Counts& counts, std::uint64_t total, const std::string& what) const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : counts) {
+      require(count <= total - sum, what);
+      sum += count;
+    }
+    require(sum == total, what);
+  }
+
+  /// Every photon has one fate, and what is counted by fate is counted by place, too.
+  void check_counts(const tally::PointResult& point) const {
+    require(point.lost <= point.photons, "more photons are lost than traced");
+    require_sum(point.fates, point.photons - point.lost, "the fates are not those of the photons traced");
+    require_sum(point.absorbed_in_medium, point.count(core::Fate::absorbed_in_medium),
+                "absorbed_in_medium does not sum to its fate");
+    require_sum(point.absorbed_at_surface, point.count(core::Fate::absorbed_at_surface),
+                "absorbed_at_surface does not sum to its fate");
+    std::vector<std::uint64_t> detected, not_detected;
+    for (const tally::SensorFaceCount& face : point.sensor_faces) {
+      detected.push_back(face.detected);
+      not_detected.push_back(face.not_detected);
+    }
+    require_sum(detected, point.count(core::Fate::detected), "sensor_faces does not sum to what is detected");
+    require_sum(not_detected, point.count(core::Fate::not_detected),
+                "sensor_faces does not sum to what is not detected");
+    for (const std::uint64_t count : point.detected_path_histogram)
+      require(count <= point.count(core::Fate::detected), "detected_path_histogram counts too many photons");
+    require(
+        point.energy.events <= point.energy.events_requested && point.energy.silent <= point.energy.events,
+        "more events are traced than requested");
+  }
+
+  void require_number(double value, const char* name) const {
+    require(std::isfinite(value) && value >= 0.0, std::string(name) + " is " + std::to_string(value));
+  }
+
+  /// The square of a mean is at most the mean of the squares.
+  void require_moments(const core::Moments& moments, const char* name) const {
+    require(std::isfinite(moments.sum), std::string(name) + " has a sum that is not a number");
+    require_number(moments.sum_of_squares, name);
+    constexpr double kRounding = 1e-6;
+    const double most = static_cast<double>(moments.count) * moments.sum_of_squares;
+    require(moments.sum * moments.sum <= most * (1.0 + kRounding),
+            std::string("the sums of ") + name + " contradict each other");
+  }
+
+  void check_numbers(const tally::PointResult& point) const {
+    require_moments(point.interactions, "interactions_per_photon");
+    require_moments(point.detected_path_mm, "detected_path");
+    require_moments(point.detected_time_ns, "detected_time");
+    require_moments(point.detected_interactions, "detected_interactions");
+    require_moments(point.energy.detected, "detected_per_event");
+    require_number(point.wall_seconds, "wall_seconds");
+    require_number(point.energy.started, "started_keV");
+    require_number(point.energy.deposited, "deposited_keV");
+    require_number(point.energy.escaped, "escaped_total_keV");
+    require_number(point.energy.non_scintillating, "unseen_total_keV");
+    for (const tally::TallyResult& tally : point.tallies) {
+      for (const double sum : tally.sum)
+        require(std::isfinite(sum), "the tally \"" + tally.name + "\" has a sum that is not a number");
+      for (const double sum : tally.sum_of_squares) require_number(sum, "a sum of squares of a tally");
+      require_number(tally.index, "refractive_index");
+    }
   }
 
   template <std::size_t Size>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
@@ -20,6 +21,67 @@ std::vector<std::string> names_of(const core::IdVector<core::PartId, scene::Part
   return names;
 }
 
+core::Vec3 point_in(const Eigen::AlignedBox3d& box, core::Rng& rng) {
+  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+  return box.min() + box.sizes().cwiseProduct(core::Vec3(x, y, z));
+}
+
+core::InputError empty_region(const scene::Scene& scene, core::RegionId region) {
+  return core::InputError(
+      core::Problem{{},
+                    "no point of the source region lies inside \"" + scene.region_names[region] + "\"",
+                    "check slab_z or box against the part's position (scintray check prints it)"});
+}
+
+/// A box and the triangles of a region's boundary, by number, that may reach into it.
+struct Piece {
+  core::RegionId region;
+  Eigen::AlignedBox3d box;
+  std::vector<std::uint32_t> triangles;
+};
+
+std::vector<scene::BoundaryTriangle> boundary_of(const scene::Scene& scene, core::RegionId region) {
+  std::vector<scene::BoundaryTriangle> triangles;
+  const scene::Region& of = scene.regions[region];
+  for (std::uint32_t i = 0; i < scene.accelerator(of).size(); ++i) triangles.push_back(scene.triangle(of, i));
+  return triangles;
+}
+
+/// False when one of the axes separates a triangle and a box (T. Akenine-Moller 2001, "Fast 3D triangle-box
+/// overlap testing", J. Graphics Tools 6): those of the box, the normal, and their products with the edges.
+bool may_overlap(const scene::BoundaryTriangle& triangle, const Eigen::AlignedBox3d& box) {
+  const core::Vec3 centre = box.center(), half = 0.5 * box.sizes();
+  const core::Vec3 corner[3] = {triangle[0] - centre, triangle[1] - centre, triangle[2] - centre};
+  const double slack = 1e-9 * (half.norm() + corner[0].norm());  // rounding never separates
+  const auto separates = [&](const core::Vec3& axis) {
+    const double a = axis.dot(corner[0]), b = axis.dot(corner[1]), c = axis.dot(corner[2]);
+    const double reach = half.dot(axis.cwiseAbs()) + slack * axis.norm();
+    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+  };
+  const core::Vec3 edge[3] = {corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2]};
+  if (separates(edge[0].cross(edge[1]))) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const core::Vec3 unit = core::Vec3::Unit(axis);
+    if (separates(unit)) return false;
+    for (const core::Vec3& along : edge)
+      if (separates(unit.cross(along))) return false;
+  }
+  return true;
+}
+
+/// @param among  triangles that may reach into the box; empty: all
+Piece piece_of(core::RegionId region, const Eigen::AlignedBox3d& box,
+               const std::vector<scene::BoundaryTriangle>& boundary,
+               const std::vector<std::uint32_t>& among) {
+  Piece piece{region, box, {}};
+  const std::size_t count = among.empty() ? boundary.size() : among.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t triangle = among.empty() ? static_cast<std::uint32_t>(i) : among[i];
+    if (may_overlap(boundary[triangle], box)) piece.triangles.push_back(triangle);
+  }
+  return piece;
+}
+
 }  // namespace
 
 Origin::Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, const scene::Scene& scene) {
@@ -30,14 +92,78 @@ Origin::Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, con
     point_ = true;
     boxes_.push_back({scene.locate(point), Eigen::AlignedBox3d(point, point)});
   }
-  double volume = 0.0;
-  for (Box& box : boxes_) box.most = volume += box.box.volume();
-  for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
+  weigh(scene);
   if (!point_) {
-    for (Box& box : boxes_) box.inside = scene.region_contains(box.region, box.box);
+    constexpr double kLeastFilled = 0.05;
+    if (filled_share(scene) < kLeastFilled) refine(scene);
     core::Rng rng(0, core::StreamKind::other,
                   0);  // throws before the run for an empty region
     sample(scene, rng);
+  }
+}
+
+void Origin::weigh(const scene::Scene& scene) {
+  double volume = 0.0;
+  for (Box& box : boxes_) box.most = volume += box.box.volume();
+  for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
+  if (point_) return;
+  for (Box& box : boxes_) box.inside = box.inside || scene.region_contains(box.region, box.box);
+}
+
+double Origin::filled_share(const scene::Scene& scene) const {
+  constexpr int kPoints = 2000;
+  core::Rng rng(0, core::StreamKind::other, 1);
+  int filled = 0;
+  for (int point = 0; point < kPoints; ++point) {
+    const Box& box = sample_box(rng);
+    filled += box.inside || scene.region_contains(box.region, point_in(box.box, rng)) ? 1 : 0;
+  }
+  return static_cast<double>(filled) / kPoints;
+}
+
+void Origin::refine(const scene::Scene& scene) {
+  constexpr std::size_t kMostPieces = 1 << 16;
+  // The largest piece is halved next, so that pieces remain alike. Pieces wholly inside a region stay as they
+  // are.
+  const auto smaller = [](const Piece& a, const Piece& b) { return a.box.volume() < b.box.volume(); };
+  std::vector<Piece> open;
+  std::vector<Box> whole;
+  const auto add = [&](Piece piece) {
+    if (!piece.triangles.empty()) {
+      open.push_back(std::move(piece));
+      std::push_heap(open.begin(), open.end(), smaller);
+    } else if (scene.region_contains(piece.region, core::Vec3(piece.box.center()))) {
+      whole.push_back({piece.region, piece.box, true, 1.0});
+    }
+  };
+  std::map<core::RegionId, std::vector<scene::BoundaryTriangle>> boundaries;
+  for (const Box& box : boxes_) {
+    // The ambient space has no boundary of its own, and fills any box but for the parts.
+    if (box.region == scene::kAmbientRegion) return;
+    std::vector<scene::BoundaryTriangle>& boundary = boundaries[box.region];
+    if (boundary.empty()) boundary = boundary_of(scene, box.region);
+    add(piece_of(box.region, box.box, boundary, {}));
+  }
+  for (std::size_t wanted = 2 * open.size();; wanted *= 2) {
+    while (!open.empty() && open.size() < wanted) {
+      std::pop_heap(open.begin(), open.end(), smaller);
+      const Piece piece = std::move(open.back());
+      open.pop_back();
+      Eigen::Index axis = 0;
+      piece.box.sizes().maxCoeff(&axis);
+      Eigen::AlignedBox3d low = piece.box, high = piece.box;
+      low.max()[axis] = high.min()[axis] = piece.box.center()[axis];
+      for (const Eigen::AlignedBox3d& half : {low, high})
+        add(piece_of(piece.region, half, boundaries.at(piece.region), piece.triangles));
+    }
+    boxes_ = whole;
+    for (const Piece& piece : open) boxes_.push_back({piece.region, piece.box, false, 1.0});
+    if (boxes_.empty()) throw empty_region(scene, boundaries.begin()->first);
+    double volume = 0.0;
+    for (Box& box : boxes_) box.most = volume += box.box.volume();
+    for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
+    constexpr double kWellFilled = 0.3;
+    if (open.empty() || boxes_.size() >= kMostPieces || filled_share(scene) >= kWellFilled) return;
   }
 }
 
@@ -89,14 +215,10 @@ Place Origin::sample(const scene::Scene& scene, core::Rng& rng) const {
   if (point_) return {boxes_.front().box.min(), boxes_.front().region};
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const Box& box = sample_box(rng);
-    const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
-    const core::Vec3 position = box.box.min() + box.box.sizes().cwiseProduct(core::Vec3(x, y, z));
+    const core::Vec3 position = point_in(box.box, rng);
     if (box.inside || scene.region_contains(box.region, position)) return {position, box.region};
   }
-  throw core::InputError(core::Problem{
-      {},
-      "no point of the source region lies inside \"" + scene.region_names[boxes_.front().region] + "\"",
-      "check slab_z or box against the part's position (scintray check prints it)"});
+  throw empty_region(scene, boxes_.front().region);
 }
 
 core::Vec3 sample_direction(const scene_file::DirectionSpec& spec, core::Rng& rng) {

@@ -40,6 +40,13 @@ class Origin {
   void add_parts(const scene_file::RegionSpec& spec, const scene::Scene& scene);
   void add_box(const scene_file::RegionSpec& spec, const scene::PartInfo& part);
   const Box& sample_box(core::Rng& rng) const;
+  /// Sets Box::most and Box::inside.
+  void weigh(const scene::Scene& scene);
+  /// Share of the boxes' volume that lies in their regions, by a fixed number of points.
+  double filled_share(const scene::Scene& scene) const;
+  /// Divides boxes of which the region fills little, as of a thin part that is not along an axis, and leaves
+  /// out the pieces without any of it.
+  void refine(const scene::Scene& scene);
 
   std::vector<Box> boxes_;
   bool point_ = false;

@@ -1,7 +1,9 @@
 #include "scintray/mesh/import/mesh_format.hpp"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 
@@ -52,6 +54,8 @@ class WarningCapture {
   void keep(std::string_view message) {
     constexpr std::size_t kMost = 20;
     while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.remove_suffix(1);
+    // Material libraries are not opened (OneFile), which leaves the names of materials as they are.
+    if (message.find("material") != std::string_view::npos) return;
     if (message.empty() || messages_.size() > kMost) return;
     messages_.push_back(messages_.size() == kMost ? "assimp: and more" : "assimp: " + std::string(message));
   }
@@ -59,6 +63,26 @@ class WarningCapture {
   std::lock_guard<std::mutex> lock_;
   std::vector<std::string> messages_;
   bool ours_ = false;
+};
+
+/// The bytes of one file, and no other file: what a mesh file names beside it, such as the material library
+/// of an OBJ, may be a pipe or anything else of the user's. Only names of materials are read, which stand in
+/// the file.
+class OneFile : public Assimp::IOSystem {
+ public:
+  explicit OneFile(const MeshFile& file) : path_(file.path.string()), content_(file.content) {}
+  bool Exists(const char* path) const override { return path_ == path; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char*) override {
+    if (!Exists(path)) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content_.data()),
+                                      content_.size());
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  std::string path_;
+  const std::string& content_;
 };
 
 AssimpMatrix to_double(const aiMatrix4x4& m) {
@@ -174,11 +198,13 @@ class SceneReader {
 
 }  // namespace
 
-/// Mesh of an STL, OBJ or OFF file, by assimp. The sizes that the file states must have been checked.
+/// Mesh of an STL or OBJ file, by assimp, without the files that it names. The sizes that the file states
+/// must have been checked.
 RawMesh import_through_assimp(const MeshFile& file) {
   const std::filesystem::path& path = file.path;
   WarningCapture warnings;
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(file));  // which the importer deletes
   const aiScene* scene = nullptr;
   std::string reason;
   try {

@@ -56,14 +56,19 @@ class ThreeMfReader {
           parsed ? std::string("the 3MF file has no <model>")
                  : std::string("the model of the 3MF file is not well-formed XML: ") + parsed.description(),
           kExportAgain);
+    check_extensions(root);
     read_unit(root);
     read_resources(root.child("resources"));
     for (const Node item : root.child("build").children("item")) {
+      require_here(item);
       const std::string id = item.attribute("objectid").value();
       raw_.begin_body(find_object(id).name);
       place(id, transform_of(item), 0);
     }
     raw_.fill_body();
+    if (lattices_ > 0)
+      raw_.notes.push_back(std::to_string(lattices_) +
+                           " beam lattices left out: their beams are no triangles");
     return std::move(raw_);
   }
 
@@ -81,6 +86,39 @@ class ThreeMfReader {
         return target.starts_with("/") ? target.substr(1) : target;
       }
     return "3D/3dmodel.model";
+  }
+
+  /// Section 2.3.2 of the specification: a file that requires an extension must not be read without it.
+  void check_extensions(Node model) const {
+    std::string_view prefixes = model.attribute("requiredextensions").value();
+    constexpr std::string_view kSpace = " \t\r\n";
+    while (!prefixes.empty()) {
+      prefixes.remove_prefix(std::min(prefixes.find_first_not_of(kSpace), prefixes.size()));
+      const std::string prefix(prefixes.substr(0, prefixes.find_first_of(kSpace)));
+      prefixes.remove_prefix(prefix.size());
+      if (prefix.empty()) continue;
+      const std::string name = model.attribute(("xmlns:" + prefix).c_str()).value();
+      // These add colours, names of sets of triangles, and identifiers; references to other models of the
+      // production extension are refused where they are used.
+      const bool harmless = name.find("/material/") != name.npos ||
+                            name.find("/trianglesets/") != name.npos ||
+                            name.find("/production/") != name.npos;
+      if (!harmless)
+        reject_file(path_,
+                    "the 3MF file requires the extension " + core::in_quotes(name.empty() ? prefix : name) +
+                        ", which is not read, so that a part of its geometry would be missing",
+                    "export the model as plain triangles, without lattices, slices or encryption");
+    }
+  }
+
+  /// Throws for an object in another model of the archive (3MF Production Extension 1.1, section 2).
+  void require_here(Node reference) const {
+    for (const pugi::xml_attribute attribute : reference.attributes())
+      if (std::string_view(attribute.name()).ends_with(":path"))
+        reject_file(path_,
+                    "the 3MF file places an object of its other model " + core::in_quotes(attribute.value()) +
+                        ", and only one model is read",
+                    "export the model in one piece, without the production extension");
   }
 
   void read_unit(Node model) {
@@ -130,9 +168,11 @@ class ThreeMfReader {
     return static_cast<std::size_t>(value);
   }
 
-  void read_mesh(Node owner, Node mesh, ThreeMfObject& object) const {
+  void read_mesh(Node owner, Node mesh, ThreeMfObject& object) {
     for (const Node vertex : mesh.child("vertices").children("vertex"))
       object.vertices.emplace_back(number(vertex, "x"), number(vertex, "y"), number(vertex, "z"));
+    for (const Node child : mesh.children())
+      if (std::string_view(child.name()).ends_with(":beamlattice")) ++lattices_;
     for (const Node node : mesh.child("triangles").children("triangle")) {
       ThreeMfTriangle triangle;
       for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -196,8 +236,10 @@ class ThreeMfReader {
                       " objects",
                   "split it in several files");
     append(object, transform);
-    for (const Node component : object.components.children("component"))
+    for (const Node component : object.components.children("component")) {
+      require_here(component);
       place(component.attribute("objectid").value(), transform * transform_of(component), depth + 1);
+    }
   }
 
   void append(const ThreeMfObject& object, const Eigen::Affine3d& transform) {
@@ -222,16 +264,17 @@ class ThreeMfReader {
   RawMesh raw_;
   std::map<std::string, std::vector<std::string>> materials_;
   std::map<std::string, ThreeMfObject> objects_;
-  std::size_t placed_ = 0;
+  std::size_t placed_ = 0, lattices_ = 0;
 };
 
 }  // namespace
 
 /// Mesh of a 3MF archive (3MF Core Specification 1.3): the model that the relationships name, its meshes and
 /// components as its build items place them, in the unit of the model. Coordinates keep double precision.
-/// Bodies are build items, called after their object; groups are object and base material. Colours, textures
-/// and the extensions for slices and lattices are ignored. Throws InputError also when objects contain
-/// themselves, and when components multiply to more than 20 million triangles.
+/// Bodies are build items, called after their object; groups are object and base material. Colours and
+/// textures are ignored, a lattice that the file does not require is left out with a note. Throws InputError
+/// also for a required extension that carries geometry, when objects contain themselves, and when components
+/// multiply to more than 20 million triangles.
 ///
 /// Assimp is not used: up to 5.3 it aborts the process for archives that do not fit their checksums or whose
 /// relationships lead nowhere, and frees their pictures twice.

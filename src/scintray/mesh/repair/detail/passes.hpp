@@ -11,6 +11,9 @@
 
 namespace scintray::mesh {
 
+/// The defects of edges alone, as diagnose() finds them: open, non-manifold and flipped.
+[[nodiscard]] MeshDiagnosis edge_defects(const TriMesh& mesh);
+
 /// Removes triangles with the same three corners as others. One of them stays where its edges need it
 /// for an even number of triangles; none where they are the two sides of a wall inside.
 Defects remove_duplicates(TriMesh& mesh);

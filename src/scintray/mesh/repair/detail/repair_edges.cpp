@@ -135,6 +135,20 @@ Defects take_out(TriMesh& mesh, const std::vector<char>& unwanted) {
 
 }  // namespace
 
+MeshDiagnosis edge_defects(const TriMesh& mesh) {
+  MeshDiagnosis diagnosis;
+  diagnosis.triangles = mesh.triangles.size();
+  const auto uses = sorted_edge_uses(mesh);
+  for_each_edge(uses, [&](const EdgeUse* first, const EdgeUse* last) {
+    const core::Vec3 middle = 0.5 * (mesh.vertices[first->low] + mesh.vertices[first->high]);
+    const auto count = last - first;
+    if (count == 1) diagnosis.open_edges.add(middle);
+    if (count > 2) diagnosis.nonmanifold_edges.add(middle);
+    if (count == 2 && first[0].forward == first[1].forward) diagnosis.flipped_edges.add(middle);
+  });
+  return diagnosis;
+}
+
 Defects remove_duplicates(TriMesh& mesh) {
   std::map<std::array<std::uint32_t, 3>, std::vector<std::size_t>> by_corners;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

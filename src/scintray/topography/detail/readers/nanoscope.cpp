@@ -210,23 +210,31 @@ void read_size(const Header& header, const Section& image, RawMap& map) {
     header.fail(aspect->second, "\"1:1\" where the scan size is one number");
 }
 
+double version_of(const Header& header) {
+  const Entry* version = header.find("Version");
+  return version ? std::strtod(version->value.c_str(), nullptr) : 0.0;
+}
+
 /// Bytes of one stored number.
 std::size_t stored_bytes(const Header& header, const Section& image, double points) {
   const double said = header.number(image, "Bytes/pixel"), length = header.number(image, "Data length");
   if (said != 2.0 && said != 4.0) header.fail(header.need(image, "Bytes/pixel"), "2 or 4");
   if (length == points * said) return static_cast<std::size_t>(said);
-  const Entry* version = header.find("Version");
-  const double number = version ? std::strtod(version->value.c_str(), nullptr) : 0.0;
-  if (length == 4.0 * points && number >= kWideSince) return 4;
+  if (length == 4.0 * points && version_of(header) >= kWideSince) return 4;
   header.fail(header.need(image, "Data length"),
               std::to_string(static_cast<long long>(points * said)) + " bytes for its points");
 }
 
-/// Volts or nm per stored unit. The header states it twice; the full scale has more digits.
+/// Volts or nm per stored unit. The header states it twice; the full scale has more digits. Before
+/// version 9.2 the step in parentheses may be that of the whole range of the electronics, 330 V / 2^16 for
+/// the z piezo, whatever part of it the full scale of the image is; numbers are shares of the full scale all
+/// the same.
 double step_of(const Scale& scale, std::size_t bytes, const Header& header, const Section& image) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 0.01 * std::abs(b); };
   const double step = std::ldexp(scale.full, -8 * static_cast<int>(bytes));
-  if (scale.step == 0.0 || near(scale.step, step) || near(scale.step, std::ldexp(scale.full, -16)))
+  const bool of_electronics = bytes == 2 && version_of(header) < kWideSince && scale.step > step;
+  if (scale.step == 0.0 || of_electronics || near(scale.step, step) ||
+      near(scale.step, std::ldexp(scale.full, -16)))
     return step;
   header.fail(header.need(image, "@2:Z scale"), "a full scale of 2^16 or 2^32 steps");
 }
