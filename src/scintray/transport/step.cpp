@@ -111,13 +111,11 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
 [[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
                                                 source::Photon& photon, core::Rng& rng,
                                                 source::PhotonRecords* records) {
-  const optics::Medium& medium = scene.media[id].medium();
-  const double shifting_per_mm = medium.shifter->absorption_per_mm()(photon.wavelength_nm);
-  const double total_per_mm = shifting_per_mm + medium.absorption_per_mm(photon.wavelength_nm);
-  if (rng.uniform() * total_per_mm >= shifting_per_mm) return false;
+  const double shifting_per_mm = scene.optics.shifting_at(id, photon.wavelength_nm);
+  if (rng.uniform() * photon.optics.absorption_per_mm >= shifting_per_mm) return false;
   optics::ShiftCount not_recorded;
   optics::ShiftCount& count = records ? records->shifts_of(id) : not_recorded;
-  const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, count);
+  const auto back = scene.media[id].medium().shifter->absorb(photon.wavelength_nm, rng, count);
   if (!back) return false;
   photon.wavelength_nm = back->wavelength_nm;
   photon.time_ns += back->delay_ns;
