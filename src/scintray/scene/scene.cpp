@@ -44,9 +44,9 @@ void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double hig
   media.push_back(record);
 }
 
-SceneMedium SceneMedium::opaque() {
+SceneMedium SceneMedium::opaque(std::string name) {
   optics::Medium nothing;
-  nothing.name = "opaque";
+  nothing.name = std::move(name);
   nothing.index = core::Curve::constant(1.0);
   SceneMedium medium(std::move(nothing));
   medium.opaque_ = true;

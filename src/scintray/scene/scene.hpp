@@ -25,8 +25,8 @@ inline constexpr core::RegionId kAmbientRegion(0);
 class SceneMedium {
  public:
   explicit SceneMedium(optics::Medium medium) : medium_(std::move(medium)) {}
-  /// A medium that absorbs all light that enters it.
-  static SceneMedium opaque();
+  /// A medium that absorbs all light that enters it, which it does with matched indices.
+  static SceneMedium opaque(std::string name = "opaque");
 
   const optics::Medium& medium() const { return medium_; }
   bool is_opaque() const { return opaque_; }

@@ -7,14 +7,15 @@ namespace scintray::scene {
 
 namespace {
 
-/// Regions that light from `start` can reach through interfaces that are not opaque both ways.
+/// Regions that light from `start` can reach through interfaces that are not opaque both ways; into opaque
+/// parts too, and not beyond.
 core::IdVector<core::RegionId, bool> lit_regions(const Scene& scene,
                                                  const std::vector<core::RegionId>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](core::SurfaceId id) { return id.has_value() && scene.surfaces[id].opaque(); };
-    const core::RegionId next = from_back ? i.front : i.back;
+    const core::RegionId from = from_back ? i.back : i.front;
     return !opaque(i.back_surface) && !opaque(i.front_surface) &&
-           !scene.media[scene.regions[next].medium].is_opaque();
+           !scene.media[scene.regions[from].medium].is_opaque();
   };
   core::IdVector<core::RegionId, bool> lit(scene.regions.size(), false);
   for (const core::RegionId region : start) lit[region] = true;
