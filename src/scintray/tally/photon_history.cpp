@@ -26,8 +26,9 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 /// shifter is not included.
 double absorption_per_mm(const scene::Scene& scene, core::MediumId medium, double wavelength_nm) {
   const double all_per_mm = scene.optics.at(medium, wavelength_nm).absorption_per_mm;
-  return scene.optics.media[medium].shifts ? std::max(0.0, all_per_mm - scene.optics.shifting_at(medium, wavelength_nm))
-                                           : all_per_mm;
+  return scene.optics.media[medium].shifts
+             ? std::max(0.0, all_per_mm - scene.optics.shifting_at(medium, wavelength_nm))
+             : all_per_mm;
 }
 
 }  // namespace
