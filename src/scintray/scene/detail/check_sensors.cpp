@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scintray/core/pattern.hpp"
@@ -44,6 +46,18 @@ std::vector<core::RegionId> starting_regions(const scene_file::SceneSpec& spec, 
   return regions;
 }
 
+/// A warning of sensors that are placed at a part with a gap that nothing fills: glue is often forgotten.
+void warn_of_empty_gaps(const scene_file::SceneSpec& spec, std::vector<std::string>& warnings) {
+  for (const scene_file::PartSpec& part : spec.parts) {
+    const std::optional<scene_file::TouchSpec>& touch = part.placement.touch;
+    if (part.sensor.empty() || !touch || !(touch->gap_mm > 0.0) || !touch->fill.empty()) continue;
+    warnings.push_back(fmt::format(
+        "sensor \"{}\" is {:g} mm from \"{}\", and the gap holds the ambient medium ({}), which reflects light back: "
+        "fill = \"optical_grease\" beside the gap couples it",
+        part.name.name, touch->gap_mm, touch->part.name, spec.ambient.name));
+  }
+}
+
 }  // namespace
 
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
@@ -56,6 +70,7 @@ void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact:
     any_sensor |=
         !part.sensor.empty() || std::any_of(part.faces.begin(), part.faces.end(),
                                             [](const contact::PlacedFace& f) { return !f.sensor.empty(); });
+  warn_of_empty_gaps(spec, warnings);
   if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
   for (const core::PartId id : scene.parts.ids()) {
     const contact::PlacedMesh& part = placed[id.index()];
