@@ -80,18 +80,19 @@ def pet_module():
     keV, per_keV = 60.0, 33.2
     intrinsic = 0.08 / FWHM * math.sqrt(662.0 / keV)  # materials/media/LYSO.toml
     with h5py.File(FOLDER / 'pet_module.h5') as f:
-        parts = [name.decode() for name in f['parts'][:]]
+        names = [name.decode().split('[')[0] for name in f['points/0000/channels/channel_name'][:]]
         events, signals = f['events'], f['signals']
         point = events['point'][:].astype(int)
         rows = signals['event_row'][:].astype(int)
-        ends = numpy.array([parts[k].split('[')[0] for k in signals['part'][:]])
-        detected = signals['detected'][:].astype(float)
+        ends = numpy.array(names)[signals['channel'][:]]
+        detected = signals['photons_detected'][:].astype(float)
         n = len(point)
         near_end = numpy.bincount(rows, detected * (ends == 'near'), n)
         far_end = numpy.bincount(rows, detected * (ends == 'far'), n)
-        emitted = events['emitted'][:].astype(float)
+        emitted = events['photons_emitted'][:].astype(float)
         first = numpy.full(n, numpy.inf)
-        numpy.minimum.at(first, rows, signals['first_ns'][:])
+        seen = ~numpy.isnan(signals['first_ns'][:])
+        numpy.minimum.at(first, rows[seen], signals['first_ns'][:][seen])
     ratios = []
     for k in range(3):
         own = point == k
