@@ -110,9 +110,12 @@ TEST_CASE("Photons start where and when their deposit is, after the decay of its
   source.begin(scene, 0, event_rng, light);
   REQUIRE(light.deposits.size() == 2);
   CHECK(light.photons == light.deposits.back().all);
-  const double per_keV = scene.media[scene.regions[crystal].medium].medium().yield_per_keV;
-  CHECK(std::abs(static_cast<double>(light.deposits[0].all) - 300.0 * per_keV) <
-        kSigmas * std::sqrt(300.0 * per_keV));
+  const Medium& lso = scene.media[scene.regions[crystal].medium].medium();
+  const double mean = 300.0 * lso.yield_per_keV;
+  const double intrinsic =
+      lso.intrinsic_fwhm / kFwhmPerSigma * lso.yield_per_keV * std::sqrt(lso.intrinsic_keV * 300.0);
+  CHECK(std::abs(static_cast<double>(light.deposits[0].all) - mean) <
+        kSigmas * std::sqrt(mean + intrinsic * intrinsic));
 
   Moments first, second, along;
   for (std::uint64_t i = 0; i < light.photons; ++i) {
