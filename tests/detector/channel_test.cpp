@@ -1,4 +1,5 @@
 // A sensor with its electronics as a whole.
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -109,6 +110,36 @@ TEST_CASE("the mean charge is the light with its crosstalk, through the electron
   }
   // The sum over samples misses the integral by 1e-3 at a nanosecond a sample, and noise has mean 0.
   check_law("charge", charge.mean(), {causes.mean().value, 1e-3 * causes.mean().value});
+}
+
+TEST_CASE("the charge is the integral over the gate, wherever between two samples the light comes") {
+  // Of a pulse that begins with a step the sum of the samples is 5 % less or more, by the place of the flash.
+  Sensor sensor;  // proportional, without spread
+  sensor.single_electron.decay_ns = 10.0;
+  ReadoutSpec readout;
+  readout.before_ns = 20.0;
+  readout.window_ns = 120.0;
+  const auto charge_at = [&](double time_ns) {
+    Rng rng = event_stream(3);
+    return Channel(sensor, readout, kFace).respond(flash(1000, time_ns), rng).charge;
+  };
+  for (const double rise_ns : {0.0, 0.2, 3.0}) {
+    sensor.single_electron.rise_ns = rise_ns;
+    for (const double time_ns : {0.0, 1e-6, 0.3, 0.5, 0.999, 17.4}) {
+      CAPTURE(rise_ns);
+      CAPTURE(time_ns);
+      // What is left of the pulse behind the last sample's period, 100 ns after the start of the event.
+      const auto left = [&](double tau) { return tau * std::exp(-(100.0 - time_ns) / tau); };
+      const double inside = 1.0 - (left(10.0) - (rise_ns > 0.0 ? left(rise_ns) : 0.0)) / (10.0 - rise_ns);
+      CHECK(charge_at(time_ns) == doctest::Approx(1000.0 * inside).epsilon(1e-6));
+    }
+  }
+  // A gate that cuts the pulse: from 5 to 12 ns, whole periods.
+  sensor.single_electron.rise_ns = 0.0;
+  readout.gate_ns = std::array{5.0, 12.0};
+  CHECK(charge_at(0.4) == doctest::Approx(1000.0 * (std::exp(-0.46) - std::exp(-1.16))).epsilon(1e-6));
+  CHECK(charge_at(7.25) == doctest::Approx(1000.0 * (1.0 - std::exp(-0.475))).epsilon(1e-6));
+  CHECK(charge_at(12.5) == doctest::Approx(0.0));
 }
 
 TEST_CASE("a channel without a pulse shape or without a face is refused") {

@@ -101,6 +101,23 @@ TEST_CASE("every table of a sensor is read in internal units") {
         doctest::Approx(0.07));
 }
 
+TEST_CASE("a matched window is read, and refused where a number needs the index of the window") {
+  const std::string internal =
+      "[efficiency]\nvalue = 0.5\ndefinition = \"internal\"\n[window]\nindex = \"matched\"\n";
+  CHECK(sensor_of(internal).window_matched);
+  CHECK_FALSE(sensor_of(kConverter).window_matched);
+  CHECK(reports(mistakes_of("[efficiency]\nvalue = 0.5\ndefinition = \"external\"\nreference_index = 1.0\n"
+                            "[window]\nindex = \"matched\"\n"),
+                3, "an external efficiency includes the reflection at the window"));
+  CHECK(
+      reports(mistakes_of(internal + "[angle]\nfactor = { angle = [0, 60], angle_unit = \"deg\", value = [1, "
+                                     "0.9] }\nmeasured_in = \"window\"\ndefinition = \"internal\"\n"),
+              7, "needs the index of the window"));
+  CHECK(reports(mistakes_of("[efficiency]\nvalue = 0.5\ndefinition = \"internal\"\n[window]\nindex = "
+                            "\"glass\"\n"),
+                5, "\"glass\" is neither a refractive index nor \"matched\""));
+}
+
 TEST_CASE("a sensor without these tables has none of it") {
   const Sensor sensor = sensor_of(kConverter);
   CHECK_FALSE(sensor.angle.has_value());

@@ -1,4 +1,5 @@
 #include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -53,6 +54,21 @@ TEST_CASE("A cylinder is the prism over a regular polygon") {
         doctest::Approx(5.0 * kPi * 4.0).epsilon(1e-12));
   CHECK_THROWS_AS(make_cylinder(1.0, 1.0, 2), InputError);
   CHECK_THROWS_AS(make_cylinder(-1.0, 1.0, 8), InputError);
+}
+
+TEST_CASE("Ends of many corners have no triangle without area, however slim the body") {
+  for (const int n : {200, 4096}) {
+    CAPTURE(n);
+    const double area = 0.5 * n * std::sin(kTwoPi / n);
+    const TriMesh cylinder = make_cylinder(1.0, 20.0, n);
+    CHECK(cylinder.volume() == doctest::Approx(20.0 * area).epsilon(1e-9));
+    CHECK(diagnose(cylinder).sound());
+    const TriMesh prism = make_prism(n, 1.0, 20.0);
+    CHECK(prism.volume() == doctest::Approx(20.0 * area).epsilon(1e-9));
+    CHECK(diagnose(prism).sound());
+  }
+  CHECK(diagnose(make_cylinder(0.5, 1000.0, 1000)).sound());
+  CHECK(make_cylinder(1.0, 20.0, 48).vertices.size() == 96);  // few corners: none in the middle
 }
 
 TEST_CASE("A geodesic sphere converges to a sphere with the square of the subdivisions") {

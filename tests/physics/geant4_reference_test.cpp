@@ -89,7 +89,7 @@ const std::string kBackPainted = R"(
 model = "smooth"
 gap = 1.0
 reflectance = 0.97
-specular_share = 0.0
+specular_share = 1.0
 )";
 
 /// A seed of its own for every run: with one for all they would share the fluctuations of one source.
@@ -172,6 +172,10 @@ void compare_run(const json& run, const std::string& name, const std::string& sc
   const std::vector<CrossingAngles> angles = crossing_angles(result);
   c.histogram("angle in crystal", angles.at(0).inside, run["theta_crystal_hist"]);
   c.histogram("angle in grease", angles.at(0).outside, run["theta_grease_hist"]);
+  std::vector<std::uint64_t> paths = run["path_hist"];
+  paths.push_back(run["path_overflow"]);
+  const auto& ours = result.detected_path_histogram;
+  c.histogram("path of detected", std::vector<std::uint64_t>(ours.begin(), ours.end()), paths);
   c.report("geant4");
 }
 

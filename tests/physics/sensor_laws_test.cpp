@@ -80,6 +80,67 @@ TEST_CASE(
   }
 }
 
+namespace {
+
+/// A clear crystal of 10 x 10 x 1 mm whose light starts towards its exit end, directions uniform over the
+/// hemisphere, and a sensor there; each photon interacts once at most.
+std::string towards_sensor(const std::string& sensor, const std::string& contact = "") {
+  return R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = { low = ["-500 mm", "-500 mm", "0 mm"], high = ["500 mm", "500 mm", "1 mm"] }
+medium = "lso_clear"
+surface = "flat"
+[[part]]
+name = "eye"
+box = { low = ["-500 mm", "-500 mm", "-1 mm"], high = ["500 mm", "500 mm", "0 mm"] }
+)" + sensor +
+         R"(
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "0.5 mm"]
+direction = { lambertian = [0, 0, -1] }
+wavelength = "420 nm"
+photons = 60_000
+[run]
+max_interactions = 1
+)" + contact;
+}
+
+}  // namespace
+
+TEST_CASE("Law of a matched window: all light that reaches the sensor enters it, at every angle") {
+  const std::string matched =
+      "\n[sensors.half]\nefficiency = { definition = \"internal\", value = 0.5 }\nwindow = { index = "
+      "\"matched\" }\n";
+  const Traced ideal = trace(towards_sensor("sensor = \"ideal\""));
+  CHECK(ideal.result.count(Fate::detected) == ideal.result.photons);
+  check_law("half of it",
+            trace(towards_sensor("sensor = \"half\"") + matched).result.fraction(Fate::detected), {0.5, 0.0});
+  // With a window of its own it reflects: 1 - R of Lambertian light, 1.82 to 1.5.
+  const Traced window = trace(towards_sensor("sensor = \"mine\"") +
+                              "\n[sensors.mine]\nbase = \"ideal\"\nwindow = { index = 1.5 }\n");
+  double entering = 0.0;
+  constexpr int kSteps = 20'000;
+  for (int i = 0; i < kSteps; ++i)  // uniform in the squared sine
+    entering += (1.0 - fresnel(std::sqrt((i + 0.5) / kSteps), 1.82, 1.5).unpolarised()) / kSteps;
+  check_law("with a window of 1.5", window.result.fraction(Fate::detected), {entering, 0.0});
+}
+
+TEST_CASE("Law of a dry contact with an opaque part or a matched sensor: light enters it from the gap") {
+  // From the crystal into the gap of index 1 by Fresnel's equations, and from there without reflection.
+  double entering = 0.0;
+  constexpr int kSteps = 20'000;
+  for (int i = 0; i < kSteps; ++i)
+    entering += (1.0 - fresnel(std::sqrt((i + 0.5) / kSteps), 1.82, 1.0).unpolarised()) / kSteps;
+  const std::string dry = "[[contact]]\nbetween = [\"crystal\", \"eye\"]\nkind = \"dry\"\n";
+  const Traced sensor = trace(towards_sensor("sensor = \"ideal\"", dry));
+  check_law("matched sensor", sensor.result.fraction(Fate::detected), {entering, 0.0});
+  const Traced opaque = trace(towards_sensor("medium = \"opaque\"\nsurface = \"flat\"", dry));
+  check_law("opaque part", opaque.result.fraction(Fate::absorbed_in_medium), {entering, 0.0});
+}
+
 TEST_CASE("Law of a glued sensor: an efficiency published in air holds at the same index times sine") {
   // In index 1.5, 30 deg is what 48.6 deg is in air; nothing in air is 60 deg, so the last value holds.
   const double in_air = std::asin(1.5 * std::sin(30.0 * kDegree));

@@ -1,6 +1,7 @@
 /// Laws for every table that comes with ScintRay (materials/tables, made by tools/tables).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/traced.hpp"
@@ -103,5 +104,77 @@ TEST_CASE("Shipped tables: energy, reciprocity and, without absorption, equilibr
     evidence("shipped_tables", {shipped.name, fmt::format("{:.4f}", static_cast<double>(in.inside) / kRays),
                                 fmt::format("{:.4f}", static_cast<double>(in.absorbed) / kRays),
                                 fmt::format("{:.2f}", sigmas(up, down)), balance, equilibrium});
+  }
+}
+
+namespace {
+
+constexpr std::size_t kPairBins = 6;
+constexpr std::uint64_t kPairRays = 1'000'000;
+
+/// Numbers of diffuse light from inside that go from one sixth of the hemisphere (by sin^2) to another.
+using PairCounts = std::array<std::array<std::uint64_t, kPairBins>, kPairBins>;
+
+PairCounts pairs_of(const Shipped& shipped, std::uint64_t seed) {
+  const auto bin = [](const core::PlainVec3& direction) {
+    const double sin2 = 1.0 - direction.z() * direction.z();
+    return std::min(kPairBins - 1, static_cast<std::size_t>(std::max(0.0, sin2) * kPairBins));
+  };
+  PairCounts counts{};
+  for (std::uint64_t i = 0; i < kPairRays; ++i) {
+    Rng rng(seed, StreamKind::other, i);
+    Ray ray{sample_lambertian(Vec3::UnitZ(), rng), Vec3::Zero()};
+    const std::size_t from = bin(ray.direction);
+    if (shipped.surface.interact(ray, Side::inside, Vec3::UnitZ(), shipped.index, 420.0, rng) ==
+        SurfaceOutcome::inside)
+      ++counts[from][bin(ray.direction)];
+  }
+  return counts;
+}
+
+/// Rays that a table was traced with at incidences whose squared sine is in a bin.
+std::array<double, kPairBins> own_rays(const SurfaceTable& table) {
+  std::array<double, kPairBins> rays{};
+  const auto per_node =
+      static_cast<double>(table.provenance().rays_per_azimuth * table.provenance().azimuths);
+  for (const TableNode& node : table.nodes(Side::inside)) {
+    const double sin2 = std::pow(std::sin(node.incidence_rad), 2);
+    rays[std::min(kPairBins - 1, static_cast<std::size_t>(sin2 * kPairBins))] += per_node;
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("Shipped tables: detailed balance of pairs of directions, of light of equal radiance") {
+  for (const Shipped& shipped : shipped_tables()) {
+    CAPTURE(shipped.name);
+    const auto& table = *shipped.surface.microsurface.get_if<SurfaceTable>();
+    const PairCounts counts = pairs_of(shipped, 53);
+    const std::array<double, kPairBins> own = own_rays(table);
+    double squares = 0.0, greatest = 0.0, per_cent = 0.0;
+    int pairs = 0;
+    for (std::size_t i = 0; i < kPairBins; ++i)
+      for (std::size_t j = i + 1; j < kPairBins; ++j) {
+        const auto there = static_cast<double>(counts[i][j]), back = static_cast<double>(counts[j][i]);
+        if (there + back < 200.0) continue;  // a polished face: next to no light goes there
+        // Of the rays here, and of those that the table was traced with, whose share in this pair is that of
+        // all light of the bin: each bin holds a sixth of the light.
+        const double scale = static_cast<double>(kPairRays) / kPairBins;
+        const double variance = there * (1.0 + scale / own[i]) + back * (1.0 + scale / own[j]);
+        const double pull = std::abs(there - back) / std::sqrt(variance);
+        squares += pull * pull;
+        ++pairs;
+        if (pull < greatest) continue;
+        greatest = pull;
+        per_cent = 200.0 * std::abs(there - back) / (there + back);
+      }
+    REQUIRE(pairs > 0);
+    CHECK(greatest < kSigmas);
+    evidence("shipped_pairs", {shipped.name, fmt::format("{:.0f}", *std::min_element(own.begin(), own.end())),
+                               fmt::format("{:.2f}", std::sqrt(squares / pairs)),
+                               fmt::format("{:.2f}", greatest), fmt::format("{:.1f}", per_cent)});
+    MESSAGE(shipped.name << ": " << pairs << " pairs, rms " << std::sqrt(squares / pairs)
+                         << " sigma, greatest " << greatest << " sigma, " << per_cent << " per cent");
   }
 }

@@ -141,6 +141,42 @@ TEST_CASE("Every photon that a shifter absorbs is re-emitted or absorbed, and so
             {mean_eV, 0.0});
 }
 
+TEST_CASE("Law: a yield of 1 where nothing else absorbs loses no photon, also past a table's last zero") {
+  // The dye's absorption falls to zero within 0.2 nm, between two wavelengths of the grid of bulk optics, in
+  // the middle of its own emission: 1 % of the light comes to lie there.
+  const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "ball"
+sphere = { radius = "50 mm", subdivisions = 3 }
+medium = "dye"
+surface = "flat"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "0 mm"]
+wavelength = "400 nm"
+photons = 20_000
+[media.dye]
+index = { n = 1.0 }
+absorption = { none = true }
+scattering = { none = true }
+[media.dye.wavelength_shifting]
+absorption = { coefficient = { wavelength = [400, 450, 450.2, 480], wavelength_unit = "nm", value = [10, 10, 0, 0], value_unit = "1/mm" } }
+quantum_yield = { value = 1 }
+emission = { spectrum = { wavelength = [440, 480], wavelength_unit = "nm", value = [1, 1] } }
+decay = [{ time = "10 ns", rise = "0 ns", fraction = 1 }]
+)");
+  const Scene& scene = traced.built.scene;
+  const MediumId dyed = medium_id(scene, "dye");
+  CHECK(traced.result.count(Fate::absorbed_in_medium) == 0);
+  CHECK(traced.result.count(Fate::escaped) == traced.result.photons);
+  const ShiftCount& shifted = traced.result.shifted_in_medium[dyed];
+  CHECK(shifted.absorbed == shifted.emitted);
+  // The part of the shifter and the whole, in every bit, at and between the wavelengths of the grid.
+  for (double nm = 449.0; nm < 451.0; nm += 0.03)
+    CHECK(scene.optics.shifting_at(dyed, nm) == scene.optics.at(dyed, nm).absorption_per_mm);
+}
+
 TEST_CASE("Law: light that a dye absorbs repeatedly, 1 / (1 - yield) times in all") {
   // A cube of 1 m with light in its middle, 0.1 mm of absorption at every wavelength: nothing leaves.
   const Traced traced = trace(R"(
@@ -174,6 +210,15 @@ decay = [{ time = "10 ns", rise = "0 ns", fraction = 1 }]
             {static_cast<double>(shifted.absorbed) / photons, std::sqrt(0.7 / photons) / 0.3},
             {1.0 / 0.3, 0.0});
   CHECK(shifted.after_eV < shifted.before_eV);
+  // Law of repeated re-emission: the share 1 - u of the flat spectrum that is left is a product of uniform numbers,
+  // so that all re-emissions of a photon together have the density y w^-y of w = 1 - u. With w = v^(1 / (1 - y)):
+  constexpr int kSteps = 100'000;
+  double energy_eV = 0.0;
+  for (int i = 0; i < kSteps; ++i)
+    energy_eV += photon_energy_eV(560.0 - 80.0 * std::pow((i + 0.5) / kSteps, 1.0 / 0.3)) / kSteps;
+  // Energies lie within 2.21 to 2.58 eV; as if each photon had one of its own.
+  check_law("mean energy of repeatedly re-emitted light, eV",
+            {shifted.after_eV / static_cast<double>(shifted.emitted), 0.1 / std::sqrt(photons)}, {energy_eV, 0.0});
 }
 
 TEST_CASE(

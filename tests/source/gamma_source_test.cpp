@@ -127,7 +127,7 @@ TEST_CASE("a decay of lutetium releases its beta and 597 keV") {
   std::array<std::uint64_t, 3> lines{};
   for (const auto& start :
        starts(emitter("region = { part = \"crystal\" }\nemission = \"Lu176\"", scene), scene, kCount)) {
-    const double beta_keV = start.local_keV + sum_keV(start) - (306.78 + 201.83 + 88.34);
+    const double beta_keV = start.local_keV() + sum_keV(start) - (306.78 + 201.83 + 88.34);
     CHECK(beta_keV >= -1e-9);
     CHECK(beta_keV <= kLutetiumBetaEnd_keV);
     beta.add(beta_keV);

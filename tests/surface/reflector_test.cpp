@@ -187,6 +187,50 @@ TEST_CASE("Two faces of a sheet together reflect and transmit what the sheet doe
   CHECK_FALSE(face_of_sheet(closed).transmittance);
 }
 
+TEST_CASE("Law of paint: light is depolarised, or keeps its component across the new plane of incidence") {
+  // Geant4's boundary process projects the vector from before the paint onto the new plane of incidence.
+  Reflector paint = sheet(1.0, 0.0, 0.0);
+  paint.transmittance.reset();
+  for (const PaintPolarisation kind : {PaintPolarisation::random, PaintPolarisation::geant4}) {
+    paint.polarisation = kind;
+    Moments across, difference;
+    std::uint64_t wrong = 0;
+    for (std::uint64_t i = 0; i < 50'000; ++i) {
+      Rng rng(6, StreamKind::other, i);
+      Ray ray = arriving(Side::inside, 0.7, rng);
+      // Across the plane of incidence at first, so that all azimuths of the new plane are equally likely.
+      ray.polarisation = ray.direction.cross(kSheetNormal).normalized();
+      const Vec3 before = ray.polarisation.vec();
+      REQUIRE(interact_at_reflector(paint, ray, {-kSheetNormal, 1.0, 1.0}, 420.0, rng) == SheetOutcome::back);
+      const Vec3 s = ray.direction.cross(kSheetNormal).normalized();
+      wrong += std::abs(ray.polarisation.dot(ray.direction.vec())) > 1e-9 ||
+               std::abs(ray.polarisation.vec().squaredNorm() - 1.0) > 1e-9;
+      across.add(std::pow(ray.polarisation.dot(s), 2));
+      difference.add(std::abs(ray.polarisation.dot(s) - before.dot(s)));
+    }
+    CHECK(wrong == 0);
+    // Both are one half on average; only Geant4's is that of each ray.
+    CHECK(sigmas(across.mean(), {0.5, 0.0}) < kSigmas);
+    if (kind == PaintPolarisation::geant4)
+      CHECK(difference.mean().value < 1e-9);
+    else
+      CHECK(difference.mean().value > 0.1);
+  }
+  // A ray that arrives polarised along the normal as far as it can keeps nothing across the new plane: its
+  // light is all parallel, and enters a denser medium more easily than depolarised light.
+  paint.polarisation = PaintPolarisation::geant4;
+  Moments across;
+  for (std::uint64_t i = 0; i < 50'000; ++i) {
+    Rng rng(8, StreamKind::other, i);
+    Ray ray = arriving(Side::inside, 1.2, rng);
+    ray.polarisation = (kSheetNormal - ray.direction.dot(kSheetNormal) * ray.direction.vec()).normalized();
+    REQUIRE(interact_at_reflector(paint, ray, {-kSheetNormal, 1.0, 1.0}, 420.0, rng) == SheetOutcome::back);
+    across.add(std::pow(ray.polarisation.dot(ray.direction.cross(kSheetNormal).normalized()), 2));
+  }
+  // (P . s)^2 with P at 1.2 rad to the face: cos^2 of that angle times the mean of sin^2 over azimuths.
+  CHECK(sigmas(across.mean(), {0.5 * std::pow(std::cos(1.2), 2), 0.0}) < kSigmas);
+}
+
 TEST_CASE("The share that a sheet keeps is the largest over its wavelengths") {
   Reflector coloured = sheet(0.0, 0.0, 0.0);
   coloured.reflectance = Curve({400.0, 500.0}, {0.9, 0.5});

@@ -168,6 +168,47 @@ axes = [{ variable = "occasion" }]
   CHECK(tally_of(traced, 7).sum == std::vector<double>{detected, escaped});
 }
 
+TEST_CASE("A ledger has the light that a sensor reflects, counted from the sensor's own side") {
+  const Traced traced = trace(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = ["4 mm", "4 mm", "5 mm"]
+medium = "lso_clear"
+surface = "flat"
+[[part]]
+name = "detector"
+box = ["4 mm", "4 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "perfect"
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "2.5 mm"]
+direction = { cone = [0, 0, -1], half_angle = "0.1 deg" }
+wavelength = "420 nm"
+photons = 40_000
+[run]
+max_interactions = 1
+[[tally]]
+type = "ledger"
+)");
+  const TallyResult& ledger = tally_of(traced);
+  REQUIRE(ledger.axes[0].names == std::vector<std::string>{"crystal:other", "detector:other"});
+  const std::size_t sensor = ledger.axes[1].bins();
+  const auto at = [&](std::size_t face, const char* event) {
+    const auto& names = ledger.axes[1].names;
+    const auto found = std::find(names.begin(), names.end(), event);
+    REQUIRE(found != names.end());
+    return ledger.sum[face * sensor + static_cast<std::size_t>(found - names.begin())];
+  };
+  CHECK(at(1, "detected") == static_cast<double>(traced.result.count(Fate::detected)));
+  CHECK(at(1, "detected") + at(1, "returned") == 40'000.0);
+  CHECK(at(0, "returned") == at(1, "returned"));  // the same light, seen from the crystal
+  const double fresnel = std::pow((1.82 - 1.5) / (1.82 + 1.5), 2);
+  check_law("reflected", binomial_estimate(static_cast<std::uint64_t>(at(1, "returned")), 40'000),
+            {fresnel, 0.0});
+}
+
 TEST_CASE("The ledger of faces accounts for every interaction, and each first and last once a photon") {
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"

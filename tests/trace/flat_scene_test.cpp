@@ -97,6 +97,7 @@ Scene through_bytes(const Scene& scene) {
   copy.interfaces = through_bytes(scene.interfaces);
   copy.optics.media = through_bytes(scene.optics.media);
   copy.optics.table = through_bytes(scene.optics.table);
+  copy.optics.shifting_per_mm = through_bytes(scene.optics.shifting_per_mm);
   for (const auto& accelerator : scene.accelerators)
     copy.accelerators.push_back(std::make_shared<Accelerator>(through_bytes(accelerator->boundary())));
   copy.media = scene.media;

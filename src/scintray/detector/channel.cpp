@@ -49,10 +49,14 @@ ChannelSignal Channel::respond(std::span<const Arrival> arrivals, core::Rng& rng
   ChannelSignal signal;
   signal.photoelectrons = arrivals.size();
   count(avalanches, readout_, signal);
-  std::vector<float> waveform =
-      digitize(pulse_.waveform(avalanches, start_ns(), readout_.samples()), readout_, rng);
+  GateIntegral gate = gate_of(readout_, readout_.samples());
+  const std::vector<double> exact = pulse_.waveform(avalanches, start_ns(), readout_.samples(), gate);
+  std::vector<float> waveform = digitize(exact, readout_, rng);
   const PulseMeasurement measured = measure(waveform, readout_, pulse_.area_ns());
-  signal.charge = measured.charge;
+  // Noise and rounding are those of the samples; the pulses themselves count with their integral.
+  double sampled = 0.0;
+  for (std::size_t i = gate.first; i < gate.past; ++i) sampled += exact[i];
+  signal.charge = measured.charge + (gate.integral_ns - sampled * readout_.period_ns) / pulse_.area_ns();
   signal.amplitude = measured.amplitude;
   signal.time_ns = measured.time_ns;
   if (readout_.pulses) signal.waveform = std::move(waveform);

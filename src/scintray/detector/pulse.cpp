@@ -138,8 +138,21 @@ double PulseShape::value(double time_ns) const {
   return time_ns < 0.0 ? 0.0 : scale_ * after(time_ns)[rate_per_ns_.size() - 1];
 }
 
+/// Charge in the stages, which is still to come out: each holds its output over its rate.
+double PulseShape::held(const State& state) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rate_per_ns_.size(); ++i) sum += state[i] / rate_per_ns_[i];
+  return sum;
+}
+
 std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, double start_ns,
                                          std::size_t samples) const {
+  GateIntegral none;
+  return waveform(avalanches, start_ns, samples, none);
+}
+
+std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, double start_ns,
+                                         std::size_t samples, GateIntegral& gate) const {
   const std::size_t stages = rate_per_ns_.size();
   std::vector<double> waveform(samples, 0.0);
   State state{};
@@ -147,14 +160,22 @@ std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, 
                                [](const Avalanche& a, double time_ns) { return a.time_ns < time_ns; });
   const double early_ns = next == avalanches.end() ? 0.0 : std::max(0.0, start_ns - next->time_ns);
   const auto early = static_cast<std::ptrdiff_t>(std::ceil(early_ns / period_ns_));
-  for (std::ptrdiff_t i = -early; i < static_cast<std::ptrdiff_t>(samples); ++i) {
+  const auto first = static_cast<std::ptrdiff_t>(gate.first), past = static_cast<std::ptrdiff_t>(gate.past);
+  // One step beyond the last sample ends the period of that sample.
+  const std::ptrdiff_t end = std::max(static_cast<std::ptrdiff_t>(samples), past + 1);
+  double arrived = 0.0;  // charge up to the present sample, the charge held at the gate's start included
+  for (std::ptrdiff_t i = -early; i < end; ++i) {
     step(state);
     const double now_ns = start_ns + static_cast<double>(i) * period_ns_;
     for (; next != avalanches.end() && next->time_ns <= now_ns; ++next) {
       const State pulse = after(now_ns - next->time_ns);
       for (std::size_t stage = 0; stage < stages; ++stage) state[stage] += next->charge * pulse[stage];
+      arrived += next->charge;
     }
-    if (i >= 0) waveform[static_cast<std::size_t>(i)] = scale_ * state[stages - 1];
+    if (i == first) arrived = held(state);
+    if (i == past) gate.integral_ns = scale_ * (arrived - held(state));
+    if (i >= 0 && i < static_cast<std::ptrdiff_t>(samples))
+      waveform[static_cast<std::size_t>(i)] = scale_ * state[stages - 1];
   }
   return waveform;
 }

@@ -13,6 +13,12 @@
 
 namespace scintray::detector {
 
+/// A range of samples of a waveform, and the integral from the first to the end of the period of the last.
+struct GateIntegral {
+  std::size_t first = 0, past = 0;  ///< `past` follows the last sample; equal: no sample
+  double integral_ns = 0.0;         ///< photoelectrons times ns
+};
+
 /// Pulse shape of a chain of low-pass stages 1 / (1 + s tau), which comprises the usual pulses: with two
 /// different time constants (exp(-t/a) - exp(-t/b)) / (a - b), with n + 1 equal ones the CR-RC^n response to
 /// a charge, t^n exp(-t/tau) / (n! tau^(n+1)) (G. F. Knoll, Radiation Detection and Measurement, 4th ed.,
@@ -43,6 +49,12 @@ class PulseShape {
   /// @param avalanches  sorted by time; of those before the start the tails contribute
   std::vector<double> waveform(std::span<const Avalanche> avalanches, double start_ns,
                                std::size_t samples) const;
+  /// The same; sets the integral of the gate from the charge that arrives in it and the charge that the
+  /// stages hold at its ends, whatever the period. A sum of samples is the integral only of pulses that rise
+  /// slowly: of one without rise it depends on where between two samples the avalanches lie.
+  /// @param gate  its samples are within the waveform
+  std::vector<double> waveform(std::span<const Avalanche> avalanches, double start_ns, std::size_t samples,
+                               GateIntegral& gate) const;
 
  private:
   /// Outputs of the stages.
@@ -53,6 +65,7 @@ class PulseShape {
   void pass(State& state, double time_ns) const;
   void step(State& state) const;  ///< by one period
   State after(double time_ns) const;
+  double held(const State& state) const;
 
   std::vector<double> rate_per_ns_;  ///< of each stage
   double fastest_per_ns_ = 0.0;
@@ -66,6 +79,9 @@ class PulseShape {
 /// ends.
 /// @param waveform  photoelectrons
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng);
+
+/// The samples in the gate of a readout, of a waveform of so many samples that starts `before` the event.
+GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples);
 
 struct PulseMeasurement {
   double charge = 0.0;            ///< sum over the gate times the period over the area of the pulse of 1

@@ -51,7 +51,8 @@ struct Sensor {
   core::Curve efficiency;  ///< conversion probability against wavelength (nm), as published
   EfficiencyDefinition definition = EfficiencyDefinition::internal;
   double reference_index = 1.0;  ///< of the medium in which an external efficiency was measured
-  double window_index = 1.5;     ///< index of the entrance window, for the conversions between definitions
+  double window_index = 1.5;     ///< index of the entrance window; not used when it is matched
+  bool window_matched = false;   ///< the window has the index of what it touches: no Fresnel reflection
   std::optional<AngularEfficiency> angle;  ///< nothing: the same at every angle for light inside
   double time_spread_ns = 0.0;  ///< standard deviation of the transit time (photomultiplier), or of the
                                 ///< single photon time resolution (silicon photomultiplier)

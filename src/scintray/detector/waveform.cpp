@@ -84,17 +84,25 @@ std::optional<double> pick_off(Waveform waveform, const ReadoutSpec& readout) {
 
 /// Sum of the samples in the gate.
 double gated_sum(Waveform waveform, const ReadoutSpec& readout) {
+  const GateIntegral gate = gate_of(readout, waveform.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < waveform.size(); ++i) {
-    const double time_ns = static_cast<double>(i) * readout.period_ns - readout.before_ns;
-    const bool open =
-        !readout.gate_ns || (time_ns >= (*readout.gate_ns)[0] && time_ns < (*readout.gate_ns)[1]);
-    if (open) sum += waveform[i];
-  }
+  for (std::size_t i = gate.first; i < gate.past; ++i) sum += waveform[i];
   return sum;
 }
 
 }  // namespace
+
+GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples) {
+  if (!readout.gate_ns) return {0, samples, 0.0};
+  const auto [open_ns, close_ns] = *readout.gate_ns;
+  const auto before = [&](double gate_ns) {
+    std::size_t i = 0;
+    while (i < samples && static_cast<double>(i) * readout.period_ns - readout.before_ns < gate_ns) ++i;
+    return i;
+  };
+  const std::size_t first = before(open_ns);
+  return {first, std::max(first, before(close_ns)), 0.0};
+}
 
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng) {
   std::vector<float> samples;

@@ -27,10 +27,11 @@ std::string text(const core::Curve& curve) {
 }
 
 std::string text(const optics::Reflector& reflector) {
-  const auto& [name, reflectance, specular_share, volume_index, transmittance] = reflector;
-  return fmt::format("reflectance {}, specular share {}, volume index {}, transmittance {}",
+  const auto& [name, reflectance, specular_share, volume_index, transmittance, polarisation] = reflector;
+  return fmt::format("reflectance {}, specular share {}, volume index {}, transmittance {}{}",
                      text(reflectance), specular_share, volume_index,
-                     transmittance ? text(*transmittance) : "none");
+                     transmittance ? text(*transmittance) : "none",
+                     polarisation == optics::PaintPolarisation::random ? "" : ", polarisation of Geant4");
 }
 
 std::string text(const topography::TableSettings& settings) {

@@ -14,6 +14,16 @@ bool is_specular(const Reflector& reflector, core::Rng& rng) {
   return reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share;
 }
 
+/// Lambertian reflection of PaintPolarisation::geant4.
+void scatter_as_geant4(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
+  ray.direction = core::sample_lambertian(normal, rng);
+  const core::Vec3 across = ray.direction.cross(normal);
+  if (ray.polarisation.isZero(0.0) || across.squaredNorm() == 0.0) return;
+  const core::Vec3 s = across.normalized();
+  const double e_s = std::clamp(ray.polarisation.dot(s), -1.0, 1.0);
+  ray.polarisation = e_s * s + std::sqrt(1.0 - e_s * e_s) * s.cross(ray.direction.vec());
+}
+
 /// Transmitted light: through, or back where it cannot enter the medium beyond.
 SheetOutcome pass(const Reflector& reflector, Ray& ray, const SheetSide& side, core::Rng& rng) {
   if (is_specular(reflector, rng))
@@ -78,6 +88,8 @@ SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const S
   if (log) log->add(reflector, shares.reflectance);
   if (is_specular(reflector, rng))
     reflect(ray, side.normal);
+  else if (reflector.polarisation == PaintPolarisation::geant4)
+    scatter_as_geant4(ray, side.normal, rng);
   else
     scatter_lambertian(ray, side.normal, rng);
   return SheetOutcome::back;

@@ -10,6 +10,16 @@
 
 namespace scintray::optics {
 
+/// Polarisation of light after a reflection by Lambert's law.
+enum class PaintPolarisation {
+  random,  ///< none is left of what it was: multiple scattering depolarises
+  /// As Geant4 has it when light returns through a back-painted face: its boundary process goes on with the
+  /// vector from before the paint, of which the part perpendicular to the plane of incidence counts as such
+  /// and all the rest as parallel (G4OpBoundaryProcess::DielectricDielectric). The plane is here that of the
+  /// mean face.
+  geant4
+};
+
 /// A sheet that reflects on both of its sides.
 struct Reflector {
   std::string name;
@@ -24,6 +34,7 @@ struct Reflector {
   /// sum with `reflectance` is at most 1 at every wavelength; the remainder is absorbed. Of a volume-like
   /// reflector, that of the volume for diffuse light from within.
   std::optional<core::Curve> transmittance = std::nullopt;
+  PaintPolarisation polarisation = PaintPolarisation::random;  ///< of light reflected by Lambert's law
 };
 
 /// Outcome of light incident on a reflector.

@@ -94,11 +94,13 @@ class AssemblyMaker {
     }
   }
 
-  /// The medium of a sensor part without one: its window, which has an index only.
+  /// The medium of a sensor part without one: its window, which has an index only. Light enters a matched
+  /// window as it does an opaque part.
   core::MediumId window_medium(const detector::Sensor& sensor) {
     const std::string name = "window of " + sensor.name;
     const auto [known, is_new] = media_.try_emplace(name);
     if (!is_new) return known->second;
+    if (sensor.window_matched) return known->second = assembly_.media.push_back(SceneMedium::opaque(name));
     optics::Medium window;
     window.name = name;
     window.index = core::Curve::constant(sensor.window_index);

@@ -24,25 +24,29 @@ void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double hig
   record.scattering = medium.scattering;
   record.opaque = scene_medium.is_opaque();
   record.shifts = medium.shifter != nullptr;
+  record.first_shift = static_cast<std::uint32_t>(shifting_per_mm.size());
+  const auto tabulate = [&](double wavelength_nm) {
+    table.push_back(medium.at(wavelength_nm));
+    if (record.shifts) shifting_per_mm.push_back(medium.shifter->absorption_per_mm()(wavelength_nm));
+  };
   if (record.opaque) {
     table.push_back(optics::MediumOptics{});
   } else if (constant_optics(medium) || !(high_nm > low_nm)) {
-    table.push_back(medium.at(low_nm));
+    tabulate(low_nm);
   } else {
     const auto steps = static_cast<std::uint32_t>(std::ceil((high_nm - low_nm) / kWavelengthStep_nm));
     record.count = steps + 1;
     record.low_nm = low_nm;
     record.per_nm = static_cast<double>(steps) / (high_nm - low_nm);
     record.last = static_cast<double>(steps);
-    for (std::uint32_t i = 0; i <= steps; ++i)
-      table.push_back(medium.at(low_nm + static_cast<double>(i) / record.per_nm));
+    for (std::uint32_t i = 0; i <= steps; ++i) tabulate(low_nm + static_cast<double>(i) / record.per_nm);
   }
   media.push_back(record);
 }
 
-SceneMedium SceneMedium::opaque() {
+SceneMedium SceneMedium::opaque(std::string name) {
   optics::Medium nothing;
-  nothing.name = "opaque";
+  nothing.name = std::move(name);
   nothing.index = core::Curve::constant(1.0);
   SceneMedium medium(std::move(nothing));
   medium.opaque_ = true;

@@ -25,8 +25,8 @@ inline constexpr core::RegionId kAmbientRegion(0);
 class SceneMedium {
  public:
   explicit SceneMedium(optics::Medium medium) : medium_(std::move(medium)) {}
-  /// A medium that absorbs all light that enters it.
-  static SceneMedium opaque();
+  /// A medium that absorbs all light that enters it, which it does with matched indices.
+  static SceneMedium opaque(std::string name = "opaque");
 
   const optics::Medium& medium() const { return medium_; }
   bool is_opaque() const { return opaque_; }
@@ -43,15 +43,21 @@ struct MediumRecord {
   double last = 0.0;                   ///< position of the last entry, count - 1
   optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
   bool opaque = false;
-  bool shifts = false;  ///< has a wavelength shifter
+  bool shifts = false;            ///< has a wavelength shifter
+  std::uint32_t first_shift = 0;  ///< with one: first entry of SceneOptics::shifting_per_mm, `count` in all
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
 
 /// Optical properties of all media, tabulated at equal steps of wavelength, for use once per interaction.
+///
+/// Between two entries every property is linear. All that transport computes of a medium comes from here, so
+/// that its parts and their sum agree to the last bit: curves asked beside it would differ from it near their
+/// own points.
 struct SceneOptics {
   core::IdVector<core::MediumId, MediumRecord> media;  ///< as Scene::media
   std::vector<optics::MediumOptics> table;
+  std::vector<double> shifting_per_mm;  ///< absorption by the wavelength shifters alone, of media with one
 
   /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
   void add(const SceneMedium& medium, double low_nm, double high_nm);
@@ -61,9 +67,7 @@ struct SceneOptics {
     const MediumRecord& record = media[medium];
     const optics::MediumOptics* entries = &table[record.first];
     if (record.count == 1) return *entries;
-    const double position = std::clamp((wavelength_nm - record.low_nm) * record.per_nm, 0.0, record.last);
-    const auto i = std::min(static_cast<std::size_t>(position), std::size_t{record.count} - 2);
-    const double t = position - static_cast<double>(i);
+    const auto [i, t] = place(record, wavelength_nm);
     const optics::MediumOptics &a = entries[i], &b = entries[i + 1];
     return {a.index + t * (b.index - a.index), a.group_index + t * (b.group_index - a.group_index),
             a.absorption_per_mm + t * (b.absorption_per_mm - a.absorption_per_mm),
@@ -74,6 +78,27 @@ struct SceneOptics {
     return record.count == 1 ? table[record.first].index : at(medium, wavelength_nm).index;
   }
   bool is_opaque(core::MediumId medium) const { return media[medium].opaque; }
+  /// Absorption by the wavelength shifter of a medium that has one, 1/mm: a part of `at`'s absorption, and
+  /// where nothing else absorbs equal to it in every bit.
+  double shifting_at(core::MediumId medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    const double* entries = &shifting_per_mm[record.first_shift];
+    if (record.count == 1) return *entries;
+    const auto [i, t] = place(record, wavelength_nm);
+    return entries[i] + t * (entries[i + 1] - entries[i]);
+  }
+
+ private:
+  /// Entry below a wavelength, and the relative position from there to the next.
+  struct Place {
+    std::size_t entry = 0;
+    double share = 0.0;
+  };
+  static Place place(const MediumRecord& record, double wavelength_nm) {
+    const double position = std::clamp((wavelength_nm - record.low_nm) * record.per_nm, 0.0, record.last);
+    const auto entry = std::min(static_cast<std::size_t>(position), std::size_t{record.count} - 2);
+    return {entry, position - static_cast<double>(entry)};
+  }
 };
 
 /// The interface of two regions over a part of their boundary. Its normal points from `back` to `front`.

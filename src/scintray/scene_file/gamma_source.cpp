@@ -49,6 +49,7 @@ SpectrumSpec read_spectrum(const config::TomlTable& table, const std::vector<std
                      " keV",
                  "check energy_unit");
   }
+  source.particle = table.choice("particle", kDepositing, Depositing::gamma);
   return source;
 }
 
@@ -157,13 +158,28 @@ HitsSpec read_hits(const config::TomlTable& table) {
   return hits;
 }
 
+/// Reads whether there is Cherenkov light, and its wavelengths.
+void read_cherenkov(const config::TomlTable& table, GammaSpec& spec) {
+  constexpr double kShortest_nm = 100.0, kLongest_nm = 3000.0;
+  spec.cherenkov = table.boolean("cherenkov", false);
+  const std::vector<double> range =
+      table.quantities("cherenkov_range", core::Dimension::wavelength, 2, false);
+  if (range.size() != 2) return;
+  table.expect("cherenkov_range", range[0] >= kShortest_nm && range[0] < range[1] && range[1] <= kLongest_nm,
+               "the wavelengths of Cherenkov light rise, and lie between 100 and 3000 nm",
+               "write the shortest and the longest, as [\"310 nm\", \"750 nm\"]");
+  table.expect("cherenkov_range", spec.cherenkov, "a range of wavelengths for light that there is none of",
+               "add cherenkov = true, or remove cherenkov_range");
+  spec.cherenkov_nm = {range[0], range[1]};
+}
+
 }  // namespace
 
 GammaSpec read_gamma_source(const config::TomlTable& source, const std::vector<std::string>& parts) {
   GammaSpec spec;
   spec.where = source.where();
   const GammaSourceType type = source.choice("type", kGammaSourceTypes);
-  spec.cherenkov = source.boolean("cherenkov", false);
+  read_cherenkov(source, spec);
   if (const auto quick = source.optional_integer("quick_events"))
     spec.quick_events = positive_count(source, "quick_events", *quick);
   if (type == GammaSourceType::hits) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Event sources in a scene file: [source] of the types "gamma_events", "gammas" and "hits".
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,12 +17,22 @@
 
 namespace scintray::scene_file {
 
-/// type = "gamma_events": one deposit per event, without transport of gammas.
+/// What deposits the energy of an event of type = "gamma_events". The light of a scintillator whose response
+/// is not proportional, and Cherenkov light, depend on it.
+enum class Depositing {
+  gamma,    ///< a gamma of this energy, absorbed in the medium: Compton and photoelectrons share the energy
+  electron  ///< one electron
+};
+inline constexpr core::Word<Depositing> kDepositing[] = {{"gamma", Depositing::gamma},
+                                                         {"electron", Depositing::electron}};
+
+/// type = "gamma_events": the energy of one event at one point, without transport of gammas.
 struct SpectrumSpec {
   std::variant<RegionSpec, core::Vec3> origin;  ///< of the deposits
   core::FileLocation origin_where;
   std::optional<double> energy_keV;  ///< of every event; nothing: drawn from the spectrum
   core::Curve spectrum;              ///< relative number per keV against energy, keV
+  Depositing particle = Depositing::gamma;
 };
 
 /// A parallelogram in the scene, mm.
@@ -90,7 +101,9 @@ struct GammaSpec {
   std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else the largest number
   std::optional<std::uint64_t> quick_events;  ///< replaces `events` in a quick run
   bool cherenkov = false;                     ///< Cherenkov light in addition to scintillation
-  bool unpolarised = false;                   ///< of the light, as in SourceSpec
+  /// Shortest and longest wavelength of Cherenkov light; nothing: those of the scintillation.
+  std::optional<std::array<double, 2>> cherenkov_nm;
+  bool unpolarised = false;  ///< of the light, as in SourceSpec
   core::FileLocation where;
 };
 

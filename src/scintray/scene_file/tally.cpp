@@ -153,7 +153,7 @@ std::vector<TallySpec> read_ledger(const TallyTable& from) {
   TallySpec tally = begin_tally(from, false);
   if (tally.faces.empty()) tally.faces = {{"*:*", from.table.where()}};
   tally.at = kAtInterface;
-  tally.way = from.table.choice("way", kFaceWays, FaceWay::out);
+  tally.way = from.table.choice("way", kFaceWays, FaceWay::arriving);
   tally.axes = {named_axis(from.variables.at("face")), named_axis(from.variables.at("occasion"))};
   return {std::move(tally)};
 }

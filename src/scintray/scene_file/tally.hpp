@@ -34,9 +34,14 @@ inline constexpr core::Word<TallyEach> kTallyEach[] = {
     {"time", TallyEach::time}, {"first", TallyEach::first}, {"last", TallyEach::last}};
 
 /// Direction of incidence on a face, seen from its part.
-enum class FaceWay { out, in, both };
+enum class FaceWay {
+  out,
+  in,
+  both,
+  arriving  ///< in on the faces of a part that is a sensor, in which no light starts; out on all others
+};
 inline constexpr core::Word<FaceWay> kFaceWays[] = {
-    {"out", FaceWay::out}, {"in", FaceWay::in}, {"both", FaceWay::both}};
+    {"out", FaceWay::out}, {"in", FaceWay::in}, {"both", FaceWay::both}, {"arriving", FaceWay::arriving}};
 
 /// A count of step events over axes, of photons that fulfil conditions. Names of parts and faces may have
 /// wildcards.

@@ -12,7 +12,7 @@
 
 namespace scintray::source {
 
-/// An energy deposit at one point.
+/// An energy deposit at one point, by one electron as far as sources know its electrons.
 struct Deposit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   core::RegionId region = {};                ///< that contains the position

@@ -1,5 +1,7 @@
 #include "scintray/source/light_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -124,6 +126,14 @@ Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uin
   return photon;
 }
 
+/// A note on the wavelengths of Cherenkov light that the scene does not state.
+std::string cherenkov_note(const scene::Scene& scene) {
+  return fmt::format(
+      "Cherenkov light is emitted at the wavelengths of the scintillation alone, {:g} to {:g} nm; it is not "
+      "limited to these, and cherenkov_range = [\"310 nm\", \"750 nm\"] in [source] sets others",
+      scene.low_nm, scene.high_nm);
+}
+
 /// A note on photons that start outside every part.
 void note_outside(const PhotonSource& source, const scene::Scene& scene, std::vector<std::string>& notes) {
   const std::vector<core::RegionId> regions = source.regions();
@@ -142,9 +152,11 @@ std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec
     return photons;
   }
   const scene_file::GammaSpec& source = *spec.energy_source;
+  if (notes && source.cherenkov && !source.cherenkov_nm) notes->push_back(cherenkov_note(scene));
   try {
-    return std::make_unique<ScintillationSource>(make_event_source(source, scene, notes), scene,
-                                                 LightOptions{source.unpolarised, source.cherenkov});
+    return std::make_unique<ScintillationSource>(
+        make_event_source(source, scene, notes), scene,
+        LightOptions{source.unpolarised, source.cherenkov, source.cherenkov_nm});
   } catch (const core::InputError& error) {
     core::Problems problems;
     for (core::Problem problem : error.problems()) {

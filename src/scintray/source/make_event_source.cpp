@@ -6,7 +6,7 @@ namespace scintray::source {
 std::unique_ptr<EventSource> make_event_source(const scene_file::GammaSpec& spec, const scene::Scene& scene,
                                                std::vector<std::string>* notes) {
   if (const auto* spectrum = std::get_if<scene_file::SpectrumSpec>(&spec.kind))
-    return std::make_unique<SpectrumEventSource>(*spectrum, spec.events, scene);
+    return std::make_unique<SpectrumEventSource>(*spectrum, spec.events, spec.cherenkov, scene);
   if (const auto* emitter = std::get_if<scene_file::EmitterSpec>(&spec.kind))
     return std::make_unique<GammaEventSource>(*emitter, spec.events, scene);
   auto hits =

@@ -25,8 +25,10 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 /// Absorption coefficient (1/mm) of a medium without re-emission, as in transport: that of a wavelength
 /// shifter is not included.
 double absorption_per_mm(const scene::Scene& scene, core::MediumId medium, double wavelength_nm) {
-  return scene.optics.media[medium].shifts ? scene.media[medium].medium().absorption_per_mm(wavelength_nm)
-                                           : scene.optics.at(medium, wavelength_nm).absorption_per_mm;
+  const double all_per_mm = scene.optics.at(medium, wavelength_nm).absorption_per_mm;
+  return scene.optics.media[medium].shifts
+             ? std::max(0.0, all_per_mm - scene.optics.shifting_at(medium, wavelength_nm))
+             : all_per_mm;
 }
 
 }  // namespace

@@ -26,6 +26,12 @@ std::vector<config::NameRef> source_parts(const scene_file::SceneSpec& spec) {
   return region ? std::vector<config::NameRef>{region->part} : std::vector<config::NameRef>{};
 }
 
+/// The direction of incidence that counts at the faces of a part.
+scene_file::FaceWay way_at(scene_file::FaceWay wanted, const scene::PartInfo& part) {
+  if (wanted != scene_file::FaceWay::arriving) return wanted;
+  return part.sensor.has_value() ? scene_file::FaceWay::in : scene_file::FaceWay::out;
+}
+
 }  // namespace
 
 TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spec)
@@ -48,7 +54,7 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     events_of.push_back(events);
     events_counted |= events;
     for (const core::FaceId face : faces_of(tally, scene))
-      counts_of_face[face].emplace_back(number, tally.way);
+      counts_of_face[face].emplace_back(number, way_at(tally.way, scene.parts[scene.faces[face].part]));
     follows_reflections = follows_reflections || needs_reflections(tally);
     follows_regions = follows_regions || !counts.back().visited.empty() || !counts.back().not_visited.empty();
   }

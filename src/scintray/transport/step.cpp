@@ -111,13 +111,11 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
 [[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
                                                 source::Photon& photon, core::Rng& rng,
                                                 source::PhotonRecords* records) {
-  const optics::Medium& medium = scene.media[id].medium();
-  const double shifting_per_mm = medium.shifter->absorption_per_mm()(photon.wavelength_nm);
-  const double total_per_mm = shifting_per_mm + medium.absorption_per_mm(photon.wavelength_nm);
-  if (rng.uniform() * total_per_mm >= shifting_per_mm) return false;
+  const double shifting_per_mm = scene.optics.shifting_at(id, photon.wavelength_nm);
+  if (rng.uniform() * photon.optics.absorption_per_mm >= shifting_per_mm) return false;
   optics::ShiftCount not_recorded;
   optics::ShiftCount& count = records ? records->shifts_of(id) : not_recorded;
-  const auto back = medium.shifter->absorb(photon.wavelength_nm, rng, count);
+  const auto back = scene.media[id].medium().shifter->absorb(photon.wavelength_nm, rng, count);
   if (!back) return false;
   photon.wavelength_nm = back->wavelength_nm;
   photon.time_ns += back->delay_ns;
@@ -176,10 +174,14 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   const core::MediumId back = scene.regions[interface.back].medium;
   const core::MediumId front = scene.regions[interface.front].medium;
   InterfaceIndex index;
-  // An opaque part has no index: light enters it with matched indices.
-  index.back = optics.index(optics.is_opaque(back) ? front : back, wavelength_nm);
-  index.front = optics.index(optics.is_opaque(front) ? back : front, wavelength_nm);
   index.dry = interface.gap_medium.has_value();
+  // An opaque part has no index: light enters it with matched indices, from the gap where there is one.
+  const auto at = [&](core::MediumId own, core::MediumId other) {
+    const core::MediumId outside = index.dry ? interface.gap_medium : other;
+    return optics.index(optics.is_opaque(own) ? outside : own, wavelength_nm);
+  };
+  index.back = at(back, front);
+  index.front = at(front, back);
   if (index.dry) index.gap = optics.index(interface.gap_medium, wavelength_nm);
   return index;
 }
@@ -271,8 +273,10 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   result.from_back = link.from_back;
   result.cos_before = std::abs(photon.ray.direction.dot(outward));
   const double here = photon.optics.index;
+  const bool dry = interface.gap_medium.has_value();
+  const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
   // No Fresnel reflection where light enters an opaque part: its reflection is defined by its surface.
-  const double there = next_opaque ? here : optics.index(next_medium, photon.wavelength_nm);
+  const double there = !next_opaque ? optics.index(next_medium, photon.wavelength_nm) : dry ? gap : here;
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
@@ -280,8 +284,6 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
-    const bool dry = interface.gap_medium.has_value();
-    const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
     const InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};

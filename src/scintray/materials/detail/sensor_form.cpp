@@ -123,6 +123,37 @@ const SensorModel* read_model(const config::TomlTable& table, const SensorModels
   return table.good("model") ? models.find(word) : nullptr;
 }
 
+/// Reads the index of the window, or that it is matched to what the sensor touches.
+void read_window(const config::TomlTable& window, SourceRule rule, detector::Sensor& sensor) {
+  constexpr const char* kMatched = "matched";
+  read_source(window, rule, sensor.sources);
+  const config::TomlNode* index = window.node()->find("index");
+  if (index && index->kind == config::TomlNode::Kind::string) {
+    sensor.window_matched = window.string("index") == kMatched;
+    window.expect("index", sensor.window_matched,
+                  "\"" + window.string("index") + "\" is neither a refractive index nor \"matched\"",
+                  "write index = 1.5, or index = \"matched\" for a window of the index of what it touches");
+    return;
+  }
+  sensor.window_index = window.number("index");
+  window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
+                "a refractive index lies between 1 and 5");
+}
+
+/// Reports numbers that hold for a window of a known index, where the window is matched.
+void check_matched(const config::TomlTable& efficiency, const detector::Sensor& sensor,
+                   const std::optional<config::TomlTable>& angle) {
+  if (!sensor.window_matched) return;
+  const std::string hint = "give [window] the index of the sensor, as index = 1.5";
+  efficiency.expect(
+      "definition", sensor.definition == detector::EfficiencyDefinition::internal,
+      "an external efficiency includes the reflection at the window, and a matched window has none",
+      "write definition = \"internal\", or " + hint);
+  if (angle)
+    angle->report("factor",
+                  "a dependence on angle needs the index of the window, and a matched window has none", hint);
+}
+
 /// Reads the conversion of an arriving photon, apart from avalanches; `window` has been read.
 void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
                      detector::Sensor& sensor) {
@@ -135,7 +166,7 @@ void read_efficiency(const config::TomlTable& efficiency, const config::TomlTabl
     efficiency.expect("reference_index",
                       sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
                       "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
-    if (!efficiency.good("reference_index") || !window.good("index")) return;
+    if (!efficiency.good("reference_index") || !window.good("index") || sensor.window_matched) return;
     const double r =
         (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
     efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
@@ -152,15 +183,12 @@ detector::Sensor read_sensor(const config::TomlTable& table, const std::string& 
   detector::Sensor sensor;
   sensor.name = name;
   const config::TomlTable window = table.table("window");
-  if (table.has("window")) {
-    read_source(window, rule, sensor.sources);
-    sensor.window_index = window.number("index");
-    window.expect("index", sensor.window_index >= 1.0 && sensor.window_index <= kGreatestIndex,
-                  "a refractive index lies between 1 and 5");
-  }
+  if (table.has("window")) read_window(window, rule, sensor);
   const config::TomlTable efficiency = table.table("efficiency");
   if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
-  if (const auto angle = table.optional_table("angle")) read_angle(*angle, rule, sensor);
+  const std::optional<config::TomlTable> angle = table.optional_table("angle");
+  if (angle) read_angle(*angle, rule, sensor);
+  check_matched(efficiency, sensor, angle);
   const auto block = [&](const std::string& key) {
     std::optional<config::TomlTable> found = table.optional_table(key);
     if (found) read_source(*found, rule, sensor.sources);

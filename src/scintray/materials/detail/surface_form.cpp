@@ -13,6 +13,9 @@ namespace {
 
 using Kind = config::TomlNode::Kind;
 
+constexpr core::Word<optics::PaintPolarisation> kPaintPolarisations[] = {
+    {"random", optics::PaintPolarisation::random}, {"geant4", optics::PaintPolarisation::geant4}};
+
 void drop(config::TomlNode& table, const std::string& key) {
   std::erase_if(table.items, [&](const config::TomlNode& member) { return member.key == key; });
 }
@@ -163,7 +166,8 @@ constexpr core::Word<ReflectorReader> kReflectorForms[] = {{"reflector", read_na
 void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup& lookup,
                             core::Problems& problems, SurfaceSpec& surface) {
   const core::Word<ReflectorReader>* form = table.one_of(kReflectorForms, false);
-  for (const char* key : {"specular_share", "transmittance", "face_of_sheet"}) table.has(key);
+  for (const char* key : {"specular_share", "transmittance", "face_of_sheet", "polarisation_at_paint"})
+    table.has(key);
   if (!form) return;
   std::optional<optics::Reflector> read = form->value(table, surface, lookup, problems);
   if (!read) return;
@@ -174,6 +178,11 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
     expect_sheet(table, "transmittance", reflector);
   }
   if (reflector.transmittance && reflector.transmittance->max_y() <= 0.0) reflector.transmittance.reset();
+  reflector.polarisation = table.choice("polarisation_at_paint", kPaintPolarisations, reflector.polarisation);
+  table.expect("polarisation_at_paint",
+               reflector.polarisation == optics::PaintPolarisation::random || reflector.volume_index <= 0.0,
+               "Geant4 has no volume-like reflector",
+               "write polarisation_at_paint = \"random\", or remove it");
   surface.face_of_sheet = table.boolean("face_of_sheet", false);
   if (surface.face_of_sheet) check_face_of_sheet(table, surface, reflector);
   surface.reflector = surface.face_of_sheet ? optics::face_of_sheet(reflector) : std::move(reflector);

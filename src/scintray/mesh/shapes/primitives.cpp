@@ -97,8 +97,21 @@ TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius
     add_triangle(mesh, i, next, n + next, 0);
     add_triangle(mesh, i, n + next, n + i, 0);
   }
-  for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, 0, i + 1, i, 1);
-  for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, n, n + i, n + i + 1, 2);
+  // Every triangulation of a polygon by its corners alone has triangles of three neighbouring corners, which
+  // lose their area as the corners become many: then a vertex in the middle, as narrow as the sides are.
+  const double flattest = radius * (1.0 - std::cos(step));
+  if (flattest >= kFlatCap * std::max(radius, height)) {
+    for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, 0, i + 1, i, 1);
+    for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, n, n + i, n + i + 1, 2);
+    return mesh;
+  }
+  mesh.vertices.emplace_back(0.0, 0.0, 0.0);
+  mesh.vertices.emplace_back(0.0, 0.0, height);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    add_triangle(mesh, 2 * n, next, i, 1);
+    add_triangle(mesh, 2 * n + 1, n + i, n + next, 2);
+  }
   return mesh;
 }
 

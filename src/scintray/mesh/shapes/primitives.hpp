@@ -17,8 +17,13 @@ enum class CylinderRadius {
   equal_area,         ///< same cross-section, and so the same volume, as the true cylinder
 };
 
+/// Height of the flattest triangle of an end of many corners, over the size of the body, below which the end
+/// has a vertex in its middle: forty times what counts as flat in a mesh (2^-22 of its largest coordinate).
+inline constexpr double kFlatCap = 1e-5;
+
 /// Regular prism that represents a cylinder about the z axis, z from 0 to height, first corner on +x.
-/// Groups "side" (2 triangles a segment), "-z", "+z" (fans without a middle vertex).
+/// Groups "side" (2 triangles a segment), "-z", "+z" (fans; about a vertex in the middle where kFlatCap
+/// requires it).
 /// @throws InputError when radius or height is not positive, or segments < 3.
 TriMesh make_cylinder(double radius, double height, int segments,
                       CylinderRadius kind = CylinderRadius::inscribed_polygon);

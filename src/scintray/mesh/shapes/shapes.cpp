@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/mesh/trimesh.hpp"
 
 namespace scintray::mesh {
@@ -45,6 +47,18 @@ class Lofter {
   }
 
   void add_cap(const std::vector<std::uint32_t>& ring, bool top, const std::string& group) {
+    if (flattest(ring) < kFlatCap * extent()) {
+      core::Vec3 middle = core::Vec3::Zero();
+      for (const std::uint32_t corner : ring)
+        middle += mesh.vertices[corner] / static_cast<double>(ring.size());
+      const auto centre = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(middle);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t next = ring[(i + 1) % ring.size()];
+        add_triangle(centre, top ? ring[i] : next, top ? next : ring[i], group);
+      }
+      return;
+    }
     for (std::size_t i = 1; i + 1 < ring.size(); ++i)
       add_triangle(ring[0], top ? ring[i] : ring[i + 1], top ? ring[i + 1] : ring[i], group);
   }
@@ -52,6 +66,30 @@ class Lofter {
   TriMesh mesh;
 
  private:
+  /// Largest side of the box around the vertices, mm.
+  double extent() const {
+    Eigen::AlignedBox3d bounds;
+    for (const core::Vec3& vertex : mesh.vertices) bounds.extend(vertex);
+    return bounds.diagonal().maxCoeff();
+  }
+
+  /// Least height of a triangle of three neighbouring corners, mm; infinite for up to a few corners, and
+  /// where corners coincide or lie on a line, as in a slit or a box with corners to spare.
+  double flattest(const std::vector<std::uint32_t>& ring) const {
+    constexpr std::size_t kFewCorners = 16;
+    double least = std::numeric_limits<double>::infinity();
+    if (ring.size() <= kFewCorners) return least;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const core::Vec3 &a = mesh.vertices[ring[i]], &b = mesh.vertices[ring[(i + 1) % ring.size()]],
+                       &c = mesh.vertices[ring[(i + 2) % ring.size()]];
+      const double base = (c - a).norm();
+      const double height = base > 0.0 ? (b - a).cross(c - a).norm() / base : 0.0;
+      if (!(height > 0.0)) return std::numeric_limits<double>::infinity();
+      least = std::min(least, height);
+    }
+    return least;
+  }
+
   std::uint32_t group_id(const std::string& name) {
     const auto found = std::find(mesh.groups.begin(), mesh.groups.end(), name);
     if (found == mesh.groups.end()) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scintray/core/pattern.hpp"
@@ -7,14 +9,15 @@ namespace scintray::scene {
 
 namespace {
 
-/// Regions that light from `start` can reach through interfaces that are not opaque both ways.
+/// Regions that light from `start` can reach through interfaces that are not opaque both ways; into opaque
+/// parts too, and not beyond.
 core::IdVector<core::RegionId, bool> lit_regions(const Scene& scene,
                                                  const std::vector<core::RegionId>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](core::SurfaceId id) { return id.has_value() && scene.surfaces[id].opaque(); };
-    const core::RegionId next = from_back ? i.front : i.back;
+    const core::RegionId from = from_back ? i.back : i.front;
     return !opaque(i.back_surface) && !opaque(i.front_surface) &&
-           !scene.media[scene.regions[next].medium].is_opaque();
+           !scene.media[scene.regions[from].medium].is_opaque();
   };
   core::IdVector<core::RegionId, bool> lit(scene.regions.size(), false);
   for (const core::RegionId region : start) lit[region] = true;
@@ -43,6 +46,18 @@ std::vector<core::RegionId> starting_regions(const scene_file::SceneSpec& spec, 
   return regions;
 }
 
+/// A warning of sensors that are placed at a part with a gap that nothing fills: glue is often forgotten.
+void warn_of_empty_gaps(const scene_file::SceneSpec& spec, std::vector<std::string>& warnings) {
+  for (const scene_file::PartSpec& part : spec.parts) {
+    const std::optional<scene_file::TouchSpec>& touch = part.placement.touch;
+    if (part.sensor.empty() || !touch || !(touch->gap_mm > 0.0) || !touch->fill.empty()) continue;
+    warnings.push_back(fmt::format(
+        "sensor \"{}\" is {:g} mm from \"{}\", and the gap holds the ambient medium ({}), which reflects light back: "
+        "fill = \"optical_grease\" beside the gap couples it",
+        part.name.name, touch->gap_mm, touch->part.name, spec.ambient.name));
+  }
+}
+
 }  // namespace
 
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
@@ -55,6 +70,7 @@ void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact:
     any_sensor |=
         !part.sensor.empty() || std::any_of(part.faces.begin(), part.faces.end(),
                                             [](const contact::PlacedFace& f) { return !f.sensor.empty(); });
+  warn_of_empty_gaps(spec, warnings);
   if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
   for (const core::PartId id : scene.parts.ids()) {
     const contact::PlacedMesh& part = placed[id.index()];

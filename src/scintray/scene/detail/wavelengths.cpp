@@ -63,7 +63,14 @@ WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector
 WavelengthRange wavelengths_of_source(const scene_file::SceneSpec& spec,
                                       const std::vector<contact::PlacedMesh>& placed,
                                       const materials::MaterialDatabase& database, core::Problems& problems) {
-  if (spec.energy_source) return emission_of(spec, placed, {"*", {}}, database, problems);
+  if (spec.energy_source) {
+    WavelengthRange range = emission_of(spec, placed, {"*", {}}, database, problems);
+    if (const auto& cherenkov_nm = spec.energy_source->cherenkov_nm) {
+      range.low_nm = std::min(range.low_nm, (*cherenkov_nm)[0]);
+      range.high_nm = std::max(range.high_nm, (*cherenkov_nm)[1]);
+    }
+    return range;
+  }
   if (spec.source.wavelength_nm) {
     const double nm = *spec.source.wavelength_nm;
     return {nm, nm, nm};

@@ -2,6 +2,7 @@
 /// The event sources: one class for each type of [source] with energy deposits.
 
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +14,16 @@
 
 namespace scintray::source {
 
-/// Each event is one deposit, uniform over the origin, at time 0, of an energy from the spectrum: the method
-/// of E. Roncali and S. R. Cherry 2013, Phys. Med. Biol. 58 2185, section 2.2. Immutable.
+/// Each event deposits an energy from the spectrum at one point, uniform over the origin, at time 0: the
+/// method of E. Roncali and S. R. Cherry 2013, Phys. Med. Biol. 58 2185, section 2.2. Where the light depends
+/// on the electrons, there is a deposit for each electron of a gamma of that energy of which nothing escapes;
+/// energies beyond the range of gamma transport are of one electron. Immutable.
 class SpectrumEventSource : public EventSource {
  public:
   /// Throws InputError as Origin does, and when a medium of the origin does not scintillate.
-  SpectrumEventSource(const scene_file::SpectrumSpec& spec, std::uint64_t events, const scene::Scene& scene);
+  /// @param cherenkov  the deposits emit Cherenkov light
+  SpectrumEventSource(const scene_file::SpectrumSpec& spec, std::uint64_t events, bool cherenkov,
+                      const scene::Scene& scene);
 
   std::uint64_t events() const override { return events_; }
   Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
@@ -27,6 +32,7 @@ class SpectrumEventSource : public EventSource {
   Origin origin_;
   double energy_keV_ = 0.0;
   std::optional<core::CurveSampler> spectrum_;
+  std::optional<GammaTransport> gammas_;  ///< in the regions where electrons matter; nothing: in none
   std::uint64_t events_ = 0;
 };
 
@@ -44,7 +50,10 @@ class GammaEventSource : public EventSource {
   struct Start {
     Place place;
     std::vector<Gamma> gammas;
-    double local_keV = 0.0;  ///< deposited at the place by electrons
+    std::vector<double> electrons_keV;  ///< deposited at the place, of one electron each
+
+    /// Energy deposited at the place.
+    double local_keV() const { return std::accumulate(electrons_keV.begin(), electrons_keV.end(), 0.0); }
   };
   Start start(const scene::Scene& scene, core::Rng& rng) const;
 

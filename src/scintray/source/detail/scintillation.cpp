@@ -6,6 +6,10 @@ bool scintillates(const scene::Scene& scene, core::RegionId region) {
   return scene.media[scene.regions[region].medium].medium().yield_per_keV > 0.0;
 }
 
+bool depends_on_electrons(const optics::Medium& medium, bool cherenkov) {
+  return !medium.composition.empty() && (cherenkov || !medium.relative_yield.is_constant());
+}
+
 void require_scintillators(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                            const core::FileLocation& where) {
   for (const core::RegionId region : regions)

@@ -13,6 +13,10 @@ void require_scintillators(const scene::Scene& scene, const std::vector<core::Re
 /// True when the medium of the region scintillates.
 bool scintillates(const scene::Scene& scene, core::RegionId region);
 
+/// True when the light of a deposit in this medium depends on which electrons deposit the energy: for
+/// Cherenkov light, or a response that is not proportional; and when the medium's composition is known.
+bool depends_on_electrons(const optics::Medium& medium, bool cherenkov);
+
 /// Adds energy to an event: as a deposit in a scintillator, else as non-scintillating energy. Zero energy is
 /// not added.
 void leave_energy(const scene::Scene& scene, const Deposit& deposit, Event& event);

@@ -29,10 +29,10 @@ ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, co
   for (const core::RegionId region : scene.regions.ids())
     if (scintillates(scene, region)) regions_.push_back(region);
   if (!options.cherenkov) return;
+  const auto [low_nm, high_nm] = options.cherenkov_nm.value_or(std::array{scene.low_nm, scene.high_nm});
   for (const scene::SceneMedium& medium : scene.media) {
     cherenkov_.emplace_back();
-    if (medium.medium().yield_per_keV > 0.0)
-      cherenkov_.back().emplace(medium.medium(), scene.low_nm, scene.high_nm);
+    if (medium.medium().yield_per_keV > 0.0) cherenkov_.back().emplace(medium.medium(), low_nm, high_nm);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Scintillation and Cherenkov light of energy deposits.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,13 +14,14 @@ namespace scintray::source {
 
 /// Options of the emitted light.
 struct LightOptions {
-  bool unpolarised = false;  ///< else each photon has a random polarisation
-  bool cherenkov = false;    ///< Cherenkov light, of electrons of the deposits' energies
+  bool unpolarised = false;                             ///< else each photon has a random polarisation
+  bool cherenkov = false;                               ///< Cherenkov light of the deposits' electrons
+  std::optional<std::array<double, 2>> cherenkov_nm{};  ///< its wavelengths; nothing: the scene's
 };
 
 /// Source of the photons of energy deposits, by the media of the deposits: their number from the yield, its
 /// dependence on energy and its spread; wavelengths from the emission spectrum, times from the decay times;
-/// directions are isotropic. Cherenkov light is emitted without delay, at the wavelengths in use. Immutable.
+/// directions are isotropic. Cherenkov light is emitted without delay. Immutable.
 class ScintillationSource : public LightSource {
  public:
   /// @throws InputError without a place, with Cherenkov light, for a scintillator without composition

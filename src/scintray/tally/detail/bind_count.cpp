@@ -204,19 +204,25 @@ class CountBinder {
     scene_file::FaceSide side = scene_file::FaceSide::none;
     for (const scene_file::TallyAxisSpec& axis : spec_.axes)
       if (axis.variable->side != scene_file::FaceSide::none) side = axis.variable->side;
-    if (side == scene_file::FaceSide::none || spec_.way == scene_file::FaceWay::both) return 0.0;
+    if (side == scene_file::FaceSide::none ||
+        (spec_.way != scene_file::FaceWay::out && spec_.way != scene_file::FaceWay::in))
+      return 0.0;
     const bool in_part = (spec_.way == scene_file::FaceWay::out) == (side == scene_file::FaceSide::before);
     core::MediumId medium;
     for (const scene::Interface& interface : scene_.interfaces)
       for (const core::FaceId face : faces_)
         for (const bool back : {true, false}) {
           if ((back ? interface.back_face : interface.front_face) != face) continue;
-          const core::RegionId region = back == in_part ? interface.back : interface.front;
-          const core::MediumId found = scene_.regions[region].medium;
+          const auto medium_at = [&](bool behind) {
+            return scene_.regions[behind ? interface.back : interface.front].medium;
+          };
+          core::MediumId found = medium_at(back == in_part);
+          // Light enters an opaque part with matched indices.
+          if (scene_.media[found].is_opaque()) found = medium_at(back != in_part);
           if (medium.has_value() && medium != found) return 0.0;
           medium = found;
         }
-    if (!medium.has_value() || scene_.media[medium].is_opaque()) return 0.0;
+    if (!medium.has_value()) return 0.0;
     return scene_.optics.index(medium, 0.5 * (scene_.low_nm + scene_.high_nm));
   }
 

@@ -27,11 +27,14 @@ constexpr std::size_t kMostRows = 400;
 
 /// Form of a tally where its axes do not determine it.
 /// Hidden are companions of other tallies and exit angles, which have figures of their own.
-enum class TallyView { by_axes, crosstalk, etendue, hemisphere, hidden };
-constexpr core::Word<TallyView> kTallyViews[] = {
-    {"crosstalk", TallyView::crosstalk},         {"etendue", TallyView::etendue},
-    {"angles", TallyView::hemisphere},           {"emitted", TallyView::hidden},
-    {scene_file::kExitAngle, TallyView::hidden}, {scene_file::kExitAngleBeyond, TallyView::hidden}};
+enum class TallyView { by_axes, crosstalk, etendue, hemisphere, ledger, hidden };
+constexpr core::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
+                                                 {"etendue", TallyView::etendue},
+                                                 {"angles", TallyView::hemisphere},
+                                                 {"emitted", TallyView::hidden},
+                                                 {"ledger", TallyView::ledger},
+                                                 {scene_file::kExitAngle, TallyView::hidden},
+                                                 {scene_file::kExitAngleBeyond, TallyView::hidden}};
 
 TallyView view_of(const tally::TallyResult& tally) {
   return core::find_word(kTallyViews, tally.type).value_or(TallyView::by_axes);
@@ -112,6 +115,36 @@ GridMap map_of(const tally::TallyResult& tally) {
     map.y_high = edges_of(tally.axes[1]).back();
   }
   return map;
+}
+
+/// What became of the light incident on the sensors of a ledger: rows of faces where light was detected or
+/// not detected, and none went on.
+std::string ledger_lines(const tally::TallyResult& tally, std::uint64_t photons) {
+  std::string lines;
+  const std::vector<std::string>& events = tally.axes[1].names;
+  for (std::size_t face = 0; face < tally.axes[0].bins(); ++face) {
+    const auto count = [&](core::StepEvent event) {
+      const auto found =
+          std::find(events.begin(), events.end(), core::word_of(scene_file::kEventWords, event));
+      return found == events.end()
+                 ? core::Estimate{}
+                 : tally.at(face * events.size() + static_cast<std::size_t>(found - events.begin()), photons);
+    };
+    const auto any = [&](core::StepEvent event) { return count(event).value > 0.0; };
+    if (!any(core::StepEvent::detected) && !any(core::StepEvent::not_detected)) continue;
+    if (any(core::StepEvent::transmitted) || any(core::StepEvent::escaped)) continue;
+    const core::Estimate back = count(core::StepEvent::reflected);
+    const double detected = count(core::StepEvent::detected).value;
+    const double lost = count(core::StepEvent::not_detected).value;
+    const double in = detected + lost, all = in + back.value;
+    // Of two independent sums.
+    const double error = std::hypot(in * back.error, back.value * std::sqrt(in)) / (all * all);
+    lines += tally.name + ": of the light incident on " + tally.axes[0].names[face] + " " +
+             percent_with_error({back.value / all, error}) + " is reflected, " +
+             compact(100.0 * detected / all, 3) + " % detected, " + compact(100.0 * lost / all, 3) +
+             " % enters and is not detected\n";
+  }
+  return lines;
 }
 
 std::string names_table(const tally::TallyResult& tally, std::uint64_t photons) {
@@ -244,6 +277,8 @@ std::string tally_lines(const tally::PointResult& point) {
                " per photon\n";
     else if (view == TallyView::etendue)
       lines += tally.name + ": " + etendue_text(tally) + "\n";
+    else if (view == TallyView::ledger)
+      lines += ledger_lines(tally, point.photons);
     else if (both(tally, is_position))
       lines += tally.name + ": " + spread_text(tally) + "\n";
   }

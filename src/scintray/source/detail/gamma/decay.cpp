@@ -73,12 +73,12 @@ Emitted DecaySampler::sample(core::Rng& rng) const {
       emitted.pair = rng.uniform() < kSodiumPositrons;
       break;
     case scene_file::Emission::lutetium:
-      emitted.local_keV = beta_.sample(rng.uniform());
+      emitted.electrons_keV.push_back(beta_.sample(rng.uniform()));
       for (const LutetiumTransition& transition : kLutetiumTransitions)
         if (rng.uniform() < transition.gammas)
           emitted.gammas_keV.push_back(transition.energy_keV);
         else
-          emitted.local_keV += transition.energy_keV;
+          emitted.electrons_keV.push_back(transition.energy_keV);
       break;
   }
   return emitted;

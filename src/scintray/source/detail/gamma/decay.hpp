@@ -11,9 +11,9 @@ namespace scintray::source {
 
 /// Radiation of one decay, or of one emission of a source.
 struct Emitted {
-  std::vector<double> gammas_keV;  ///< independent and isotropic
-  bool pair = false;               ///< two annihilation gammas in addition
-  double local_keV = 0.0;          ///< of electrons, deposited at the place of the decay
+  std::vector<double> gammas_keV;     ///< independent and isotropic
+  bool pair = false;                  ///< two annihilation gammas in addition
+  std::vector<double> electrons_keV;  ///< deposited at the place of the decay: of one electron each
 };
 
 /// Sampling of the decays of the nuclides of a source. Immutable.

@@ -79,7 +79,7 @@ GammaEventSource::Start GammaEventSource::start(const scene::Scene& scene, core:
   Start start;
   start.place = sample_place(scene, rng);
   const Emitted emitted = decay_.sample(rng);
-  start.local_keV = emitted.local_keV;
+  start.electrons_keV = emitted.electrons_keV;
   Gamma gamma;
   gamma.position = start.place.position;
   gamma.region = start.place.region;
@@ -100,9 +100,10 @@ GammaEventSource::Start GammaEventSource::start(const scene::Scene& scene, core:
 Event GammaEventSource::make(const scene::Scene& scene, std::uint64_t, core::Rng& rng) const {
   Start begin = start(scene, rng);
   Event event;
-  event.energy_keV = begin.local_keV;
+  event.energy_keV = begin.local_keV();
   for (const Gamma& gamma : begin.gammas) event.energy_keV += gamma.energy_keV;
-  leave_energy(scene, {begin.place.position, begin.place.region, begin.local_keV, 0.0}, event);
+  for (const double energy_keV : begin.electrons_keV)
+    leave_energy(scene, {begin.place.position, begin.place.region, energy_keV, 0.0}, event);
   transport_.follow(scene, std::move(begin.gammas), rng, event);
   return event;
 }

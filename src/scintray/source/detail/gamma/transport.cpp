@@ -76,6 +76,31 @@ GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scen
   problems.throw_if_any();
 }
 
+GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<core::RegionId>& regions) {
+  matter_.resize(scene.regions.size());
+  std::map<core::MediumId, std::shared_ptr<const GammaMatter>> by_medium;
+  for (const core::RegionId region : regions) {
+    const core::MediumId id = scene.regions[region].medium;
+    const optics::Medium& medium = scene.media[id].medium();
+    if (medium.composition.empty()) throw core::InternalError("gammas in matter that is not known");
+    std::shared_ptr<const GammaMatter>& known = by_medium[id];
+    if (!known) known = std::make_shared<GammaMatter>(medium.composition, medium.density_g_per_cm3);
+    matter_[region] = known;
+  }
+}
+
+void GammaTransport::absorb_all(const scene::Scene& scene, const Gamma& gamma, core::Rng& rng,
+                                Event& event) const {
+  Walk walk{scene, rng, event, {gamma}};
+  while (!walk.waiting.empty()) {
+    Gamma next = walk.waiting.back();
+    walk.waiting.pop_back();
+    bool goes_on = true;
+    while (goes_on && next.energy_keV >= scene_file::kLowestGamma_keV) goes_on = interact(walk, next);
+    if (goes_on) walk.leave(next, next.energy_keV);
+  }
+}
+
 void GammaTransport::follow(const scene::Scene& scene, std::vector<Gamma> gammas, core::Rng& rng,
                             Event& event) const {
   Walk walk{scene, rng, event, std::move(gammas)};
@@ -142,11 +167,21 @@ bool GammaTransport::interact(Walk& walk, Gamma& gamma) const {
   return true;
 }
 
+/// The photoelectron has the gamma's energy less the binding energy of the K shell, with the share of that
+/// shell in the absorptions, else all of it (other shells bind with a few keV; light atoms' K shells do too).
+/// What the K X-ray does not take of the binding energy is a deposit of its own, of Auger electrons and soft
+/// X-rays.
 void GammaTransport::absorb(Walk& walk, const Gamma& gamma, const ElementData& element) const {
-  double local_keV = gamma.energy_keV;
   const KShell& k = element.k_shell();
-  if (fluorescence_ && !k.lines.empty() && gamma.energy_keV > k.edge_keV &&
-      k.lines.back().energy_keV >= scene_file::kLowestGamma_keV && walk.rng.uniform() < k.share * k.yield) {
+  if (k.lines.empty() || gamma.energy_keV <= k.edge_keV ||
+      k.lines.back().energy_keV < scene_file::kLowestGamma_keV) {
+    walk.leave(gamma, gamma.energy_keV);
+    return;
+  }
+  const double shell = walk.rng.uniform();  // below share * yield: an X-ray; below share: Auger electrons
+  const double electron_keV = gamma.energy_keV - (shell < k.share ? k.edge_keV : 0.0);
+  double atom_keV = gamma.energy_keV - electron_keV;
+  if (fluorescence_ && shell < k.share * k.yield) {
     const double u = walk.rng.uniform();
     std::size_t line = 0;
     while (line + 1 < k.lines.size() && u >= k.lines[line].most) ++line;
@@ -154,9 +189,10 @@ void GammaTransport::absorb(Walk& walk, const Gamma& gamma, const ElementData& e
     xray.energy_keV = k.lines[line].energy_keV;
     xray.direction = core::sample_isotropic(walk.rng);
     walk.waiting.push_back(xray);
-    local_keV -= xray.energy_keV;
+    atom_keV -= xray.energy_keV;
   }
-  walk.leave(gamma, local_keV);
+  walk.leave(gamma, electron_keV);
+  walk.leave(gamma, atom_keV);
 }
 
 void GammaTransport::make_pair(Walk& walk, const Gamma& gamma) const {
@@ -166,7 +202,11 @@ void GammaTransport::make_pair(Walk& walk, const Gamma& gamma) const {
   walk.waiting.push_back(annihilation);
   annihilation.direction = -annihilation.direction;
   walk.waiting.push_back(annihilation);
-  walk.leave(gamma, gamma.energy_keV - 2.0 * core::kElectronMass_keV);
+  // Of electron and positron; that all shares of the energy are equally likely is assumed.
+  const double both_keV = gamma.energy_keV - 2.0 * core::kElectronMass_keV;
+  const double electron_keV = both_keV * walk.rng.uniform();
+  walk.leave(gamma, electron_keV);
+  walk.leave(gamma, both_keV - electron_keV);
 }
 
 }  // namespace scintray::source

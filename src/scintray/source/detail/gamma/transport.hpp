@@ -31,9 +31,18 @@ class GammaTransport {
   GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,
                  bool fluorescence, const core::FileLocation& where);
 
+  /// Interactions of gammas that stay within the given regions, for `absorb_all` alone. Throws InternalError
+  /// for one whose medium has no composition.
+  GammaTransport(const scene::Scene& scene, const std::vector<core::RegionId>& regions);
+
   /// Adds to `event` the deposits of gammas and their secondaries, which are followed until all energy is
   /// deposited or has escaped.
   void follow(const scene::Scene& scene, std::vector<Gamma> gammas, core::Rng& rng, Event& event) const;
+
+  /// Adds to `event` the deposits of a gamma of 10 keV to 3 MeV of which nothing escapes, all at its
+  /// position: one for each electron that the gamma and its secondaries set free. Their sum is the gamma's
+  /// energy.
+  void absorb_all(const scene::Scene& scene, const Gamma& gamma, core::Rng& rng, Event& event) const;
 
   /// Matter of a region; nullptr: empty space.
   const GammaMatter* matter(core::RegionId region) const { return matter_[region].get(); }
