@@ -97,8 +97,11 @@ TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius
     add_triangle(mesh, i, next, n + next, 0);
     add_triangle(mesh, i, n + next, n + i, 0);
   }
+  const std::size_t walls = mesh.triangles.size();
   for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, 0, i + 1, i, 1);
   for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, n, n + i, n + i + 1, 2);
+  if (kind == CylinderRadius::inscribed_polygon)
+    mesh.set_support(SupportSurface::cylinder(core::Vec3::Zero(), core::Vec3::UnitZ(), radius), 0, walls);
   return mesh;
 }
 
@@ -107,6 +110,7 @@ TriMesh make_sphere(double radius, int subdivisions) {
   if (subdivisions < 1) reject_shape("a sphere with fewer than 1 subdivision", "1 gives an icosahedron");
   TriMesh mesh = subdivide_faces(icosahedron(), subdivisions);
   for (core::Vec3& vertex : mesh.vertices) vertex *= radius / vertex.norm();
+  mesh.set_support(SupportSurface::sphere(core::Vec3::Zero(), radius), 0, mesh.triangles.size());
   return mesh;
 }
 
@@ -179,6 +183,16 @@ TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform) {
   TriMesh moved = mesh;
   for (core::Vec3& vertex : moved.vertices) vertex = transform * vertex;
   if (determinant < 0.0) reverse_orientation(moved);
+  for (SupportSurface& surface : moved.supports) {
+    const std::optional<SupportSurface> in_place = surface.moved(transform);
+    if (in_place) {
+      surface = *in_place;
+      continue;
+    }
+    moved.supports.clear();
+    moved.support.clear();
+    break;
+  }
   return moved;
 }
 
@@ -191,6 +205,12 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
     group_of_b.push_back(both.group_index(b.groups[g], b.tags_of(g)));
   for (const auto& [i, j, k] : b.triangles) both.triangles.push_back({i + offset, j + offset, k + offset});
   for (const std::uint32_t group : b.group) both.group.push_back(group_of_b[group]);
+  if (a.supports.empty() && b.supports.empty()) return both;
+  both.support.resize(a.triangles.size(), kNoSupport);
+  const auto first = static_cast<std::uint32_t>(a.supports.size());
+  for (std::size_t t = 0; t < b.triangles.size(); ++t)
+    both.support.push_back(b.support_of(t) == kNoSupport ? kNoSupport : first + b.support_of(t));
+  both.supports.insert(both.supports.end(), b.supports.begin(), b.supports.end());
   return both;
 }
 

@@ -1,0 +1,244 @@
+// Regions with exact round faces: ray queries, reflections round walls, nested and touching bodies.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/traced.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
+using namespace scintray::scene_file;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::test;
+
+namespace {
+
+/// A scene of parts, in vacuum, with a source in the first of them.
+SceneSpec spec_of(const std::string& parts, const std::string& first, const std::string& run = "") {
+  return scene_spec("ambient = \"vacuum_n1\"\n" + parts + R"(
+[source]
+type = "photons"
+region = { part = ")" +
+                    first + R"(" }
+wavelength = "420 nm"
+photons = 1000
+)" + run);
+}
+
+std::string part(const std::string& name, const std::string& shape, const std::string& medium = "n15",
+                 const std::string& rest = "surface = \"flat\"\n") {
+  return "[[part]]\nname = \"" + name + "\"\n" + shape + "\nmedium = \"" + medium + "\"\n" + rest;
+}
+
+const std::string kRod = R"(cylinder = { radius = "1.5 mm", height = "20 mm", segments = 12 })";
+const std::string kBall = R"(sphere = { radius = "2 mm", subdivisions = 2 })";
+
+BuiltScene build(const SceneSpec& spec) {
+  SceneBuilder builder;
+  return builder.build(spec);
+}
+
+/// Region of a part.
+const Region& region_of(const BuiltScene& built, const std::string& name) {
+  const auto& names = built.scene.region_names;
+  for (const RegionId id : built.scene.regions.ids())
+    if (names[id] == name) return built.scene.regions[id];
+  throw std::runtime_error("no region " + name);
+}
+
+std::string name_at(const BuiltScene& built, const Region& region, std::uint32_t triangle) {
+  const BoundaryLink& link = built.scene.link(region, triangle);
+  const Interface& interface = built.scene.interfaces[link.interface];
+  return built.scene.region_names[link.from_back ? interface.front : interface.back];
+}
+
+Photon photon_in(const BuiltScene& built, const SceneSpec& spec, const Vec3& position,
+                 const Vec3& direction) {
+  Rng rng(1, StreamKind::photon, 0);
+  const PhotonSource source(spec.source, built.scene);
+  Photon photon = source.emit(built.scene, rng);
+  photon.position = position;
+  photon.ray.direction = direction.normalized();
+  photon.ray.polarisation = Vec3(photon.ray.direction.vec().cross(Vec3(0.3, 0.5, 0.7)).normalized());
+  photon.optical_depth = HUGE_VAL;
+  return photon;
+}
+
+}  // namespace
+
+TEST_CASE("A rod and a ball are left where their surface is, whatever their facets") {
+  for (const std::string& shape : {kRod, kBall}) {
+    const bool rod = shape == kRod;
+    const SceneSpec spec = spec_of(part("body", shape), "body");
+    const BuiltScene built = build(spec);
+    const Region& region = region_of(built, "body");
+    CHECK(region.curved);
+    CHECK(built.scene.parts.front().curved);
+    for (std::uint64_t i = 0; i < 20'000; ++i) {
+      Rng rng(7, StreamKind::other, i);
+      const double u = rng.uniform(), v = rng.uniform(), w = rng.uniform();
+      const Vec3 p = rod ? Vec3(1.5 * std::sqrt(u) * std::cos(kTwoPi * v),
+                                1.5 * std::sqrt(u) * std::sin(kTwoPi * v), 20.0 * w)
+                         : Vec3(2.0 * std::cbrt(u) * sample_isotropic(rng));
+      const Vec3 d = sample_isotropic(rng);
+      const Exit exit = built.scene.find_exit(region, p, d);
+      REQUIRE(exit.triangle != kNoTriangle);
+      const Vec3 end = p + exit.distance_mm * d;
+      const Vec3 normal = built.scene.normal_at(region, exit.triangle, end);
+      CHECK(normal.dot(d) > -1e-9);
+      CHECK(std::abs(normal.norm() - 1.0) < 1e-14);
+      if (!rod) {
+        CHECK(std::abs(end.norm() - 2.0) < 1e-13);
+        CHECK((normal - end.normalized()).norm() < 1e-13);
+      } else {
+        const double rho = std::hypot(end.x(), end.y());
+        const bool side = normal.z() == 0.0;
+        CHECK(std::abs(side ? rho - 1.5 : normal.z() > 0.0 ? end.z() - 20.0 : end.z()) < 1e-12);
+        CHECK(rho < 1.5 + 1e-12);
+        CHECK(end.z() > -1e-12);
+        CHECK(end.z() < 20.0 + 1e-12);
+      }
+      // And back in from the ambient region: at the same point, through the same face.
+      const Region& ambient = built.scene.regions[kAmbientRegion];
+      const Vec3 beyond = end + 5.0 * d;
+      const Exit back = built.scene.find_exit(ambient, beyond, Vec3(-d));
+      REQUIRE(back.triangle != kNoTriangle);
+      CHECK((beyond - back.distance_mm * d - end).norm() < 1e-9);
+      // Nothing ahead on the way out.
+      CHECK(built.scene.find_exit(ambient, end, d).triangle == kNoTriangle);
+    }
+  }
+}
+
+TEST_CASE("Total reflections round a wall keep their angle and the wall over 1e6 of them") {
+  struct Case {
+    std::string shape;
+    Vec3 position, direction;
+  };
+  for (const Case& c :
+       {Case{kBall, {1.7, 0.2, 0.1}, {0.3, 1.0, 0.4}}, Case{kBall, {0, 1.9999999, 0}, {1.0, 0, 0.2}},
+        Case{kRod, {1.2, 0.0, 3.0}, {0.0, 1.0, 0.1}},
+        Case{kRod, {1.4999999999, 0.0, 3.0}, {0.0, 1.0, 0.3}}}) {
+    const bool ball = c.shape == kBall;
+    const SceneSpec spec = spec_of(part("body", c.shape), "body");
+    const BuiltScene built = build(spec);
+    Photon photon = photon_in(built, spec, c.position, c.direction);
+    const Vec3 turn = photon.position.vec().cross(photon.ray.direction.vec());
+    const double along = photon.ray.direction.z();
+    PropagationLimits limits;
+    limits.interactions = 1'000'000;
+    Rng rng(1, StreamKind::photon, 1);
+    const Step taken = step(built.scene, photon, rng, limits);
+    CHECK(taken.event == StepEvent::reflected);
+    CHECK(photon.interactions == 1'000'000);
+    CHECK(std::abs(photon.ray.direction.norm() - 1.0) < 1e-9);
+    const Vec3 turned = photon.position.vec().cross(photon.ray.direction.vec());
+    if (ball) {
+      CHECK(std::abs(photon.position.norm() - 2.0) < 1e-14);
+      CHECK((turned - turn).norm() < 1e-8);
+    } else {
+      const double rho = std::hypot(photon.position.x(), photon.position.y());
+      const bool at_end =
+          std::min(std::abs(photon.position.z()), std::abs(photon.position.z() - 20.0)) < 1e-9;
+      if (!at_end) CHECK(std::abs(rho - 1.5) < 1e-14);
+      CHECK(std::abs(turned.z() - turn.z()) < 1e-8);
+      CHECK(std::abs(std::abs(photon.ray.direction.z()) - std::abs(along)) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("Fates do not depend on the facets of a rod or a ball") {
+  const auto count = [](const std::string& shape) {
+    const Traced traced = trace("ambient = \"vacuum_n1\"\n" + part("body", shape, "lso") + R"(
+[[part]]
+name = "sensor"
+box = ["3 mm", "3 mm", "1 mm"]
+place = { touch = "body", side = "-z" }
+sensor = "perfect"
+[source]
+type = "photons"
+region = { part = "body" }
+wavelength = "420 nm"
+photons = 20_000
+)");
+    return std::array<std::uint64_t, 3>{traced.result.count(Fate::detected),
+                                        traced.result.count(Fate::escaped), traced.result.photons};
+  };
+  const auto rod = [](int sides) {
+    return "cylinder = { radius = \"1.5 mm\", height = \"20 mm\", segments = " + std::to_string(sides) + " }";
+  };
+  const auto coarse = count(rod(12));
+  CHECK(coarse[0] > 2'000);
+  for (const int sides : {72, 512}) {
+    const auto fine = count(rod(sides));
+    // The bodies are the same to rounding, and so are the photons, but for the few that rounding turns.
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK(std::abs(static_cast<double>(fine[i]) - static_cast<double>(coarse[i])) < 20.0);
+  }
+}
+
+TEST_CASE("A core in a cladding, flush at the ends, on a window: each end leads where its circle is") {
+  const std::string parts =
+      part("cladding", R"(cylinder = { radius = "1 mm", height = "10 mm", segments = 12 })", "n15") +
+      part("core", R"(cylinder = { radius = "0.6 mm", height = "10 mm", segments = 7 })", "lso_clear") +
+      part("window", R"(box = { low = ["-3 mm", "-3 mm", "-2 mm"], high = ["3 mm", "3 mm", "0 mm"] })",
+           "n15");
+  const SceneSpec spec = spec_of(parts, "core");
+  const BuiltScene built = build(spec);
+  for (const char* name : {"ambient", "cladding", "core", "window"}) CHECK(region_of(built, name).curved);
+  const Region& window = region_of(built, "window");
+  const Region& ambient = region_of(built, "ambient");
+  for (std::uint64_t i = 0; i < 5'000; ++i) {
+    Rng rng(3, StreamKind::other, i);
+    const double x = 2.4 * rng.uniform() - 1.2, y = 2.4 * rng.uniform() - 1.2, rho = std::hypot(x, y);
+    const Exit up = built.scene.find_exit(window, Vec3(x, y, -1.0), Vec3(0, 0, 1));
+    CHECK(up.distance_mm == doctest::Approx(1.0).epsilon(1e-12));
+    const std::string expected = rho < 0.6 ? "core" : rho < 1.0 ? "cladding" : "ambient";
+    CHECK(name_at(built, window, up.triangle) == expected);
+    const Exit down = built.scene.find_exit(ambient, Vec3(x, y, 15.0), Vec3(0, 0, -1));
+    CHECK(down.distance_mm == doctest::Approx(rho < 1.0 ? 5.0 : 15.0).epsilon(1e-12));
+    CHECK(name_at(built, ambient, down.triangle) == (expected == "ambient" ? "window" : expected));
+  }
+  const Exit inwards = built.scene.find_exit(region_of(built, "cladding"), Vec3(0.8, 0, 5), Vec3(-1, 0, 0));
+  CHECK(name_at(built, region_of(built, "cladding"), inwards.triangle) == "core");
+  CHECK(inwards.distance_mm == doctest::Approx(0.2).epsilon(1e-12));
+}
+
+TEST_CASE("Parts that are cut, hollow or touched by facets keep theirs, with the reason") {
+  const SceneSpec facets = spec_of(part("body", kRod), "body", "[run]\ncurved = \"facets\"\n");
+  const BuiltScene flat = build(facets);
+  CHECK_FALSE(region_of(flat, "body").curved);
+  CHECK(flat.scene.parts.front().facets_because.find("run.curved") != std::string::npos);
+  CHECK(flat.scene.faces.front().curve == "cylinder");
+  CHECK_FALSE(flat.scene.faces.front().exact);
+  // Twelve sides, of which one lies flat on the box beside it.
+  const SceneSpec touched = spec_of(
+      part("body", kRod, "n15", "surface = \"flat\"\nrotate = { axis = [0, 0, 1], angle = \"15 deg\" }\n") +
+          part(
+              "block",
+              R"(box = { low = ["1.448888739433602 mm", "-2 mm", "0 mm"], high = ["4 mm", "2 mm", "20 mm"] })"),
+      "body");
+  const BuiltScene both = build(touched);
+  CHECK_FALSE(region_of(both, "body").curved);
+  CHECK(both.scene.parts.front().facets_because.find("block") != std::string::npos);
+}
+
+TEST_CASE("Volumes, areas and bounds are those of the exact bodies") {
+  const BuiltScene built = build(spec_of(
+      part("rod", kRod) +
+          part("ball", kBall, "n15", "surface = \"flat\"\ntranslate = [\"10 mm\", \"0 mm\", \"0 mm\"]\n"),
+      "rod"));
+  CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(kPi * 2.25 * 20.0).epsilon(1e-12));
+  const PartInfo& ball = *(built.scene.parts.begin() + 1);
+  CHECK(ball.volume_mm3 == doctest::Approx(4.0 / 3.0 * kPi * 8.0).epsilon(1e-12));
+  CHECK(ball.bounds.min().isApprox(Vec3(8, -2, -2), 1e-12));
+  CHECK(ball.bounds.max().isApprox(Vec3(12, 2, 2), 1e-12));
+  double area = 0.0;
+  for (const FaceInfo& face : built.scene.faces) area += face.area_mm2;
+  CHECK(area == doctest::Approx(2.0 * kPi * 1.5 * 21.5 + 16.0 * kPi).epsilon(1e-12));
+}
