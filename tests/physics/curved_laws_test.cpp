@@ -7,6 +7,7 @@
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/transport/step.hpp"
 #include "support/photon_source.hpp"
+#include "support/step_shapes.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -23,7 +24,7 @@ constexpr double kLso = 1.82;
 
 /// Integral of f over [a, b] by Simpson's rule.
 template <typename F>
-double integrate(F f, double a, double b, int panels = 4000) {
+double simpson(F f, double a, double b, int panels = 4000) {
   const double h = (b - a) / (2 * panels);
   double sum = f(a) + f(b);
   for (int i = 1; i < 2 * panels; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(a + i * h);
@@ -121,7 +122,7 @@ surface = "flat"
 TEST_CASE("Law: light that escapes from an absorbing ball of 2 mm radius, by an integral over the cosine") {
   constexpr double kRadius = 2.0, kAbsorption = 300.0;
   const double limit = std::sqrt(1.0 - 1.0 / (kLso * kLso));
-  const double expected = integrate(
+  const double expected = simpson(
       [&](double c) {
         const double chord = 2.0 * kRadius * c, kept = std::exp(-chord / kAbsorption),
                      r = reflectance(c, kLso, 1.0);
@@ -176,7 +177,7 @@ TEST_CASE("Law: a round fibre keeps light by its angle at the wall, meridional a
   // tunnelling rays together).
   constexpr double kIndex = 1.5;
   const double limit = std::sqrt(1.0 - 1.0 / (kIndex * kIndex));
-  const double escaping = integrate(
+  const double escaping = simpson(
       [&](double theta) {  // share of psi below acos(limit / sin)
         const double most = limit / std::sin(theta);
         if (most >= 1.0) return 0.0;
@@ -239,3 +240,114 @@ TEST_CASE("Law: mean chord 4V/S of exact bodies, and white walls that keep every
     CHECK(chord.mean().error < 1e-3 * 4.0 * volume / area);
   }
 }
+
+TEST_CASE("Law: mean chord and escape of a cone, of a tip and of a frustum") {
+  // Light made evenly in a body of index 1 leaves evenly: only the chord is to be shown, by the method of
+  // equilibrium.
+  for (const auto& [low, high, height] :
+       {std::tuple{2.0, 0.0, 3.0}, std::tuple{0.5, 2.0, 1.0}, std::tuple{1.0, 1.5, 6.0}}) {
+    const SceneSpec spec = scene_spec(
+        kVacuum +
+        fmt::format("[[part]]\nname = \"body\"\ncone = {{ bottom_radius = \"{} mm\", top_radius = \"{} mm\", "
+                    "height = \"{} mm\", segments = 16 }}\nmedium = \"cloudy_n1\"\nsurface = \"white\"\n",
+                    low, high, height) +
+        source_in("body", 1));
+    SceneBuilder builder;
+    const BuiltScene built = builder.build(spec);
+    CHECK(built.scene.parts.front().curved);
+    const double volume = kPi / 3.0 * height * (low * low + low * high + high * high);
+    const double area = kPi * (low * low + high * high + (low + high) * std::hypot(height, low - high));
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-9));
+    CHECK(face_area(built.scene, "body:other") == doctest::Approx(area).epsilon(1e-9));
+    const PhotonSource source(spec.source, built.scene);
+    Moments chord;
+    for (std::uint64_t i = 0; i < 3'000; ++i) {
+      Rng rng(22, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      double before = 0.0;
+      constexpr std::uint32_t kFirst = 20, kLast = 120;
+      for (std::uint32_t seen = 0; photon.interactions < kLast;) {
+        step(built.scene, photon, rng);
+        if (photon.interactions != seen && photon.interactions == kFirst) before = photon.path_mm;
+        seen = photon.interactions;
+      }
+      chord.add((photon.path_mm - before) / (kLast - kFirst));
+    }
+    CAPTURE(low);
+    CAPTURE(high);
+    check_law("mean chord, mm", chord.mean(), {4.0 * volume / area, 0.0});
+  }
+}
+
+TEST_CASE("Law: a fibre of core and cladding keeps light by the critical angle between them") {
+  // Rays that leave the core are lost through the wall of the cladding, which a black jacket covers. Light of
+  // the core with an angle at its wall beyond that of total reflection stays: as in the bare fibre, with n2 /
+  // n1.
+  constexpr double kCore = 1.6, kCladding = 1.49;
+  const double limit = std::sqrt(1.0 - kCladding * kCladding / (kCore * kCore));
+  const double escaping = simpson(
+      [&](double theta) {
+        const double most = limit / std::sin(theta);
+        if (most >= 1.0) return 0.0;
+        const double psi = std::acos(most);
+        return std::sin(theta) * 2.0 / kPi * (psi + 0.5 * std::sin(2.0 * psi));
+      },
+      std::asin(limit), 0.5 * kPi, 200'000);
+  const Traced traced =
+      trace(kVacuum + R"([[part]]
+name = "jacket"
+cylinder = { radius = "0.6 mm", height = "2000 mm", segments = 12 }
+medium = "opaque"
+[[part]]
+name = "cladding"
+cylinder = { radius = "0.5 mm", height = "2000 mm", segments = 16 }
+medium = "cladding"
+surface = "flat"
+[[part]]
+name = "core"
+cylinder = { radius = "0.48 mm", height = "2000 mm", segments = 10 }
+medium = "core"
+surface = "flat"
+[[part]]
+name = "below"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "core", side = "-z" }
+sensor = "matched"
+[[part]]
+name = "above"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "core", side = "+z" }
+sensor = "matched"
+)" + source_in("core", 200'000, R"(, slab_z = ["999 mm", "1001 mm"])") +
+            fmt::format("[media.core]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\n"
+                        "scattering = {{ none = true }}\n"
+                        "[media.cladding]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\n"
+                        "scattering = {{ none = true }}\n"
+                        "[sensors.matched]\nefficiency = {{ definition = \"internal\", value = 1.0 }}\n"
+                        "window = {{ index = 1.6 }}\n",
+                        kCore, kCladding));
+  check_fraction(traced.result, Fate::detected, 1.0 - escaping);
+}
+
+#ifdef SCINTRAY_TESTS_STEP
+TEST_CASE("Fates in a rod and a ball of a STEP file do not depend on its tessellation") {
+  for (const StepSolid solid : {StepSolid::cylinder, StepSolid::sphere}) {
+    const auto path = scratch_folder("curved_step") / "body.step";
+    write_step(path, {{"body", solid, {2.0, 0.0, 9.0}, {1.0, 2.0, 3.0}, {}, {}, ""}});
+    std::vector<std::uint64_t> escaped;
+    for (const double deviation_mm : {0.2, 0.02, 0.002}) {
+      const Traced traced = trace(
+          kVacuum + "[[part]]\nname = \"body\"\nmesh = \"" + path.string() + "\"\n" +
+          fmt::format("tessellation = {{ deviation = \"{} mm\", angle = \"30 deg\" }}\n", deviation_mm) +
+          "medium = \"lso\"\nsurface = \"flat\"\n" + source_in("body", 100'000));
+      CHECK(traced.built.scene.parts.front().curved);
+      const double volume = solid == StepSolid::sphere ? 4.0 / 3.0 * kPi * 8.0 : kPi * 4.0 * 9.0;
+      CHECK(traced.built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-6));
+      escaped.push_back(traced.result.count(Fate::escaped));
+    }
+    for (const std::uint64_t count : escaped)
+      CHECK(std::abs(static_cast<double>(count) - static_cast<double>(escaped.front())) <
+            kSigmas * std::sqrt(2.0 * static_cast<double>(count)));
+  }
+}
+#endif

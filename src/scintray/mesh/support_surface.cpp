@@ -98,6 +98,15 @@ std::optional<SupportSurface> SupportSurface::moved(const Eigen::Affine3d& motio
   return result;
 }
 
+bool SupportSurface::is_same(const SupportSurface& other) const {
+  constexpr double kRounding = 1e-10;
+  const double size = std::sqrt(std::max(radius2, other.radius2));
+  const auto near = [](double a, double b, double scale) { return std::abs(a - b) <= kRounding * scale; };
+  return near(radius2, other.radius2, size * size) && near(axial, other.axial, 1.0) &&
+         near(slope, other.slope, size) && (axis.vec() - other.axis.vec()).norm() <= kRounding &&
+         (origin.vec() - other.origin.vec()).norm() <= kRounding * (size + origin.norm());
+}
+
 bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
                                  double tolerance_mm) const {
   if (is_sphere() != other.is_sphere()) return false;

@@ -61,6 +61,8 @@ struct SupportSurface {
   /// The surface after a motion that keeps angles; nothing after any other.
   std::optional<SupportSurface> moved(const Eigen::Affine3d& motion) const;
 
+  /// Whether the two are stated by the same numbers, to rounding.
+  bool is_same(const SupportSurface& other) const;
   /// Whether the two are one surface: within `tolerance_mm` of each other at these points of the first.
   bool agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
                    double tolerance_mm) const;
@@ -86,7 +88,7 @@ struct PatchExcess {
 
 /// Excess of the patch above a triangle whose corners lie on the surface: the triangle is projected from the
 /// centre of a sphere, and at constant z from the axis of a cylinder or cone. Gauss-Legendre quadrature, 12
-/// points each way: to rounding for triangles that span up to 60 degrees.
+/// points each way: to rounding for triangles that span up to 30 degrees.
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
 
 /// Area (mm2) between a chord and the circle in which the surface intersects the plane through the chord with

@@ -1,5 +1,6 @@
 #include "scintray/mesh/trimesh.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace scintray::mesh {
@@ -45,6 +46,14 @@ std::uint32_t TriMesh::group_index(const std::string& name, const FaceTags& tags
     group_tags.back() = tags;
   }
   return static_cast<std::uint32_t>(groups.size() - 1);
+}
+
+std::uint32_t TriMesh::support_index(const SupportSurface& surface) {
+  const auto found = std::find_if(supports.begin(), supports.end(),
+                                  [&](const SupportSurface& known) { return known.is_same(surface); });
+  if (found != supports.end()) return static_cast<std::uint32_t>(found - supports.begin());
+  supports.push_back(surface);
+  return static_cast<std::uint32_t>(supports.size() - 1);
 }
 
 void TriMesh::set_support(const SupportSurface& surface, std::size_t first, std::size_t last) {

@@ -44,8 +44,10 @@ struct TriMesh {
 
   /// Number of a triangle's support surface; kNoSupport: none.
   std::uint32_t support_of(std::size_t triangle) const {
-    return support.empty() ? kNoSupport : support[triangle];
+    return triangle < support.size() ? support[triangle] : kNoSupport;
   }
+  /// Number of a surface, added unless one that is the same to rounding is there.
+  std::uint32_t support_index(const SupportSurface& surface);
   /// Adds a surface and gives it to the triangles from `first` on.
   void set_support(const SupportSurface& surface, std::size_t first, std::size_t last);
 };

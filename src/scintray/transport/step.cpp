@@ -309,6 +309,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 
   const core::SensorId sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
   photon.region = next;
+  photon.on_triangle = scene::kNoTriangle;
   photon.optics = optics.at(next_medium, photon.wavelength_nm);
   if (sensor.has_value()) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
@@ -338,6 +339,7 @@ Step end_of_step(const scene::Scene& scene, const Propagation& propagation, sour
   Step result;
   switch (propagation.end) {
     case PropagationEnd::bulk:
+      photon.on_triangle = scene::kNoTriangle;
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
       result = interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records);

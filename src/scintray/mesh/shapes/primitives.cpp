@@ -105,6 +105,50 @@ TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius
   return mesh;
 }
 
+TriMesh make_cone(double bottom_radius, double top_radius, double height, int segments) {
+  if (!positive(height) || !(bottom_radius >= 0.0) || !(top_radius >= 0.0) ||
+      !positive(bottom_radius + top_radius))
+    reject_shape("a cone needs a positive height, and two radii of which one at least is above 0", "");
+  if (segments < 3)
+    reject_shape("a cone of " + std::to_string(segments) + " segments", "give at least 3 segments");
+  if (bottom_radius == top_radius) return make_cylinder(bottom_radius, height, segments);
+  TriMesh mesh;
+  mesh.groups = {"side"};
+  const auto add_circle = [&](double radius, double z) {
+    std::vector<std::uint32_t> circle;
+    if (radius == 0.0) {
+      circle.assign(static_cast<std::size_t>(segments), add_vertex(mesh, core::Vec3(0.0, 0.0, z)));
+      return circle;
+    }
+    const double step = core::kTwoPi / segments;
+    for (int i = 0; i < segments; ++i)
+      circle.push_back(add_vertex(mesh, {radius * std::cos(step * i), radius * std::sin(step * i), z}));
+    return circle;
+  };
+  const std::vector<std::uint32_t> low = add_circle(bottom_radius, 0.0),
+                                   high = add_circle(top_radius, height);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const std::size_t next = (i + 1) % low.size();
+    if (bottom_radius > 0.0) add_triangle(mesh, low[i], low[next], high[next], 0);
+    if (top_radius > 0.0) add_triangle(mesh, low[i], high[next], high[i], 0);
+  }
+  const core::Vec3 z = core::Vec3::UnitZ();
+  mesh.set_support(bottom_radius > 0.0
+                       ? SupportSurface::cone(core::Vec3::Zero(), z, bottom_radius, top_radius, height)
+                       : SupportSurface::cone(height * z, -z, top_radius, bottom_radius, height),
+                   0, mesh.triangles.size());
+  const auto add_end = [&](const std::vector<std::uint32_t>& circle, bool up, const std::string& name) {
+    const auto group = static_cast<std::uint32_t>(mesh.groups.size());
+    mesh.groups.push_back(name);
+    for (std::size_t i = 1; i + 1 < circle.size(); ++i)
+      add_triangle(mesh, circle[0], circle[up ? i : i + 1], circle[up ? i + 1 : i], group);
+  };
+  if (bottom_radius > 0.0) add_end(low, false, "-z");
+  if (top_radius > 0.0) add_end(high, true, "+z");
+  mesh.support.resize(mesh.triangles.size(), kNoSupport);
+  return mesh;
+}
+
 TriMesh make_sphere(double radius, int subdivisions) {
   if (!positive(radius)) reject_shape("a sphere needs a positive radius", "");
   if (subdivisions < 1) reject_shape("a sphere with fewer than 1 subdivision", "1 gives an icosahedron");

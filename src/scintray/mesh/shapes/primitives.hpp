@@ -24,6 +24,12 @@ enum class CylinderRadius {
 TriMesh make_cylinder(double radius, double height, int segments,
                       CylinderRadius kind = CylinderRadius::inscribed_polygon);
 
+/// Frustum of a cone about the z axis, z from 0 to height; one of the radii may be 0, which makes a tip.
+/// Groups "side" and, where there is an end, "-z", "+z". The side carries the cone, or the cylinder for equal
+/// radii, as its support surface.
+/// @throws InputError when the height is not positive, a radius is negative, both are 0, or segments < 3.
+TriMesh make_cone(double bottom_radius, double top_radius, double height, int segments);
+
 /// Geodesic sphere about the origin: an icosahedron whose triangles are each cut into subdivisions^2,
 /// all vertices on the sphere, which is their support surface; 20 subdivisions^2 triangles, one group
 /// "sphere".

@@ -80,9 +80,10 @@ class CurvedPropagation {
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
   Wall next_wall() {
-    const scene::Exit exit = accelerator_.find_exact_exit(
-        region_.point_to_local(photon_.position), region_.direction_to_local(photon_.ray.direction), left_);
-    left_ = exit.triangle;
+    const scene::Exit exit =
+        accelerator_.find_exact_exit(region_.point_to_local(photon_.position),
+                                     region_.direction_to_local(photon_.ray.direction), photon_.on_triangle);
+    next_ = exit.triangle;
     return {exit.triangle, exit.distance_mm, exit.resolved};
   }
   double depth_left() const { return photon_.optical_depth; }
@@ -90,8 +91,9 @@ class CurvedPropagation {
   void move(double distance_mm, double depth) {
     photon_.optical_depth -= depth;
     advance(photon_, distance_mm);
+    photon_.on_triangle = next_;
     photon_.position += region_.direction_to_world(
-        accelerator_.correction_at(left_, region_.point_to_local(photon_.position)));
+        accelerator_.correction_at(next_, region_.point_to_local(photon_.position)));
   }
   /// Cosine of incidence at the wall.
   double incidence(const Wall& wall) {
@@ -115,7 +117,7 @@ class CurvedPropagation {
   const scene::Accelerator& accelerator_;
   source::Photon& photon_;
   core::Vec3 normal_;
-  std::uint32_t left_ = scene::kNoTriangle;  ///< at which the photon was reflected
+  std::uint32_t next_ = scene::kNoTriangle;  ///< of the last wall
 };
 
 /// A photon between Embree's walls, in registers. The latency is that of Embree and then of the numbers of
