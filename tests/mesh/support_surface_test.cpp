@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/smooth_faces.hpp"
 #include "scintray/mesh/support_surface.hpp"
 
 using namespace scintray;
@@ -132,4 +133,18 @@ TEST_CASE("Facets deviate from a circle by the sagitta and half of their angle")
   const FacetDeviation deviation = facet_deviation(rod.supports[0], corners_of(rod, 0));
   CHECK(deviation.distance_mm == doctest::Approx(1.5 * (1.0 - std::cos(kPi / 72))).epsilon(1e-9));
   CHECK(deviation.angle_rad == doctest::Approx(kPi / 72).epsilon(1e-9));
+}
+
+TEST_CASE("Facets without a known surface are measured by the angles between them, edges of a body are not") {
+  TriMesh rod = make_cylinder(1.5, 20.0, 72);
+  rod.supports.clear();
+  rod.support.clear();
+  const std::vector<std::uint32_t> one_face(rod.triangles.size(), 0);
+  const FacetDeviation round = smooth_face_deviations(rod, one_face, 1).front();
+  CHECK(round.angle_rad == doctest::Approx(kPi / 72).epsilon(1e-6));
+  CHECK(round.distance_mm == doctest::Approx(1.5 * (1.0 - std::cos(kPi / 72))).epsilon(1e-2));
+  for (const TriMesh& sharp : {make_box({0, 0, 0}, {1, 2, 3}), make_cylinder(1.0, 1.0, 72)}) {
+    const std::vector<std::uint32_t> faces(sharp.triangles.size(), 0);
+    CHECK(smooth_face_deviations(sharp, faces, 1).front().angle_rad == 0.0);
+  }
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scintray/cli/alike.hpp"
+#include "scintray/mesh/smooth_faces.hpp"
 
 namespace scintray::cli {
 namespace {
@@ -169,6 +170,15 @@ class Printer {
             fmt::format("facets up to {:.3g} mm and {:.3g} deg from it: {}", face.deviation.distance_mm,
                         face.deviation.angle_rad * 180.0 / core::kPi, scene_.parts[face.part].facets_because);
       add(rows, face.name, fmt::format("{:<28} {}", face.curve, how));
+    }
+    for (const contact::PlacedMesh& part : built_.placed) {
+      const std::vector<mesh::FacetDeviation> faces =
+          mesh::smooth_face_deviations(part.mesh, part.face_of, part.faces.size());
+      for (std::size_t face = 0; face < faces.size(); ++face)
+        if (faces[face].angle_rad > 0.0)
+          add(rows, part.name + ":" + part.faces[face].name,
+              fmt::format("{:<28} facets, estimated up to {:.3g} mm and {:.3g} deg from a smooth surface",
+                          "not known", faces[face].distance_mm, faces[face].angle_rad * 180.0 / core::kPi));
     }
     if (rows.lines().empty()) return;
     std::cout << "\nround faces\n";
