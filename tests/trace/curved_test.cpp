@@ -242,3 +242,115 @@ TEST_CASE("Volumes, areas and bounds are those of the exact bodies") {
   for (const FaceInfo& face : built.scene.faces) area += face.area_mm2;
   CHECK(area == doctest::Approx(2.0 * kPi * 1.5 * 21.5 + 16.0 * kPi).epsilon(1e-12));
 }
+
+TEST_CASE("Among many balls and rods the ambient region finds the one that is met first") {
+  // Balls of different sizes on a turned grid, and a mesh among them, against a search of all.
+  std::string parts =
+      part("block", R"(box = { low = ["-40 mm", "-40 mm", "-3 mm"], high = ["40 mm", "40 mm", "-2 mm"] })");
+  std::vector<std::pair<Vec3, double>> balls;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 at(5.0 * (i % 8) - 17.0 + 0.1 * i, 5.0 * (i / 8) - 9.0, 2.0 + 0.07 * i);
+    const double radius = 0.5 + 0.03 * i;
+    balls.emplace_back(at, radius);
+    parts += part("ball" + std::to_string(i),
+                  fmt::format("sphere = {{ radius = \"{} mm\", subdivisions = 2 }}", radius), "n15",
+                  fmt::format("surface = \"flat\"\ntranslate = [\"{} mm\", \"{} mm\", \"{} mm\"]\n", at.x(),
+                              at.y(), at.z()));
+  }
+  const BuiltScene built = build(spec_of(parts, "block"));
+  const Region& ambient = built.scene.regions[kAmbientRegion];
+  std::uint64_t met = 0;
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    Rng rng(13, StreamKind::other, i);
+    const Vec3 p(60.0 * rng.uniform() - 30.0, 60.0 * rng.uniform() - 30.0, 20.0);
+    Vec3 d = sample_isotropic(rng);
+    d.z() = -std::abs(d.z());
+    if (i % 50 == 0) d = Vec3(0, 0, -1);
+    double first = (p.z() + 2.0) / -d.z();
+    const Vec3 on_block = p + first * d;
+    if (std::max(std::abs(on_block.x()), std::abs(on_block.y())) > 40.0) first = HUGE_VAL;
+    bool ball = false;
+    for (const auto& [centre, radius] : balls) {
+      const Vec3 w = p - centre;
+      const double b = w.dot(d), c = w.squaredNorm() - radius * radius;
+      if (b * b - c <= 0.0 || -b - std::sqrt(b * b - c) >= first) continue;
+      first = -b - std::sqrt(b * b - c);
+      ball = true;
+    }
+    const Exit exit = built.scene.find_exit(ambient, p, d);
+    if (first > 40.0 / -d.z()) continue;  // along the block's rim
+    REQUIRE(exit.triangle != kNoTriangle);
+    CHECK(exit.distance_mm == doctest::Approx(first).epsilon(1e-6));
+    met += ball;
+  }
+  CHECK(met > 2'000);
+}
+
+TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, are tiny, huge or far away") {
+  struct Case {
+    std::string parts, first;
+  };
+  const auto at = [](const std::string& x, const std::string& y, const std::string& z) {
+    return "surface = \"flat\"\ntranslate = [\"" + x + "\", \"" + y + "\", \"" + z + "\"]\n";
+  };
+  const std::vector<Case> cases{
+      // Tangent rods, and a ball on the end of one.
+      {part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 12 })", "lso_clear",
+                at("2 mm", "0 mm", "0 mm")) +
+           part("c", R"(sphere = { radius = "1 mm", subdivisions = 3 })", "n15", at("0 mm", "0 mm", "6 mm")),
+       "a"},
+      // A ball of almost the radius of the rod around it.
+      {part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 64 })") +
+           part("b", R"(sphere = { radius = "0.99 mm", subdivisions = 4 })", "lso_clear",
+                at("0 mm", "0 mm", "2.5 mm")),
+       "a"},
+      // Cones tip to tip, and a rod flush in another on a window.
+      {part("a",
+            R"(cone = { bottom_radius = "2 mm", top_radius = "0 mm", height = "3 mm", segments = 12 })") +
+           part("b",
+                R"(cone = { bottom_radius = "0 mm", top_radius = "2 mm", height = "3 mm", segments = 12 })",
+                "lso_clear", at("0 mm", "0 mm", "3.01 mm")),
+       "a"},
+      {part("window", R"(box = { low = ["-3 mm", "-3 mm", "-1 mm"], high = ["3 mm", "3 mm", "0 mm"] })",
+            "n15") +
+           part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(cylinder = { radius = "0.7 mm", height = "5 mm", segments = 9 })", "lso_clear"),
+       "a"},
+      // Ten metres away and turned; a micrometre and ten metres wide.
+      {part("a", kRod, "n15",
+            "rotate = { axis = [1, 2, 3], angle = \"77 deg\" }\n" + at("10 m", "-10 m", "3 m")),
+       "a"},
+      {part("a", R"(cylinder = { radius = "1 um", height = "1 mm", segments = 12 })"), "a"},
+      {part("a", R"(sphere = { radius = "10 m", subdivisions = 3 })") +
+           part("b", R"(sphere = { radius = "0.01 mm", subdivisions = 3 })", "lso_clear"),
+       "a"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.parts);
+    const SceneSpec spec = spec_of(c.parts, c.first, "[run]\ncontact_tolerance = \"0.001 um\"\n");
+    const BuiltScene built = build(spec);
+    CHECK(region_of(built, c.first).curved);
+    const PhotonSource source(spec.source, built.scene);
+    PropagationLimits limits;
+    limits.interactions = 3'000;
+    for (std::uint64_t i = 0; i < 2'000; ++i) {
+      Rng rng(17, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      const double size = built.scene.accelerator(region_of(built, c.first)).boundary().size_mm;
+      for (bool on_way = true; on_way && photon.interactions < limits.interactions;) {
+        const RegionId before = photon.region;
+        const Step taken = step(built.scene, photon, rng, limits);
+        on_way = !is_final(taken.event);
+        // A photon escapes from nowhere but the ambient region, and is where its region is, but for rounding.
+        if (taken.event == StepEvent::escaped) REQUIRE(before == kAmbientRegion);
+        if (!on_way || photon.region == kAmbientRegion) continue;
+        const Region& region = built.scene.regions[photon.region];
+        const Vec3 local = region.point_to_local(photon.position);
+        for (const ConvexBody& body : {built.scene.accelerator(region).boundary().exact.bodies.front()})
+          for (std::uint32_t q = body.quadrics_begin; q < body.quadrics_end; ++q)
+            REQUIRE(built.scene.accelerator(region).boundary().exact.quadrics[q].surface.distance(local) <
+                    1e-9 * std::max(1.0, size));
+      }
+    }
+  }
+}

@@ -75,8 +75,14 @@ struct ConvexBody {
   std::uint32_t planes_begin = 0, planes_end = 0;
   std::uint32_t quadrics_begin = 0, quadrics_end = 0;
   std::uint32_t first = kNoSurface;  ///< a triangle of the region's boundary on it
-  core::PlainVec3 centre;            ///< of a ball around it
-  double radius = 0.0;               ///< of the ball, mm
+  core::PlainVec3 low, high;         ///< corners of a box around it, mm
+};
+
+/// A node of the tree of the bodies cut out of a region: a box around some of them.
+struct BodyNode {
+  core::PlainVec3 low, high;         ///< mm
+  std::uint32_t begin = 0, end = 0;  ///< of a leaf: a range of ExactBodies::in_leaves; else empty
+  std::uint32_t second = 0;          ///< of two children; the first is the next node
 };
 
 /// The outline of a body's flat end in a plane: a point of the plane is under it where it is inside all of
@@ -91,6 +97,7 @@ struct BodyHit {
   double distance_mm = std::numeric_limits<double>::infinity();
   const SurfaceTriangles* on = nullptr;  ///< null: it does not
   std::uint32_t first = kNoSurface;      ///< a triangle of the body, where its surface has none of its own
+  std::uint32_t body = 0;                ///< number of the body
 };
 
 /// The convex bodies that bound a region, in its frame (mm), as plain records: the body that holds the
@@ -109,10 +116,14 @@ struct ExactBodies {
   std::vector<mesh::SupportSurface> outline_of;  ///< ranges of EndOutline
   /// Per triangle of the region's boundary, its quadric; kNoSurface: flat.
   std::vector<std::uint32_t> quadric_of;
-  std::uint32_t meshed = 0;  ///< triangles of the boundary that are on none of the bodies
-  bool held = false;         ///< the first body holds the region
+  std::vector<BodyNode> nodes;           ///< tree of the holes, the root first; empty where they are few
+  std::vector<std::uint32_t> in_leaves;  ///< numbers of bodies: ranges of BodyNode
+  std::uint32_t meshed = 0;              ///< triangles of the boundary that are on none of the bodies
+  bool held = false;                     ///< the first body holds the region
 
   bool empty() const { return bodies.empty(); }
+  /// Builds the tree of the holes, once all bodies are there.
+  void build_tree();
   /// Whether a point (mm) is inside the region, as far as the bodies decide it.
   bool admit(const core::Vec3& point) const;
   bool contains(const ConvexBody& body, const core::Vec3& point) const;
@@ -125,10 +136,14 @@ struct ExactBodies {
   }
 
  private:
-  void leave(const ConvexBody& body, const core::Vec3& origin, const core::Vec3& direction,
-             std::uint32_t left, BodyHit& nearest) const;
-  void enter(const ConvexBody& body, const core::Vec3& origin, const core::Vec3& direction,
-             std::uint32_t left, BodyHit& nearest) const;
+  struct Ray {
+    core::Vec3 origin, direction, inverse;
+    std::uint32_t left;
+  };
+  void leave(const ConvexBody& body, const Ray& ray, BodyHit& nearest) const;
+  void enter(std::uint32_t number, const Ray& ray, BodyHit& nearest) const;
+  void enter_any(const Ray& ray, BodyHit& nearest) const;
+  void add_node(std::uint32_t begin, std::uint32_t end);
 };
 
 }  // namespace scintray::scene

@@ -167,6 +167,7 @@ class RegionBodies {
     result_.quadric_of.assign(triangles_.size(), kNoSurface);
     result_.held = on.contains(of_);
     for (const core::PartId part : in_order(on)) add(part, on.at(part));
+    result_.build_tree();
     return std::move(result_);
   }
 
@@ -176,23 +177,11 @@ class RegionBodies {
   std::vector<core::PartId> in_order(const std::map<core::PartId, std::vector<std::uint32_t>>& on) const {
     std::vector<std::pair<double, core::PartId>> sizes;
     for (const auto& [part, own] : on)
-      sizes.emplace_back(part == of_ ? -HUGE_VAL : -ball_of(own).second, part);
+      sizes.emplace_back(part == of_ ? -HUGE_VAL : -farthest(part, local_centre(part)), part);
     std::sort(sizes.begin(), sizes.end());
     std::vector<core::PartId> order;
     for (const auto& entry : sizes) order.push_back(entry.second);
     return order;
-  }
-
-  std::pair<core::Vec3, double> ball_of(const std::vector<std::uint32_t>& own) const {
-    Eigen::AlignedBox3d bounds;
-    for (const std::uint32_t i : own)
-      for (const core::Vec3& corner : triangles_[i].local) bounds.extend(corner);
-    const core::Vec3 centre = bounds.center();
-    double radius = 0.0;
-    for (const std::uint32_t i : own)
-      for (const core::Vec3& corner : triangles_[i].local)
-        radius = std::max(radius, (corner - centre).norm());
-    return {centre, radius};
   }
 
   mesh::SupportSurface local(mesh::SupportSurface surface) const {
@@ -215,10 +204,15 @@ class RegionBodies {
     const PartBody& of_part = bodies_[part];
     ConvexBody body;
     body.first = own.front();
-    const auto [centre, radius] = ball_of(own);
-    body.centre = centre;
-    // All corners of the part, of which the region may have but a few, and what bulges beyond them.
-    body.radius = std::max(radius, farthest(part, centre)) + 2.0 * of_part.deviation_mm;
+    // Around all corners of the part, of which the region may have but a few, and what bulges beyond them.
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t i : own)
+      for (const core::Vec3& corner : triangles_[i].local) box.extend(corner);
+    for (const core::Vec3& vertex : of_part.corners)
+      box.extend(core::Vec3(frame_.rotation.transpose() * (vertex - frame_.centre)));
+    const core::Vec3 bulge = core::Vec3::Constant(2.0 * of_part.deviation_mm + 1e-9 * box.diagonal().norm());
+    body.low = box.min() - bulge;
+    body.high = box.max() + bulge;
     body.planes_begin = static_cast<std::uint32_t>(result_.planes.size());
     body.quadrics_begin = static_cast<std::uint32_t>(result_.quadrics.size());
     std::vector<BodyPlane> planes;
