@@ -4,6 +4,7 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/transport/step.hpp"
 #include "support/photon_source.hpp"
@@ -352,5 +353,35 @@ TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, a
                     1e-9 * std::max(1.0, size));
       }
     }
+  }
+}
+
+TEST_CASE("A body that would extend into the facets beside it, or into another body, keeps its own") {
+  // Facets of a mesh, 0.5 cos(15 deg) = 0.483 mm from the axis, around a core of 0.485 mm.
+  const auto folder = scratch_folder("curved_core");
+  mesh::write_stl(folder / "tube.stl", [] {
+    mesh::TriMesh tube = mesh::make_cylinder(0.5, 4.0, 12);
+    return tube;
+  }());
+  const std::string around = "[[part]]\nname = \"around\"\nmesh = \"" + (folder / "tube.stl").string() +
+                             "\"\nunit = \"mm\"\nmedium = \"n15\"\nsurface = \"flat\"\n";
+  for (const auto& [radius, exact] : {std::pair{"0.485 mm", false}, std::pair{"0.45 mm", true}}) {
+    const BuiltScene built = build(spec_of(around + part("core",
+                                                         std::string("cylinder = { radius = \"") + radius +
+                                                             "\", height = \"4 mm\", segments = 12 }",
+                                                         "lso"),
+                                           "core"));
+    CHECK((built.scene.parts.begin() + 1)->curved == exact);
+    if (!exact) CHECK((built.scene.parts.begin() + 1)->facets_because.find("around") != std::string::npos);
+  }
+  // Two rods whose polygons, turned against each other, are apart, and whose circles are not.
+  const std::string rod = R"(cylinder = { radius = "1 mm", height = "3 mm", segments = 6 })";
+  for (const auto& [apart, exact] : {std::pair{"1.8 mm", false}, std::pair{"2.001 mm", true}}) {
+    const std::string turned = "surface = \"flat\"\nrotate = { axis = [0, 0, 1], angle = \"30 deg\" }\n";
+    const BuiltScene built = build(
+        spec_of(part("a", rod, "n15", turned) +
+                    part("b", rod, "n15", turned + "translate = [\"" + apart + "\", \"0 mm\", \"0 mm\"]\n"),
+                "a"));
+    CHECK(built.scene.parts.front().curved == exact);
   }
 }

@@ -145,6 +145,140 @@ void match_contacts(const Assembly& assembly, const std::vector<contact::Interfa
   }
 }
 
+/// Leaves facets to parts whose exact surface would extend into what their facets stay clear of: the facets
+/// of another part, or another exact body.
+class ClearanceCheck {
+ public:
+  ClearanceCheck(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                 PartBodies& bodies)
+      : assembly_(assembly),
+        triangles_(triangles),
+        bodies_(bodies),
+        tolerance_(kOnSurface * assembly.contact_tolerance_mm) {}
+
+  /// @return whether a part was changed
+  bool run() {
+    collect();
+    for (const auto& [region, content] : regions_)
+      for (const core::PartId part : content.round)
+        if (bodies_[part].round) compare(region, content, part);
+    return changed_;
+  }
+
+ private:
+  struct Region {
+    std::set<core::PartId> round;        ///< bodies cut out of it
+    std::vector<std::size_t> triangles;  ///< of other parts' facets
+  };
+  struct Samples {
+    Eigen::AlignedBox3d box;
+    std::vector<core::Vec3> points;  ///< of the exact faces, inwards by the tolerance
+  };
+
+  void collect() {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const contact::InterfaceTriangle& t = triangles_[i];
+      add(t.back, t.back_face.has_value() ? t.back : t.front, i);
+      add(t.front, t.front_face.has_value() ? t.front : t.back, i);
+    }
+  }
+  void add(core::PartId region, core::PartId body, std::size_t triangle) {
+    if (body != region && bodies_[body].round)
+      regions_[region].round.insert(body);
+    else if (!on_exact_body(bodies_, region, body))
+      regions_[region].triangles.push_back(triangle);
+  }
+
+  const Samples& samples(core::PartId part) {
+    const auto [known, is_new] = samples_.try_emplace(part);
+    if (!is_new) return known->second;
+    Samples& result = known->second;
+    const contact::PlacedPart& own = assembly_.parts[part].geometry;
+    for (const core::Vec3& vertex : own.vertices) result.box.extend(vertex);
+    for (std::size_t t = 0; t < own.triangles.size(); ++t) {
+      if (own.support[t] == mesh::kNoSupport) continue;
+      const mesh::SupportSurface& surface = own.supports[own.support[t]];
+      const auto& [a, b, c] = own.triangles[t];
+      const core::Vec3 &va = own.vertices[a], &vb = own.vertices[b], &vc = own.vertices[c];
+      for (const core::Vec3& on_facet : {core::Vec3((va + vb + vc) / 3.0), core::Vec3(0.5 * (va + vb)),
+                                         core::Vec3(0.5 * (vb + vc)), core::Vec3(0.5 * (vc + va))}) {
+        core::Vec3 point = on_facet;
+        for (int step = 0; step < 3; ++step) point += surface.correction(point);
+        point -= tolerance_ * surface.normal(point);
+        result.points.push_back(point);
+        result.box.extend(point);
+      }
+    }
+    return result;
+  }
+
+  bool contains(core::PartId part, const core::Vec3& point, double margin) const {
+    const PartBody& body = bodies_[part];
+    return std::all_of(
+               body.planes.begin(), body.planes.end(),
+               [&](const WorldPlane& plane) { return plane.normal.dot(point) <= plane.offset + margin; }) &&
+           std::all_of(body.quadrics.begin(), body.quadrics.end(),
+                       [&](const mesh::SupportSurface& s) { return s.distance(point) <= margin; });
+  }
+
+  void compare(core::PartId region, const Region& content, core::PartId part) {
+    const Samples& own = samples(part);
+    if (region.has_value() && bodies_[region].convex) {
+      for (const core::Vec3& point : own.points)
+        if (!contains(region, point, 0.0)) return leave_facets(part, region);
+    }
+    for (const core::PartId other : content.round) {
+      if (other == part || !bodies_[other].round || !samples(other).box.intersects(own.box)) continue;
+      // Inwards by the tolerance once more, for bodies that touch; nested ones that share an end are apart.
+      const bool within = std::any_of(own.points.begin(), own.points.end(), [&](const core::Vec3& point) {
+        return contains(other, point, -tolerance_);
+      });
+      if (within && !is_around(other, part)) return leave_facets(part, other);
+    }
+    for (const std::size_t i : content.triangles) {
+      const contact::InterfaceTriangle& t = triangles_[i];
+      Eigen::AlignedBox3d box;
+      for (const core::Vec3& corner : t.vertex) box.extend(corner);
+      if (!box.intersects(own.box) || !collides(t.vertex, part)) continue;
+      return leave_facets(part, t.back_face.has_value() && t.back != part ? t.back : t.front);
+    }
+  }
+
+  /// Whether all of the inner body's faces are inside the outer.
+  bool is_around(core::PartId outer, core::PartId inner) {
+    const std::vector<core::Vec3>& points = samples(inner).points;
+    return std::all_of(points.begin(), points.end(),
+                       [&](const core::Vec3& point) { return contains(outer, point, tolerance_); });
+  }
+
+  /// Whether a triangle extends into the part by more than the tolerance, or a sample of the part lies beyond
+  /// it.
+  bool collides(const Corners& corners, core::PartId part) {
+    const core::Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const core::Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+      for (const core::Vec3& point : {a, core::Vec3(0.5 * (a + b)), core::Vec3(0.5 * (a + middle)), middle})
+        if (contains(part, point, -tolerance_)) return true;
+    }
+    return false;
+  }
+
+  void leave_facets(core::PartId part, core::PartId other) {
+    bodies_[part].round = bodies_[part].convex = false;
+    bodies_[part].facets_because =
+        "its exact surface would extend into \"" + assembly_.parts[other].geometry.name + "\"";
+    changed_ = true;
+  }
+
+  const Assembly& assembly_;
+  const std::vector<contact::InterfaceTriangle>& triangles_;
+  PartBodies& bodies_;
+  double tolerance_;
+  bool changed_ = false;
+  std::map<core::PartId, Region> regions_;
+  std::map<core::PartId, Samples> samples_;
+};
+
 /// Maker of the exact bodies of one region.
 class RegionBodies {
  public:
@@ -339,7 +473,8 @@ PartBodies find_part_bodies(const Assembly& assembly,
     body.corners = geometry.vertices;
     bodies.push_back(std::move(body));
   }
-  match_contacts(assembly, triangles, bodies);
+  do match_contacts(assembly, triangles, bodies);
+  while (ClearanceCheck(assembly, triangles, bodies).run());
   return bodies;
 }
 
