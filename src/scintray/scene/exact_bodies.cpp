@@ -149,9 +149,13 @@ void ExactBodies::enter_any(const Ray& ray, BodyHit& nearest) const {
 
 BodyHit ExactBodies::nearest(const core::Vec3& origin, const core::Vec3& direction,
                              std::uint32_t left) const {
-  const Ray ray{origin, direction, direction.cwiseInverse(), left};
+  Ray ray{origin, direction, direction, left};
   BodyHit hit;
-  if (held) leave(bodies.front(), ray, hit);
+  if (held) {
+    leave(bodies.front(), ray, hit);
+    if (bodies.size() == 1) return hit;
+  }
+  ray.inverse = direction.cwiseInverse();
   if (!nodes.empty()) {
     enter_any(ray, hit);
     return hit;
