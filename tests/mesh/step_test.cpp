@@ -153,6 +153,35 @@ TEST_CASE("STEP: meshes of curved and drilled solids are closed, with poles and 
   }
 }
 
+TEST_CASE("STEP: round faces carry their surface, in the unit of the import, also of one body of several") {
+  const StepBody rod{"rod", StepSolid::cylinder, {2.0, 0.0, 5.0}, {10.0, 0.0, 0.0}, {}, {}, ""};
+  const StepBody ball{"ball", StepSolid::sphere, {3.0, 0.0, 0.0}, {-10.0, 0.0, 1.0}, {}, {}, ""};
+  const StepBody block{"block", StepSolid::drilled_box, {7.0, 6.0, 5.0}, {0.0, 20.0, 0.0}, {}, {}, ""};
+  for (const std::string chosen : {"", "rod", "ball", "block"}) {
+    CAPTURE(chosen);
+    ImportOptions options;
+    options.body = chosen;
+    options.scale = 2.0;
+    const TriMesh mesh = written_and_read({rod, ball, block}, options, "INCH").mesh;
+    CHECK(mesh.supports.size() == (chosen.empty() ? 3 : 1));
+    std::size_t round = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const std::uint32_t support = mesh.support_of(t);
+      const Vec3 normal = mesh.area_vector(t).normalized();
+      if (support == kNoSupport) {
+        CHECK(normal.cwiseAbs().maxCoeff() == doctest::Approx(1.0).epsilon(1e-6));  // flat: along an axis
+        continue;
+      }
+      ++round;
+      for (const std::uint32_t vertex : mesh.triangles[t])
+        CHECK(std::abs(mesh.supports[support].distance(mesh.vertices[vertex])) < 1e-9 * 50.8);
+    }
+    CHECK(round > 20);
+  }
+  CHECK(written_and_read({{"box", StepSolid::box, {1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, {}, {}, ""}})
+            .mesh.support.empty());
+}
+
 TEST_CASE("STEP: the unit is the file's, inches too, and another one is refused") {
   const StepBody body{"crystal", StepSolid::box, {1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
   const MeshImport read = written_and_read({body}, {}, "INCH");

@@ -55,7 +55,7 @@ class BoundaryPoints {
 
 }  // namespace
 
-TEST_CASE("Law: integrating sphere f / (1 - rho (1 - f)), f by the area of the tessellation") {
+TEST_CASE("Law: integrating sphere f / (1 - rho (1 - f)), f by the exact area of the port") {
   for (const auto& row : {std::pair{24, 0.99}, std::pair{32, 0.9}}) {
     const auto& subdivisions = row.first;
     const auto& reflectance = row.second;
@@ -112,6 +112,8 @@ type = "photons"
 region = { part = "body" }
 wavelength = "420 nm"
 photons = 1
+[run]
+curved = "facets"
 )");
     SceneBuilder builder;
     const BuiltScene built = builder.build(spec);

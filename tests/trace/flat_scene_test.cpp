@@ -77,6 +77,22 @@ IdVector<IdType, Record> through_bytes(const IdVector<IdType, Record>& records) 
   return IdVector<IdType, Record>(through_bytes(records.values()));
 }
 
+ExactBodies through_bytes(const ExactBodies& exact) {
+  ExactBodies copy;
+  copy.bodies = through_bytes(exact.bodies);
+  copy.planes = through_bytes(exact.planes);
+  copy.quadrics = through_bytes(exact.quadrics);
+  copy.triangles = through_bytes(exact.triangles);
+  copy.outlines = through_bytes(exact.outlines);
+  copy.outline_of = through_bytes(exact.outline_of);
+  copy.quadric_of = through_bytes(exact.quadric_of);
+  copy.nodes = through_bytes(exact.nodes);
+  copy.in_leaves = through_bytes(exact.in_leaves);
+  copy.meshed = exact.meshed;
+  copy.held = exact.held;
+  return copy;
+}
+
 Boundary through_bytes(const Boundary& boundary) {
   Boundary copy;
   copy.vertices = through_bytes(boundary.vertices);
@@ -84,6 +100,7 @@ Boundary through_bytes(const Boundary& boundary) {
   copy.triangle_planes = through_bytes(boundary.triangle_planes);
   copy.planes = through_bytes(boundary.planes);
   copy.plane_triangles = through_bytes(boundary.plane_triangles);
+  copy.exact = through_bytes(boundary.exact);
   copy.size_mm = boundary.size_mm;
   copy.closed = boundary.closed;
   return copy;

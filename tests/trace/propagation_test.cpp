@@ -38,6 +38,7 @@ wavelength = "420 nm"
 time = "0 ns"
 photons = 4_000
 [run]
+curved = "facets"
 accelerator = ")" +
          accelerator + "\"\n";
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "scintray/cli/alike.hpp"
+#include "scintray/mesh/smooth_faces.hpp"
 
 namespace scintray::cli {
 namespace {
@@ -52,6 +53,7 @@ class Printer {
   void print() const {
     print_parts();
     print_faces();
+    print_round_faces();
     print_regions();
     print_interfaces();
     print_contacts();
@@ -107,6 +109,18 @@ class Printer {
     return ", " + vector_text(box.center());
   }
 
+  /// Of the exact body, where the part has one.
+  const Eigen::AlignedBox3d& bounds_of(core::PartId part, const mesh::MeshDiagnosis& d) const {
+    return scene_.parts[part].curved ? scene_.parts[part].bounds : d.bounds;
+  }
+  double area_of(core::PartId part, const mesh::MeshDiagnosis& d) const {
+    if (!scene_.parts[part].curved) return d.area_mm2;
+    double area = 0.0;
+    for (const scene::FaceInfo& face : scene_.faces)
+      if (face.part == part) area += face.area_mm2;
+    return area;
+  }
+
   void print_parts() const {
     std::cout << fmt::format("\nparts ({})\n", built_.parts.size());
     std::cout << fmt::format("  {:<20} {:<22} {:>12} {:>11} {:>9} {:>7} {:>8} {:>10}  {}\n", "name", "medium",
@@ -120,10 +134,11 @@ class Printer {
       const scene::Region& region = scene_.regions[scene_.parts[id].region];
       std::string rest =
           fmt::format("{:<22} {:>12.6g} {:>11.6g} {:>9} {:>7} {:>8} {:>10}  {}",
-                      scene_.media[region.medium].medium().name, d.volume_mm3, d.area_mm2, d.triangles,
-                      yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count,
-                      every_one_ ? extent(d.bounds) : size(d.bounds));
-      all.extend(d.bounds);
+                      scene_.media[region.medium].medium().name,
+                      scene_.parts[id].curved ? scene_.parts[id].volume_mm3 : d.volume_mm3, area_of(id, d),
+                      d.triangles, yes_no(d.closed()), yes_no(d.outward()), d.degenerate_triangles.count,
+                      every_one_ ? extent(bounds_of(id, d)) : size(bounds_of(id, d)));
+      all.extend(bounds_of(id, d));
       for (const std::string& note : part.notes) rest += "\n    note: " + note;
       add(rows, part.name, rest);
     }
@@ -144,6 +159,41 @@ class Printer {
     print_rows(rows, 28);
   }
 
+  /// Faces that approximate a known surface: by that surface, or by how far their facets are from it.
+  void print_round_faces() const {
+    Alike<Row> rows;
+    for (const scene::FaceInfo& face : scene_.faces) {
+      if (face.curve.empty()) continue;
+      std::string how = "exact";
+      if (!face.exact)
+        how =
+            fmt::format("facets up to {:.3g} mm and {:.3g} deg from it: {}", face.deviation.distance_mm,
+                        face.deviation.angle_rad * 180.0 / core::kPi, scene_.parts[face.part].facets_because);
+      add(rows, face.name, fmt::format("{:<28} {}", face.curve, how));
+    }
+    for (const contact::PlacedMesh& part : built_.placed) {
+      const std::vector<mesh::FacetDeviation> faces =
+          mesh::smooth_face_deviations(part.mesh, part.face_of, part.faces.size());
+      for (std::size_t face = 0; face < faces.size(); ++face)
+        if (faces[face].angle_rad > 0.0)
+          add(rows, part.name + ":" + part.faces[face].name,
+              fmt::format("{:<28} facets, estimated up to {:.3g} mm and {:.3g} deg from a smooth surface",
+                          "not known", faces[face].distance_mm, faces[face].angle_rad * 180.0 / core::kPi));
+    }
+    if (rows.lines().empty()) return;
+    std::cout << "\nround faces\n";
+    print_rows(rows, 28);
+  }
+
+  static std::string query_method(const scene::Accelerator& accelerator) {
+    const scene::ExactBodies& exact = accelerator.boundary().exact;
+    if (accelerator.uses_planes()) return fmt::format("{} planes", accelerator.plane_count());
+    if (accelerator.size() == 0) return "no boundary";
+    if (exact.empty()) return "Embree";
+    return fmt::format("{} planes, {} round face{}{}", exact.planes.size(), exact.quadrics.size(),
+                       exact.quadrics.size() == 1 ? "" : "s", exact.meshed > 0 ? ", and Embree" : "");
+  }
+
   void print_regions() const {
     std::cout << fmt::format("\nregions ({}, sharing {} accelerators)\n", scene_.regions.size(),
                              scene_.accelerators.size());
@@ -157,9 +207,7 @@ class Printer {
       const scene::Accelerator& accelerator = scene_.accelerator(region);
       const std::string index =
           medium.is_opaque() ? "-" : fmt::format("{:.4f}", scene_.optics.index(region.medium, middle_nm));
-      const std::string how = accelerator.uses_planes() ? fmt::format("{} planes", accelerator.plane_count())
-                              : accelerator.size() == 0 ? "no boundary"
-                                                        : "Embree";
+      const std::string how = query_method(accelerator);
       add(rows, scene_.region_names[id],
           fmt::format("{:<22} {:>9} {:>10} {}", medium.medium().name, accelerator.size(), index, how));
     }

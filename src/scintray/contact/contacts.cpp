@@ -140,7 +140,9 @@ class Resolver {
                        core::PartId(t.body),
                        nesting_.parent(t.body),
                        body.face[t.triangle],
-                       core::FaceId::none()});
+                       core::FaceId::none(),
+                       body.support_of(t.triangle),
+                       mesh::kNoSupport});
   }
 
   /// Meaning of a label of the overlay: a face of a body, seen from one side.
@@ -148,6 +150,7 @@ class Resolver {
     std::uint32_t body;
     core::FaceId face;
     bool up;  ///< its outward normal points along the plane's normal
+    std::uint32_t support;
     auto operator<=>(const Label&) const = default;
   };
 
@@ -211,7 +214,8 @@ class Resolver {
 
   Label label(const TriangleOf& t, const Plane& plane) const {
     const Body& body = bodies_[t.body];
-    return {t.body, body.face[t.triangle], body.normal[t.triangle].dot(plane.normal) > 0.0};
+    return {t.body, body.face[t.triangle], body.normal[t.triangle].dot(plane.normal) > 0.0,
+            body.support_of(t.triangle)};
   }
 
   /// The outlines of the labelled faces; sides shared by two triangles of one label cancel. An edge
@@ -275,6 +279,7 @@ class Resolver {
   struct Place {
     core::PartId region = kAmbient;
     core::FaceId face;
+    std::uint32_t support = mesh::kNoSupport;
   };
 
   /// The region on one side of a cell: the innermost body that ends here with its inside on that side,
@@ -286,7 +291,7 @@ class Resolver {
       if (l.up != above && (best == nullptr || nesting_.depth(l.body) > nesting_.depth(best->body)))
         best = &l;
     }
-    if (best != nullptr) return {core::PartId(best->body), best->face};
+    if (best != nullptr) return {core::PartId(best->body), best->face, best->support};
     Place place;
     for (const int id : covering)
       for (const std::uint32_t outer : nesting_.around[labels[static_cast<std::size_t>(id)].body]) {
@@ -320,6 +325,8 @@ class Resolver {
     triangle.back_face = back.face;
     triangle.front = front.region;
     triangle.front_face = front.face;
+    triangle.back_support = back.support;
+    triangle.front_support = front.support;
     result_.push_back(triangle);
   }
 

@@ -8,6 +8,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/ids.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/mesh/support_surface.hpp"
 
 namespace scintray::contact {
 
@@ -18,6 +19,10 @@ struct PlacedPart {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<core::FaceId> face;  ///< per triangle
   core::FileLocation where = {};   ///< in the scene file
+  /// Surfaces that round faces approximate, and per triangle the index of its own, or mesh::kNoSupport; both
+  /// empty: none has any.
+  std::vector<mesh::SupportSurface> supports = {};
+  std::vector<std::uint32_t> support = {};
 };
 
 /// The place of the part `name` as an addition to a message whose own place is `reported`:
@@ -35,6 +40,8 @@ struct InterfaceTriangle {
   core::PartId back = kAmbient, front = kAmbient;
   /// Of the part on either side; none when the surface here belongs to the other part alone.
   core::FaceId back_face, front_face;
+  /// The surface that the face approximates, in its part's list; kNoSupport: none.
+  std::uint32_t back_support = mesh::kNoSupport, front_support = mesh::kNoSupport;
 };
 
 /// Interfaces between the regions of touching and nested parts.

@@ -1,5 +1,6 @@
 #include "scintray/mesh/trimesh.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace scintray::mesh {
@@ -47,6 +48,20 @@ std::uint32_t TriMesh::group_index(const std::string& name, const FaceTags& tags
   return static_cast<std::uint32_t>(groups.size() - 1);
 }
 
+std::uint32_t TriMesh::support_index(const SupportSurface& surface) {
+  const auto found = std::find_if(supports.begin(), supports.end(),
+                                  [&](const SupportSurface& known) { return known.is_same(surface); });
+  if (found != supports.end()) return static_cast<std::uint32_t>(found - supports.begin());
+  supports.push_back(surface);
+  return static_cast<std::uint32_t>(supports.size() - 1);
+}
+
+void TriMesh::set_support(const SupportSurface& surface, std::size_t first, std::size_t last) {
+  support.resize(triangles.size(), kNoSupport);
+  for (std::size_t t = first; t < last; ++t) support[t] = static_cast<std::uint32_t>(supports.size());
+  supports.push_back(surface);
+}
+
 core::Vec3 centre_of(const TriMesh& mesh, std::size_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3.0;
@@ -58,10 +73,17 @@ void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted) {
     if (!wanted[t]) continue;
     mesh.triangles[kept] = mesh.triangles[t];
     if (!mesh.group.empty()) mesh.group[kept] = mesh.group[t];
+    if (!mesh.support.empty()) mesh.support[kept] = mesh.support[t];
     ++kept;
   }
   mesh.triangles.resize(kept);
   if (!mesh.group.empty()) mesh.group.resize(kept);
+  if (!mesh.support.empty()) mesh.support.resize(kept);
+}
+
+void translate(TriMesh& mesh, const core::Vec3& by) {
+  for (core::Vec3& vertex : mesh.vertices) vertex += by;
+  for (SupportSurface& surface : mesh.supports) surface.origin += by;
 }
 
 }  // namespace scintray::mesh

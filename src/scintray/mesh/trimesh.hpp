@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scintray/core/vec.hpp"
+#include "scintray/mesh/support_surface.hpp"
 
 namespace scintray::mesh {
 
@@ -27,6 +28,10 @@ struct TriMesh {
   /// Per group, the tags of the file beside its name; empty when no group has any. Groups that differ only
   /// here have the same name.
   std::vector<FaceTags> group_tags;
+  /// Surfaces that round faces approximate, and per triangle the index of its own there, or kNoSupport. Both
+  /// empty: none has any. An operation that cannot keep them leaves both empty.
+  std::vector<SupportSurface> supports;
+  std::vector<std::uint32_t> support;
 
   core::Vec3 area_vector(std::size_t triangle) const;  ///< normal times area, mm2
   double area() const;                                 ///< mm2
@@ -36,12 +41,24 @@ struct TriMesh {
   const FaceTags& tags_of(std::size_t group_number) const;
   /// Number of the group with this name and these tags, added when it is new.
   std::uint32_t group_index(const std::string& name, const FaceTags& tags = {});
+
+  /// Number of a triangle's support surface; kNoSupport: none.
+  std::uint32_t support_of(std::size_t triangle) const {
+    return triangle < support.size() ? support[triangle] : kNoSupport;
+  }
+  /// Number of a surface, added unless one that is the same to rounding is there.
+  std::uint32_t support_index(const SupportSurface& surface);
+  /// Adds a surface and gives it to the triangles from `first` on.
+  void set_support(const SupportSurface& surface, std::size_t first, std::size_t last);
 };
 
 /// Middle of a triangle, mm.
 core::Vec3 centre_of(const TriMesh& mesh, std::size_t triangle);
 
-/// Removes the triangles, with their groups, where `wanted` is zero; the rest keep their order.
+/// Removes the triangles, with their groups and supports, where `wanted` is zero; the rest keep their order.
 void keep_triangles(TriMesh& mesh, const std::vector<char>& wanted);
+
+/// Adds `by` (mm) to every position.
+void translate(TriMesh& mesh, const core::Vec3& by);
 
 }  // namespace scintray::mesh

@@ -151,7 +151,7 @@ class DegeneratePass {
 
   void rebuild(DegenerateRemoval& total) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> group;
+    std::vector<std::uint32_t> group, support;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (gone_[t]) {
         ++total.removed;
@@ -162,6 +162,7 @@ class DegeneratePass {
       if (cut_at_[t] == kNone) {
         triangles.push_back(corner);
         group.push_back(own_group);
+        support.push_back(mesh_.support_of(t));
         continue;
       }
       const std::size_t side = cut_edge_[t];
@@ -169,10 +170,12 @@ class DegeneratePass {
       triangles.push_back({from, cut_at_[t], tip});
       triangles.push_back({cut_at_[t], to, tip});
       group.insert(group.end(), 2, own_group);
+      support.insert(support.end(), 2, mesh_.support_of(t));
       ++total.cut;
     }
     mesh_.triangles = std::move(triangles);
     if (!mesh_.group.empty()) mesh_.group = std::move(group);
+    if (!mesh_.support.empty()) mesh_.support = std::move(support);
   }
 
   TriMesh& mesh_;

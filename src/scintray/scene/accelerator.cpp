@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -33,6 +34,8 @@ constexpr double kCoplanar = 1e-10;
 constexpr float kClearOfEdge = 1e-4f;
 constexpr std::size_t kMostPlanes = 32;
 constexpr std::size_t kMostTrianglesOnMixedPlane = 16;
+/// Number of facets of one round face from which they are found by Embree.
+constexpr std::uint32_t kManyFacets = 16;
 /// Number of hits on the plane that the ray starts from inwards that are skipped before the exact query.
 constexpr int kMostSelfHits = 2;
 
@@ -104,22 +107,22 @@ struct Accelerator::EmbreeScene {
   std::shared_ptr<RTCDeviceTy> shared_device = embree_device();
   RTCScene scene = nullptr;
 
-  explicit EmbreeScene(const Boundary& triangles) {
+  /// @param corners  three a triangle, indices into `points`
+  EmbreeScene(const std::vector<core::PlainVec3>& points, std::span<const std::uint32_t> corners) {
     const RTCDevice device = shared_device.get();
+    const std::size_t size = corners.size() / 3;
     scene = rtcNewScene(device);
     // Splitting triangles for a better hierarchy takes much memory for large meshes.
-    rtcSetSceneBuildQuality(
-        scene, triangles.size() > kManyTriangles ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
+    rtcSetSceneBuildQuality(scene, size > kManyTriangles ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices =
-        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                    3 * sizeof(float), triangles.vertices.size()));
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.size()));
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), triangles.size()));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), size));
     if (!vertices || !indices) throw core::SystemError("Embree could not allocate its mesh buffers");
-    for (const core::PlainVec3& vertex : triangles.vertices)
+    for (const core::PlainVec3& vertex : points)
       for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
-    std::copy(triangles.corners.begin(), triangles.corners.end(), indices);
+    std::copy(corners.begin(), corners.end(), indices);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -232,8 +235,13 @@ bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
 
 Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles,
                        const std::vector<std::uint32_t>& labels, bool closed,
-                       scene_file::AcceleratorKind kind) {
+                       scene_file::AcceleratorKind kind, ExactBodies exact) {
   Boundary boundary = make_boundary(triangles, closed);
+  if (!exact.empty()) {
+    boundary.closed = closed && !exact.held;
+    boundary.exact = std::move(exact);
+    return boundary;
+  }
   const bool planes = kind != scene_file::AcceleratorKind::embree && find_planes(labels, boundary);
   if (!planes && kind == scene_file::AcceleratorKind::planes && closed)
     throw core::InputError(
@@ -248,18 +256,26 @@ Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles,
 
 Accelerator::Accelerator(const std::vector<BoundaryTriangle>& triangles,
                          const std::vector<std::uint32_t>& labels, bool closed,
-                         scene_file::AcceleratorKind kind)
-    : Accelerator(make_boundary(triangles, labels, closed, kind)) {}
+                         scene_file::AcceleratorKind kind, ExactBodies exact)
+    : Accelerator(make_boundary(triangles, labels, closed, kind, std::move(exact))) {}
 
 Accelerator::Accelerator(Boundary boundary)
     : boundary_(std::move(boundary)), start_mm_(kStartAhead * boundary_.size_mm) {
-  if (boundary_.size() > 0 && boundary_.planes.empty()) embree_ = std::make_unique<EmbreeScene>(boundary_);
+  if (boundary_.meshed() > 0 && boundary_.planes.empty())
+    embree_ = std::make_unique<EmbreeScene>(boundary_.vertices,
+                                            std::span(boundary_.corners).first(3 * boundary_.meshed()));
+  index_facets();
 }
 
 Accelerator::~Accelerator() = default;
 
 Exit Accelerator::find_exit(const core::Vec3& origin, const core::Vec3& direction) const {
   if (!boundary_.planes.empty()) return exit_by_planes(origin, direction);
+  if (has_exact_bodies()) return find_exact_exit(origin, direction, kNoTriangle);
+  return exit_by_embree(origin, direction);
+}
+
+Exit Accelerator::exit_by_embree(const core::Vec3& origin, const core::Vec3& direction) const {
   if (!embree_) return {};
   const core::Lanes from(origin, -1.0), along(direction, 0.0);
   const FirstHit hit = first_hit(core::Lanes(origin, start_mm_).floats(), along.floats());
@@ -299,6 +315,97 @@ Exit Accelerator::exit_by_planes(const core::Vec3& origin, const core::Vec3& dir
   return {nearest, triangle, false};
 }
 
+Exit Accelerator::find_exact_exit(const core::Vec3& origin, const core::Vec3& direction,
+                                  std::uint32_t left) const {
+  const ExactBodies& exact = boundary_.exact;
+  const BodyHit hit =
+      exact.nearest(origin, direction, left == kNoTriangle ? kNoSurface : exact.quadric_of[left]);
+  if (embree_) {
+    const Exit meshed = exit_by_embree(origin, direction);
+    if (meshed.triangle != kNoTriangle && meshed.distance_mm < hit.distance_mm) return meshed;
+  }
+  if (!hit.on) return {};
+  return {hit.distance_mm, triangle_at(hit, origin + hit.distance_mm * direction), false};
+}
+
+void Accelerator::index_facets() {
+  const ExactBodies& exact = boundary_.exact;
+  facets_.resize(exact.quadrics.size());
+  for (std::size_t i = 0; i < exact.quadrics.size(); ++i) {
+    const SurfaceTriangles& on = exact.quadrics[i].on;
+    if (on.end - on.begin < kManyFacets) continue;
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t k = on.begin; k < on.end; ++k)
+      for (std::uint32_t corner = 0; corner < 3; ++corner)
+        corners.push_back(boundary_.corners[3 * exact.triangles[k] + corner]);
+    facets_[i] = std::make_unique<EmbreeScene>(boundary_.vertices, corners);
+  }
+}
+
+std::uint32_t Accelerator::triangle_at(const BodyHit& hit, const core::Vec3& point) const {
+  const SurfaceTriangles& on = *hit.on;
+  if (on.begin == on.end) return on.first == kNoSurface ? hit.first : on.first;
+  const ExactBodies& exact = boundary_.exact;
+  for (std::uint32_t i = on.outlines_begin; i < on.outlines_end; ++i) {
+    const EndOutline& outline = exact.outlines[i];
+    if (std::all_of(exact.outline_of.begin() + outline.quadrics_begin,
+                    exact.outline_of.begin() + outline.quadrics_end,
+                    [&](const mesh::SupportSurface& surface) { return surface.value(point) <= 0.0; }))
+      return outline.triangle;
+  }
+  const std::uint32_t quadric = exact.quadric_of[on.first];
+  if (quadric != kNoSurface) return facet_at(quadric, point);
+  return nearest_of(on, [&](std::uint32_t candidate) {
+    return distance_outside(boundary_.triangle(candidate), normal(candidate), point);
+  });
+}
+
+template <typename Outside>
+std::uint32_t Accelerator::nearest_of(const SurfaceTriangles& on, Outside outside_of) const {
+  std::uint32_t nearest = on.first;
+  double least_outside = kInfinity;
+  for (std::uint32_t i = on.begin; i < on.end; ++i) {
+    const std::uint32_t candidate = boundary_.exact.triangles[i];
+    const double outside = outside_of(candidate);
+    if (outside >= least_outside) continue;
+    least_outside = outside;
+    nearest = candidate;
+    if (outside == 0.0) break;
+  }
+  return nearest;
+}
+
+std::uint32_t Accelerator::facet_at(std::uint32_t quadric, const core::Vec3& point) const {
+  const SurfaceTriangles& on = boundary_.exact.quadrics[quadric].on;
+  const core::Vec3 from = boundary_.exact.quadrics[quadric].surface.middle(point), along = point - from;
+  if (facets_[quadric]) {
+    RTCRayHit hit = make_ray(from, along, 0.0);
+    intersect(facets_[quadric]->scene, hit);
+    if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      return boundary_.exact.triangles[on.begin + hit.hit.primID];
+  }
+  return nearest_of(on, [&](std::uint32_t candidate) {
+    const TrianglePlane& plane = boundary_.triangle_planes[candidate];
+    const double cosine = plane.normal.dot(along), ahead = plane.offset - plane.normal.dot(from);
+    if (!(ahead * cosine > 0.0)) return kInfinity;
+    return distance_outside(boundary_.triangle(candidate), plane.normal, from + ahead / cosine * along);
+  });
+}
+
+core::Vec3 Accelerator::normal_at(std::uint32_t triangle, const core::Vec3& point) const {
+  const ExactBodies& exact = boundary_.exact;
+  const std::uint32_t quadric = exact.empty() ? kNoSurface : exact.quadric_of[triangle];
+  if (quadric == kNoSurface) return normal(triangle);
+  const core::Vec3 outwards = exact.quadrics[quadric].surface.normal(point);
+  return exact.has_region_inside(quadric) ? outwards : core::Vec3(-outwards);
+}
+
+core::Vec3 Accelerator::correction_at(std::uint32_t triangle, const core::Vec3& point) const {
+  const std::uint32_t quadric = boundary_.exact.quadric_of[triangle];
+  if (quadric == kNoSurface) return core::Vec3::Zero();
+  return boundary_.exact.quadrics[quadric].surface.correction(point);
+}
+
 FirstHit Accelerator::first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const {
   RTCRayHit hit = make_ray(origin_and_start, direction);
   intersect(embree_->scene, hit);
@@ -326,7 +433,7 @@ Exit Accelerator::exact_exit(const core::Vec3& origin, const core::Vec3& directi
 Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const {
   const double behind = kBehind * boundary_.size_mm;
   double entered = kInfinity;  // where the ray would re-enter from outside
-  for (std::uint32_t i = 0; i < size(); ++i) {
+  for (std::uint32_t i = 0; i < boundary_.meshed(); ++i) {
     if (normal(i).dot(direction) >= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (distance > behind && distance < entered &&
@@ -336,7 +443,7 @@ Exit Accelerator::exit_by_search(const core::Vec3& origin, const core::Vec3& dir
   // The nearest triangle hit or, without one, the triangle missed by the least distance.
   Exit exit{0.0, kNoTriangle, true};
   double least_miss = kInfinity;
-  for (std::uint32_t i = 0; i < size(); ++i) {
+  for (std::uint32_t i = 0; i < boundary_.meshed(); ++i) {
     if (normal(i).dot(direction) <= 0.0) continue;
     const double distance = distance_to_plane(i, origin, direction);
     if (!(distance >= -behind && distance <= entered + behind)) continue;
@@ -358,6 +465,10 @@ bool Accelerator::contains(const core::Vec3& point) const {
   if (!boundary_.planes.empty())
     return std::all_of(boundary_.planes.begin(), boundary_.planes.end(),
                        [&](const BoundingPlane& plane) { return plane.normal.dot(point) <= plane.offset; });
+  if (has_exact_bodies()) {
+    if (!boundary_.exact.admit(point)) return false;
+    if (!embree_) return boundary_.exact.held;
+  }
   if (!embree_) return false;
   // A skew direction avoids the edges of axis-aligned meshes.
   static const core::Vec3 kSkew = core::Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
@@ -365,7 +476,7 @@ bool Accelerator::contains(const core::Vec3& point) const {
   if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
   const auto behind = inside_by_embree(point, -kSkew);
   if (behind == Inside::yes || behind == Inside::no) return behind == Inside::yes;
-  if (ahead == Inside::no_hit && behind == Inside::no_hit) return false;
+  if (ahead == Inside::no_hit && behind == Inside::no_hit) return boundary_.exact.held;
   return inside_by_search(point, kSkew);
 }
 
@@ -383,7 +494,7 @@ Accelerator::Inside Accelerator::inside_by_embree(const core::Vec3& point,
 bool Accelerator::inside_by_search(const core::Vec3& point, const core::Vec3& direction) const {
   double nearest = kInfinity;
   bool inside = false;
-  for (std::uint32_t i = 0; i < size(); ++i) {
+  for (std::uint32_t i = 0; i < boundary_.meshed(); ++i) {
     const double along = normal(i).dot(direction);
     if (along == 0.0) continue;
     const double distance = distance_to_plane(i, point, direction);

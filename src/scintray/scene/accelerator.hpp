@@ -10,6 +10,7 @@
 
 #include "scintray/core/lanes.hpp"
 #include "scintray/core/plain_vec.hpp"
+#include "scintray/scene/exact_bodies.hpp"
 #include "scintray/scene_file/run.hpp"
 
 namespace scintray::scene {
@@ -42,10 +43,13 @@ struct Boundary {
   std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
   std::uint32_t opposite_planes = 0;           ///< of these, the first: two by two with opposite normals
   std::vector<std::uint32_t> plane_triangles;  ///< ranges of BoundingPlane
+  ExactBodies exact;                           ///< round bodies; empty: all triangles are faces as they are
   double size_mm = 0.0;                        ///< diagonal of the bounding box
-  bool closed = true;                          ///< false for the ambient region
+  bool closed = true;  ///< by the triangles that are not on exact bodies; false for the ambient region
 
   std::size_t size() const { return triangle_planes.size(); }
+  /// Number of triangles, the first ones, that are faces as they are.
+  std::size_t meshed() const { return exact.empty() ? size() : exact.meshed; }
   BoundaryTriangle triangle(std::size_t i) const {
     return {vertices[corners[3 * i]], vertices[corners[3 * i + 1]], vertices[corners[3 * i + 2]]};
   }
@@ -86,8 +90,9 @@ class Accelerator {
   /// @param labels    target of each triangle; on a plane with one label any of its triangles may be returned
   /// @param closed    false for the ambient region, from which rays may escape
   /// @param kind      throws InputError for `planes` where they do not apply
+  /// @param exact     round bodies that bound the region, for whose triangles they stand
   Accelerator(const std::vector<BoundaryTriangle>& triangles, const std::vector<std::uint32_t>& labels,
-              bool closed, scene_file::AcceleratorKind kind);
+              bool closed, scene_file::AcceleratorKind kind, ExactBodies exact = {});
   /// An accelerator from the records of another.
   explicit Accelerator(Boundary boundary);
   ~Accelerator();
@@ -97,6 +102,16 @@ class Accelerator {
   /// The point at which the ray from `origin` (inside the region or on its boundary) along the unit vector
   /// `direction` leaves the region.
   Exit find_exit(const core::Vec3& origin, const core::Vec3& direction) const;
+
+  /// As find_exit, of a region with exact bodies.
+  /// @param left  triangle on whose face the ray starts, reflected: of a quadric the root there is known and
+  ///              left out; kNoTriangle: not known
+  Exit find_exact_exit(const core::Vec3& origin, const core::Vec3& direction, std::uint32_t left) const;
+  bool has_exact_bodies() const { return !boundary_.exact.empty(); }
+  /// Unit normal, out of the region, of the face of a triangle at a point next to it.
+  core::Vec3 normal_at(std::uint32_t triangle, const core::Vec3& point) const;
+  /// Displacement (mm) of a point next to a triangle's face onto it; zero for flat faces.
+  core::Vec3 correction_at(std::uint32_t triangle, const core::Vec3& point) const;
 
   /// find_exit in steps, for the propagation through total reflections, in which the next ray is available in
   /// single precision before it is in double: the first hit, the approach to it, and, where that does not
@@ -144,6 +159,14 @@ class Accelerator {
 
   bool make_planes(const std::vector<std::uint32_t>& labels);
   Exit exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const;
+  Exit exit_by_embree(const core::Vec3& origin, const core::Vec3& direction) const;
+  /// Triangle of the surface that was hit whose region a point of it leads to.
+  std::uint32_t triangle_at(const BodyHit& hit, const core::Vec3& point) const;
+  /// Triangle of a round face that lies between a point of it and its centre or axis.
+  std::uint32_t facet_at(std::uint32_t quadric, const core::Vec3& point) const;
+  template <typename Outside>
+  std::uint32_t nearest_of(const SurfaceTriangles& on, Outside outside_of) const;
+  void index_facets();
   Exit exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const;
   Inside inside_by_embree(const core::Vec3& point, const core::Vec3& direction) const;
   bool inside_by_search(const core::Vec3& point, const core::Vec3& direction) const;
@@ -157,6 +180,7 @@ class Accelerator {
   Boundary boundary_;
   double start_mm_ = 0.0;  ///< distance from the origin at which rays start
   std::unique_ptr<EmbreeScene> embree_;
+  std::vector<std::unique_ptr<EmbreeScene>> facets_;  ///< of round faces that lead to several regions
 };
 
 }  // namespace scintray::scene

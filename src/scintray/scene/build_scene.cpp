@@ -34,6 +34,7 @@ class AssemblyMaker {
     assembly_.contacts = spec_.contacts;
     assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
     assembly_.accelerator = spec_.run.accelerator;
+    assembly_.curved = spec_.run.curved;
     check_contact_names();
     assembly_.make_surface = [this, &warnings](const std::string& name, core::MediumId inside,
                                                core::MediumId outside) {
@@ -117,6 +118,10 @@ class AssemblyMaker {
     part.surface = placed.surface.name;
     if (!placed.surface.empty()) find_surface(placed.surface);
     part.geometry = {placed.name, placed.mesh.vertices, placed.mesh.triangles, {}, placed.where};
+    if (placed.mesh.support.size() == placed.mesh.triangles.size()) {
+      part.geometry.supports = placed.mesh.supports;
+      part.geometry.support = placed.mesh.support;
+    }
     std::vector<core::FaceId> faces;  // as placed.faces
     for (const contact::PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);

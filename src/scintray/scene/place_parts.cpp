@@ -21,10 +21,6 @@ Eigen::AlignedBox3d bounds_of(const mesh::TriMesh& mesh) {
   return bounds;
 }
 
-void move(mesh::TriMesh& mesh, const core::Vec3& by) {
-  for (core::Vec3& vertex : mesh.vertices) vertex += by;
-}
-
 /// Displacement (mm) of a body to a side of another, centred on it laterally.
 core::Vec3 shift_against(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& touched,
                          const scene_file::TouchSpec& touch) {
@@ -226,7 +222,7 @@ class PartPlacer {
   void place_part(const scene_file::PartSpec& part) {
     contact::PlacedMesh result = loaded(part);
     const Against against = lie_against(part.name.name, part.placement, bounds_of(result.mesh));
-    move(result.mesh, against.shift);
+    mesh::translate(result.mesh, against.shift);
     examine(result, part, problems_);
     FaceTagger(part, result, problems_).tag();
     keep(std::move(result));
@@ -245,13 +241,13 @@ class PartPlacer {
       members.push_back(loaded(parts[i]));
       contact::PlacedMesh& member = members.back();
       FaceTagger(parts[i], member, found).tag();
-      move(member.mesh, parts[i].placement.translate);
+      mesh::translate(member.mesh, parts[i].placement.translate);
       rotate(member, group.placement);
       bounds.extend(bounds_of(member.mesh));
     }
     const Against against = lie_against(group.name.name, group.placement, bounds);
     for (std::size_t i = 0; i < members.size() && found.empty(); ++i) {
-      move(members[i].mesh, against.shift);
+      mesh::translate(members[i].mesh, against.shift);
       examine(members[i], parts[i], found);
     }
     for (const core::Problem& problem : found.list()) problems_.add(problem);

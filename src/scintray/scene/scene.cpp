@@ -70,6 +70,15 @@ bool Scene::region_contains(core::RegionId region, const Eigen::AlignedBox3d& bo
   const core::Vec3 slack = core::Vec3::Constant(kRounding * box.diagonal().norm());
   const Eigen::AlignedBox3d inner(box.min() + slack, box.max() - slack);
   const Region& candidate = regions[region];
+  if (candidate.curved) {  // of a convex region all of the box is inside where its corners are
+    const ExactBodies& exact = accelerator(candidate).boundary().exact;
+    if (!exact.held || exact.bodies.size() > 1 || exact.meshed > 0) return false;
+    for (unsigned corner = 0; corner < 8; ++corner)
+      if (!region_contains(region,
+                           core::Vec3(inner.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)))))
+        return false;
+    return true;
+  }
   for (std::uint32_t i = 0; i < accelerator(candidate).size(); ++i) {
     Eigen::AlignedBox3d bounds;
     for (const core::Vec3& vertex : triangle(candidate, i)) bounds.extend(vertex);

@@ -135,6 +135,7 @@ struct Region {
   /// Photons may be propagated in lanes, and gain by it: not rotated, bounded by planes, and most of the
   /// boundary smooth, so that they are often totally reflected.
   bool in_lanes = false;
+  bool curved = false;                                           ///< its accelerator has exact bodies
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
 
@@ -177,7 +178,9 @@ struct PartInfo {
   core::RegionId region;
   core::SensorId sensor;  ///< none: not a sensor
   double volume_mm3 = 0.0;
-  Eigen::AlignedBox3d bounds;
+  Eigen::AlignedBox3d bounds;  ///< around the exact body
+  bool curved = false;         ///< its round faces are exact
+  std::string facets_because;  ///< reason why known round faces stay facets; empty: none do
 };
 
 /// A tagged face of a part.
@@ -191,6 +194,9 @@ struct FaceInfo {
   core::Vec3 area_vector_mm2 =
       core::Vec3::Zero();           ///< sum of outward normal times area: as long as the area when flat
   std::vector<core::Vec3> corners;  ///< of its triangles, each once
+  std::string curve;                ///< kind of the surface that it approximates; empty: none is known
+  bool exact = false;               ///< that surface stands for its triangles
+  mesh::FacetDeviation deviation;   ///< largest of its triangles from that surface
 };
 
 /// A scene: its records for transport, and the objects to which these refer by index.
@@ -216,6 +222,12 @@ struct Scene : SceneRecords {
   /// Normal of a triangle of a region's boundary (world), out of the region.
   core::Vec3 normal(const Region& region, std::uint32_t triangle) const {
     return region.direction_to_world(accelerator(region).normal(triangle));
+  }
+  /// As normal(), of the exact face at a point next to the triangle (world, mm).
+  core::Vec3 normal_at(const Region& region, std::uint32_t triangle, const core::PlainVec3& point) const {
+    if (!region.curved) [[likely]]
+      return normal(region, triangle);
+    return region.direction_to_world(accelerator(region).normal_at(triangle, region.point_to_local(point)));
   }
   /// A triangle of a region's boundary (world, mm).
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;

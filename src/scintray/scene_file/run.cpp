@@ -30,6 +30,7 @@ RunSpec read_run(const config::TomlTable& scene) {
                 "give the distance below which faces touch, as \"0.1 um\"");
   run.accelerator = table->choice("accelerator", kAcceleratorKinds, AcceleratorKind::automatic);
   run.efficiency_at_birth = table->boolean("efficiency_at_birth", true);
+  run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
   run.photon_list = table->boolean("photon_list", false);
   run.photon_history = table->boolean("photon_history", false);
   run.output = table->string("output", "");

@@ -21,6 +21,15 @@ inline constexpr core::Word<AcceleratorKind> kAcceleratorKinds[] = {{"auto", Acc
                                                                     {"embree", AcceleratorKind::embree},
                                                                     {"planes", AcceleratorKind::planes}};
 
+/// What stands for a round face whose surface is known.
+enum class CurvedFaces {
+  exact,   ///< the surface itself
+  facets,  ///< the triangles that approximate it
+};
+
+inline constexpr core::Word<CurvedFaces> kCurvedFaces[] = {{"exact", CurvedFaces::exact},
+                                                           {"facets", CurvedFaces::facets}};
+
 struct RunSpec {
   std::uint64_t seed = 1;
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
@@ -30,6 +39,7 @@ struct RunSpec {
   std::optional<int> lane_width;
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
+  CurvedFaces curved = CurvedFaces::exact;
   bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
   bool photon_list = false;         ///< write every detected photon to the results
   bool photon_history = false;      ///< write the history of each, for reweighting

@@ -121,6 +121,26 @@ CylinderSpec read_cylinder(const config::TomlTable& part) {
   return cylinder;
 }
 
+ConeSpec read_cone(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("cone");
+  ConeSpec cone;
+  cone.where = table.where();
+  const auto radius = [&](const char* key) {
+    const double value = table.quantity(key, core::Dimension::length);
+    table.expect(key, value >= 0.0, std::string("a negative ") + key + " of a cone",
+                 "give a length, or \"0 mm\" for a tip");
+    return value;
+  };
+  cone.bottom_radius_mm = radius("bottom_radius");
+  cone.top_radius_mm = radius("top_radius");
+  table.expect("top_radius",
+               cone.bottom_radius_mm > 0.0 || cone.top_radius_mm > 0.0 || !table.good("bottom_radius"),
+               "both radii of a cone are 0", "give one of them a length above 0");
+  cone.height_mm = positive_length(table, "height", "cone");
+  cone.segments = number_of_pieces(table, "segments", cone.segments, 3, "cone");
+  return cone;
+}
+
 /// Keys for the width of a prism.
 enum class PrismWidth { radius, flat_to_flat };
 constexpr core::Word<PrismWidth> kPrismWidths[] = {{"radius", PrismWidth::radius},
@@ -261,7 +281,7 @@ constexpr core::Word<ShapeReader> kShapes[] = {
     {"mesh", shape_of<read_mesh>},         {"box", shape_of<read_box>},
     {"cylinder", shape_of<read_cylinder>}, {"prism", shape_of<read_prism>},
     {"tapered", shape_of<read_tapered>},   {"winston", shape_of<read_winston>},
-    {"sphere", shape_of<read_sphere>}};
+    {"sphere", shape_of<read_sphere>},     {"cone", shape_of<read_cone>}};
 
 }  // namespace
 

@@ -45,6 +45,16 @@ struct CylinderSpec {
   bool operator==(const CylinderSpec&) const = default;
 };
 
+/// Frustum of a cone about the z axis, from z = 0 up; a radius of 0 makes a tip.
+struct ConeSpec {
+  double bottom_radius_mm = 0.0;
+  double top_radius_mm = 0.0;
+  double height_mm = 0.0;
+  int segments = 64;  ///< flat sides
+  core::FileLocation where;
+  bool operator==(const ConeSpec&) const = default;
+};
+
 /// Regular prism about the z axis, from z = 0 up, first corner on +x.
 struct PrismSpec {
   int sides = 6;
@@ -78,8 +88,8 @@ struct SphereSpec {
   bool operator==(const SphereSpec&) const = default;
 };
 
-using ShapeSpec =
-    std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec, SphereSpec>;
+using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec,
+                               SphereSpec, ConeSpec>;
 
 /// Place of a shape in the file.
 core::FileLocation shape_location(const ShapeSpec& shape);

@@ -23,6 +23,9 @@ struct MeshMaker {
   ShapeMesh operator()(const CylinderSpec& c) const {
     return {mesh::make_cylinder(c.radius_mm, c.height_mm, c.segments), {}};
   }
+  ShapeMesh operator()(const ConeSpec& c) const {
+    return {mesh::make_cone(c.bottom_radius_mm, c.top_radius_mm, c.height_mm, c.segments), {}};
+  }
   ShapeMesh operator()(const PrismSpec& p) const {
     return {mesh::make_prism(p.sides, p.circumradius_mm, p.height_mm, p.chamfer_mm), {}};
   }

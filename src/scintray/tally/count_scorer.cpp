@@ -79,7 +79,7 @@ void CountScorer::score_at_faces(const source::Photon& photon, const transport::
   if (std::none_of(at_faces.begin(), at_faces.end(), counts)) return;
   look_at(photon, step.event, part);
   view_.cos_before = step.cos_before;
-  const core::Vec3 outward = scene_.normal(scene_.regions[step.region], step.triangle);
+  const core::Vec3 outward = scene_.normal_at(scene_.regions[step.region], step.triangle, photon.position);
   for (const TallyPlan::CountAtFace& at : at_faces) {
     if (!counts(at)) continue;
     view_.face = at.face;

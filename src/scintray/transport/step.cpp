@@ -83,8 +83,15 @@ template <typename State>
   propagation.resolved += first.resolved;
 }
 
+[[gnu::noinline]] Propagation propagate_between_curves(const scene::Scene& scene, source::Photon& photon,
+                                                       const PropagationLimits& limits) {
+  return propagate_as<CurvedPropagation>(scene, photon, limits);
+}
+
 /// Propagation of the photon through its region, up to the next event. Depends on its arguments alone.
 Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
+  if (scene.regions[photon.region].curved) [[unlikely]]
+    return propagate_between_curves(scene, photon, limits);
   Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
   if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
     go_on_with_embree(scene, photon, limits, propagation);
@@ -262,7 +269,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   const scene::SceneOptics& optics = scene.optics;
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
-  const core::Vec3 outward = scene.normal(region, triangle);
+  const core::Vec3 outward = scene.normal_at(region, triangle, photon.position);
   const core::RegionId next = link.from_back ? interface.front : interface.back;
   const core::MediumId next_medium = scene.regions[next].medium;
   const bool next_opaque = optics.is_opaque(next_medium);
@@ -304,6 +311,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 
   const core::SensorId sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
   photon.region = next;
+  photon.on_triangle = scene::kNoTriangle;
   photon.optics = optics.at(next_medium, photon.wavelength_nm);
   if (sensor.has_value()) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
@@ -334,6 +342,7 @@ Step end_of_step(const scene::Scene& scene, const Propagation& propagation, sour
   Step result;
   switch (propagation.end) {
     case PropagationEnd::bulk:
+      photon.on_triangle = scene::kNoTriangle;
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
       result = interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records);

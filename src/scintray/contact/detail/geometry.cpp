@@ -68,7 +68,8 @@ Eigen::Matrix3d natural_axes(const std::vector<PlacedPart>& parts) {
   return upright ? Eigen::Matrix3d::Identity() : axes;
 }
 
-Body::Body(const PlacedPart& part, const Eigen::Matrix3d& axes) : face(part.face), axes_(axes) {
+Body::Body(const PlacedPart& part, const Eigen::Matrix3d& axes)
+    : face(part.face), support(part.support), axes_(axes) {
   std::map<std::array<double, 3>, std::uint32_t> known;
   std::vector<std::uint32_t> index;
   index.reserve(part.vertices.size());

@@ -32,6 +32,10 @@ class Body {
   Box box_of(std::uint32_t triangle) const;
   Box box_of(const core::Vec3& a, const core::Vec3& b) const;
   const core::Vec3& corner(std::uint32_t triangle, int k) const { return vertices[triangles[triangle][k]]; }
+  /// Number of a triangle's support surface; mesh::kNoSupport: none.
+  std::uint32_t support_of(std::uint32_t triangle) const {
+    return support.empty() ? mesh::kNoSupport : support[triangle];
+  }
   /// Normal times area, mm2.
   core::Vec3 area_vector(std::uint32_t triangle) const;
 
@@ -44,9 +48,10 @@ class Body {
   std::vector<core::Vec3> vertices;  ///< equal positions are one vertex
   std::vector<Triangle> triangles;
   std::vector<core::FaceId> face;
-  std::vector<core::Vec3> normal;  ///< unit; zero for a triangle without area
-  double area = 0.0;               ///< mm2
-  double volume = 0.0;             ///< mm3
+  std::vector<std::uint32_t> support;  ///< as PlacedPart::support
+  std::vector<core::Vec3> normal;      ///< unit; zero for a triangle without area
+  double area = 0.0;                   ///< mm2
+  double volume = 0.0;                 ///< mm3
   Box box;
   BoxTree tree;                       ///< of the triangles
   std::vector<std::uint32_t> shells;  ///< a vertex of each connected piece of the surface

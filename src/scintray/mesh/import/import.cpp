@@ -109,6 +109,9 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
                 "a part needs a closed surface of triangles or polygons");
   }
   for (core::Vec3& vertex : mesh.vertices) vertex *= scale;
+  for (SupportSurface& surface : mesh.supports)
+    surface = surface.moved(Eigen::Affine3d(Eigen::Scaling(scale))).value();
+  if (mesh.supports.empty()) mesh.support.clear();
   check_vertices(path, mesh);
 
   const double length = rounding_length(mesh);

@@ -97,21 +97,68 @@ TriMesh make_cylinder(double radius, double height, int segments, CylinderRadius
     add_triangle(mesh, i, next, n + next, 0);
     add_triangle(mesh, i, n + next, n + i, 0);
   }
+  const std::size_t walls = mesh.triangles.size();
   // Every triangulation of a polygon by its corners alone has triangles of three neighbouring corners, which
   // lose their area as the corners become many: then a vertex in the middle, as narrow as the sides are.
   const double flattest = radius * (1.0 - std::cos(step));
   if (flattest >= kFlatCap * std::max(radius, height)) {
     for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, 0, i + 1, i, 1);
     for (std::uint32_t i = 1; i + 1 < n; ++i) add_triangle(mesh, n, n + i, n + i + 1, 2);
-    return mesh;
+  } else {
+    mesh.vertices.emplace_back(0.0, 0.0, 0.0);
+    mesh.vertices.emplace_back(0.0, 0.0, height);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t next = (i + 1) % n;
+      add_triangle(mesh, 2 * n, next, i, 1);
+      add_triangle(mesh, 2 * n + 1, n + i, n + next, 2);
+    }
   }
-  mesh.vertices.emplace_back(0.0, 0.0, 0.0);
-  mesh.vertices.emplace_back(0.0, 0.0, height);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t next = (i + 1) % n;
-    add_triangle(mesh, 2 * n, next, i, 1);
-    add_triangle(mesh, 2 * n + 1, n + i, n + next, 2);
+  if (kind == CylinderRadius::inscribed_polygon)
+    mesh.set_support(SupportSurface::cylinder(core::Vec3::Zero(), core::Vec3::UnitZ(), radius), 0, walls);
+  return mesh;
+}
+
+TriMesh make_cone(double bottom_radius, double top_radius, double height, int segments) {
+  if (!positive(height) || !(bottom_radius >= 0.0) || !(top_radius >= 0.0) ||
+      !positive(bottom_radius + top_radius))
+    reject_shape("a cone needs a positive height, and two radii of which one at least is above 0", "");
+  if (segments < 3)
+    reject_shape("a cone of " + std::to_string(segments) + " segments", "give at least 3 segments");
+  if (bottom_radius == top_radius) return make_cylinder(bottom_radius, height, segments);
+  TriMesh mesh;
+  mesh.groups = {"side"};
+  const auto add_circle = [&](double radius, double z) {
+    std::vector<std::uint32_t> circle;
+    if (radius == 0.0) {
+      circle.assign(static_cast<std::size_t>(segments), add_vertex(mesh, core::Vec3(0.0, 0.0, z)));
+      return circle;
+    }
+    const double step = core::kTwoPi / segments;
+    for (int i = 0; i < segments; ++i)
+      circle.push_back(add_vertex(mesh, {radius * std::cos(step * i), radius * std::sin(step * i), z}));
+    return circle;
+  };
+  const std::vector<std::uint32_t> low = add_circle(bottom_radius, 0.0),
+                                   high = add_circle(top_radius, height);
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const std::size_t next = (i + 1) % low.size();
+    if (bottom_radius > 0.0) add_triangle(mesh, low[i], low[next], high[next], 0);
+    if (top_radius > 0.0) add_triangle(mesh, low[i], high[next], high[i], 0);
   }
+  const core::Vec3 z = core::Vec3::UnitZ();
+  mesh.set_support(bottom_radius > 0.0
+                       ? SupportSurface::cone(core::Vec3::Zero(), z, bottom_radius, top_radius, height)
+                       : SupportSurface::cone(height * z, -z, top_radius, bottom_radius, height),
+                   0, mesh.triangles.size());
+  const auto add_end = [&](const std::vector<std::uint32_t>& circle, bool up, const std::string& name) {
+    const auto group = static_cast<std::uint32_t>(mesh.groups.size());
+    mesh.groups.push_back(name);
+    for (std::size_t i = 1; i + 1 < circle.size(); ++i)
+      add_triangle(mesh, circle[0], circle[up ? i : i + 1], circle[up ? i + 1 : i], group);
+  };
+  if (bottom_radius > 0.0) add_end(low, false, "-z");
+  if (top_radius > 0.0) add_end(high, true, "+z");
+  mesh.support.resize(mesh.triangles.size(), kNoSupport);
   return mesh;
 }
 
@@ -120,6 +167,7 @@ TriMesh make_sphere(double radius, int subdivisions) {
   if (subdivisions < 1) reject_shape("a sphere with fewer than 1 subdivision", "1 gives an icosahedron");
   TriMesh mesh = subdivide_faces(icosahedron(), subdivisions);
   for (core::Vec3& vertex : mesh.vertices) vertex *= radius / vertex.norm();
+  mesh.set_support(SupportSurface::sphere(core::Vec3::Zero(), radius), 0, mesh.triangles.size());
   return mesh;
 }
 
@@ -192,6 +240,16 @@ TriMesh transformed(const TriMesh& mesh, const Eigen::Affine3d& transform) {
   TriMesh moved = mesh;
   for (core::Vec3& vertex : moved.vertices) vertex = transform * vertex;
   if (determinant < 0.0) reverse_orientation(moved);
+  for (SupportSurface& surface : moved.supports) {
+    const std::optional<SupportSurface> in_place = surface.moved(transform);
+    if (in_place) {
+      surface = *in_place;
+      continue;
+    }
+    moved.supports.clear();
+    moved.support.clear();
+    break;
+  }
   return moved;
 }
 
@@ -204,6 +262,12 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
     group_of_b.push_back(both.group_index(b.groups[g], b.tags_of(g)));
   for (const auto& [i, j, k] : b.triangles) both.triangles.push_back({i + offset, j + offset, k + offset});
   for (const std::uint32_t group : b.group) both.group.push_back(group_of_b[group]);
+  if (a.supports.empty() && b.supports.empty()) return both;
+  both.support.resize(a.triangles.size(), kNoSupport);
+  const auto first = static_cast<std::uint32_t>(a.supports.size());
+  for (std::size_t t = 0; t < b.triangles.size(); ++t)
+    both.support.push_back(b.support_of(t) == kNoSupport ? kNoSupport : first + b.support_of(t));
+  both.supports.insert(both.supports.end(), b.supports.begin(), b.supports.end());
   return both;
 }
 

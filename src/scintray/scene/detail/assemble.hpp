@@ -39,6 +39,7 @@ struct Assembly {
   std::vector<scene_file::ContactSpec> contacts;
   double contact_tolerance_mm = 1e-4;
   scene_file::AcceleratorKind accelerator = scene_file::AcceleratorKind::automatic;
+  scene_file::CurvedFaces curved = scene_file::CurvedFaces::exact;
   double low_nm = 0.0, high_nm = 0.0;
   /// The surface of a name between two media; for equal arguments the same surface may be returned. The empty
   /// name is the smooth surface.
@@ -55,11 +56,5 @@ Scene assemble(const Assembly& assembly);
 inline core::RegionId region_of(core::PartId part) {
   return part.has_value() ? core::RegionId(part.index() + 1) : kAmbientRegion;
 }
-
-/// Sets scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i]. Regions
-/// whose boundaries are equal in their parts' own frames, and lead to the same pattern of interfaces, share
-/// one accelerator.
-void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
-                   const std::vector<core::InterfaceId>& interface_of, Scene& scene);
 
 }  // namespace scintray::scene

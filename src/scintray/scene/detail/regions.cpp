@@ -1,4 +1,4 @@
-#include "scintray/scene/detail/assemble.hpp"
+#include "scintray/scene/detail/round_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,12 +23,16 @@ struct Entry {
   GridTriangle key;
   BoundaryTriangle local;
   BoundaryLink link;
+  core::PartId body, other;  ///< the part whose face it is, and that on the other side of it
+  std::uint32_t support;     ///< in the part's list
+  bool exact;                ///< on an exact body
 };
 
 /// The properties in which equal boundaries agree.
 struct Shape {
   std::vector<GridTriangle> triangles;
   std::vector<std::uint32_t> labels;
+  std::vector<std::uint32_t> exact;  ///< triangles on exact bodies; bodies may differ where triangles do not
   auto operator<=>(const Shape&) const = default;
 };
 
@@ -39,12 +43,25 @@ GridPoint on_grid(const core::Vec3& v) {
   return point;
 }
 
-Entry make_entry(BoundaryTriangle local, BoundaryLink link) {
+/// An entry of an interface triangle, with all but its place.
+Entry entry_of(const contact::InterfaceTriangle& t, core::InterfaceId interface, bool is_back) {
+  const bool of_back = t.back_face.has_value() && (is_back || !t.front_face.has_value());
+  Entry entry;
+  entry.link = {interface, core::MediumId::none(), is_back};
+  entry.body = of_back ? t.back : t.front;
+  entry.other = of_back ? t.front : t.back;
+  entry.support = of_back ? t.back_support : t.front_support;
+  entry.exact = false;
+  return entry;
+}
+
+void place(Entry& entry, BoundaryTriangle local) {
   GridTriangle key{on_grid(local[0]), on_grid(local[1]), on_grid(local[2])};
   const auto first = std::min_element(key.begin(), key.end()) - key.begin();
   std::rotate(key.begin(), key.begin() + first, key.end());
   std::rotate(local.begin(), local.begin() + first, local.end());
-  return {key, local, link};
+  entry.key = key;
+  entry.local = local;
 }
 
 /// Numbers of the interfaces of the triangles, in order of first appearance.
@@ -69,6 +86,22 @@ core::IdVector<core::RegionId, RegionTriangles> triangles_by_region(
     by_region[region_of(triangles[i].front)].push_back({i, false});
   }
   return by_region;
+}
+
+std::vector<RegionTriangle> region_triangles(const std::vector<Entry>& entries,
+                                             const std::vector<std::uint32_t>& labels) {
+  std::vector<RegionTriangle> result;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    result.push_back({entries[i].local, labels[i], entries[i].body, entries[i].other, entries[i].support});
+  return result;
+}
+
+/// Finds the triangles of the region of `of` that are on exact bodies. @return whether it has any
+bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& entries) {
+  if (bodies.empty() || !needs_exact_bodies(bodies, of, region_triangles(entries, pattern_of(entries))))
+    return false;
+  for (Entry& entry : entries) entry.exact = on_exact_body(bodies, of, entry.body);
+  return true;
 }
 
 /// Share of the area of a region's boundary that is smooth.
@@ -100,7 +133,8 @@ void link_smooth_media(Scene& scene) {
 }  // namespace
 
 void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
-                   const std::vector<core::InterfaceId>& interface_of, Scene& scene) {
+                   const std::vector<core::InterfaceId>& interface_of, const PartBodies& bodies,
+                   Scene& scene) {
   const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
   std::map<Shape, core::AcceleratorId> known;
   const auto build = [&](core::PartId of) {
@@ -125,10 +159,13 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
       for (std::size_t i = 0; i < 3; ++i)
         local[i] = rotation.transpose() * (triangles[index].vertex[i] - region.centre);
       if (!is_back) std::swap(local[1], local[2]);
-      entries.push_back(make_entry(local, {interface_of[index], core::MediumId::none(), is_back}));
+      entries.push_back(entry_of(triangles[index], interface_of[index], is_back));
+      place(entries.back(), local);
     }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.key < b.key; });
+    region.curved = find_exact(bodies, of, entries);
+    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.exact != b.exact ? b.exact : a.key < b.key;
+    });
 
     Shape shape;
     std::vector<BoundaryTriangle> boundary;
@@ -136,6 +173,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
     shape.labels = pattern_of(entries);
     for (const Entry& entry : entries) {
       shape.triangles.push_back(entry.key);
+      shape.exact.push_back(entry.exact ? 1 : 0);
       boundary.push_back(entry.local);
       scene.links.push_back(entry.link);
     }
@@ -146,9 +184,14 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
       region.accelerator = shared.first->second;
       is_new = shared.second;
     }
-    if (is_new)
-      scene.accelerators.push_back(
-          std::make_shared<Accelerator>(boundary, shape.labels, part != nullptr, assembly.accelerator));
+    if (is_new) {
+      ExactBodies exact;
+      if (region.curved)
+        exact =
+            exact_bodies_of(bodies, of, {region.centre, rotation}, region_triangles(entries, shape.labels));
+      scene.accelerators.push_back(std::make_shared<Accelerator>(boundary, shape.labels, part != nullptr,
+                                                                 assembly.accelerator, std::move(exact)));
+    }
     scene.regions.push_back(region);
   };
   build(core::PartId::none());

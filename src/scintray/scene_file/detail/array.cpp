@@ -161,8 +161,10 @@ void read_height(const config::TomlTable& table, LayerSpec& layer) {
     cylinder->height_mm = *height;
   else if (auto* prism = std::get_if<PrismSpec>(&shape))
     prism->height_mm = *height;
+  else if (auto* cone = std::get_if<ConeSpec>(&shape))
+    cone->height_mm = *height;
   else
-    table.expect("height", false, "only boxes, cylinders and prisms have a height to change",
+    table.expect("height", false, "only boxes, cylinders, cones and prisms have a height to change",
                  "give this layer an element of its own");
   table.expect("height", *height > 0.0, "the height of a layer is not positive", "give a length above 0");
   if (table.good("height")) layer.element_bounds = element_bounds(table, layer.element);

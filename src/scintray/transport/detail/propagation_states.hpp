@@ -71,6 +71,55 @@ class StoredPropagation {
   core::Vec3 normal_;
 };
 
+/// A photon in a region with exact round faces. At each face its position is moved onto the face, and the
+/// face that it is reflected at is known in the next ray query, so that rounding does not add up however flat
+/// and long the reflections go round a wall.
+class CurvedPropagation {
+ public:
+  CurvedPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
+      : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
+
+  Wall next_wall() {
+    const scene::Exit exit =
+        accelerator_.find_exact_exit(region_.point_to_local(photon_.position),
+                                     region_.direction_to_local(photon_.ray.direction), photon_.on_triangle);
+    next_ = exit.triangle;
+    return {exit.triangle, exit.distance_mm, exit.resolved};
+  }
+  double depth_left() const { return photon_.optical_depth; }
+  /// To the last wall.
+  void move(double distance_mm, double depth) {
+    photon_.optical_depth -= depth;
+    advance(photon_, distance_mm);
+    photon_.on_triangle = next_;
+    photon_.position += region_.direction_to_world(
+        accelerator_.correction_at(next_, region_.point_to_local(photon_.position)));
+  }
+  /// Cosine of incidence at the wall.
+  double incidence(const Wall& wall) {
+    normal_ = region_.direction_to_world(
+        accelerator_.normal_at(wall.triangle, region_.point_to_local(photon_.position)));
+    return photon_.ray.direction.dot(normal_);
+  }
+  void reflect_at(const Wall&, double) {
+    ++photon_.interactions;
+    optics::reflect(photon_.ray, normal_);
+  }
+  bool allowed_by(const PropagationLimits& limits) const {
+    return limits.allow(photon_.interactions, photon_.time_ns);
+  }
+  static bool goes_on() { return true; }
+  void turn() const {}
+  void store(source::Photon&) const {}
+
+ private:
+  const scene::Region& region_;
+  const scene::Accelerator& accelerator_;
+  source::Photon& photon_;
+  core::Vec3 normal_;
+  std::uint32_t next_ = scene::kNoTriangle;  ///< of the last wall
+};
+
 /// A photon between Embree's walls, in registers. The latency is that of Embree and then of the numbers of
 /// the next ray, so the next ray starts from Embree's own hit, in single precision, while the exact one is
 /// computed beside it; every segment starts again from exact numbers. No address of a member that changes may

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <utility>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
@@ -47,15 +48,25 @@ void drop_unused_groups(TriMesh& mesh) {
   mesh.group_tags = std::move(named.group_tags);
 }
 
+void drop_unused_supports(TriMesh& mesh) {
+  const std::vector<SupportSurface> all = std::exchange(mesh.supports, {});
+  for (std::uint32_t& support : mesh.support)
+    if (support != kNoSupport) support = mesh.support_index(all[support]);
+  if (mesh.supports.empty()) mesh.support.clear();
+}
+
 void keep_body(TriMesh& mesh, const std::vector<std::uint32_t>& body_of, std::uint32_t body) {
   std::size_t kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (body_of[t] != body) continue;
     mesh.triangles[kept] = mesh.triangles[t];
+    if (!mesh.support.empty()) mesh.support[kept] = mesh.support[t];
     mesh.group[kept++] = mesh.group[t];
   }
   mesh.triangles.resize(kept);
   mesh.group.resize(kept);
+  if (!mesh.support.empty()) mesh.support.resize(kept);
+  drop_unused_supports(mesh);
   drop_unused_vertices(mesh);
   drop_unused_groups(mesh);
 }

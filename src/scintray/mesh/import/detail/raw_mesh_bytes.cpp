@@ -24,6 +24,11 @@ class ByteWriter {
   void put(const std::array<std::uint32_t, 3>& triangle) {
     for (const std::uint32_t vertex : triangle) put(vertex);
   }
+  void put(const SupportSurface& surface) {
+    put(surface.origin.vec());
+    put(surface.axis.vec());
+    for (const double number : {surface.axial, surface.slope, surface.radius2}) put(number);
+  }
   void put(const FaceTags& tags) {
     put(tags.size());
     for (const auto& [key, value] : tags) {
@@ -53,6 +58,14 @@ class ByteReader {
   }
   void get(std::array<std::uint32_t, 3>& triangle) {
     for (std::uint32_t& vertex : triangle) get(vertex);
+  }
+  void get(SupportSurface& surface) {
+    core::Vec3 origin, axis;
+    get(origin);
+    get(axis);
+    surface.origin = origin;
+    surface.axis = axis;
+    for (double* number : {&surface.axial, &surface.slope, &surface.radius2}) get(*number);
   }
   void get(FaceTags& tags) {
     for (std::size_t left = size(); left > 0; --left) {
@@ -95,6 +108,8 @@ void for_each_member(Raw& raw, Action action) {
   action(raw.mesh.group);
   action(raw.mesh.groups);
   action(raw.mesh.group_tags);
+  action(raw.mesh.supports);
+  action(raw.mesh.support);
   action(raw.unit.name);
   action(raw.unit.mm);
   action(raw.unit.written);

@@ -73,6 +73,34 @@ bool is_no_name(const std::string& name) { return name.empty() || name == "NONE"
 
 core::Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
+/// The sphere, cylinder or cone of a CAD face; nothing for any other surface.
+std::optional<SupportSurface> support_of(const Handle(Geom_Surface) & surface, const gp_Trsf& transform) {
+  if (surface.IsNull()) return std::nullopt;
+  const GeomAdaptor_Surface adaptor(surface);
+  switch (adaptor.GetType()) {
+    case GeomAbs_Sphere: {
+      const gp_Sphere sphere = adaptor.Sphere().Transformed(transform);
+      return SupportSurface::sphere(to_vec(sphere.Location()), sphere.Radius());
+    }
+    case GeomAbs_Cylinder: {
+      const gp_Cylinder cylinder = adaptor.Cylinder().Transformed(transform);
+      return SupportSurface::cylinder(to_vec(cylinder.Location()),
+                                      to_vec(gp_Pnt(cylinder.Axis().Direction().XYZ())), cylinder.Radius());
+    }
+    case GeomAbs_Cone: {
+      const gp_Cone cone = adaptor.Cone().Transformed(transform);
+      const double slope = std::tan(cone.SemiAngle());
+      // The radius there is positive: one unit beyond the tip where that is the cone's own place.
+      const double step = cone.RefRadius() > 0.0 ? 0.0 : std::copysign(1.0, slope);
+      const double radius = cone.RefRadius() + step * slope;
+      const core::Vec3 axis = to_vec(gp_Pnt(cone.Axis().Direction().XYZ()));
+      return SupportSurface::cone(to_vec(cone.Location()) + step * axis, axis, radius, radius + slope, 1.0);
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
 class ShapeReader {
  public:
   ShapeReader(const Handle(TDocStd_Document) & document, const std::filesystem::path& path,
@@ -198,6 +226,11 @@ class ShapeReader {
     raw_.mesh.group_tags.push_back(std::move(tags));
 
     measure(BRep_Tool::Surface(face, own_place), *triangles);
+    const std::optional<SupportSurface> support =
+        support_of(BRep_Tool::Surface(face, own_place), (place * own_place).Transformation());
+    const std::uint32_t number_of_support = support ? raw_.mesh.support_index(*support) : kNoSupport;
+    raw_.mesh.support.resize(raw_.mesh.triangles.size() + static_cast<std::size_t>(triangles->NbTriangles()),
+                             number_of_support);
     append(*triangles, (place * own_place).Transformation(), face.Orientation() == TopAbs_REVERSED);
   }
 

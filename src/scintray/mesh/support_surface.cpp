@@ -1,0 +1,177 @@
+#include "scintray/mesh/support_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scintray::mesh {
+
+namespace {
+
+constexpr std::size_t kPoints = 12;
+
+/// Nodes and weights of Gauss-Legendre quadrature on [0, 1], by Newton's method on the Legendre polynomial
+/// (Press et al., Numerical Recipes, section 4.6).
+struct GaussRule {
+  std::array<double, kPoints> node{}, weight{};
+
+  GaussRule() {
+    constexpr auto n = static_cast<double>(kPoints);
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      double x = std::cos(core::kPi * (static_cast<double>(i) + 0.75) / (n + 0.5)), derivative = 1.0;
+      for (int step = 0; step < 8; ++step) {
+        double p = 1.0, before = 0.0;
+        for (std::size_t k = 0; k < kPoints; ++k) {
+          const auto j = static_cast<double>(k);
+          const double next = ((2.0 * j + 1.0) * x * p - j * before) / (j + 1.0);
+          before = p;
+          p = next;
+        }
+        derivative = n * (x * p - before) / (x * x - 1.0);
+        x -= p / derivative;
+      }
+      node[i] = 0.5 * (1.0 - x);
+      weight[i] = 1.0 / ((1.0 - x * x) * derivative * derivative);
+    }
+  }
+};
+
+/// Radius (mm) of the circle at z, and the length of the wall there per length along z.
+struct WallAt {
+  double radius, length;
+};
+WallAt wall_at(const SupportSurface& s, double z) {
+  const double radius = std::sqrt(std::max(0.0, s.radius2 + (2.0 * s.slope - s.axial * z) * z));
+  const double rise = radius > 0.0 ? (s.slope - s.axial * z) / radius : std::sqrt(-s.axial);
+  return {radius, std::sqrt(1.0 + rise * rise)};
+}
+
+}  // namespace
+
+SupportSurface SupportSurface::sphere(const core::Vec3& centre, double radius) {
+  return {centre, core::Vec3(0.0, 0.0, 1.0), 1.0, 0.0, radius * radius};
+}
+
+SupportSurface SupportSurface::cylinder(const core::Vec3& origin, const core::Vec3& axis, double radius) {
+  return {origin, axis.normalized(), 0.0, 0.0, radius * radius};
+}
+
+SupportSurface SupportSurface::cone(const core::Vec3& origin, const core::Vec3& axis, double radius,
+                                    double end_radius, double length) {
+  const double slope = (end_radius - radius) / length;
+  return {origin, axis.normalized(), -slope * slope, radius * slope, radius * radius};
+}
+
+core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
+  const core::Vec3 outwards = gradient(point);
+  const double length = outwards.norm();
+  if (length > 0.0) return outwards / length;
+  return slope > 0.0 ? core::Vec3(-axis.vec()) : axis.vec();
+}
+
+double SupportSurface::distance(const core::Vec3& point) const {
+  const Place at = place(point);
+  if (is_sphere()) return (point - origin).norm() - std::sqrt(radius2);
+  if (axial == 0.0) return at.rho.norm() - std::sqrt(radius2);
+  const double radius = std::sqrt(radius2), rise = slope / radius;
+  return (at.rho.norm() - radius - rise * at.z) / std::sqrt(1.0 - axial);
+}
+
+core::Vec3 SupportSurface::correction(const core::Vec3& point) const {
+  const core::Vec3 outwards = gradient(point);
+  const double length2 = outwards.squaredNorm();
+  if (!(length2 > 0.0)) return core::Vec3::Zero();
+  return (-0.5 * value(point) / length2) * outwards;
+}
+
+std::optional<SupportSurface> SupportSurface::moved(const Eigen::Affine3d& motion) const {
+  const Eigen::Matrix3d linear = motion.linear();
+  const double scale = std::cbrt(std::abs(linear.determinant()));
+  constexpr double kRounding = 1e-12;
+  if (!(scale > 0.0) ||
+      !(linear.transpose() * linear).isApprox(scale * scale * Eigen::Matrix3d::Identity(), kRounding))
+    return std::nullopt;
+  SupportSurface result = *this;
+  result.origin = motion * origin.vec();
+  result.axis = core::Vec3(linear * axis.vec()).normalized();
+  result.slope *= scale;
+  result.radius2 *= scale * scale;
+  return result;
+}
+
+bool SupportSurface::is_same(const SupportSurface& other) const {
+  constexpr double kRounding = 1e-10;
+  const double size = std::sqrt(std::max(radius2, other.radius2));
+  const auto near = [](double a, double b, double scale) { return std::abs(a - b) <= kRounding * scale; };
+  return near(radius2, other.radius2, size * size) && near(axial, other.axial, 1.0) &&
+         near(slope, other.slope, size) && (axis.vec() - other.axis.vec()).norm() <= kRounding &&
+         (origin.vec() - other.origin.vec()).norm() <= kRounding * (size + origin.norm());
+}
+
+bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
+                                 double tolerance_mm) const {
+  if (is_sphere() != other.is_sphere()) return false;
+  const double radius = std::sqrt(radius2);
+  return std::all_of(points.begin(), points.end(), [&](const core::Vec3& corner) {
+    const core::Vec3 point = corner + correction(corner);
+    // Over an angle in which two surfaces of different axis or radius are apart by more than the tolerance.
+    return std::abs(other.distance(point)) <= tolerance_mm &&
+           (normal(point) - other.normal(point)).norm() * std::max(radius, 1e-300) <= 2.0 * tolerance_mm;
+  });
+}
+
+PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle) {
+  static const GaussRule rule;
+  const core::Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const core::Vec3 doubled = u.cross(v);
+  PatchExcess sum;
+  for (std::size_t i = 0; i < kPoints; ++i)
+    for (std::size_t j = 0; j < kPoints; ++j) {
+      // The square onto the triangle (Duffy): s from the first corner, t across.
+      const double s = rule.node[i], t = rule.node[j], weight = rule.weight[i] * rule.weight[j] * s;
+      const core::Vec3 point = triangle[0] + s * ((1.0 - t) * u + t * v) - surface.origin;
+      if (surface.is_sphere()) {
+        const double rho2 = point.squaredNorm(), rho = std::sqrt(rho2), radius = std::sqrt(surface.radius2);
+        const double solid_angle = weight * doubled.dot(point) / (rho2 * rho);
+        sum.area_mm2 += std::abs(solid_angle) * surface.radius2;
+        sum.volume_mm3 += solid_angle * (radius * surface.radius2 - rho * rho2) / 3.0;
+      } else {
+        const double z = surface.axis.dot(point);
+        const core::Vec3 rho = point - z * surface.axis.vec();
+        const WallAt wall = wall_at(surface, z);
+        const double turn = weight * doubled.dot(rho) / rho.squaredNorm();  // angle times height
+        sum.area_mm2 += std::abs(turn) * wall.radius * wall.length;
+        sum.volume_mm3 += turn * 0.5 * (wall.radius * wall.radius - rho.squaredNorm());
+      }
+    }
+  sum.area_mm2 -= 0.5 * doubled.norm();
+  return sum;
+}
+
+double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
+                    const core::Vec3& b) {
+  constexpr double kUpright = 1e-9;
+  if (!surface.is_sphere() && surface.axis.cross(normal).norm() > kUpright) return 0.0;
+  const core::Vec3 to_a = a - surface.origin, to_b = b - surface.origin;
+  const core::Vec3 ra = to_a - normal.dot(to_a) * normal, rb = to_b - normal.dot(to_b) * normal;
+  const double cross = ra.cross(rb).norm(), dot = ra.dot(rb);
+  return 0.5 * (std::atan2(cross, dot) * ra.norm() * rb.norm() - cross);
+}
+
+FacetDeviation facet_deviation(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle) {
+  FacetDeviation largest;
+  const core::Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
+  const auto add = [&](const core::Vec3& point) {
+    largest.distance_mm = std::max(largest.distance_mm, std::abs(surface.distance(point)));
+  };
+  add((triangle[0] + triangle[1] + triangle[2]) / 3.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const core::Vec3& corner = triangle[i];
+    add(0.5 * (corner + triangle[(i + 1) % 3]));
+    const double cosine = std::abs(normal.dot(surface.normal(corner)));
+    const double sine = normal.cross(surface.normal(corner)).norm();
+    largest.angle_rad = std::max(largest.angle_rad, std::atan2(sine, cosine));
+  }
+  return largest;
+}
+
+}  // namespace scintray::mesh

@@ -1,0 +1,106 @@
+#pragma once
+/// Surfaces that the triangles of round faces approximate.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+
+#include "scintray/core/plain_vec.hpp"
+
+namespace scintray::mesh {
+
+/// No support surface: the triangle is a face as it is.
+inline constexpr std::uint32_t kNoSupport = 0xffffffffu;
+
+/// A quadric of revolution that is convex on its inside: sphere, cylinder, one nappe of a cone.
+///
+/// With z along the axis from the origin and rho the distance from the axis, the surface is
+///   q = rho^2 + axial z^2 - 2 slope z - radius2 = 0,
+/// and q < 0 inside. The origin of a cone lies on its axis inside the nappe, not at the tip, so that a narrow
+/// cone far from its tip keeps its digits. Lengths mm.
+struct SupportSurface {
+  core::PlainVec3 origin, axis;  ///< axis: of unit length
+  double axial = 0.0;    ///< 1: sphere; 0: cylinder; below 0: cone, minus the squared slope of its wall
+  double slope = 0.0;    ///< mm; of a cone, its radius at the origin times the slope of its wall
+  double radius2 = 0.0;  ///< mm2; squared radius at the origin
+
+  static SupportSurface sphere(const core::Vec3& centre, double radius);
+  static SupportSurface cylinder(const core::Vec3& origin, const core::Vec3& axis, double radius);
+  /// The cone through two circles about the axis: of `radius` (above 0) at the origin, and of `end_radius`
+  /// (not negative, and not equal to `radius`) at the distance `length` along the axis.
+  static SupportSurface cone(const core::Vec3& origin, const core::Vec3& axis, double radius,
+                             double end_radius, double length);
+
+  bool is_sphere() const { return axial > 0.0; }
+  /// Kind of surface, for messages.
+  const char* name() const { return is_sphere() ? "sphere" : axial < 0.0 ? "cone" : "cylinder"; }
+
+  /// q (mm2) at a point: negative inside, but positive in a cone's other nappe, too.
+  double value(const core::Vec3& point) const {
+    const Place at = place(point);
+    return at.rho.squaredNorm() + (axial * at.z - 2.0 * slope) * at.z - radius2;
+  }
+  /// Half the gradient of q (mm), which points outwards; zero at the tip of a cone.
+  core::Vec3 gradient(const core::Vec3& point) const {
+    const Place at = place(point);
+    return at.rho + (axial * at.z - slope) * axis.vec();
+  }
+  /// Unit normal at a point of the surface, outwards; at the tip of a cone, along its axis.
+  core::Vec3 normal(const core::Vec3& point) const;
+  /// Distance (mm) of a point from the surface, to first order; negative inside.
+  double distance(const core::Vec3& point) const;
+  /// Displacement (mm) onto the surface of a point next to it: one step of Newton's method.
+  core::Vec3 correction(const core::Vec3& point) const;
+
+  /// The centre of a sphere; of a cylinder or cone the point of its axis at the same z.
+  core::Vec3 middle(const core::Vec3& point) const {
+    return is_sphere() ? origin.vec() : core::Vec3(point - place(point).rho);
+  }
+
+  /// The surface after a motion that keeps angles; nothing after any other.
+  std::optional<SupportSurface> moved(const Eigen::Affine3d& motion) const;
+
+  /// Whether the two are stated by the same numbers, to rounding.
+  bool is_same(const SupportSurface& other) const;
+  /// Whether the two are one surface: within `tolerance_mm` of each other at these points of the first.
+  bool agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
+                   double tolerance_mm) const;
+
+ private:
+  struct Place {
+    core::Vec3 rho;  ///< from the axis
+    double z;
+  };
+  Place place(const core::Vec3& point) const {
+    const core::Vec3 from_origin = point - origin;
+    const double z = axis.dot(from_origin);
+    return {from_origin - z * axis.vec(), z};
+  }
+};
+static_assert(std::is_trivially_copyable_v<SupportSurface>);
+
+/// What a patch of a surface adds to the triangle that approximates it.
+struct PatchExcess {
+  double area_mm2 = 0.0;    ///< of the patch, less that of the triangle
+  double volume_mm3 = 0.0;  ///< between the triangle and the patch; negative on the wall of a hole
+};
+
+/// Excess of the patch above a triangle whose corners lie on the surface: the triangle is projected from the
+/// centre of a sphere, and at constant z from the axis of a cylinder or cone. Gauss-Legendre quadrature, 12
+/// points each way: to rounding for triangles that span up to 30 degrees.
+PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
+
+/// Area (mm2) between a chord and the circle in which the surface intersects the plane through the chord with
+/// the unit normal `normal`; zero where that is no circle: a cylinder or cone that is cut obliquely.
+double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
+                    const core::Vec3& b);
+
+/// Deviation of a triangle from the surface that it approximates.
+struct FacetDeviation {
+  double distance_mm = 0.0;  ///< largest distance, at its middle or the middle of a side
+  double angle_rad = 0.0;    ///< largest angle between its normal and the surface's, at its corners
+};
+FacetDeviation facet_deviation(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
+
+}  // namespace scintray::mesh

@@ -1,0 +1,515 @@
+#include "scintray/scene/detail/round_parts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace scintray::scene {
+
+namespace {
+
+/// Limit of the planes of a convex body; more are faster by Embree.
+constexpr std::size_t kMostFlatFaces = 32;
+/// Limit of its round faces.
+constexpr std::size_t kMostRoundFaces = 8;
+/// Distance from a surface within which corners are on it, in contact tolerances: contacts move them.
+constexpr double kOnSurface = 4.0;
+/// Distance from a plane, relative to the region's size, within which two planes are one.
+constexpr double kSamePlane = 1e-10;
+
+using Corners = std::array<core::Vec3, 3>;
+
+core::Vec3 doubled_area(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+/// A triangle of a part's boundary, in world coordinates, outwards.
+struct PartTriangle {
+  Corners corners;
+  std::uint32_t support;
+};
+
+/// The triangles of every part: those of its interfaces, whose corners have moved into contact, then its own.
+core::IdVector<core::PartId, std::vector<PartTriangle>> triangles_of_parts(
+    const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles) {
+  core::IdVector<core::PartId, std::vector<PartTriangle>> result(assembly.parts.size());
+  for (const contact::InterfaceTriangle& t : triangles) {
+    if (t.back_face.has_value()) result[t.back].push_back({t.vertex, t.back_support});
+    if (t.front_face.has_value())
+      result[t.front].push_back({{t.vertex[0], t.vertex[2], t.vertex[1]}, t.front_support});
+  }
+  for (const core::PartId part : assembly.parts.ids()) {
+    const auto by_area = [](const PartTriangle& a, const PartTriangle& b) {
+      return doubled_area(a.corners).squaredNorm() > doubled_area(b.corners).squaredNorm();
+    };
+    std::stable_sort(result[part].begin(), result[part].end(), by_area);
+    const contact::PlacedPart& own = assembly.parts[part].geometry;
+    for (std::size_t t = 0; t < own.triangles.size(); ++t) {
+      const auto& [a, b, c] = own.triangles[t];
+      result[part].push_back({{own.vertices[a], own.vertices[b], own.vertices[c]},
+                              own.support.empty() ? mesh::kNoSupport : own.support[t]});
+    }
+  }
+  return result;
+}
+
+/// Recognition of one part as a convex body.
+class BodyFinder {
+ public:
+  BodyFinder(const contact::PlacedPart& part, const std::vector<PartTriangle>& triangles, double tolerance_mm)
+      : part_(part), triangles_(triangles), tolerance_(kOnSurface * tolerance_mm) {}
+
+  PartBody find() {
+    PartBody body;
+    body.quadrics = part_.supports;
+    for (const PartTriangle& t : triangles_)
+      if (t.support != mesh::kNoSupport)
+        body.deviation_mm = std::max(body.deviation_mm,
+                                     mesh::facet_deviation(body.quadrics[t.support], t.corners).distance_mm);
+    std::string reason = find_planes(body);
+    if (reason.empty()) reason = compare_corners(body);
+    body.convex = reason.empty();
+    body.round = body.convex && !body.quadrics.empty();
+    if (!body.quadrics.empty()) body.facets_because = reason;
+    return body;
+  }
+
+ private:
+  bool on(const WorldPlane& plane, const Corners& corners) const {
+    return std::all_of(corners.begin(), corners.end(), [&](const core::Vec3& corner) {
+      return std::abs(plane.normal.dot(corner) - plane.offset) <= tolerance_;
+    });
+  }
+
+  std::string find_planes(PartBody& body) const {
+    if (body.quadrics.size() > kMostRoundFaces) return "it has more than 8 round faces";
+    for (const PartTriangle& t : triangles_) {
+      if (t.support != mesh::kNoSupport) continue;
+      const core::Vec3 area = doubled_area(t.corners);
+      if (area.isZero(0.0)) continue;
+      const core::Vec3 normal = area.normalized();
+      const bool known = std::any_of(body.planes.begin(), body.planes.end(), [&](const WorldPlane& plane) {
+        return plane.normal.dot(normal) > 0.0 && on(plane, t.corners);
+      });
+      if (known) continue;
+      if (body.planes.size() == kMostFlatFaces) return "it has more than 32 flat faces";
+      body.planes.push_back({normal, normal.dot(t.corners[0])});
+    }
+    return {};
+  }
+
+  std::string compare_corners(const PartBody& body) const {
+    for (const PartTriangle& t : triangles_) {
+      for (const core::Vec3& corner : t.corners) {
+        for (const WorldPlane& plane : body.planes)
+          if (plane.normal.dot(corner) > plane.offset + tolerance_) return "the part is not convex";
+        for (const mesh::SupportSurface& quadric : body.quadrics)
+          if (quadric.distance(corner) > tolerance_) return "the part is not convex";
+        if (t.support != mesh::kNoSupport && std::abs(body.quadrics[t.support].distance(corner)) > tolerance_)
+          return "its corners have moved off the surface";
+      }
+      if (t.support == mesh::kNoSupport) continue;
+      const core::Vec3 middle = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
+      if (body.quadrics[t.support].gradient(middle).dot(doubled_area(t.corners)) < 0.0)
+        return "it is the wall of a hole";
+    }
+    return {};
+  }
+
+  const contact::PlacedPart& part_;
+  const std::vector<PartTriangle>& triangles_;
+  double tolerance_;
+};
+
+/// Leaves facets to parts whose round faces touch a face that is not the same surface, exact on both sides.
+void match_contacts(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                    PartBodies& bodies) {
+  const double tolerance = kOnSurface * assembly.contact_tolerance_mm;
+  const auto quadric = [&](core::PartId part, std::uint32_t support) -> const mesh::SupportSurface* {
+    return support == mesh::kNoSupport || !bodies[part].round ? nullptr : &bodies[part].quadrics[support];
+  };
+  const auto leave_facets = [&](core::PartId part, core::PartId other) {
+    bodies[part].round = bodies[part].convex = false;
+    bodies[part].facets_because = "it touches facets of \"" + assembly.parts[other].geometry.name + "\"";
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const contact::InterfaceTriangle& t : triangles) {
+      if (!t.back_face.has_value() || !t.front_face.has_value()) continue;
+      const mesh::SupportSurface* const back = quadric(t.back, t.back_support);
+      const mesh::SupportSurface* const front = quadric(t.front, t.front_support);
+      if ((!back && !front) || (back && front && back->agrees_with(*front, t.vertex, tolerance))) continue;
+      if (back) leave_facets(t.back, t.front);
+      if (front) leave_facets(t.front, t.back);
+      changed = true;
+    }
+  }
+}
+
+/// Leaves facets to parts whose exact surface would extend into what their facets stay clear of: the facets
+/// of another part, or another exact body.
+class ClearanceCheck {
+ public:
+  ClearanceCheck(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                 PartBodies& bodies)
+      : assembly_(assembly),
+        triangles_(triangles),
+        bodies_(bodies),
+        tolerance_(kOnSurface * assembly.contact_tolerance_mm) {}
+
+  /// @return whether a part was changed
+  bool run() {
+    collect();
+    for (const auto& [region, content] : regions_)
+      for (const core::PartId part : content.round)
+        if (bodies_[part].round) compare(region, content, part);
+    return changed_;
+  }
+
+ private:
+  struct Region {
+    std::set<core::PartId> round;        ///< bodies cut out of it
+    std::vector<std::size_t> triangles;  ///< of other parts' facets
+  };
+  struct Samples {
+    Eigen::AlignedBox3d box;
+    std::vector<core::Vec3> points;  ///< of the exact faces, inwards by the tolerance
+  };
+
+  void collect() {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const contact::InterfaceTriangle& t = triangles_[i];
+      add(t.back, t.back_face.has_value() ? t.back : t.front, i);
+      add(t.front, t.front_face.has_value() ? t.front : t.back, i);
+    }
+  }
+  void add(core::PartId region, core::PartId body, std::size_t triangle) {
+    if (body != region && bodies_[body].round)
+      regions_[region].round.insert(body);
+    else if (!on_exact_body(bodies_, region, body))
+      regions_[region].triangles.push_back(triangle);
+  }
+
+  const Samples& samples(core::PartId part) {
+    const auto [known, is_new] = samples_.try_emplace(part);
+    if (!is_new) return known->second;
+    Samples& result = known->second;
+    const contact::PlacedPart& own = assembly_.parts[part].geometry;
+    for (const core::Vec3& vertex : own.vertices) result.box.extend(vertex);
+    for (std::size_t t = 0; t < own.triangles.size(); ++t) {
+      if (own.support[t] == mesh::kNoSupport) continue;
+      const mesh::SupportSurface& surface = own.supports[own.support[t]];
+      const auto& [a, b, c] = own.triangles[t];
+      const core::Vec3 &va = own.vertices[a], &vb = own.vertices[b], &vc = own.vertices[c];
+      for (const core::Vec3& on_facet : {core::Vec3((va + vb + vc) / 3.0), core::Vec3(0.5 * (va + vb)),
+                                         core::Vec3(0.5 * (vb + vc)), core::Vec3(0.5 * (vc + va))}) {
+        core::Vec3 point = on_facet;
+        for (int step = 0; step < 3; ++step) point += surface.correction(point);
+        point -= tolerance_ * surface.normal(point);
+        result.points.push_back(point);
+        result.box.extend(point);
+      }
+    }
+    return result;
+  }
+
+  bool contains(core::PartId part, const core::Vec3& point, double margin) const {
+    const PartBody& body = bodies_[part];
+    return std::all_of(
+               body.planes.begin(), body.planes.end(),
+               [&](const WorldPlane& plane) { return plane.normal.dot(point) <= plane.offset + margin; }) &&
+           std::all_of(body.quadrics.begin(), body.quadrics.end(),
+                       [&](const mesh::SupportSurface& s) { return s.distance(point) <= margin; });
+  }
+
+  void compare(core::PartId region, const Region& content, core::PartId part) {
+    const Samples& own = samples(part);
+    if (region.has_value() && bodies_[region].convex) {
+      for (const core::Vec3& point : own.points)
+        if (!contains(region, point, 0.0)) return leave_facets(part, region);
+    }
+    for (const core::PartId other : content.round) {
+      if (other == part || !bodies_[other].round || !samples(other).box.intersects(own.box)) continue;
+      // Inwards by the tolerance once more, for bodies that touch; nested ones that share an end are apart.
+      const bool within = std::any_of(own.points.begin(), own.points.end(), [&](const core::Vec3& point) {
+        return contains(other, point, -tolerance_);
+      });
+      if (within && !is_around(other, part)) return leave_facets(part, other);
+    }
+    for (const std::size_t i : content.triangles) {
+      const contact::InterfaceTriangle& t = triangles_[i];
+      Eigen::AlignedBox3d box;
+      for (const core::Vec3& corner : t.vertex) box.extend(corner);
+      if (!box.intersects(own.box) || !collides(t.vertex, part)) continue;
+      return leave_facets(part, t.back_face.has_value() && t.back != part ? t.back : t.front);
+    }
+  }
+
+  /// Whether all of the inner body's faces are inside the outer.
+  bool is_around(core::PartId outer, core::PartId inner) {
+    const std::vector<core::Vec3>& points = samples(inner).points;
+    return std::all_of(points.begin(), points.end(),
+                       [&](const core::Vec3& point) { return contains(outer, point, tolerance_); });
+  }
+
+  /// Whether a triangle extends into the part by more than the tolerance, or a sample of the part lies beyond
+  /// it.
+  bool collides(const Corners& corners, core::PartId part) {
+    const core::Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const core::Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+      for (const core::Vec3& point : {a, core::Vec3(0.5 * (a + b)), core::Vec3(0.5 * (a + middle)), middle})
+        if (contains(part, point, -tolerance_)) return true;
+    }
+    return false;
+  }
+
+  void leave_facets(core::PartId part, core::PartId other) {
+    bodies_[part].round = bodies_[part].convex = false;
+    bodies_[part].facets_because =
+        "its exact surface would extend into \"" + assembly_.parts[other].geometry.name + "\"";
+    changed_ = true;
+  }
+
+  const Assembly& assembly_;
+  const std::vector<contact::InterfaceTriangle>& triangles_;
+  PartBodies& bodies_;
+  double tolerance_;
+  bool changed_ = false;
+  std::map<core::PartId, Region> regions_;
+  std::map<core::PartId, Samples> samples_;
+};
+
+/// Maker of the exact bodies of one region.
+class RegionBodies {
+ public:
+  RegionBodies(const PartBodies& bodies, core::PartId of, const RegionFrame& frame,
+               const std::vector<RegionTriangle>& triangles)
+      : bodies_(bodies), of_(of), frame_(frame), triangles_(triangles) {}
+
+  ExactBodies make() {
+    Eigen::AlignedBox3d bounds;
+    for (const RegionTriangle& t : triangles_)
+      for (const core::Vec3& corner : t.local) bounds.extend(corner);
+    same_plane_ = kSamePlane * bounds.diagonal().norm();
+    std::map<core::PartId, std::vector<std::uint32_t>> on;  // triangles of each body
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      if (on_exact_body(bodies_, of_, triangles_[i].body))
+        on[triangles_[i].body].push_back(i);
+      else
+        ++result_.meshed;
+    }
+    result_.quadric_of.assign(triangles_.size(), kNoSurface);
+    result_.held = on.contains(of_);
+    for (const core::PartId part : in_order(on)) add(part, on.at(part));
+    result_.build_tree();
+    return std::move(result_);
+  }
+
+ private:
+  /// The body that holds the region, then the others, the largest first, so that a body that is nested in
+  /// another and flush with it comes after it.
+  std::vector<core::PartId> in_order(const std::map<core::PartId, std::vector<std::uint32_t>>& on) const {
+    std::vector<std::pair<double, core::PartId>> sizes;
+    for (const auto& [part, own] : on)
+      sizes.emplace_back(part == of_ ? -HUGE_VAL : -farthest(part, local_centre(part)), part);
+    std::sort(sizes.begin(), sizes.end());
+    std::vector<core::PartId> order;
+    for (const auto& entry : sizes) order.push_back(entry.second);
+    return order;
+  }
+
+  mesh::SupportSurface local(mesh::SupportSurface surface) const {
+    surface.origin = frame_.rotation.transpose() * (surface.origin - frame_.centre);
+    surface.axis = frame_.rotation.transpose() * surface.axis.vec();
+    return surface;
+  }
+
+  /// The plane in the region's frame; a plane of a body before it that is the same to rounding has its bits.
+  BodyPlane local(const WorldPlane& plane) const {
+    const core::Vec3 normal = frame_.rotation.transpose() * plane.normal;
+    const double offset = plane.offset - plane.normal.dot(frame_.centre);
+    for (const BodyPlane& known : result_.planes)
+      if ((known.normal - normal).norm() <= 1e-9 && std::abs(known.offset - offset) <= same_plane_)
+        return {known.normal, known.offset, {}};
+    return {normal, offset, {}};
+  }
+
+  void add(core::PartId part, const std::vector<std::uint32_t>& own) {
+    const PartBody& of_part = bodies_[part];
+    ConvexBody body;
+    body.first = own.front();
+    // Around all corners of the part, of which the region may have but a few, and what bulges beyond them.
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t i : own)
+      for (const core::Vec3& corner : triangles_[i].local) box.extend(corner);
+    for (const core::Vec3& vertex : of_part.corners)
+      box.extend(core::Vec3(frame_.rotation.transpose() * (vertex - frame_.centre)));
+    const core::Vec3 bulge = core::Vec3::Constant(2.0 * of_part.deviation_mm + 1e-9 * box.diagonal().norm());
+    body.low = box.min() - bulge;
+    body.high = box.max() + bulge;
+    body.planes_begin = static_cast<std::uint32_t>(result_.planes.size());
+    body.quadrics_begin = static_cast<std::uint32_t>(result_.quadrics.size());
+    std::vector<BodyPlane> planes;
+    for (const WorldPlane& plane : of_part.planes) planes.push_back(local(plane));
+    result_.planes.insert(result_.planes.end(), planes.begin(), planes.end());
+    for (const mesh::SupportSurface& quadric : of_part.quadrics)
+      result_.quadrics.push_back({local(quadric), {}});
+    body.planes_end = static_cast<std::uint32_t>(result_.planes.size());
+    body.quadrics_end = static_cast<std::uint32_t>(result_.quadrics.size());
+    assign(body, own);
+    result_.bodies.push_back(body);
+  }
+
+  double farthest(core::PartId part, const core::Vec3& centre) const {
+    double radius = 0.0;
+    for (const core::Vec3& vertex : bodies_[part].corners)
+      radius = std::max(radius, (frame_.rotation.transpose() * (vertex - frame_.centre) - centre).norm());
+    return radius;
+  }
+
+  /// Distributes triangles of a body over its surfaces.
+  void assign(const ConvexBody& body, const std::vector<std::uint32_t>& own) {
+    std::map<SurfaceTriangles*, std::vector<std::uint32_t>> on;
+    for (const std::uint32_t i : own) {
+      const RegionTriangle& t = triangles_[i];
+      if (t.support != mesh::kNoSupport) {
+        result_.quadric_of[i] = body.quadrics_begin + t.support;
+        on[&result_.quadrics[result_.quadric_of[i]].on].push_back(i);
+      } else {
+        on[&plane_of(body, t)->on].push_back(i);
+      }
+    }
+    for (auto& [surface, list] : on) describe(*surface, list);
+  }
+
+  BodyPlane* plane_of(const ConvexBody& body, const RegionTriangle& t) {
+    const core::Vec3 normal = doubled_area(t.local).normalized() * (t.body == of_ ? 1.0 : -1.0);
+    BodyPlane* best = nullptr;
+    double least = HUGE_VAL;
+    for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) {
+      BodyPlane& plane = result_.planes[i];
+      double off = (plane.normal - normal).norm() * doubled_area(t.local).norm();
+      for (const core::Vec3& corner : t.local) off += std::abs(plane.normal.dot(corner) - plane.offset);
+      if (off >= least) continue;
+      least = off;
+      best = &plane;
+    }
+    return best;
+  }
+
+  void describe(SurfaceTriangles& surface, const std::vector<std::uint32_t>& list) {
+    surface.first = list.front();
+    const bool one_label = std::all_of(list.begin(), list.end(), [&](std::uint32_t i) {
+      return triangles_[i].label == triangles_[list.front()].label;
+    });
+    if (one_label) return;
+    std::map<core::PartId, std::uint32_t> ends;  // of round parts on the plane
+    std::vector<std::uint32_t> rest;
+    for (const std::uint32_t i : list) {
+      const RegionTriangle& t = triangles_[i];
+      const bool under_end =
+          t.body == of_ && t.other.has_value() && t.support == mesh::kNoSupport && bodies_[t.other].round;
+      if (under_end)
+        ends.try_emplace(t.other, i);
+      else
+        rest.push_back(i);
+    }
+    surface.outlines_begin = static_cast<std::uint32_t>(result_.outlines.size());
+    add_outlines(ends);
+    surface.outlines_end = static_cast<std::uint32_t>(result_.outlines.size());
+    if (rest.empty()) rest = list;
+    surface.begin = static_cast<std::uint32_t>(result_.triangles.size());
+    result_.triangles.insert(result_.triangles.end(), rest.begin(), rest.end());
+    surface.end = static_cast<std::uint32_t>(result_.triangles.size());
+  }
+
+  /// Smaller ends first, since they may be nested in larger ones.
+  void add_outlines(const std::map<core::PartId, std::uint32_t>& ends) {
+    std::vector<std::pair<double, core::PartId>> sizes;
+    for (const auto& [part, triangle] : ends) sizes.emplace_back(farthest(part, local_centre(part)), part);
+    std::sort(sizes.begin(), sizes.end());
+    for (const auto& [size, part] : sizes) {
+      EndOutline outline;
+      outline.triangle = ends.at(part);
+      outline.quadrics_begin = static_cast<std::uint32_t>(result_.outline_of.size());
+      for (const mesh::SupportSurface& quadric : bodies_[part].quadrics)
+        result_.outline_of.push_back(local(quadric));
+      outline.quadrics_end = static_cast<std::uint32_t>(result_.outline_of.size());
+      result_.outlines.push_back(outline);
+    }
+  }
+
+  core::Vec3 local_centre(core::PartId part) const {
+    Eigen::AlignedBox3d bounds;
+    for (const core::Vec3& vertex : bodies_[part].corners)
+      bounds.extend(core::Vec3(frame_.rotation.transpose() * (vertex - frame_.centre)));
+    return bounds.center();
+  }
+
+  const PartBodies& bodies_;
+  core::PartId of_;
+  const RegionFrame& frame_;
+  const std::vector<RegionTriangle>& triangles_;
+  double same_plane_ = 0.0;
+  ExactBodies result_;
+};
+
+}  // namespace
+
+PartBodies find_part_bodies(const Assembly& assembly,
+                            const std::vector<contact::InterfaceTriangle>& triangles) {
+  PartBodies bodies;
+  const bool any = std::any_of(assembly.parts.begin(), assembly.parts.end(),
+                               [](const AssemblyPart& part) { return !part.geometry.supports.empty(); });
+  if (!any) return bodies;
+  const auto of_parts = triangles_of_parts(assembly, triangles);
+  for (const core::PartId part : assembly.parts.ids()) {
+    const contact::PlacedPart& geometry = assembly.parts[part].geometry;
+    PartBody body = BodyFinder(geometry, of_parts[part], assembly.contact_tolerance_mm).find();
+    if (body.round && assembly.curved == scene_file::CurvedFaces::facets) {
+      body.round = body.convex = false;
+      body.facets_because = "run.curved is \"facets\"";
+    }
+    body.corners = geometry.vertices;
+    bodies.push_back(std::move(body));
+  }
+  do match_contacts(assembly, triangles, bodies);
+  while (ClearanceCheck(assembly, triangles, bodies).run());
+  return bodies;
+}
+
+bool on_exact_body(const PartBodies& bodies, core::PartId of, core::PartId body) {
+  return body.has_value() && (body == of ? bodies[body].convex : bodies[body].round);
+}
+
+bool needs_exact_bodies(const PartBodies& bodies, core::PartId of,
+                        const std::vector<RegionTriangle>& triangles) {
+  if (bodies.empty()) return false;
+  const bool any_round = std::any_of(triangles.begin(), triangles.end(),
+                                     [&](const RegionTriangle& t) { return bodies[t.body].round; });
+  if (any_round) return true;
+  if (!of.has_value() || !bodies[of].convex) return false;
+  // A plane that an end of a round part covers in part.
+  const auto beside = [&](const RegionTriangle& t, const RegionTriangle& end) {
+    const core::Vec3 normal = doubled_area(end.local).normalized();
+    return t.body == of && t.label != end.label && doubled_area(t.local).dot(normal) > 0.0 &&
+           std::all_of(t.local.begin(), t.local.end(), [&](const core::Vec3& corner) {
+             return std::abs(normal.dot(corner - end.local[0])) <=
+                    kSamePlane * (corner - end.local[0]).norm();
+           });
+  };
+  std::set<std::uint32_t> seen;  // labels
+  return std::any_of(triangles.begin(), triangles.end(), [&](const RegionTriangle& end) {
+    return end.body == of && end.other.has_value() && bodies[end.other].round &&
+           seen.insert(end.label).second &&
+           std::any_of(triangles.begin(), triangles.end(),
+                       [&](const RegionTriangle& t) { return beside(t, end); });
+  });
+}
+
+ExactBodies exact_bodies_of(const PartBodies& bodies, core::PartId of, const RegionFrame& frame,
+                            const std::vector<RegionTriangle>& triangles) {
+  return RegionBodies(bodies, of, frame, triangles).make();
+}
+
+}  // namespace scintray::scene

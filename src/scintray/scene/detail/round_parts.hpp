@@ -1,0 +1,73 @@
+#pragma once
+/// Parts as convex bodies with exact round faces, and the regions between them.
+
+#include <string>
+#include <vector>
+
+#include "scintray/scene/detail/assemble.hpp"
+
+namespace scintray::scene {
+
+/// A plane in world coordinates.
+struct WorldPlane {
+  core::Vec3 normal;  ///< unit, out of the part
+  double offset;      ///< normal . x on the plane, mm
+};
+
+/// A part as the intersection of the insides of its planes and round faces (world, mm).
+struct PartBody {
+  bool convex = false;                         ///< it is that intersection
+  bool round = false;                          ///< and has round faces, which are exact
+  std::string facets_because;                  ///< reason why its known round faces stay facets
+  std::vector<WorldPlane> planes;              ///< where convex
+  std::vector<mesh::SupportSurface> quadrics;  ///< as PlacedPart::supports
+  std::vector<core::Vec3> corners;             ///< of its own triangles
+  double deviation_mm = 0.0;                   ///< largest of its facets from their surfaces
+};
+using PartBodies = core::IdVector<core::PartId, PartBody>;
+
+/// The bodies of all parts; empty where no part has round faces whose surface is known.
+///
+/// A part whose faces lie on planes and on the outer side of convex quadrics, and on the inner side of none
+/// of these, is the intersection of their insides: its boundary is part of the intersection's, and that is
+/// connected. Corners are compared with every surface. Round faces that touch another part have to be one
+/// surface with the other's face there; else both parts keep their facets.
+PartBodies find_part_bodies(const Assembly& assembly,
+                            const std::vector<contact::InterfaceTriangle>& triangles);
+
+/// A triangle of a region's boundary, and the parts at it.
+struct RegionTriangle {
+  BoundaryTriangle local;                    ///< in the region's frame
+  std::uint32_t label = 0;                   ///< of what it leads to
+  core::PartId body, other;                  ///< the part whose face it is, and that on the other side of it
+  std::uint32_t support = mesh::kNoSupport;  ///< in the part's list
+};
+
+/// A region's frame: world = centre + rotation * local.
+struct RegionFrame {
+  core::Vec3 centre;
+  Eigen::Matrix3d rotation;
+};
+
+/// Whether a triangle of the region of `of` is on an exact body, once the region has any.
+bool on_exact_body(const PartBodies& bodies, core::PartId of, core::PartId body);
+
+/// Whether the region needs exact bodies: one is round, or the end of a round one covers part of a plane of
+/// it.
+bool needs_exact_bodies(const PartBodies& bodies, core::PartId of,
+                        const std::vector<RegionTriangle>& triangles);
+
+/// The exact bodies of the region of `of`.
+/// @param triangles  those that are on none of the bodies first
+ExactBodies exact_bodies_of(const PartBodies& bodies, core::PartId of, const RegionFrame& frame,
+                            const std::vector<RegionTriangle>& triangles);
+
+/// Sets scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i]. Regions
+/// whose boundaries are equal in their parts' own frames, and lead to the same pattern of interfaces, share
+/// one accelerator.
+/// @param bodies  of the parts; empty: none is exact
+void build_regions(const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles,
+                   const std::vector<core::InterfaceId>& interface_of, const PartBodies& bodies,
+                   Scene& scene);
+
+}  // namespace scintray::scene

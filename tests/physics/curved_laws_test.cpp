@@ -1,0 +1,353 @@
+// Laws of light in bodies with exact round faces: closed forms, and rays followed by their invariants.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/traced.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/optics/fresnel.hpp"
+#include "scintray/transport/step.hpp"
+#include "support/photon_source.hpp"
+#include "support/step_shapes.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::scene_file;
+using namespace scintray::scene;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::test;
+
+namespace {
+
+constexpr double kLso = 1.82;
+
+/// Integral of f over [a, b] by Simpson's rule.
+template <typename F>
+double simpson(F f, double a, double b, int panels = 4000) {
+  const double h = (b - a) / (2 * panels);
+  double sum = f(a) + f(b);
+  for (int i = 1; i < 2 * panels; ++i) sum += (i % 2 ? 4.0 : 2.0) * f(a + i * h);
+  return sum * h / 3.0;
+}
+
+double reflectance(double cosine, double n1, double n2) {
+  if (1.0 - cosine * cosine >= n2 * n2 / (n1 * n1)) return 1.0;
+  return fresnel(cosine, n1, n2).unpolarised();
+}
+
+const std::string kVacuum = "ambient = \"vacuum_n1\"\n";
+
+std::string source_in(const std::string& part, int photons, const std::string& rest = "") {
+  return "[source]\ntype = \"photons\"\nwavelength = \"420 nm\"\npolarisation = \"unpolarised\"\nregion = { "
+         "part = \"" +
+         part + "\"" + rest + " }\nphotons = " + std::to_string(photons) + "\n";
+}
+
+/// The n-th point of a sequence of four numbers that fills the unit cube evenly: multiples of powers of the
+/// root of x^5 = x + 1 (M. Roberts 2018, a generalisation of the golden ratio).
+std::array<double, 4> even_point(std::uint64_t n) {
+  constexpr double kRoot = 1.16730397826141868426;
+  std::array<double, 4> point{};
+  double power = 1.0;
+  for (double& x : point) {
+    power /= kRoot;
+    const double sum = 0.5 + power * static_cast<double>(n);
+    x = sum - std::floor(sum);
+  }
+  return point;
+}
+
+struct RodShares {
+  double escaped = 0.0, detected = 0.0, absorbed = 0.0;
+};
+
+/// Shares of light made evenly in a rod with a sensor of index `sensor` at its lower end and vacuum around.
+/// The angles at the wall and at the ends stay the same through all reflections: rays are followed by these,
+/// with weights in place of chance.
+RodShares rod_shares(double n, double radius, double length, double absorption_length, double sensor) {
+  constexpr std::uint64_t kRays = 400'000;
+  RodShares sum;
+  for (std::uint64_t i = 0; i < kRays; ++i) {
+    const auto [u, v, w, z0] = even_point(i);
+    const double cosine = 2.0 * u - 1.0, sine = std::sqrt(1.0 - cosine * cosine);
+    // Height of the point in the circle, and the direction there along x.
+    const double rho = radius * std::sqrt(v), angle = kTwoPi * w;
+    const double x = rho * std::cos(angle), y = rho * std::sin(angle);
+    const double half_chord = std::sqrt(radius * radius - y * y);
+    const double at_wall = reflectance(sine * half_chord / radius, n, 1.0);
+    const double at_top = reflectance(std::abs(cosine), n, 1.0),
+                 at_sensor = reflectance(std::abs(cosine), n, sensor);
+    double z = z0 * length, up = cosine, weight = 1.0;
+    double to_wall = (half_chord - x) / sine;
+    while (weight > 1e-6) {
+      const double to_end = (up > 0.0 ? length - z : z) / std::abs(up);
+      const double path = std::min(to_wall, to_end), kept = std::exp(-path / absorption_length);
+      sum.absorbed += weight * (1.0 - kept);
+      weight *= kept;
+      z += path * up;
+      to_wall -= path;
+      if (to_end <= path) {
+        const double reflected = up > 0.0 ? at_top : at_sensor;
+        (up > 0.0 ? sum.escaped : sum.detected) += weight * (1.0 - reflected);
+        weight *= reflected;
+        up = -up;
+      } else {
+        sum.escaped += weight * (1.0 - at_wall);
+        weight *= at_wall;
+        to_wall = 2.0 * half_chord / sine;
+      }
+    }
+  }
+  for (double* share : {&sum.escaped, &sum.detected, &sum.absorbed}) *share /= static_cast<double>(kRays);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Law: light trapped for ever in a lossless ball, cos^3(tc)") {
+  // Rays of light made evenly reach the wall with a density of cosines 3 c^2: its chord, 2 R c, times c.
+  const double cosine = std::sqrt(1.0 - 1.0 / (kLso * kLso));
+  const Traced traced = trace(kVacuum + R"([[part]]
+name = "ball"
+sphere = { radius = "2 mm" }
+medium = "lso_clear"
+surface = "flat"
+)" + source_in("ball", 400'000) +
+                              "[run]\nmax_interactions = 300\n");
+  check_fraction(traced.result, Fate::cut_interactions, std::pow(cosine, 3));
+  check_fraction(traced.result, Fate::escaped, 1.0 - std::pow(cosine, 3));
+}
+
+TEST_CASE("Law: light that escapes from an absorbing ball of 2 mm radius, by an integral over the cosine") {
+  constexpr double kRadius = 2.0, kAbsorption = 300.0;
+  const double limit = std::sqrt(1.0 - 1.0 / (kLso * kLso));
+  const double expected = simpson(
+      [&](double c) {
+        const double chord = 2.0 * kRadius * c, kept = std::exp(-chord / kAbsorption),
+                     r = reflectance(c, kLso, 1.0);
+        return 3.0 * c * c * kAbsorption / chord * (1.0 - kept) * (1.0 - r) / (1.0 - r * kept);
+      },
+      limit + 1e-12, 1.0, 100'000);
+  CHECK(expected == doctest::Approx(0.412).epsilon(2e-3));
+  const Traced traced = trace(kVacuum + R"([[part]]
+name = "ball"
+sphere = { radius = "2 mm" }
+medium = "lso_300"
+surface = "flat"
+)" + source_in("ball", 1'000'000) +
+                              "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
+                              "scattering = { none = true }\n");
+  check_fraction(traced.result, Fate::escaped, expected);
+}
+
+TEST_CASE(
+    "Law: light in an LSO rod of 3 mm x 20 mm with a sensor at one end, by the invariants of its rays") {
+  const RodShares expected = rod_shares(kLso, 1.5, 20.0, 300.0, 1.5);
+  CHECK(expected.escaped + expected.detected + expected.absorbed == doctest::Approx(1.0).epsilon(1e-5));
+  for (const int sides : {12, 72, 512}) {
+    const Traced traced =
+        trace(kVacuum +
+              fmt::format(R"([[part]]
+name = "rod"
+cylinder = {{ radius = "1.5 mm", height = "20 mm", segments = {} }}
+medium = "lso_300"
+surface = "flat"
+[[part]]
+name = "sensor"
+box = ["4 mm", "4 mm", "1 mm"]
+place = {{ touch = "rod", side = "-z" }}
+sensor = "perfect"
+)",
+                          sides) +
+              source_in("rod", 400'000) +
+              "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
+              "scattering = { none = true }\n");
+    CAPTURE(sides);
+    check_fraction(traced.result, Fate::detected, expected.detected);
+    check_fraction(traced.result, Fate::escaped, expected.escaped);
+    check_fraction(traced.result, Fate::absorbed_in_medium, expected.absorbed);
+  }
+}
+
+TEST_CASE("Law: a round fibre keeps light by its angle at the wall, meridional and skew") {
+  // Share of isotropic light made evenly over a circle whose angle of incidence at the wall is beyond the
+  // critical one: with the density 4/pi cos^2(psi) of the angle psi to the radius at the wall, sin(theta)
+  // cos(psi) < cos(tc) (A. W. Snyder and J. D. Love, Optical Waveguide Theory, section 4-10: bound and
+  // tunnelling rays together).
+  constexpr double kIndex = 1.5;
+  const double limit = std::sqrt(1.0 - 1.0 / (kIndex * kIndex));
+  const double escaping = simpson(
+      [&](double theta) {  // share of psi below acos(limit / sin)
+        const double most = limit / std::sin(theta);
+        if (most >= 1.0) return 0.0;
+        const double psi = std::acos(most);
+        return std::sin(theta) * 2.0 / kPi * (psi + 0.5 * std::sin(2.0 * psi));
+      },
+      std::asin(limit), 0.5 * kPi, 200'000);
+  const Traced traced = trace(kVacuum + R"([[part]]
+name = "fibre"
+cylinder = { radius = "0.5 mm", height = "2000 mm", segments = 12 }
+medium = "n15"
+surface = "flat"
+[[part]]
+name = "below"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "fibre", side = "-z" }
+sensor = "perfect"
+[[part]]
+name = "above"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "fibre", side = "+z" }
+sensor = "perfect"
+)" + source_in("fibre", 200'000, R"(, slab_z = ["999 mm", "1001 mm"])"));
+  check_fraction(traced.result, Fate::detected, 1.0 - escaping);
+}
+
+TEST_CASE("Law: mean chord 4V/S of exact bodies, and white walls that keep everything") {
+  for (const auto& [shape, volume, area] :
+       {std::tuple{std::string(R"(cylinder = { radius = "1.5 mm", height = "4 mm", segments = 12 })"),
+                   kPi * 2.25 * 4.0, kTwoPi * 1.5 * 5.5},
+        std::tuple{std::string(R"(sphere = { radius = "2 mm", subdivisions = 2 })"), 4.0 / 3.0 * kPi * 8.0,
+                   16.0 * kPi}}) {
+    const SceneSpec spec =
+        scene_spec(kVacuum + "[[part]]\nname = \"body\"\n" + shape +
+                   "\nmedium = \"cloudy_n1\"\nsurface = \"white\"\n" + source_in("body", 1));
+    SceneBuilder builder;
+    const BuiltScene built = builder.build(spec);
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-12));
+    const PhotonSource source(spec.source, built.scene);
+    // White walls send isotropic light back, so that in the end photons are at the walls evenly, as Lambert's
+    // law has it; chords between reflections are then 4V/S long in the mean, with scattering or without.
+    Moments chord;
+    for (std::uint64_t i = 0; i < 4'000; ++i) {
+      Rng rng(21, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      double before = 0.0, sum = 0.0;
+      constexpr std::uint32_t kFirst = 20, kLast = 120;
+      for (std::uint32_t seen = 0; photon.interactions < kLast;) {
+        const Step taken = step(built.scene, photon, rng);
+        REQUIRE_FALSE(is_final(taken.event));
+        if (photon.interactions == seen) continue;
+        seen = photon.interactions;
+        if (seen == kFirst) before = photon.path_mm;
+        sum = photon.path_mm - before;
+      }
+      chord.add(sum / (kLast - kFirst));
+    }
+    CAPTURE(shape);
+    check_law("mean chord, mm", chord.mean(), {4.0 * volume / area, 0.0});
+    CHECK(chord.mean().error < 1e-3 * 4.0 * volume / area);
+  }
+}
+
+TEST_CASE("Law: mean chord and escape of a cone, of a tip and of a frustum") {
+  // Light made evenly in a body of index 1 leaves evenly: only the chord is to be shown, by the method of
+  // equilibrium.
+  for (const auto& [low, high, height] :
+       {std::tuple{2.0, 0.0, 3.0}, std::tuple{0.5, 2.0, 1.0}, std::tuple{1.0, 1.5, 6.0}}) {
+    const SceneSpec spec = scene_spec(
+        kVacuum +
+        fmt::format("[[part]]\nname = \"body\"\ncone = {{ bottom_radius = \"{} mm\", top_radius = \"{} mm\", "
+                    "height = \"{} mm\", segments = 16 }}\nmedium = \"cloudy_n1\"\nsurface = \"white\"\n",
+                    low, high, height) +
+        source_in("body", 1));
+    SceneBuilder builder;
+    const BuiltScene built = builder.build(spec);
+    CHECK(built.scene.parts.front().curved);
+    const double volume = kPi / 3.0 * height * (low * low + low * high + high * high);
+    const double area = kPi * (low * low + high * high + (low + high) * std::hypot(height, low - high));
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-9));
+    CHECK(face_area(built.scene, "body:other") == doctest::Approx(area).epsilon(1e-9));
+    const PhotonSource source(spec.source, built.scene);
+    Moments chord;
+    for (std::uint64_t i = 0; i < 3'000; ++i) {
+      Rng rng(22, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      double before = 0.0;
+      constexpr std::uint32_t kFirst = 20, kLast = 120;
+      for (std::uint32_t seen = 0; photon.interactions < kLast;) {
+        step(built.scene, photon, rng);
+        if (photon.interactions != seen && photon.interactions == kFirst) before = photon.path_mm;
+        seen = photon.interactions;
+      }
+      chord.add((photon.path_mm - before) / (kLast - kFirst));
+    }
+    CAPTURE(low);
+    CAPTURE(high);
+    check_law("mean chord, mm", chord.mean(), {4.0 * volume / area, 0.0});
+  }
+}
+
+TEST_CASE("Law: a fibre of core and cladding keeps light by the critical angle between them") {
+  // Rays that leave the core are lost through the wall of the cladding, which a black jacket covers. Light of
+  // the core with an angle at its wall beyond that of total reflection stays: as in the bare fibre, with n2 /
+  // n1.
+  constexpr double kCore = 1.6, kCladding = 1.49;
+  const double limit = std::sqrt(1.0 - kCladding * kCladding / (kCore * kCore));
+  const double escaping = simpson(
+      [&](double theta) {
+        const double most = limit / std::sin(theta);
+        if (most >= 1.0) return 0.0;
+        const double psi = std::acos(most);
+        return std::sin(theta) * 2.0 / kPi * (psi + 0.5 * std::sin(2.0 * psi));
+      },
+      std::asin(limit), 0.5 * kPi, 200'000);
+  const Traced traced =
+      trace(kVacuum + R"([[part]]
+name = "jacket"
+cylinder = { radius = "0.6 mm", height = "2000 mm", segments = 12 }
+medium = "opaque"
+[[part]]
+name = "cladding"
+cylinder = { radius = "0.5 mm", height = "2000 mm", segments = 16 }
+medium = "cladding"
+surface = "flat"
+[[part]]
+name = "core"
+cylinder = { radius = "0.48 mm", height = "2000 mm", segments = 10 }
+medium = "core"
+surface = "flat"
+[[part]]
+name = "below"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "core", side = "-z" }
+sensor = "matched"
+[[part]]
+name = "above"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "core", side = "+z" }
+sensor = "matched"
+)" + source_in("core", 200'000, R"(, slab_z = ["999 mm", "1001 mm"])") +
+            fmt::format("[media.core]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\n"
+                        "scattering = {{ none = true }}\n"
+                        "[media.cladding]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\n"
+                        "scattering = {{ none = true }}\n"
+                        "[sensors.matched]\nefficiency = {{ definition = \"internal\", value = 1.0 }}\n"
+                        "window = {{ index = 1.6 }}\n",
+                        kCore, kCladding));
+  check_fraction(traced.result, Fate::detected, 1.0 - escaping);
+}
+
+#ifdef SCINTRAY_TESTS_STEP
+TEST_CASE("Fates in a rod and a ball of a STEP file do not depend on its tessellation") {
+  for (const StepSolid solid : {StepSolid::cylinder, StepSolid::sphere}) {
+    const auto path = scratch_folder("curved_step") / "body.step";
+    write_step(path, {{"body", solid, {2.0, 0.0, 9.0}, {1.0, 2.0, 3.0}, {}, {}, ""}});
+    std::vector<std::uint64_t> escaped;
+    for (const double deviation_mm : {0.2, 0.02, 0.002}) {
+      const Traced traced = trace(
+          kVacuum + "[[part]]\nname = \"body\"\nmesh = \"" + path.string() + "\"\n" +
+          fmt::format("tessellation = {{ deviation = \"{} mm\", angle = \"30 deg\" }}\n", deviation_mm) +
+          "medium = \"lso\"\nsurface = \"flat\"\n" + source_in("body", 100'000));
+      CHECK(traced.built.scene.parts.front().curved);
+      const double volume = solid == StepSolid::sphere ? 4.0 / 3.0 * kPi * 8.0 : kPi * 4.0 * 9.0;
+      CHECK(traced.built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-6));
+      escaped.push_back(traced.result.count(Fate::escaped));
+    }
+    for (const std::uint64_t count : escaped)
+      CHECK(std::abs(static_cast<double>(count) - static_cast<double>(escaped.front())) <
+            kSigmas * std::sqrt(2.0 * static_cast<double>(count)));
+  }
+}
+#endif
