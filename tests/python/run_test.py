@@ -117,6 +117,14 @@ class Keys(Case):
         self.assertEqual(scene.with_keys({'run.seed': 9})['run.seed'], 9)
         self.assertEqual(scene['run.seed'], 1)
 
+    def test_parts_of_all_kinds_keep_their_order(self):
+        # An array that touches a part, which touches an array: the file's order is the one that can be read.
+        scene = scintray.Scene.load(SOURCE / 'scenes/block_detector.toml')
+        before = [part['name'] for part in scene.simulation().parts()]
+        scene['source.photons'] = 1000
+        self.assertNotEqual(scene.text, (SOURCE / 'scenes/block_detector.toml').read_text())
+        self.assertEqual([part['name'] for part in scene.copy().simulation().parts()], before)
+
     def test_quantities_keep_all_digits(self):
         self.assertEqual(scintray.quantity(0.1 + 0.2, 'mm'), '0.30000000000000004 mm')
         self.assertEqual(scintray.quantity(np.array([1, 2.5]), 'mm'), ['1.0 mm', '2.5 mm'])

@@ -53,9 +53,10 @@ py::dict grid_of(const MapPtr& file, std::size_t number) {
   return entry;
 }
 
+/// @param keep  the results file stays; else its events are kept in memory
 py::tuple run_mapped(const std::string& text, const std::string& file, const std::string& map,
                      const std::optional<int>& threads, const std::optional<std::uint64_t>& seed,
-                     const std::optional<std::uint64_t>& events, const std::string& output,
+                     const std::optional<std::uint64_t>& events, const std::string& output, bool keep,
                      const py::object& progress) {
   std::shared_ptr<RunData> data;
   WatchedWork work;
@@ -72,6 +73,9 @@ py::tuple run_mapped(const std::string& text, const std::string& file, const std
     simulation::ResultsFile results(output);
     simulation::simulate_mapped(scene_file::SceneFile::from_text(text, file), map, results, options, hooks);
     data = open_results(output);
+    if (keep) return;
+    data->read_all_events();
+    data->file.clear();
   });
   return py::make_tuple(data, error);
 }

@@ -84,7 +84,7 @@ py::object WatchedWork::run(const std::function<void()>& work) {
     if (!error.is_none()) return;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress.is_none()) call_progress();
+      if (!progress.is_none() && !stop.load()) call_progress();
     } catch (py::error_already_set& raised) {
       error = raised.value();
       if (raised.trace()) error.attr("__traceback__") = raised.trace();

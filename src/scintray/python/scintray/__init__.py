@@ -11,6 +11,13 @@ docs/python.md is the guide. Lengths are mm, wavelengths nm, times ns, energies 
 in its unit. Errors are of the classes of ``scintray.errors``.
 """
 
+import os as _os
+
+# A package of pip has the data in itself; the library finds other installations by itself.
+_data = _os.path.join(_os.path.dirname(_os.path.abspath(__file__)), "data")
+if _os.path.isdir(_data):
+    _os.environ.setdefault("SCINTRAY_DATA", _data)
+
 from . import errors
 from ._core import data_folder as _data_folder
 from ._core import version as _version
@@ -19,10 +26,11 @@ from .analysis import Analysis
 from .errors import (Cancelled, ClosedError, Error, InputError, InternalError, MissingPackage, Problem,
                      SystemFailure)
 from .mapping import Fit, ResponseMap, fit, reweight
-from .results import Events, Point, Results, Tally, open_results
+from .results import Events, Point, Results, open_results
 from .scene import Mesh, Scene, quantity
 from .simulation import Deposits, ProgressBar, Simulation
 from .surfaces import Goniometer, HeightMap, Medium, SurfaceTable, goniometer, media, names, surfaces
+from .tallies import Tally
 
 __version__: str = _version()
 

@@ -52,10 +52,12 @@ def _is_tables(value: Any) -> bool:
     return isinstance(value, (list, tuple)) and bool(value) and all(isinstance(v, dict) for v in value)
 
 
-def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value, path: value) -> str:
+def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value, path: value,
+         first: Sequence[Tuple[str, Any]] = ()) -> str:
     """TOML text of a scene: a line per key, so that messages find their place.
 
-    ``special`` replaces values that TOML does not have, by their path.
+    ``special`` replaces values that TOML does not have, by their path. ``first`` are entries of lists, as (key,
+    entry), that come before all other tables, in their order, whatever their lists.
     """
     lines: List[str] = []
 
@@ -66,11 +68,16 @@ def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value
     for key, value in data.items():
         if not isinstance(value, dict) and not _is_tables(value):
             lines.append(f"{_key(key)} = {_inline(value, key, special)}")
+    for key, entry in first:
+        if not isinstance(entry, dict):
+            raise InputError(f"{key} holds {entry!r}, which is not a dictionary", "give a list of dictionaries")
+        table(f"[[{_key(key)}]]", entry, f"{key}.{entry.get('name', '')}")
+    written = {id(entry) for _, entry in first}
     for key, value in data.items():
         if _is_tables(value):
             for i, entry in enumerate(value):
-                name = entry.get("name", i)
-                table(f"[[{_key(key)}]]", entry, f"{key}.{name}")
+                if id(entry) not in written:
+                    table(f"[[{_key(key)}]]", entry, f"{key}.{entry.get('name', i)}")
         elif isinstance(value, dict):
             if value and all(isinstance(v, dict) for v in value.values()):
                 for name, entry in value.items():

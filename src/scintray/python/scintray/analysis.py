@@ -32,17 +32,17 @@ class Histogram:
 
 class Peak:
     """A fitted Gaussian peak: ``position``, ``sigma``, ``events`` and ``relative_fwhm`` with their errors where
-    it ``converged``; ``p_value`` of the fit; ``histogram`` of the bins fitted and ``expected`` counts in them.
+    it ``converged``, nan where not; ``p_value`` of the fit; ``histogram`` of the bins fitted and ``expected`` counts in them.
 
     Of a photopeak also ``status`` ("trusted", "poor fit", ...) and its ``reason``.
     """
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.converged: bool = entry["converged"]
-        self.position: Estimate = estimate(entry["position"])
-        self.sigma: Estimate = estimate(entry["sigma"])
-        self.events: Estimate = estimate(entry["events"])
-        self.relative_fwhm: Estimate = estimate(entry["relative_fwhm"])
+        def fitted(name: str) -> Estimate:
+            return estimate(entry[name]) if entry["converged"] else Estimate(np.nan, np.nan)
+        self.position, self.sigma = fitted("position"), fitted("sigma")
+        self.events, self.relative_fwhm = fitted("events"), fitted("relative_fwhm")
         self.p_value: float = entry["p_value"]
         self.histogram = Histogram(entry["histogram"])
         self.expected: np.ndarray = entry["expected"]

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+import tempfile
+from typing import Any, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core
 from ._tools import Estimate, axes_for, dataframe, estimate, html_table, numbers, positive_integer
 from .errors import Cancelled, InputError
-from .results import Results, open_results
+from .results import Results
 from .scene import Scene
 from .simulation import Progress, watched, with_source
 
@@ -40,6 +41,7 @@ class ResponseMap:
 
     def __init__(self, core: Any) -> None:
         self._core = core
+        self._file: Optional[str] = None
         self.channels: List[str] = core.channels()
         self.photons_per_cell: int = core.photons_per_cell()
         self.grids: Dict[str, Dict[str, Any]] = {}
@@ -63,7 +65,9 @@ class ResponseMap:
     @classmethod
     def read(cls, path: PathLike) -> "ResponseMap":
         """The map of a file. Raises InputError."""
-        return cls(_core.read_response(os.fspath(path)))
+        made = cls(_core.read_response(os.fspath(path)))
+        made._file = os.path.abspath(os.fspath(path))
+        return made
 
     def write(self, path: PathLike) -> None:
         """Writes the map (HDF5)."""
@@ -75,14 +79,21 @@ class ResponseMap:
         emitted = grid["photons"].astype(float)[..., np.newaxis]
         return np.divide(grid["detected"], emitted, out=np.full(grid["detected"].shape, np.nan), where=emitted > 0)
 
-    @staticmethod
-    def run(scene: Union[Scene, PathLike], map_file: PathLike, output: PathLike, *, threads: Optional[int] = None,
+    def run(self, scene: Union[Scene, PathLike], *, output: Optional[PathLike] = None, threads: Optional[int] = None,
             seed: Optional[int] = None, events: Optional[int] = None, progress: Progress = None) -> Results:
-        """Events of a scene from the map of a file, without tracing, into a results file. Raises InputError; Cancelled
-        on Ctrl-C, with the partial results."""
-        data, raised = _guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
-            text, file, os.fspath(map_file), positive_integer(threads, "threads"), seed,
-            positive_integer(events, "events"), os.fspath(output), call)))
+        """Events of a scene from the map, without tracing; ``output`` is a results file to write. The scene must be
+        that of the map, apart from source, run settings, readout and analysis.
+
+        Raises InputError; Cancelled on Ctrl-C, with the partial results.
+        """
+        with tempfile.TemporaryDirectory(prefix="scintray-") as folder:
+            if self._file is None:
+                self.write(os.path.join(folder, "map.h5"))
+            source = self._file if self._file is not None else os.path.join(folder, "map.h5")
+            target = os.path.join(folder, "results.h5") if output is None else os.fspath(output)
+            data, raised = _guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
+                text, file, source, positive_integer(threads, "threads"), seed, positive_integer(events, "events"),
+                target, output is not None, call)))
         if isinstance(raised, KeyboardInterrupt):
             raise Cancelled("stopped by Ctrl-C", Results(data)) from raised
         if raised is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import hashlib
 import os
+import re
 import shutil
 import tempfile
 import weakref
@@ -21,6 +22,8 @@ try:
     import tomllib as _reader
 except ImportError:  # Python before 3.11
     import tomli as _reader  # type: ignore[no-redef]
+
+_BODIES = ("part", "array", "light_guide")
 
 __all__ = ["Mesh", "Scene", "quantity"]
 
@@ -119,6 +122,7 @@ class Scene:
         self._file: Optional[Path] = None
         self._original: Optional[Tuple[str, Dict[str, Any]]] = None
         self._meshes: Optional[Path] = None
+        self._order: List[Any] = []  # bodies as they were added: one that touches another comes after it
 
     @classmethod
     def load(cls, path: Union[str, "os.PathLike[str]"]) -> "Scene":
@@ -146,6 +150,10 @@ class Scene:
         except _reader.TOMLDecodeError as error:
             raise InputError(f"the text is not TOML: {error}", "see https://toml.io") from error
         scene._original = (text, copy.deepcopy(scene.data))
+        remaining = {kind: iter(scene.data.get(kind, [])) for kind in _BODIES}
+        headers = re.findall(r"^[ \t]*\[\[[ \t]*(\w+)[ \t]*\]\]", text, re.MULTILINE)
+        scene._order = [entry for kind in headers if kind in remaining for entry in [next(remaining[kind], None)]
+                        if entry is not None]
         return scene
 
     # Keys
@@ -169,7 +177,7 @@ class Scene:
     def copy(self) -> "Scene":
         """An independent copy; meshes, which do not change, are shared."""
         twin = Scene()
-        twin.data = copy.deepcopy(self.data, {id(m): m for m in self._all_meshes()})
+        twin.data, twin._order = copy.deepcopy((self.data, self._order), {id(m): m for m in self._all_meshes()})
         twin._folder, twin._file, twin._original = self._folder, self._file, self._original
         return twin
 
@@ -187,6 +195,7 @@ class Scene:
         if any(entry.get("name") == name for entry in entries):
             raise InputError(f'there is a {table} "{name}" already', "give each a name of its own")
         entries.append({"name": name, **{k: v for k, v in keys.items() if v is not None}})
+        self._order.append(entries[-1])
         return self
 
     def part(self, name: str, *, mesh: Union[Mesh, str, "os.PathLike[str]", None] = None,
@@ -258,10 +267,13 @@ class Scene:
             return value
 
         data = copy.copy(self.data)
-        for kind in ("part", "array"):
-            if kind in data:
-                data[kind] = [_with_unit(entry) for entry in data[kind]]
-        return _toml.dump(data, special)
+        bodies: List[Tuple[str, Any]] = []
+        for kind in _BODIES:
+            if isinstance(data.get(kind), list):
+                bodies += [(kind, entry) for entry in data.pop(kind)]
+        place = {id(entry): i for i, entry in enumerate(self._order)}
+        bodies.sort(key=lambda body: place.get(id(body[1]), len(place)))
+        return _toml.dump(data, special, [(kind, _with_unit(entry)) for kind, entry in bodies])
 
     @property
     def text(self) -> str:
@@ -308,7 +320,7 @@ class Scene:
 
     def _rows(self) -> List[Tuple[str, str, str, str]]:
         rows = []
-        for kind in ("part", "array", "light_guide"):
+        for kind in _BODIES:
             for entry in self.data.get(kind, []):
                 body = {**entry, **entry.get("element", {})}
                 shape = next((k for k in ("mesh", "box", "cylinder", "prism", "tapered", "winston", "sphere")
