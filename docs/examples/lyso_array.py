@@ -31,7 +31,7 @@ scene.plot(plane="xz");
 # Each 511 keV event emits 17,000 photons, so the response of every 3 mm of every crystal is traced once, and the events
 # are made from that map. `results = scene.run(progress=True)` traces every photon instead.
 # %%
-response = scintray.ResponseMap.build(scene, pitch_mm=3.5, photons_per_cell=4000, progress=True)
+response = scintray.ResponseMap.build(scene, pitch_mm=3.5, photons_per_cell=10_000, progress=True)
 results = response.run(scene, events=40_000)
 results
 # %%

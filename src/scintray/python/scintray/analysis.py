@@ -169,18 +169,22 @@ class FloodMap:
         self.worst_peak_to_valley: float = entry["worst_peak_to_valley"]
 
     def plot(self, ax: Optional[Any] = None, *, peaks: bool = True) -> Any:
-        """Draws the map on a square-root scale, which shows valleys and peaks, with a mark on each peak."""
-        colors = axes_for(ax)
+        """Draws the map on a square-root scale up to the highest hundredth of the cells with events, so that valleys and
+        faint peaks show, with a ring about each peak."""
+        ax = axes_for(ax)
         from matplotlib.colors import PowerNorm
-        image = colors.imshow(self.counts, origin="lower", extent=self.extent_mm, cmap="inferno",
-                              norm=PowerNorm(0.5, vmin=0), interpolation="nearest")
+        filled = self.counts[self.counts > 0]
+        top = max(1.0, float(np.quantile(filled, 0.99))) if len(filled) else 1.0
+        image = ax.imshow(self.counts, origin="lower", extent=self.extent_mm, cmap="inferno",
+                              norm=PowerNorm(0.5, vmin=0, vmax=top), interpolation="nearest")
         if peaks and len(self.peak_mm):
-            colors.plot(self.peak_mm[:, 0], self.peak_mm[:, 1], "+", color="cyan", markersize=5, markeredgewidth=0.8)
-        colors.set_xlabel("x (mm)")
-        colors.set_ylabel("y (mm)")
-        colors.set_title(f"{len(self.peak_mm)} peaks, {100 * self.share_right.value:.1f} % of events in the right one")
-        colors.figure.colorbar(image, ax=colors, label="events per cell", shrink=0.8)
-        return colors
+            ax.plot(self.peak_mm[:, 0], self.peak_mm[:, 1], "o", color="cyan", markersize=9, markerfacecolor="none",
+                        markeredgewidth=0.6)
+        ax.set_xlabel("x (mm)")
+        ax.set_ylabel("y (mm)")
+        ax.set_title(f"{len(self.peak_mm)} peaks, {100 * self.share_right.value:.1f} % of events in the right one")
+        ax.figure.colorbar(image, ax=ax, label="events per cell", shrink=0.8, extend="max")
+        return ax
 
     def __repr__(self) -> str:
         return f"FloodMap({len(self.peak_mm)} peaks, {self.share_right} right, peak to valley {self.peak_to_valley:.3g})"
@@ -225,9 +229,20 @@ class Analysis:
         if peak.converged and len(peak.expected):
             ratio = np.diff(self.spectrum.edges)[0] / np.diff(peak.histogram.edges)[0]
             ax.stairs(peak.expected * ratio, peak.histogram.edges, color="C1", linewidth=1.5, baseline=None)
+            self._cut(ax, ratio * float(peak.expected.max()))
             ax.set_title(f"resolution {100 * peak.relative_fwhm.value:.1f} ± "
                          f"{100 * peak.relative_fwhm.error:.1f} % FWHM ({peak.status})")
         return ax
+
+    def _cut(self, ax: Any, peak: float) -> None:
+        """Where a bin is far above the photopeak (gammas that left nothing but dark counts), ends the axis above the
+        peak, and states the number."""
+        assert self.spectrum is not None
+        highest = int(np.argmax(self.spectrum.counts))
+        if self.spectrum.counts[highest] > 2.0 * peak:
+            ax.set_ylim(0.0, 1.4 * peak)
+            ax.annotate(f"{self.spectrum.counts[highest]:.0f} events", (self.spectrum.edges[highest + 1], 1.33 * peak),
+                        xytext=(4, 0), textcoords="offset points", fontsize="small", va="center")
 
     def plot(self) -> Any:
         """A figure with every analysis there is: spectrum, light against depth, depth of interaction, flood map and

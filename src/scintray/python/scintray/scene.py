@@ -266,14 +266,16 @@ class Scene:
                 return file.name if folder is not None else str(file)
             return value
 
-        data = copy.copy(self.data)
-        bodies: List[Tuple[str, Any]] = []
-        for kind in _BODIES:
-            if isinstance(data.get(kind), list):
-                bodies += [(kind, entry) for entry in data.pop(kind)]
-        place = {id(entry): i for i, entry in enumerate(self._order)}
-        bodies.sort(key=lambda body: place.get(id(body[1]), len(place)))
+        bodies = self._bodies()
+        data = {key: value for key, value in self.data.items() if key not in {kind for kind, _ in bodies}}
         return _toml.dump(data, special, [(kind, _with_unit(entry)) for kind, entry in bodies])
+
+    def _bodies(self) -> List[Tuple[str, Any]]:
+        """Parts, arrays and light guides, as (kind, entry), in the order in which they were added."""
+        bodies = [(kind, entry) for kind in _BODIES if isinstance(self.data.get(kind), list)
+                  for entry in self.data[kind]]
+        place = {id(entry): i for i, entry in enumerate(self._order)}
+        return sorted(bodies, key=lambda body: place.get(id(body[1]), len(place)))
 
     @property
     def text(self) -> str:
@@ -320,14 +322,15 @@ class Scene:
 
     def _rows(self) -> List[Tuple[str, str, str, str]]:
         rows = []
-        for kind in _BODIES:
-            for entry in self.data.get(kind, []):
-                body = {**entry, **entry.get("element", {})}
-                shape = next((k for k in ("mesh", "box", "cylinder", "prism", "tapered", "winston", "sphere")
-                              if k in body), "")
-                count = " x ".join(map(str, entry["count"])) if "count" in entry else ""
-                rows.append((f"{entry.get('name', '')} {count}".strip(), f"{shape} {_short(body.get(shape, ''))}",
-                             str(body.get("medium", body.get("sensor", ""))), str(body.get("surface", ""))))
+        for _, entry in self._bodies():
+            if not isinstance(entry, dict):
+                continue
+            body = {**entry, **entry.get("element", {})}
+            shape = next((k for k in ("mesh", "box", "cylinder", "prism", "tapered", "winston", "sphere")
+                          if k in body), "")
+            count = " x ".join(map(str, entry["count"])) if "count" in entry else ""
+            rows.append((f"{entry.get('name', '')} {count}".strip(), f"{shape} {_short(body.get(shape, ''))}",
+                         str(body.get("medium", body.get("sensor", ""))), str(body.get("surface", ""))))
         return rows
 
     def __repr__(self) -> str:
