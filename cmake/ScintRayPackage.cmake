@@ -31,4 +31,18 @@ if(SCINTRAY_STEP)
     ", libocct-data-exchange-dev, libocct-modeling-algorithms-dev, libfontconfig-dev")
 endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS program)  # its CMake package reads the same materials
+
+# The Python module, for the Python of this Debian.
+if(SCINTRAY_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "The Python module scintray.\n Scenes loaded or built in code, runs in memory, results as NumPy arrays, plots.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-scintray)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  math(EXPR next_python_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_python_minor}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-xarray")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_COMPONENT_PYTHON_DEPENDS program)  # it reads the same materials
+endif()
 include(CPack)

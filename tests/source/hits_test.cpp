@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 
 #include "event_scene.hpp"
@@ -116,4 +117,43 @@ TEST_CASE("files that are no lists of hits are refused") {
              "without their unit"));
   CHECK(
       says(complaint([&] { gamma_spec(source_of(file_with("event\n1\n"), "group = \"x\"")); }), "no groups"));
+}
+
+TEST_CASE("hits in memory are those of a file with the same numbers") {
+  const Scene scene = lso_cube(10.0);
+  const auto from_file = event_source(
+      source_of(
+          file_with("event,x,y,z,energy,time\n4,0.1,0.2,0.3,0.511,7\n4,-0.1,0,0,0.1,9\n2,0,0,0,0.3,1\n")),
+      scene);
+  scene_file::GammaSpec spec = gamma_spec("type = \"hits\"\narrays = true");
+  auto& hits = std::get<scene_file::HitsSpec>(spec.kind);
+  CHECK(says(complaint([&] { make_event_source(spec, scene); }), "did not set them"));
+  hits.columns = std::make_shared<const scene_file::HitColumns>(
+      scene_file::HitColumns{{4, 4, 2}, {1, -1, 0}, {2, 0, 0}, {3, 0, 0}, {511, 100, 300}, {7, 9, 1}});
+  const auto from_memory = make_event_source(spec, scene);
+  REQUIRE(from_memory->events() == from_file->events());
+  for (std::uint64_t number = 0; number < 2; ++number) {
+    const Event a = make_event(*from_file, scene, number), b = make_event(*from_memory, scene, number);
+    REQUIRE(a.deposits.size() == b.deposits.size());
+    for (std::size_t i = 0; i < a.deposits.size(); ++i) {
+      CHECK((a.deposits[i].position - b.deposits[i].position).norm() < 1e-12);
+      CHECK(a.deposits[i].energy_keV == doctest::Approx(b.deposits[i].energy_keV));
+      CHECK(a.deposits[i].time_ns == b.deposits[i].time_ns);
+    }
+  }
+}
+
+TEST_CASE("hits in memory that are wrong are refused with their row") {
+  const Scene scene = lso_cube(10.0);
+  const auto refused = [&](scene_file::HitColumns columns) {
+    scene_file::GammaSpec spec = gamma_spec("type = \"hits\"\narrays = true");
+    std::get<scene_file::HitsSpec>(spec.kind).columns =
+        std::make_shared<const scene_file::HitColumns>(std::move(columns));
+    return complaint([&] { make_event_source(spec, scene); });
+  };
+  CHECK(says(refused({{0, 1}, {0}, {0, 0}, {0, 0}, {1, 1}, {}}), "differ in length: 2 and 1"));
+  CHECK(says(refused({{0, 1.5}, {0, 0}, {0, 0}, {0, 0}, {1, 1}, {}}), "row 1"));
+  CHECK(says(refused({{0}, {std::nan("")}, {0}, {0}, {1}, {}}), "not finite"));
+  CHECK(says(refused({{}, {}, {}, {}, {}, {}}), "the calling program"));
+  CHECK(says(complaint([] { gamma_spec("type = \"hits\"\narrays = true\nfile = \"README.md\""); }), "file"));
 }

@@ -136,6 +136,12 @@ double read_unit(const config::TomlTable& table, const std::string& key, core::D
 
 HitsSpec read_hits(const config::TomlTable& table) {
   HitsSpec hits;
+  hits.arrays = table.boolean("arrays", false);
+  if (hits.arrays) {
+    hits.where = table.where("arrays");
+    if (table.has("file")) table.report("file", "a file of hits beside arrays = true", "remove one of them");
+    return hits;
+  }
   hits.where = table.where("file");
   hits.file = table.existing_file("file");
   const std::string kind = hits.file.extension().string();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -85,9 +86,20 @@ struct EmitterSpec {
   std::vector<MatterSpec> matter;  ///< the last one for a part applies
 };
 
-/// type = "hits": deposits from a file of another program.
+/// Deposits in memory, one row each: columns of equal length, in the order of another program.
+struct HitColumns {
+  std::vector<double> event;  ///< whole numbers from 0 on
+  std::vector<double> x_mm, y_mm, z_mm;
+  std::vector<double> energy_keV;
+  std::vector<double> time_ns;  ///< empty: no times
+};
+
+/// type = "hits": deposits of another program, from a file or in memory.
 struct HitsSpec {
-  std::filesystem::path file;  ///< .csv, .h5 or .hdf5
+  std::filesystem::path file;  ///< .csv, .h5 or .hdf5; empty with `arrays`
+  bool arrays = false;         ///< the calling program sets `columns`
+  /// In place of a file; null until the calling program has set it (simulation::SimulationOptions::change).
+  std::shared_ptr<const HitColumns> columns;
   core::FileLocation where;
   std::string group;  ///< of an HDF5 file, with the columns; empty: its root
   std::string event = "event", x = "x", y = "y", z = "z", energy = "energy", time = "time";  ///< columns

@@ -26,9 +26,11 @@ std::map<core::PartId, std::size_t> layers_of(const scene_file::AnalysisSpec& sp
   return layers;
 }
 
-analysis::AnalysisSetup setup_of(const scene_file::AnalysisSpec& spec,
-                                 const std::vector<tally::ReadoutChannel>& channels,
-                                 const core::IdVector<core::PartId, std::string>& parts) {
+}  // namespace
+
+analysis::AnalysisSetup analysis_setup(const scene_file::AnalysisSpec& spec,
+                                       const std::vector<tally::ReadoutChannel>& channels,
+                                       const core::IdVector<core::PartId, std::string>& parts) {
   analysis::AnalysisSetup setup;
   for (const tally::ReadoutChannel& channel : channels) setup.channels_mm.push_back(channel.position);
   if (spec.depth) setup.depth = {spec.depth->origin, spec.depth->along};
@@ -44,8 +46,6 @@ analysis::AnalysisSetup setup_of(const scene_file::AnalysisSpec& spec,
   return setup;
 }
 
-}  // namespace
-
 std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,
                                                      const tally::RunResult& run,
                                                      const scene_file::AnalysisSpec& spec) {
@@ -58,7 +58,8 @@ std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path
   std::vector<tally::EventRecord> events;
   std::size_t at = 0;
   for (std::size_t point = 0; point < run.points.size(); ++point) {
-    analysis::AnalysisSetup setup = setup_of(spec, results::read_channels(path, point), run.header.parts);
+    analysis::AnalysisSetup setup =
+        analysis_setup(spec, results::read_channels(path, point), run.header.parts);
     setup.photon_order = photon_order;
     setup.light_timing = run.points[point].light_timing;
     analysis::EventCollector collector(std::move(setup));

@@ -7,9 +7,18 @@
 
 #include "scintray/analysis/event_analysis.hpp"
 #include "scintray/scene_file/analysis.hpp"
+#include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::simulation {
+
+/// Setup of the analyses of a point's events, less what only its results state: n-th photons and light
+/// timing.
+/// @param channels  of the point
+/// @param parts     names of the run's parts; throws InputError for a part of a layer that is not among them
+analysis::AnalysisSetup analysis_setup(const scene_file::AnalysisSpec& spec,
+                                       const std::vector<tally::ReadoutChannel>& channels,
+                                       const core::IdVector<core::PartId, std::string>& parts);
 
 /// Analyses of the points of a run, in their order. Events are read in portions; 64 bytes of each are kept,
 /// and 8 for each n-th photon whose time the readout recorded. Empty when the file has no events.

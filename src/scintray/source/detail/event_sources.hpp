@@ -79,13 +79,15 @@ struct Hit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   double energy_keV = 0.0;
   double time_ns = 0.0;   ///< as in the file; 0 when it has no times
-  std::uint64_t row = 0;  ///< line of a CSV file; place in the columns of an HDF5 file, from 0
+  std::uint64_t row = 0;  ///< line of a CSV file; else place in the columns, from 0
 };
 
-/// Hits of the columns named by the specification, in the file's order. Throws InputError with the first
-/// invalid rows (an event number that is not a whole number from 0 on, a negative energy), and for missing
-/// columns and columns of unequal length.
-std::vector<Hit> read_hits_file(const scene_file::HitsSpec& spec);
+/// Hits of the columns named by the specification, or of those in memory, in their order. Throws InputError
+/// with the first invalid rows (an event number that is not a whole number from 0 on, a negative energy), for
+/// missing columns and columns of unequal length, and for columns in memory that were not set.
+std::vector<Hit> read_hits(const scene_file::HitsSpec& spec);
+/// Origin of hits, for messages: the name of the file, or "the calling program".
+std::string origin_of_hits(const scene_file::HitsSpec& spec);
 
 /// Numbers of rows of a list of hits, and of those with a warning.
 struct HitsReport {
@@ -100,7 +102,7 @@ struct HitsReport {
 class HitsEventSource : public EventSource {
  public:
   /// @param most  largest number of events; 0 for all
-  /// Throws InputError as read_hits_file does, and when no hit lies in a part that scintillates.
+  /// Throws InputError as read_hits does, and when no hit lies in a part that scintillates.
   HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most, const scene::Scene& scene);
 
   std::uint64_t events() const override { return events_.size(); }

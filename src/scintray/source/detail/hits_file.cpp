@@ -61,6 +61,28 @@ Columns read_hdf5_columns(const scene_file::HitsSpec& spec) {
   return columns;
 }
 
+Columns columns_in_memory(const scene_file::HitsSpec& spec) {
+  if (!spec.columns)
+    throw core::InputError({spec.where, "the hits of this scene come from a program, which did not set them",
+                            "run the scene from Python with run(deposits=...), or name a file of hits"});
+  const scene_file::HitColumns& given = *spec.columns;
+  Columns columns;
+  columns.values = {given.event, given.x_mm, given.y_mm, given.z_mm, given.energy_keV, given.time_ns};
+  for (const std::vector<double>& column : columns.values)
+    if (column.size() != given.event.size() && !(&column == &columns.values.back() && column.empty()))
+      throw core::InputError(
+          {spec.where,
+           fmt::format("the columns of hits differ in length: {} and {}", given.event.size(), column.size()),
+           "set one number per hit in each"});
+  for (std::uint64_t row = 0; row < given.event.size(); ++row) columns.rows.push_back(row);
+  return columns;
+}
+
+/// Columns in mm, keV and ns, with the factors of those of a file.
+struct Units {
+  double mm = 1.0, keV = 1.0, ns = 1.0;
+};
+
 /// Fault of a row; empty for a valid one.
 std::string fault_of(const Columns& columns, std::size_t i) {
   const double event = columns.values[0][i], energy = columns.values[4][i];
@@ -74,9 +96,17 @@ std::string fault_of(const Columns& columns, std::size_t i) {
 
 }  // namespace
 
-std::vector<Hit> read_hits_file(const scene_file::HitsSpec& spec) {
-  const bool csv = spec.file.extension() == ".csv";
-  const Columns columns = csv ? read_csv_columns(spec) : read_hdf5_columns(spec);
+std::string origin_of_hits(const scene_file::HitsSpec& spec) {
+  return spec.arrays ? "the calling program" : spec.file.string();
+}
+
+std::vector<Hit> read_hits(const scene_file::HitsSpec& spec) {
+  const bool csv = !spec.arrays && spec.file.extension() == ".csv";
+  const Columns columns = spec.arrays ? columns_in_memory(spec)
+                          : csv       ? read_csv_columns(spec)
+                                      : read_hdf5_columns(spec);
+  const Units units =
+      spec.arrays ? Units{} : Units{spec.length_mm, spec.energy_keV, spec.time_ns.value_or(0.0)};
   core::Problems problems;
   std::vector<Hit> hits;
   const auto& [event, x, y, z, energy, time] = columns.values;
@@ -84,19 +114,19 @@ std::vector<Hit> read_hits_file(const scene_file::HitsSpec& spec) {
     const std::string fault = fault_of(columns, i);
     if (!fault.empty()) {
       if (problems.list().size() < kMostProblems)
-        problems.add({spec.file.string(), csv ? static_cast<long>(columns.rows[i]) : 0, 0},
+        problems.add({origin_of_hits(spec), csv ? static_cast<long>(columns.rows[i]) : 0, 0},
                      (csv ? "" : fmt::format("row {}: ", columns.rows[i])) + fault,
-                     "check which columns are named in [source.columns]");
+                     spec.arrays ? "set whole event numbers and finite numbers in mm, keV and ns"
+                                 : "check which columns are named in [source.columns]");
       continue;
     }
-    hits.push_back({static_cast<std::uint64_t>(event[i]), spec.length_mm * core::Vec3(x[i], y[i], z[i]),
-                    spec.energy_keV * energy[i], spec.time_ns ? *spec.time_ns * time[i] : 0.0,
-                    columns.rows[i]});
+    hits.push_back({static_cast<std::uint64_t>(event[i]), units.mm * core::Vec3(x[i], y[i], z[i]),
+                    units.keV * energy[i], time.empty() ? 0.0 : units.ns * time[i], columns.rows[i]});
   }
   problems.throw_if_any();
   if (hits.empty())
     throw core::InputError(
-        {spec.where, "there are no hits in " + spec.file.string(), "give one row at least"});
+        {spec.where, "there are no hits in " + origin_of_hits(spec), "give one row at least"});
   return hits;
 }
 

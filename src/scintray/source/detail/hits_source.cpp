@@ -28,7 +28,7 @@ std::string first_of(const std::vector<std::string>& words, std::uint64_t all) {
 
 HitsEventSource::HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most,
                                  const scene::Scene& scene) {
-  std::vector<Hit> hits = read_hits_file(spec);
+  std::vector<Hit> hits = read_hits(spec);
   report_.rows = hits.size();
   count_out_of_order(hits);
   std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.event < b.event; });
@@ -50,7 +50,7 @@ HitsEventSource::HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t
   if (any_seen) return;
   throw core::InputError({spec.where,
                           fmt::format("none of the {} hits of {} lies in a part that scintillates",
-                                      report_.rows, spec.file.string()),
+                                      report_.rows, origin_of_hits(spec)),
                           "check length_unit, and that both programs place the parts alike: " +
                               first_of(report_.first_outside, report_.outside)});
 }

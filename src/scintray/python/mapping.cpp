@@ -1,0 +1,187 @@
+/// Response maps, and fits of scenes.
+
+#include "scintray/python/bindings.hpp"
+#include "scintray/simulation/fit.hpp"
+#include "scintray/simulation/response.hpp"
+
+namespace scintray::python {
+
+namespace {
+
+using MapPtr = std::shared_ptr<simulation::ResponseFile>;
+
+void raise_if(const py::object& error) {
+  if (error.is_none()) return;
+  PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
+  throw py::error_already_set();
+}
+
+MapPtr build_map(const std::string& text, const std::string& file,
+                 const simulation::ResponseSettings& settings, const std::optional<int>& threads,
+                 const std::optional<std::uint64_t>& seed, const py::object& progress) {
+  auto map = std::make_shared<simulation::ResponseFile>();
+  WatchedWork work;
+  work.progress = progress;
+  const py::object error = work.run([&] {
+    simulation::MapOptions options;
+    options.settings = settings;
+    options.simulation.threads = threads;
+    options.simulation.seed = seed;
+    options.simulation.surface_hooks.stop = [&] { return work.stop.load(); };
+    options.hooks.stop = &work.stop;
+    options.hooks.progress = [&](std::uint64_t cells, std::uint64_t of) { work.report(cells, of, "cells"); };
+    *map = simulation::build_map(scene_file::SceneFile::from_text(text, file), options);
+  });
+  raise_if(error);
+  if (map->map.grids.empty())
+    throw core::Cancelled("the response map was stopped: it requires all its cells");
+  return map;
+}
+
+py::dict grid_of(const MapPtr& file, std::size_t number) {
+  const simulation::ResponseMap& map = file->map;
+  const simulation::ResponseGrid& grid = map.grids.at(number);
+  const py::capsule owner(new MapPtr(file), [](void* held) { delete static_cast<MapPtr*>(held); });
+  std::vector<py::ssize_t> shape(grid.cells.begin(), grid.cells.end());
+  py::dict entry;
+  entry["part"] = grid.part;
+  entry["low_mm"] = py::make_tuple(grid.low.x(), grid.low.y(), grid.low.z());
+  entry["pitch_mm"] = py::make_tuple(grid.pitch.x(), grid.pitch.y(), grid.pitch.z());
+  entry["photons"] = view(grid.photons.data(), shape, owner);
+  shape.push_back(static_cast<py::ssize_t>(map.channels.size()));
+  entry["detected"] = view(grid.detected.data(), shape, owner);
+  return entry;
+}
+
+/// @param keep  the results file stays; else its events are kept in memory
+py::tuple run_mapped(const std::string& text, const std::string& file, const std::string& map,
+                     const std::optional<int>& threads, const std::optional<std::uint64_t>& seed,
+                     const std::optional<std::uint64_t>& events, const std::string& output, bool keep,
+                     const py::object& progress) {
+  std::shared_ptr<RunData> data;
+  WatchedWork work;
+  work.progress = progress;
+  const py::object error = work.run([&] {
+    simulation::SimulationOptions options;
+    options.threads = threads;
+    options.seed = seed;
+    options.events = events;
+    options.surface_hooks.stop = [&] { return work.stop.load(); };
+    simulation::SimulationHooks hooks;
+    hooks.stop = &work.stop;
+    hooks.progress = [&](const simulation::SimulationProgress& p) { work.report(p.done, p.total, p.thing); };
+    simulation::ResultsFile results(output);
+    simulation::simulate_mapped(scene_file::SceneFile::from_text(text, file), map, results, options, hooks);
+    data = open_results(output);
+    if (keep) return;
+    data->read_all_events();
+    data->file.clear();
+  });
+  return py::make_tuple(data, error);
+}
+
+py::list parameters_of(const analysis::FitRecord& record) {
+  py::list entries;
+  for (std::size_t i = 0; i < record.fit.parameters.size(); ++i) {
+    const analysis::FittedParameter& of = record.fit.parameters[i];
+    py::dict entry;
+    entry["name"] = of.parameter.name;
+    entry["unit"] = record.spec.parameters.at(i).unit;
+    entry["value"] = estimate(of.value);
+    entry["monte_carlo_error"] = of.monte_carlo_error;
+    entry["start"] = of.parameter.start;
+    entry["low"] = of.parameter.low;
+    entry["high"] = of.parameter.high;
+    entry["at_bound"] = of.at_low || of.at_high;
+    entry["determined"] = of.determined;
+    entries.append(entry);
+  }
+  return entries;
+}
+
+py::dict fit_of(const analysis::FitRecord& record) {
+  constexpr const char* kEnds[] = {"converged", "not_converged", "stopped"};
+  const analysis::CurveFit& fit = record.fit;
+  py::dict entry;
+  entry["title"] = record.title;
+  entry["end"] = kEnds[static_cast<std::size_t>(fit.end)];
+  entry["quantity"] = analysis::quantity_words(record.spec.quantity);
+  entry["position"] = record.spec.at.key;
+  entry["position_unit"] = record.spec.unit;
+  entry["parameters"] = parameters_of(record);
+  std::vector<double> correlation;
+  for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i)
+    for (Eigen::Index k = 0; k < fit.correlation.cols(); ++k) correlation.push_back(fit.correlation(i, k));
+  entry["correlation"] = array_of(std::move(correlation), {fit.correlation.rows(), fit.correlation.cols()});
+  entry["scale"] = estimate(fit.scale);
+  std::vector<double> x;
+  std::vector<core::Estimate> measured, curve, start;
+  for (const analysis::MeasuredCurve::Point& point : record.measured.points) {
+    x.push_back(point.x);
+    measured.push_back(point.y);
+  }
+  for (const analysis::ModelPoint& point : fit.curve) curve.push_back(point.value);
+  for (const analysis::ModelPoint& point : fit.start_curve) start.push_back(point.value);
+  entry["x"] = array_of(std::move(x));
+  entry["measured"] = estimates(measured);
+  entry["curve"] = estimates(curve);
+  entry["start_curve"] = estimates(start);
+  entry["residual"] = array_of(fit.residual);
+  entry["chi2"] = fit.goodness.chi2;
+  entry["degrees"] = fit.goodness.degrees;
+  entry["p_value"] = fit.goodness.p_value;
+  entry["warnings"] = fit.warnings;
+  entry["steps"] = fit.steps.size();
+  return entry;
+}
+
+py::dict fit_scene(const std::string& text, const std::string& file, const std::optional<int>& threads,
+                   const std::optional<std::uint64_t>& photons, const std::optional<std::uint64_t>& events,
+                   const py::object& progress, const std::optional<std::string>& output) {
+  analysis::FitRecord record;
+  WatchedWork work;
+  work.progress = progress;
+  const py::object error = work.run([&] {
+    simulation::SceneFitOptions options;
+    options.model.run.threads = threads;
+    options.model.run.photons = photons;
+    options.model.run.events = events;
+    options.model.run.surface_hooks.stop = [&] { return work.stop.load(); };
+    options.model.stop = &work.stop;
+    options.step = [&](const analysis::CurveFitStep& step) { work.report(step.number, 0, "steps"); };
+    if (output) simulation::check_fit_path(*output);
+    record = simulation::fit_scene(scene_file::SceneFile::from_text(text, file), options);
+    if (output) simulation::write_fit(*output, record);
+  });
+  raise_if(error);
+  return fit_of(record);
+}
+
+}  // namespace
+
+void add_mapping(py::module_& module) {
+  const py::call_guard<py::gil_scoped_release> released;
+  py::class_<simulation::ResponseFile, MapPtr>(module, "ResponseMap")
+      .def("channels", [](const MapPtr& file) { return file->map.channels; })
+      .def("photons_per_cell", [](const MapPtr& file) { return file->map.photons_per_cell; })
+      .def("grids", [](const MapPtr& file) { return file->map.grids.size(); })
+      .def("grid", &grid_of)
+      .def("write",
+           [](const MapPtr& file, const std::string& path) { simulation::write_response(path, *file); });
+  module.def(
+      "read_response",
+      [](const std::string& path) {
+        return std::make_shared<simulation::ResponseFile>(simulation::read_response(path));
+      },
+      released);
+  module.def("build_response",
+             [](const std::string& text, const std::string& file, double pitch_mm, std::uint32_t photons,
+                std::uint32_t delays, const std::optional<int>& threads,
+                const std::optional<std::uint64_t>& seed, const py::object& progress) {
+               return build_map(text, file, {pitch_mm, photons, delays}, threads, seed, progress);
+             });
+  module.def("run_mapped", &run_mapped);
+  module.def("fit_scene", &fit_scene);
+}
+
+}  // namespace scintray::python

@@ -1,0 +1,203 @@
+"""Response maps, events from them, fits of scenes to measurements, and reweighting."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import Any, Dict, List, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _core
+from ._tools import Estimate, axes_for, dataframe, estimate, html_table, numbers, positive_integer
+from .errors import Cancelled, InputError
+from .results import Results
+from .scene import Scene
+from .simulation import Progress, watched, with_source
+
+__all__ = ["Fit", "FitParameter", "ResponseMap", "fit", "reweight"]
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+def _scene(scene: Union[Scene, PathLike]) -> Scene:
+    return scene if isinstance(scene, Scene) else Scene.load(scene)
+
+
+def _guarded(scene: Scene, work: Any) -> Any:
+    text, file = scene.text, scene.file
+    try:
+        return work(text, file)
+    except InputError as error:
+        raise with_source(error, text, file) from None
+
+
+class ResponseMap:
+    """Detection of light from each cell of the parts that scintillate, traced once (docs/response_maps.md).
+
+    ``channels`` (names), ``photons_per_cell``, ``parts`` (names); ``grids`` are dictionaries by part with ``low_mm``,
+    ``pitch_mm``, ``photons`` (x, y, z: emitted in each cell; 0: empty) and ``detected`` (x, y, z, channel).
+    """
+
+    def __init__(self, core: Any) -> None:
+        self._core = core
+        self._file: Optional[str] = None
+        self.channels: List[str] = core.channels()
+        self.photons_per_cell: int = core.photons_per_cell()
+        self.grids: Dict[str, Dict[str, Any]] = {}
+        for i in range(core.grids()):
+            grid = core.grid(i)
+            self.grids[grid["part"]] = grid
+        self.parts = list(self.grids)
+
+    @classmethod
+    def build(cls, scene: Union[Scene, PathLike], *, pitch_mm: float = 1.0, photons_per_cell: int = 10_000,
+              delays: int = 64, threads: Optional[int] = None, seed: Optional[int] = None,
+              progress: Progress = None) -> "ResponseMap":
+        """Traces the map of a scene, in cells of at most ``pitch_mm``. Raises InputError; Cancelled."""
+        pitch = float(numbers([pitch_mm], "pitch_mm", (1,), "mm")[0])
+        if pitch <= 0:
+            raise InputError(f"pitch_mm is {pitch}; expected above 0", "give the edge of a cell in mm")
+        return cls(_guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.build_response(
+            text, file, pitch, positive_integer(photons_per_cell, "photons_per_cell"),
+            positive_integer(delays, "delays"), positive_integer(threads, "threads"), seed, call))))
+
+    @classmethod
+    def read(cls, path: PathLike) -> "ResponseMap":
+        """The map of a file. Raises InputError."""
+        made = cls(_core.read_response(os.fspath(path)))
+        made._file = os.path.abspath(os.fspath(path))
+        return made
+
+    def write(self, path: PathLike) -> None:
+        """Writes the map (HDF5)."""
+        self._core.write(os.fspath(path))
+
+    def probability(self, part: str) -> np.ndarray:
+        """Share of the light of each cell that each channel detects (x, y, z, channel); nan in empty cells."""
+        grid = self.grids[part]
+        emitted = grid["photons"].astype(float)[..., np.newaxis]
+        return np.divide(grid["detected"], emitted, out=np.full(grid["detected"].shape, np.nan), where=emitted > 0)
+
+    def run(self, scene: Union[Scene, PathLike], *, output: Optional[PathLike] = None, threads: Optional[int] = None,
+            seed: Optional[int] = None, events: Optional[int] = None, progress: Progress = None) -> Results:
+        """Events of a scene from the map, without tracing; ``output`` is a results file to write. The scene must be
+        that of the map, apart from source, run settings, readout and analysis.
+
+        Raises InputError; Cancelled on Ctrl-C, with the partial results.
+        """
+        with tempfile.TemporaryDirectory(prefix="scintray-") as folder:
+            if self._file is None:
+                self.write(os.path.join(folder, "map.h5"))
+            source = self._file if self._file is not None else os.path.join(folder, "map.h5")
+            target = os.path.join(folder, "results.h5") if output is None else os.fspath(output)
+            data, raised = _guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
+                text, file, source, positive_integer(threads, "threads"), seed, positive_integer(events, "events"),
+                target, output is not None, call)))
+        if isinstance(raised, KeyboardInterrupt):
+            raise Cancelled("stopped by Ctrl-C", Results(data)) from raised
+        if raised is not None:
+            raise raised
+        return Results(data)
+
+    def plot(self, ax: Optional[Any] = None, *, part: Optional[str] = None, channel: Optional[int] = None) -> Any:
+        """Draws the detected share of a part over x and z, in the middle of y, of one channel or of all together."""
+        ax = axes_for(ax)
+        part = part or self.parts[0]
+        share = self.probability(part)
+        share = share.sum(axis=-1) if channel is None else share[..., channel]
+        low, pitch, cells = self.grids[part]["low_mm"], self.grids[part]["pitch_mm"], share.shape
+        image = ax.imshow(share[:, cells[1] // 2, :].T, origin="lower", aspect="auto",
+                          extent=(low[0], low[0] + cells[0] * pitch[0], low[2], low[2] + cells[2] * pitch[2]))
+        ax.set_xlabel("x (mm)")
+        ax.set_ylabel("z (mm)")
+        ax.set_title(f"{part}: {'all channels' if channel is None else self.channels[channel]}")
+        ax.figure.colorbar(image, ax=ax, label="detected share")
+        return ax
+
+    def __repr__(self) -> str:
+        return f"ResponseMap({len(self.parts)} parts, {len(self.channels)} channels)"
+
+    def _repr_html_(self) -> str:
+        rows = [(name, " x ".join(map(str, grid["photons"].shape)), f"{np.nanmean(self.probability(name).sum(-1)):.4f}")
+                for name, grid in list(self.grids.items())[:20]]
+        return html_table("Response map", ("part", "cells", "mean detected share"), rows)
+
+
+class FitParameter:
+    """A fitted parameter: ``name``, ``value`` with its whole error, ``unit``, ``monte_carlo_error`` (part of it),
+    ``start``, ``low``, ``high``, ``at_bound``, ``determined``."""
+
+    def __init__(self, entry: Dict[str, Any]) -> None:
+        self.__dict__.update(entry)
+        self.value: Estimate = estimate(entry["value"])
+
+    def __repr__(self) -> str:
+        return f"FitParameter({self.name} = {self.value} {self.unit})".replace(" )", ")")
+
+
+class Fit:
+    """A fit of a scene to a measurement: ``end`` ("converged", "not_converged", "stopped"), ``parameters`` (by name),
+    ``correlation``, ``scale``, ``x``, ``measured``, ``curve`` and ``start_curve`` (n, 2: with errors), ``residual``,
+    ``chi2``, ``degrees``, ``p_value``, ``warnings``."""
+
+    def __init__(self, entry: Dict[str, Any]) -> None:
+        self.__dict__.update(entry)
+        self.scale: Estimate = estimate(entry["scale"])
+        self.parameters: Dict[str, FitParameter] = {p["name"]: FitParameter(p) for p in entry["parameters"]}
+
+    def to_dataframe(self) -> Any:
+        """The curves as a DataFrame with units in ``attrs["units"]``."""
+        columns = {self.position or "incidence": self.x, "measured": self.measured[:, 0],
+                   "curve": self.scale.value * self.curve[:, 0], "residual": self.residual}
+        return dataframe(columns, {self.position or "incidence": self.position_unit})
+
+    def plot(self, ax: Optional[Any] = None) -> Any:
+        """Draws the measurement, the fitted curve, and that of the start."""
+        ax = axes_for(ax)
+        ax.errorbar(self.x, *self.measured.T, fmt="o", markersize=4, capsize=2, label="measured")
+        ax.errorbar(self.x, self.scale.value * self.curve[:, 0], self.scale.value * self.curve[:, 1], label="fit")
+        ax.plot(self.x, self.start_curve[:, 0], ":", color="grey", label="start")
+        ax.set_xlabel(f"{self.position or 'incidence'} ({self.position_unit})")
+        ax.set_ylabel(self.quantity)
+        ax.set_title(", ".join(f"{p.name} = {p.value} {p.unit}" for p in self.parameters.values()), fontsize="small")
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        return f"Fit({self.end}: " + ", ".join(repr(p)[13:-1] for p in self.parameters.values()) + ")"
+
+    def _repr_html_(self) -> str:
+        rows = [(p.name, str(p.value), p.unit) for p in self.parameters.values()]
+        return html_table(f"Fit: {self.end}", ("parameter", "value", "unit"), rows,
+                          f"chi-square {self.chi2:.4g} for {self.degrees:g} degrees of freedom, p = {self.p_value:.3g}")
+
+
+def fit(scene: Union[Scene, PathLike], *, threads: Optional[int] = None, photons: Optional[int] = None,
+        events: Optional[int] = None, progress: Progress = None, output: Optional[PathLike] = None) -> Fit:
+    """Fits the [fit] of a scene to its measurement (docs/fit.md); ``output`` is a file (HDF5) to write it to.
+
+    Raises InputError for a scene without [fit] and for every mistake of it; Cancelled.
+    """
+    return Fit(_guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.fit_scene(
+        text, file, positive_integer(threads, "threads"), positive_integer(photons, "photons"),
+        positive_integer(events, "events"), call, None if output is None else os.fspath(output)))))
+
+
+def reweight(path: PathLike, name: str, values: Sequence[float], *, property: str = "absorption_length",
+             factors: bool = False) -> Any:
+    """Detected light for other absorption lengths (mm) of a medium, or other reflectances of a reflector, from the
+    histories of a results file (scene["run.photon_history"] = True), without tracing (docs/reweighting.md).
+
+    With ``factors`` the values are factors on the traced ones. Returns a list of dictionaries: ``point``, ``value``,
+    ``traced`` and ``detected`` shares (``Estimate``), ``relative``, ``effective_photons``, ``valid``, ``reason``.
+    Raises InputError without histories, for unknown names, and for values out of range.
+    """
+    if property not in ("absorption_length", "reflectance"):
+        raise InputError(f"property is {property!r}", 'it is "absorption_length" or "reflectance"')
+    wanted = numbers(np.atleast_1d(values), "values", (-1,))
+    entries = _core.reweight(os.fspath(path), property, name, factors, wanted.tolist())
+    for entry in entries:
+        for key in ("traced", "detected", "relative"):
+            entry[key] = estimate(entry[key])
+    return entries

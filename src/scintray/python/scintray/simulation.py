@@ -1,0 +1,280 @@
+"""Runs of a scene in memory."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from typing import Any, Callable, Dict, List, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._tools import axes_for, numbers, positive_integer
+from .errors import Cancelled, ClosedError, InputError, Problem
+from .results import Results
+from .scene import Scene
+
+__all__ = ["Deposits", "ProgressBar", "Simulation"]
+
+Progress = Union[None, bool, Callable[[int, int, str], Any]]
+
+_LENGTHS_MM = {"nm": 1e-6, "um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0}
+_ENERGIES_KEV = {"eV": 1e-3, "keV": 1.0, "MeV": 1e3}
+_TIMES_NS = {"ps": 1e-3, "ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
+
+
+def _factor(units: Dict[str, float], unit: str, what: str) -> float:
+    if unit not in units:
+        raise InputError(f"{unit!r} is not a unit of {what}", "it is one of " + ", ".join(units))
+    return units[unit]
+
+
+class Deposits:
+    """Energy deposits of another program: one row each, rows of one event number are one event.
+
+    Parameters
+    ----------
+    event : (n,) whole numbers from 0
+    position : (n, 3) in ``length_unit``, in the coordinates of the scene
+    energy : (n,) in ``energy_unit``, from 0
+    time : (n,) in ``time_unit``; counted from the first deposit of each event; None: all at once
+
+    Raises InputError for other shapes, numbers that are not finite, negative energies, and unknown units.
+    """
+
+    def __init__(self, event: Any, position: Any, energy: Any, time: Any = None, *, length_unit: str = "mm",
+                 energy_unit: str = "keV", time_unit: str = "ns") -> None:
+        self.event = numbers(event, "event", (-1,))
+        rows = len(self.event)
+        if rows == 0:
+            raise InputError("there are no deposits", "give one row at least")
+        self.position_mm = numbers(position, "position", (rows, 3), length_unit) \
+            * _factor(_LENGTHS_MM, length_unit, "length")
+        self.energy_keV = numbers(energy, "energy", (rows,), energy_unit) \
+            * _factor(_ENERGIES_KEV, energy_unit, "energy")
+        factor = _factor(_TIMES_NS, time_unit, "time")
+        self.time_ns = np.zeros(0) if time is None else numbers(time, "time", (rows,), time_unit) * factor
+        wrong = np.flatnonzero((self.event < 0) | (self.event != np.floor(self.event)))
+        if len(wrong):
+            raise InputError(f"event[{wrong[0]}] is {self.event[wrong[0]]}; expected a whole number from 0 on",
+                             "number the events 0, 1, 2, ...")
+        wrong = np.flatnonzero(self.energy_keV < 0)
+        if len(wrong):
+            raise InputError(f"energy[{wrong[0]}] is {self.energy_keV[wrong[0]]} keV, which is negative",
+                             "give energies from 0 on")
+
+    def __len__(self) -> int:
+        return len(self.event)
+
+    def __repr__(self) -> str:
+        return (f"Deposits({len(self)} in {len(np.unique(self.event))} events, "
+                f"{self.energy_keV.sum():.6g} keV)")
+
+
+class ProgressBar:
+    """A line on standard error with share, rate and time left, for ``run(progress=True)``."""
+
+    def __init__(self, stream: Any = None) -> None:
+        self._stream = stream if stream is not None else sys.stderr
+        self._start = time.monotonic()
+        self._width = 0
+
+    def __call__(self, done: int, of: int, thing: str) -> None:
+        elapsed = time.monotonic() - self._start
+        share = f"{100.0 * done / of:3.0f} %  " if of else ""
+        line = f"{share}{done} {thing}"
+        if of and 0 < done < of and not thing.startswith("%"):
+            line += f", {done / elapsed:.3g}/s, {(of - done) * elapsed / done:.0f} s left"
+        self._stream.write("\r" + line.ljust(self._width))
+        self._stream.flush()
+        self._width = len(line)
+
+    def close(self) -> None:
+        """Removes the line."""
+        if self._width:
+            self._stream.write("\r" + " " * self._width + "\r")
+            self._stream.flush()
+            self._width = 0
+
+
+def with_source(error: InputError, text: str, file: str) -> InputError:
+    """The error with the line of a scene's text in each problem: a scene made in Python has no file to look at."""
+    lines = text.splitlines()
+    for problem in error.problems:
+        if isinstance(problem, Problem) and problem.file == file and 0 < problem.line <= len(lines):
+            problem.source = lines[problem.line - 1]
+    return InputError(error.problems)
+
+
+def watched(progress: Progress, work: Callable[[Optional[Callable[[int, int, str], Any]]], Any]) -> Any:
+    """Does work with a callable for progress: None, the caller's, or a bar."""
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise InputError(f"progress is {progress!r}; expected True, or a function",
+                         "write progress=True, or progress=f with f(done, of, thing)")
+    bar = ProgressBar() if progress is True else None
+    call = bar if bar is not None else progress if callable(progress) else None
+    try:
+        return work(call)
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+class Simulation:
+    """A scene, ready to be run, any number of times, with the same result each time.
+
+    Parameters
+    ----------
+    scene : Scene, or the path of a scene file
+    threads : number of threads (all cores); no result depends on it
+    seed, photons, events : in place of the scene's, per point of its sweep
+    quick : the scene's quick_photons or quick_events in place of its full number
+
+    A run has the numbers of ``scintray run`` of the same scene, to the last bit. One thread of Python uses a
+    simulation at a time; while it traces, others run (the interpreter's lock is released).
+
+    Raises InputError with every mistake of the scene.
+    """
+
+    def __init__(self, scene: Union[Scene, str, "os.PathLike[str]"], *, threads: Optional[int] = None,
+                 seed: Optional[int] = None, photons: Optional[int] = None, events: Optional[int] = None,
+                 quick: bool = False) -> None:
+        if isinstance(scene, (str, os.PathLike)):
+            scene = Scene.load(scene)
+        if not isinstance(scene, Scene):
+            raise InputError(f"{scene!r} is not a scene", "give a Scene, or the path of a scene file")
+        if seed is not None and (isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or seed < 0
+                                 or seed >= 2**64):
+            raise InputError(f"seed is {seed!r}; expected a whole number from 0 on", "write seed=1, for example")
+        self.scene = scene.copy()
+        self.text, self.file = self.scene.text, self.scene.file
+        self._core: Any = self._guard(lambda: _core.Session(
+            self.text, self.file, positive_integer(threads, "threads"), None if seed is None else int(seed),
+            positive_integer(photons, "photons"), positive_integer(events, "events"), bool(quick)))
+
+    def _guard(self, work: Callable[[], Any]) -> Any:
+        try:
+            return work()
+        except InputError as error:
+            raise with_source(error, self.text, self.file) from None
+
+    def _open(self) -> Any:
+        if self._core is None:
+            raise ClosedError("the simulation was closed; make another one of the scene")
+        return self._core
+
+    @property
+    def points(self) -> int:
+        """Number of points of the sweep; 1 without a sweep."""
+        return self._open().points()
+
+    def parameters(self, point: int = 0) -> Dict[str, str]:
+        """Values of the swept keys at a point, as written."""
+        core = self._open()
+        return dict(zip(core.sweep_keys(), core.parameters(_index(point))))
+
+    def check(self) -> List[str]:
+        """Builds the scene and returns its warnings. Raises InputError with every mistake of it."""
+        core = self._open()
+        return self._guard(core.check)
+
+    def parts(self, point: int = 0) -> List[Dict[str, Any]]:
+        """The parts as placed: name, medium, sensor, ``vertices`` (n, 3) in mm, ``triangles`` (m, 3), the face of
+        each triangle, and names and surfaces of faces; arrays are views, not copies."""
+        core = self._open()
+        return self._guard(lambda: core.parts(_index(point)))
+
+    def run(self, *, progress: Progress = None, output: Union[str, "os.PathLike[str]", None] = None,
+            deposits: Optional[Deposits] = None) -> Results:
+        """Traces all points and returns the results.
+
+        Parameters
+        ----------
+        progress : True for a bar, or a function of (done, of, thing), called in this thread about 20 times a
+            second at most; when it returns False the run stops, and the results are partial
+        output : path of a results file (HDF5); lists of photons and events are then read from it when they are
+            used, in place of being kept in memory
+        deposits : of a scene whose source is ``{"type": "hits", "arrays": True}``
+
+        Raises InputError; SystemFailure; Cancelled on Ctrl-C, with the partial results; and what the function
+        for progress raised.
+        """
+        core = self._open()
+        if deposits is not None:
+            if not isinstance(deposits, Deposits):
+                raise InputError(f"deposits is of the type {type(deposits).__name__}",
+                                 "give Deposits(event, position, energy, time)")
+            self._guard(lambda: core.set_hits(deposits.event, deposits.position_mm, deposits.energy_keV,
+                                              deposits.time_ns))
+        path = None if output is None else os.fspath(output)
+        data, raised = self._guard(lambda: watched(progress, lambda call: core.run(call, path)))
+        results = Results(data)
+        if isinstance(raised, KeyboardInterrupt):
+            raise Cancelled("stopped by Ctrl-C; the photons traced so far are in the results of this exception",
+                            results) from raised
+        if raised is not None:
+            raise raised
+        return results
+
+    def plot(self, ax: Optional[Any] = None, *, plane: str = "xz", point: int = 0) -> Any:
+        """Draws the edges of the placed parts, projected onto a plane ("xy", "xz" or "yz"), mm."""
+        if plane not in ("xy", "xz", "yz"):
+            raise InputError(f"plane is {plane!r}", 'it is one of "xy", "xz", "yz"')
+        parts = self.parts(point)
+        ax = axes_for(ax)
+        columns = ["xyz".index(axis) for axis in plane]
+        colours = {}
+        for part in parts:
+            medium = part["medium"] or f"sensor {part['sensor']}"
+            new = medium not in colours
+            colours.setdefault(medium, f"C{len(colours) % 10}")
+            edges = _sharp_edges(part["vertices"], part["triangles"])
+            lines = part["vertices"][edges][:, :, columns]
+            flat = np.full((len(lines), 3, 2), np.nan)
+            flat[:, :2] = lines
+            ax.plot(flat[:, :, 0].ravel(), flat[:, :, 1].ravel(), color=colours[medium], linewidth=0.8,
+                    label=medium if new else None)
+        ax.set_aspect("equal")
+        ax.set_xlabel(f"{plane[0]} (mm)")
+        ax.set_ylabel(f"{plane[1]} (mm)")
+        ax.legend(loc="upper right", fontsize="small")
+        ax.set_title(str(self.scene.data.get("title", "")))
+        return ax
+
+    def close(self) -> None:
+        """Releases the scene; results stay."""
+        self._core = None
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self._core is None else f"{self.points} point{'s' if self.points > 1 else ''}"
+        return f"Simulation({self.scene.data.get('title', '')!r}, {state})"
+
+
+def _index(point: Any) -> int:
+    if isinstance(point, bool) or not isinstance(point, (int, np.integer)) or point < 0:
+        raise InputError(f"the point is {point!r}; expected a whole number", "points count from 0")
+    return int(point)
+
+
+def _sharp_edges(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Edges (n, 2) between triangles of different planes."""
+    corners = vertices[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    owner = np.tile(np.arange(len(triangles)), 3)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    edges, owner = edges[order], owner[order]
+    unique, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
+    sharp = count != 2
+    pairs = np.flatnonzero(count == 2)
+    a, b = owner[first[pairs]], owner[first[pairs] + 1]
+    sharp[pairs] = np.einsum("ij,ij->i", normals[a], normals[b]) < 0.9999
+    return unique[sharp]

@@ -1,0 +1,60 @@
+"""Every block of docs/python.md runs, one after the other; the example too, with fewer events."""
+
+import os
+import re
+
+import matplotlib.pyplot as plt
+
+import scintray
+from support import SOURCE, Case, main
+
+
+def blocks(page):
+    """(first line, content) of the Python blocks of a page."""
+    text = page.read_text()
+    for match in re.finditer(r'^```python\n(.*?)^```$', text, re.MULTILINE | re.DOTALL):
+        yield text[:match.start()].count('\n') + 2, match.group(1)
+
+
+class Pages(Case):
+    def in_folder(self):
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.folder)
+
+    def test_every_block_of_the_page_runs(self):
+        page = SOURCE / 'docs/python.md'
+        self.assertEqual(len(re.findall(r'^```', page.read_text(), re.MULTILINE)), 2 * len(list(blocks(page))))
+        self.in_folder()
+        names = {}
+        for line, content in blocks(page):
+            with self.subTest(line=line):
+                exec(compile('\n' * (line - 1) + content, str(page), 'exec'), names)
+        for picture in ('arrival.png', 'analysis.png', 'goniometer.png', 'fit.png'):
+            self.assertGreater((self.folder / picture).stat().st_size, 5000)
+        plt.close('all')
+
+    def test_the_page_names_every_public_name(self):
+        text = (SOURCE / 'docs/python.md').read_text()
+        inner = {'Analysis', 'Estimate', 'Events', 'Fit', 'Goniometer', 'Point', 'Problem', 'ProgressBar', 'Results',
+                 'SurfaceTable', 'Tally', 'errors', 'media', 'names'}  # what others return, or lists of names
+        for name in set(scintray.__all__) - inner:
+            self.assertRegex(text, rf'\b{name}\b')
+        for name in scintray.__all__:
+            self.assertTrue(getattr(scintray, name).__doc__, name)
+
+    def test_the_example_runs(self):
+        source = (SOURCE / 'docs/examples/lyso_array.py').read_text()
+        short = source.replace('photons_per_cell=10_000', 'photons_per_cell=100') \
+            .replace('events=40_000', 'events=3000')
+        self.assertEqual(source.count('photons_per_cell=10_000') + source.count('events=40_000'), 2)
+        self.in_folder()
+        names = {}
+        exec(compile(short, 'lyso_array.py', 'exec'), names)
+        self.assertEqual(len(names['results'].events().channels['name']), 64)
+        self.assertIsNotNone(names['analysis'].flood)
+        plt.close('all')
+
+
+if __name__ == '__main__':
+    main()
