@@ -276,6 +276,9 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   RunResult run = test::made_up_run();
   run.points.resize(1);
   run.points.front().light_timing = LightTiming{{{40.0, 0.1, 0.7}, {10.0, 0.0, 0.3}}, 0.12};
+  run.points.front().omitted =
+      std::vector<OmittedEffect>{{"time spread", "R6231", "[transit_time]", false, true, false},
+                                 {"reflection", "", "", true, false, true}};
   {
     ResultsWriter writer(path, run.header, true);
     const HistorySubjects subjects{
@@ -294,6 +297,13 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   REQUIRE(timing->decay.size() == 2);
   CHECK((timing->decay[1].decay_ns == 10.0 && timing->decay[1].rise_ns == 0.0 &&
          timing->decay[1].fraction == 0.3));
+  const auto omitted = read_results(path).points.front().omitted;
+  REQUIRE(omitted);
+  REQUIRE(omitted->size() == 2);
+  CHECK((omitted->at(0).effect == "time spread" && omitted->at(0).subject == "R6231" &&
+         omitted->at(0).remedy == "[transit_time]" && omitted->at(1).subject.empty()));
+  CHECK((!omitted->at(0).in_resolution && omitted->at(0).in_timing && !omitted->at(0).in_fraction));
+  CHECK((omitted->at(1).in_resolution && !omitted->at(1).in_timing && omitted->at(1).in_fraction));
   const std::string document = text_of(test::source_file("docs/results.md"));
   const h5::File file = h5::File::open(path);
   int datasets = 0;

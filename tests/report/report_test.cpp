@@ -214,3 +214,27 @@ TEST_CASE("A report that cannot be written leaves nothing and is an error with t
     CHECK(contains(error.what(), "run.html: cannot write the report: No such file or directory"));
   }
 }
+
+TEST_CASE("A tally of nothing has the reason, not an empty map") {
+  RunResult run = test::made_up_run();
+  run.points.resize(1);
+  TallyResult spread;
+  spread.name = "light_spread at crystal:exit";
+  spread.type = "light_spread";
+  spread.score = "photons";
+  for (const double along : {0.0, 1.0}) {
+    TallyAxis axis{"position", "mm", {-1.0, 0.0, 1.0}, {}, {}};
+    axis.along[along > 0.0 ? 1 : 0] = 1.0;
+    spread.axes.push_back(axis);
+  }
+  spread.sum = spread.sum_of_squares = {0.0, 0.0, 0.0, 0.0};
+  run.points[0].tallies = {spread};
+  for (const std::string& text : {html_report(run), text_summary(run)}) {
+    check_contains(text, {"nothing was counted", "through pmt:window, pmt:side"});
+    CHECK_FALSE(contains(text, "e-300"));
+  }
+  run.points[0].tallies[0].outside = 5.0;
+  check_contains(text_summary(run), {"nothing was counted within its axes", "wider"});
+  run.points[0].tallies[0].sum[1] = 3.0;
+  CHECK_FALSE(contains(text_summary(run), "nothing was counted"));
+}

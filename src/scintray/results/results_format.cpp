@@ -67,6 +67,13 @@ constexpr std::array kFields = {
     Field{"rise_ns", "ns", "its rise time"},
     Field{"decay_share", "1", "its share of the light"},
     Field{"time_spread_ns", "ns", "standard deviation of the sensors' transit time or single photon time"},
+    // omitted_effects
+    Field{"effect", "", "physical effect that the numbers of this point do not include"},
+    Field{"subject", "", "medium or sensor without it; empty: of the whole detector"},
+    Field{"remedy", "", "what a scene states to include it; empty: there is no model of it"},
+    Field{"in_resolution", "1", "1: it would change the energy resolution"},
+    Field{"in_timing", "1", "1: it would change the coincidence time resolution"},
+    Field{"in_fraction", "1", "1: it would change the detected fraction"},
     // events
     Field{"energy_keV", "keV", "energy deposited in scintillators"},
     Field{"escaped_keV", "keV", "energy carried out of the scene"},

@@ -154,6 +154,7 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
     }
     tally::PointResult point = run.points[number];
     point.light_timing = built->timing();
+    point.omitted = built->omitted();
     writer.add_point(point);
     simulation.release(number);
   }

@@ -13,6 +13,7 @@
 #include "scintray/report/plots/detail/light_curves.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 
 namespace scintray::report {
@@ -31,11 +32,12 @@ h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
 .headline { font-size: 1.15rem; margin: 1.5rem 0 0; } .headline b { font-size: 2rem; color: var(--f0); }
 .partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
   color: var(--alarm); }
-table { font-size: .85rem; margin: .5rem 0; } th, td { padding: .3rem .65rem; white-space: nowrap; }
+table { font-size: .85rem; margin: .5rem 0; } th, td { padding: .3rem .65rem; white-space: nowrap; } td.why { white-space: normal; }
 thead th, thead .n { font-weight: 600; vertical-align: bottom; white-space: normal; }
 tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
 table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; }
+.omitted { color: var(--soft); font-size: .88rem; margin: .25rem 0; }
 figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0; }
 .grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
 .grid figure { max-width: 36rem; }
@@ -74,8 +76,8 @@ std::string partial_banner(const tally::RunResult& run) {
 std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
   std::vector<PointAnalysis> points;
   for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
-    points.push_back({point_label(run.points[i]), analyses.points[i]});
-  return event_section(points);
+    points.push_back({point_label(run.points[i]), analyses.points[i], run.points[i].omitted});
+  return event_section(points, run.header.parts);
 }
 
 std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
@@ -83,9 +85,10 @@ std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
   if (run.points.size() == 1) return run.traced_photons() ? headline(run.points.front()) : "";
   const auto view = view_sweep(run);
   if (!view) return "";
+  const std::string left_out = omission_note(omitted_anywhere(run), Figure::fraction);
   if (analyses.points.size() == run.points.size())
-    return light_section(*view, analyses.points, analyses.reference);
-  return sweep_section(run, *view);
+    return light_section(*view, analyses.points, analyses.reference) + left_out;
+  return sweep_section(run, *view) + left_out;
 }
 
 }  // namespace

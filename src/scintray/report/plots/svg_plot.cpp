@@ -19,6 +19,7 @@ constexpr double kLetterWidth = 8.4, kBoldLetterWidth = 9.6;
 constexpr int kColours = 7;
 constexpr double kLegendRow = 22.0;
 constexpr double kMarker = 4.5;
+constexpr double kTopAxisHeight = 46.0;
 
 double text_width(const std::string& words, double letter) {
   return letter * static_cast<double>(display_width(words));
@@ -163,6 +164,7 @@ class Drawing {
     left_ = widest + 46.0;
     right_ = plot_.width - std::max(16.0, longest + 22.0);
     top_ = direct_labels_ || plot_.series.size() < 2 ? 14.0 : legend_places().back().y + 22.0;
+    if (plot_.top) top_ += kTopAxisHeight;
     bottom_ = plot_.height - 54.0;
     x_.start = left_;
     x_.end = right_;
@@ -197,7 +199,20 @@ class Drawing {
     const double middle = 0.5 * (top_ + bottom_);
     out += "<text transform=\"translate(18 " + number(middle) + ") rotate(-90)\" class=\"label middle\">" +
            escape_html(plot_.y_label) + "</text>\n";
-    return out;
+    return out + top_axis();
+  }
+
+  std::string top_axis() const {
+    if (!plot_.top) return "";
+    std::string out = line(left_, top_, right_, top_, "axis");
+    const double low = x_.low / plot_.top->per_unit, high = x_.high / plot_.top->per_unit;
+    for (const double tick : nice_ticks(low, high, 8)) {
+      if (tick < low || tick > high) continue;
+      const double x = x_.at(tick * plot_.top->per_unit);
+      out += line(x, top_, x, top_ - 5.0, "axis");
+      out += text(x, top_ - 10.0, "tick middle", tick_text(tick));
+    }
+    return out + text(0.5 * (left_ + right_), top_ - 28.0, "label middle", plot_.top->label);
   }
 
   std::string series(std::size_t index) const {

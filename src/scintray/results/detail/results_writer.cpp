@@ -162,6 +162,22 @@ void put_light_timing(core::h5::Group& point, const tally::LightTiming& timing) 
   format::put(group, "time_spread_ns", timing.time_spread_ns);
 }
 
+void put_omitted(core::h5::Group& point, const std::vector<tally::OmittedEffect>& effects) {
+  core::h5::Group group = point.create_group("omitted_effects");
+  group.set_attribute("", "description",
+                      std::string("physical effects that the numbers of this point do not include"));
+  format::for_each_omission_text([&](const char* name, auto member) {
+    std::vector<std::string> column;
+    for (const tally::OmittedEffect& effect : effects) column.push_back(effect.*member);
+    format::put_text(group, name, column);
+  });
+  format::for_each_omission_figure([&](const char* name, auto member) {
+    std::vector<std::uint8_t> column;
+    for (const tally::OmittedEffect& effect : effects) column.push_back(effect.*member ? 1 : 0);
+    format::put(group, name, column);
+  });
+}
+
 void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChannel>& channels) {
   core::h5::Group group = point.create_group("channels");
   group.set_attribute("", "description", std::string("readout channels of the sensors"));
@@ -350,6 +366,7 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   if (state_->histories && history) state_->histories->describe_point(group, *history);
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
   if (point.light_timing) put_light_timing(group, *point.light_timing);
+  if (point.omitted) put_omitted(group, *point.omitted);
   if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
     put_channels(group, channels->second);
     state_->channels.erase(channels);
