@@ -24,7 +24,6 @@ const std::string kReadout = R"(
 [readout]
 period = "0.5 ns"
 before = "5 ns"
-before = "0 ns"
 window = "200 ns"
 shaping = { order = 1, time_constant = "5 ns" }
 threshold = 3
@@ -166,6 +165,7 @@ TEST_CASE("A result states the effects that it does not include, of its media, s
 [readout]
 before = "0 ns"
 window = "200 ns"
+shaping = { order = 1, time_constant = "4 ns" }
 sampling = "1 GHz"
 time_pickoff = "leading_edge"
 threshold = 0.5

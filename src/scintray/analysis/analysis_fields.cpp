@@ -84,7 +84,7 @@ void spread(FieldSink& sink, const std::string& name, const std::string& descrip
             const Spread& values) {
   const Group group(sink, name, description);
   sink.count({"values", "1", "number of values"}, whole(values.count));
-  estimate(sink, {"mean", unit, "mean"}, values.mean);
+  estimate(sink, {"mean", unit, "mean of the values"}, values.mean);
   estimate(sink, {"quantile_fwhm", unit, "width between the quantiles that enclose the FWHM of a Gaussian"},
            values.quantile_fwhm);
   if (!values.fit.converged) return;

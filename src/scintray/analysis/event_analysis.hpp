@@ -95,6 +95,8 @@ class EventCollector {
   explicit EventCollector(AnalysisSetup setup);
   /// @throws InputError when the number of channels of the event differs from that of the setup
   void add(const tally::EventRecord& event);
+  /// Sets AnalysisSetup::light_timing, where that is known after the events only.
+  void set_light_timing(std::optional<tally::LightTiming> timing) { setup_.light_timing = std::move(timing); }
   EventAnalysis finish() const;
 
  private:
