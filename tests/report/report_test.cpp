@@ -238,3 +238,33 @@ TEST_CASE("A tally of nothing has the reason, not an empty map") {
   run.points[0].tallies[0].sum[1] = 3.0;
   CHECK_FALSE(contains(text_summary(run), "nothing was counted"));
 }
+
+TEST_CASE("A page has its landmarks and a list of contents, and the keyboard reaches all that scrolls") {
+  const std::string page = html_report(test::made_up_run());
+  check_contains(page, "<main>");
+  check_contains(page, "<nav class=\"contents\"");
+  std::size_t sections = 0;
+  for (std::size_t at = page.find("<h2 id=\""); at != std::string::npos;
+       at = page.find("<h2 id=\"", at + 1)) {
+    const std::size_t start = at + 8;
+    const std::string id = page.substr(start, page.find('"', start) - start);
+    check_contains(page, "<li><a href=\"#" + id + "\">");
+    ++sections;
+  }
+  CHECK(sections >= 5);
+  CHECK_FALSE(contains(page, "<div class=\"scroll\">"));
+  CHECK_FALSE(contains(page, "<pre>"));
+  CHECK_FALSE(contains(page, "minmax(24rem"));  // wider than a phone
+}
+
+TEST_CASE("A long table is folded") {
+  RunResult run = test::made_up_run();
+  const PointResult point = run.points.front();
+  check_contains(html_report(run), "<td class=\"n\">");
+  CHECK_FALSE(contains(html_report(run), "<summary>Table of "));
+  for (int i = 0; i < 40; ++i) {
+    run.points.push_back(point);
+    run.points.back().parameters = {"polished", std::to_string(i) + " mm"};
+  }
+  check_contains(html_report(run), "<summary>Table of ");
+}

@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t kPointsShown = 4, kCurvesTogether = 7, kFewParts = 16;
 constexpr const char* kEventStyle =
-    ".grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }\n"
+    ".grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(24rem, 100%), 1fr)); gap: "
+    "1.25rem; }\n"
     ".grid figure { max-width: 36rem; } details { margin-top: .75rem; } summary { cursor: pointer; }\n"
     ".omitted { color: var(--soft); font-size: .88rem; margin: .25rem 0; }\n";
 

@@ -24,10 +24,10 @@ using namespace report;
 
 constexpr const char* kReportStyle = R"css(
 :root { --panel:#f6f8fa; --alarm:#8a1c00; --alarm-paper:#fdeee9;
-  --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#7a8790; --f5:#b35a8c; }
+  --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#66727c; --f5:#a34f7e; }
 @media (prefers-color-scheme: dark) {
 :root { --panel:#1c2227; --alarm:#ffb4a0; --alarm-paper:#40180d;
-  --f0:#2f8fcc; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#b0648f; } }
+  --f0:#2678b0; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#a3578a; } }
 h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
 .headline { font-size: 1.15rem; margin: 1.5rem 0 0; } .headline b { font-size: 2rem; color: var(--f0); }
 .partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
@@ -39,7 +39,7 @@ table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; }
 .omitted { color: var(--soft); font-size: .88rem; margin: .25rem 0; }
 figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0; }
-.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
+.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(24rem, 100%), 1fr)); gap: 1.25rem; }
 .grid figure { max-width: 36rem; }
 .claims td, .claims th { white-space: normal; }
 .bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
@@ -55,6 +55,8 @@ figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0;
   vertical-align: -1px; }
 details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
+@media (max-width: 40rem) { .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
+  .headline b { font-size: 1.6rem; } }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
   .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   .scroll { overflow: visible; } table { font-size: .72rem; } th, td { padding: .2rem .4rem; } }
@@ -102,7 +104,8 @@ std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
   page += condition_section(run);
-  page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
+  page += "<section>\n<h2>Scene</h2>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"scene file\">" +
+          escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return html_frame(title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
                     kReportStyle + grid_map_style() + hemisphere_map_style(), page);
 }

@@ -376,6 +376,12 @@ std::string svg_plot_style() {
 :root { --c0:#0072b2; --c1:#d55e00; --c2:#009e73; --c3:#b35a8c; --c4:#b8860b; --c5:#3a9bd6; --c6:#555555; }
 @media (prefers-color-scheme: dark) {
 :root { --c0:#56b4e9; --c1:#f0894a; --c2:#2fc79c; --c3:#e096bf; --c4:#e6b822; --c5:#9ad0f2; --c6:#bbbbbb; } }
+/* Colours of names: 4.5 to 1 against the page. */
+:root { --t0:#0072b2; --t1:#a84a00; --t2:#00704f; --t3:#9a4476; --t4:#7d5b00; --t5:#1c6ea4; --t6:#555555; }
+@media (prefers-color-scheme: dark) {
+:root { --t0:#56b4e9; --t1:#f0894a; --t2:#2fc79c; --t3:#e096bf; --t4:#e6b822; --t5:#9ad0f2; --t6:#bbbbbb; } }
+.c0 { --t: var(--t0); } .c1 { --t: var(--t1); } .c2 { --t: var(--t2); } .c3 { --t: var(--t3); }
+.c4 { --t: var(--t4); } .c5 { --t: var(--t5); } .c6 { --t: var(--t6); }
 .c0 { --c: var(--c0); } .c1 { --c: var(--c1); } .c2 { --c: var(--c2); } .c3 { --c: var(--c3); }
 .c4 { --c: var(--c4); } .c5 { --c: var(--c5); } .c6 { --c: var(--c6); }
 svg.plot { width: 100%; height: auto; display: block; font: 14px system-ui, sans-serif; }
@@ -383,7 +389,7 @@ svg.plot .grid { stroke: var(--rule); stroke-width: 1; }
 svg.plot .axis { stroke: var(--soft); stroke-width: 1.2; }
 svg.plot text { fill: var(--ink); } svg.plot text.tick { fill: var(--soft); font-variant-numeric: tabular-nums; }
 svg.plot .middle { text-anchor: middle; } svg.plot .end { text-anchor: end; }
-svg.plot text.name { fill: var(--c); font-weight: 600; }
+svg.plot text.name { fill: var(--t); font-weight: 600; }
 svg.plot .curve { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
 svg.plot .dashed { stroke-dasharray: 7 5; }
 svg.plot .mark { fill: var(--c); } svg.plot .error { stroke: var(--c); stroke-width: 1.4; }

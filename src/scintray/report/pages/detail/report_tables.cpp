@@ -368,7 +368,8 @@ std::string condition_section(const tally::RunResult& run) {
     }
     notes += "</ul>\n";
   }
-  return section("Conditions of the run", "<div class=\"scroll\"><table class=\"pairs\"><tbody>\n" + rows +
+  return section("Conditions of the run", scroll_area("conditions of the run") +
+                                              "<table class=\"pairs\"><tbody>\n" + rows +
                                               "</tbody></table></div>\n" + notes);
 }
 
