@@ -254,3 +254,36 @@ TEST_CASE("check draws an imported scene whose media are still to be filled in")
   check_contains(ended.output, {"\"medium\""});
   CHECK(contains(content(folder / "scene.svg"), "no medium"));
 }
+
+TEST_CASE("Gaps of one pattern are one line: a builder's own are a note, others are ranked and numbered") {
+  const auto folder = scratch_folder("check_patterns");
+  const auto block = [](const std::string& name, const std::string& low, const std::string& high) {
+    return "[[part]]\nname = \"" + name + "\"\nmedium = \"LSO\"\nsurface = \"polished\"\nbox = { low = [" +
+           low + "], high = [" + high + "] }\n";
+  };
+  write(folder / "scene.toml",
+        "ambient = \"air\"\n"
+        "[[array]]\nname = \"crystal\"\ncount = [4, 4]\ngap = \"0.1 mm\"\n"
+        "[array.element]\nbox = [\"3 mm\", \"3 mm\", \"20 mm\"]\nmedium = \"LSO\"\nsurface = \"polished\"\n"
+        "[array.septa]\nreflector = \"ESR\"\nthickness = \"0.09 mm\"\n" +
+            block("pin1", R"("0 mm", "40 mm", "0 mm")", R"("2 mm", "42 mm", "9 mm")") +
+            block("pin2", R"("2.004 mm", "40 mm", "0 mm")", R"("4.004 mm", "42 mm", "9 mm")") +
+            block("pin3", R"("4.008 mm", "40 mm", "0 mm")", R"("6.008 mm", "42 mm", "9 mm")") +
+            block("lid", R"("0 mm", "40 mm", "9.002 mm")", R"("2 mm", "42 mm", "18 mm")") +
+            "[source]\ntype = \"photons\"\nregion = { part = \"pin1\" }\nwavelength = \"420 nm\"\nphotons = "
+            "10\n");
+  const Ended ended = run_program({"check", "scene.toml", "--picture", "gaps.svg"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == 0);
+  check_contains(ended.output, {"note:", "gaps of 0.005 mm", "\"crystal[*]\"", "left by their builder"});
+  check_contains(ended.output, {"warning 1: 2 gaps of 0.004 mm", "\"pin*\"", "36 mm2 in all"});
+  check_contains(ended.output, {"contact_tolerance = \"0.0042 mm\"", "nothing is to be done"});
+  check_contains(ended.output, {"warning 2: parts", "\"lid\"", "0.002 mm apart"});  // 4 mm2
+  CHECK_FALSE(contains(ended.output, "warning 3"));
+  CHECK_FALSE(contains(ended.output, "crystal[0"));
+  const std::string picture = content(folder / "gaps.svg");
+  check_contains(picture, "2 gaps of 0.004 mm");
+  CHECK_FALSE(contains(picture, "left by their builder"));
+  // Each gap of its own when asked.
+  check_contains(run_program({"check", "scene.toml", "--all"}, folder).output, {"warning 3:"});
+}

@@ -9,6 +9,7 @@
 #include <functional>
 #include <sstream>
 
+#include "analysis/made_up_events.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "support/made_up_result.hpp"
@@ -298,6 +299,9 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   RunResult run = test::made_up_run();
   run.points.resize(1);
   run.points.front().light_timing = LightTiming{{{40.0, 0.1, 0.7}, {10.0, 0.0, 0.3}}, 0.12};
+  run.points.front().omitted =
+      std::vector<OmittedEffect>{{"time spread", "R6231", "[transit_time]", false, true, false},
+                                 {"reflection", "", "", true, false, true}};
   {
     ResultsWriter writer(path, run.header, true);
     const HistorySubjects subjects{
@@ -307,7 +311,9 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
     writer.begin_histories(columns);
     writer.append_photons(made_up_photons(10));
     writer.append_histories({{0}, {1}, {2}, {30.0f}, {0.1f}, {4}, {0.3f}}, subjects);
-    writer.add_point(run.points.front(), &subjects);
+    const test::MadeUpDetector detector;
+    const EventAnalysis events = analyze_events(detector.events(3000, true), detector.setup());
+    writer.add_point(run.points.front(), &subjects, &events);
     writer.commit(true);
   }
   const auto timing = read_results(path).points.front().light_timing;
@@ -316,6 +322,13 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
   REQUIRE(timing->decay.size() == 2);
   CHECK((timing->decay[1].decay_ns == 10.0 && timing->decay[1].rise_ns == 0.0 &&
          timing->decay[1].fraction == 0.3));
+  const auto omitted = read_results(path).points.front().omitted;
+  REQUIRE(omitted);
+  REQUIRE(omitted->size() == 2);
+  CHECK((omitted->at(0).effect == "time spread" && omitted->at(0).subject == "R6231" &&
+         omitted->at(0).remedy == "[transit_time]" && omitted->at(1).subject.empty()));
+  CHECK((!omitted->at(0).in_resolution && omitted->at(0).in_timing && !omitted->at(0).in_fraction));
+  CHECK((omitted->at(1).in_resolution && !omitted->at(1).in_timing && omitted->at(1).in_fraction));
   const std::string document = text_of(test::source_file("docs/results.md"));
   const h5::File file = h5::File::open(path);
   int datasets = 0;
@@ -342,7 +355,108 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
     }
   };
   visit(file.root());
-  CHECK(datasets > 60);
+  CHECK(datasets > 120);
+}
+
+TEST_CASE("Every dimension has a scale, swept values are numbers, and rows are signed") {
+  const auto path = test::scratch_folder("results_scales") / "run.h5";
+  const RunResult run = test::made_up_run();
+  {
+    ResultsWriter writer(path, run.header, true);
+    writer.append_photons(made_up_photons(10'000));  // more than a block
+    writer.begin_events(0, {}, {});
+    EventRecord event;
+    event.event = 7;
+    writer.append_events({event, event});
+    for (const PointResult& point : run.points) writer.add_point(point);
+    writer.commit(true);
+  }
+  const h5::File file = h5::File::open(path);
+  const h5::Group root = file.root();
+  int dimensions = 0;
+  const std::function<void(const h5::Group&)> visit = [&](const h5::Group& group) {
+    for (const std::string& name : group.members()) {
+      CAPTURE(name);
+      if (!group.has_dataset(name)) {
+        visit(group.open_group(name));
+        continue;
+      }
+      for (unsigned k = 0; k < group.shape(name).size(); ++k, ++dimensions) CHECK(group.has_scale(name, k));
+    }
+  };
+  visit(root);
+  CHECK(dimensions > 500);
+  const std::vector<std::int64_t> rows = root.open_group("photons").read<std::int64_t>("row");
+  REQUIRE(rows.size() == 10'000);
+  for (std::size_t i = 0; i < rows.size(); ++i) REQUIRE(rows[i] == static_cast<std::int64_t>(i));
+  // Signed in the file: -1 is stored as it is, where an unsigned dataset would refuse it.
+  for (const char* name : {"event", "first_signal", "photons_emitted", "photons_detected"})
+    CHECK(root.open_group("events").read<std::int64_t>(name).size() == 2);
+  CHECK(read_events(path, 0, 5).at(1).event == 7);
+
+  const h5::Group first = root.open_group("points/0000");
+  const std::vector<double> values = first.read<double>("parameter_value");
+  REQUIRE(values.size() == 2);
+  CHECK(std::isnan(values[0]));  // "polished"
+  CHECK(values[1] == 2.0);
+  CHECK(first.read_strings("parameter_unit") == std::vector<std::string>{"", "mm"});
+  const h5::Group sweep = root.open_group("sweep");
+  CHECK(sweep.shape("parameter_value") == h5::Shape{15, 2});
+  CHECK(sweep.read<double>("parameter_value")[29] == 18.0);
+  const std::vector<double> fractions = sweep.read<double>("fate_fraction");
+  CHECK(fractions.at(14 * kFateCount) == run.points[14].fraction(Fate::detected).value);
+}
+
+TEST_CASE("xarray opens the groups of a result, and NumPy counts by its columns") {
+  if (std::system("/usr/bin/python3 -c 'import xarray, h5netcdf' 2>/dev/null") != 0) {
+    MESSAGE("[skipped] no xarray with h5netcdf");
+    return;
+  }
+  const auto folder = test::scratch_folder("results_xarray");
+  const RunResult run = test::made_up_run();
+  {
+    const test::MadeUpDetector detector;
+    const std::vector<EventRecord> events = detector.events(2000, true);
+    const EventAnalysis analysis = analyze_events(events, detector.setup());
+    std::vector<ReadoutChannel> channels(events.front().channels.size());
+    for (ReadoutChannel& channel : channels) channel.part = PartId(1);
+    ResultsWriter writer(folder / "run.h5", run.header, true);
+    writer.append_photons(made_up_photons(5));
+    writer.begin_events(0, channels, {});
+    writer.append_events(events);
+    for (const PointResult& point : run.points) writer.add_point(point, nullptr, &analysis);
+    writer.commit(true);
+  }
+  std::ofstream(folder / "read.py") << R"python(
+import sys
+import numpy
+import xarray
+
+def opened(group):
+    return xarray.open_dataset(sys.argv[1], group=group, engine="h5netcdf")
+
+events, signals = opened("events"), opened("signals")
+light = numpy.bincount(signals["event_row"].values, weights=signals["charge"].values, minlength=events.sizes["row"])
+print("light", len(light), light.sum() > 0)
+print("counted", numpy.bincount(events["photons_detected"].values).sum() == events.sizes["row"])
+sweep = opened("sweep")
+detected = sweep["fate_fraction"].sel(fate="detected")
+print("sweep", detected.dims, detected.sizes["row"], sweep["parameter_value"].sel(swept_key="source.region.slab_z.center").values[1])
+for group in ("/", "photons", "points/0003", "points/0003/analysis", "points/0003/analysis/flood_map/peaks"):
+    print(group, len(opened(group).variables) > 3)
+)python";
+  const std::string command = "/usr/bin/python3 \"" + (folder / "read.py").string() + "\" \"" +
+                              (folder / "run.h5").string() + "\" > \"" + (folder / "out.txt").string() +
+                              "\" 2>&1";
+  const int status = std::system(command.c_str());
+  const std::string output = text_of(folder / "out.txt");
+  CAPTURE(output);
+  CHECK(status == 0);
+  CHECK(contains(output, "light 2000 True"));
+  CHECK(contains(output, "counted True"));
+  CHECK(contains(output, "sweep ('row',) 15 6.0"));
+  for (const char* group : {"/ ", "photons ", "points/0003 ", "points/0003/analysis ", "peaks "})
+    CHECK(contains(output, std::string(group) + "True"));
 }
 
 TEST_CASE("The Python example of docs/results.md reads a result with h5py") {

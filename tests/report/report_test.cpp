@@ -232,3 +232,57 @@ TEST_CASE("Page and summary say how many photons were traced, and count each fat
   CHECK(contains(page, percent_with_error(point.fraction(core::Fate::detected))));
   CHECK(contains(text_summary(run), "no sensor converts more than 0.25"));
 }
+
+TEST_CASE("A tally of nothing has the reason, not an empty map") {
+  RunResult run = test::made_up_run();
+  run.points.resize(1);
+  TallyResult spread;
+  spread.name = "light_spread at crystal:exit";
+  spread.type = "light_spread";
+  spread.score = "photons";
+  for (const double along : {0.0, 1.0}) {
+    TallyAxis axis{"position", "mm", {-1.0, 0.0, 1.0}, {}, {}};
+    axis.along[along > 0.0 ? 1 : 0] = 1.0;
+    spread.axes.push_back(axis);
+  }
+  spread.sum = spread.sum_of_squares = {0.0, 0.0, 0.0, 0.0};
+  run.points[0].tallies = {spread};
+  for (const std::string& text : {html_report(run), text_summary(run)}) {
+    check_contains(text, {"nothing was counted", "through pmt:window, pmt:side"});
+    CHECK_FALSE(contains(text, "e-300"));
+  }
+  run.points[0].tallies[0].outside = 5.0;
+  check_contains(text_summary(run), {"nothing was counted within its axes", "wider"});
+  run.points[0].tallies[0].sum[1] = 3.0;
+  CHECK_FALSE(contains(text_summary(run), "nothing was counted"));
+}
+
+TEST_CASE("A page has its landmarks and a list of contents, and the keyboard reaches all that scrolls") {
+  const std::string page = html_report(test::made_up_run());
+  check_contains(page, "<main>");
+  check_contains(page, "<nav class=\"contents\"");
+  std::size_t sections = 0;
+  for (std::size_t at = page.find("<h2 id=\""); at != std::string::npos;
+       at = page.find("<h2 id=\"", at + 1)) {
+    const std::size_t start = at + 8;
+    const std::string id = page.substr(start, page.find('"', start) - start);
+    check_contains(page, "<li><a href=\"#" + id + "\">");
+    ++sections;
+  }
+  CHECK(sections >= 5);
+  CHECK_FALSE(contains(page, "<div class=\"scroll\">"));
+  CHECK_FALSE(contains(page, "<pre>"));
+  CHECK_FALSE(contains(page, "minmax(24rem"));  // wider than a phone
+}
+
+TEST_CASE("A long table is folded") {
+  RunResult run = test::made_up_run();
+  const PointResult point = run.points.front();
+  check_contains(html_report(run), "<td class=\"n\">");
+  CHECK_FALSE(contains(html_report(run), "<summary>Table of "));
+  for (int i = 0; i < 40; ++i) {
+    run.points.push_back(point);
+    run.points.back().parameters = {"polished", std::to_string(i) + " mm"};
+  }
+  check_contains(html_report(run), "<summary>Table of ");
+}

@@ -5,6 +5,7 @@
 #include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -134,4 +135,61 @@ TEST_CASE("Replay follows the photon that the run detected, with the run's own s
   }
   CHECK(followed > 20);
   CHECK_THROWS_AS(simulation.replay(1, 0, 100, [](const Photon&, const Step&) {}), InputError);
+}
+
+TEST_CASE("A result states the effects that it does not include, of its media, sensors and electronics") {
+  const auto names = [](const PointResult& point) {
+    std::string list;
+    REQUIRE(point.omitted);
+    for (const OmittedEffect& effect : *point.omitted)
+      list += effect.effect + "|" + effect.subject + "|" + (effect.in_resolution ? "R" : "") +
+              (effect.in_timing ? "T" : "") + (effect.in_fraction ? "F" : "") + "\n";
+    return list;
+  };
+  const auto traced = [](const std::string& text) {
+    Simulation simulation(scene_of(text));
+    return simulation.run_all().points.at(0);
+  };
+  const std::string photons = names(traced(kCrystal + kPhotons));
+  check_contains(photons, "reflection behind the sensor's window, back into the detector|R6231|F\n");
+  check_contains(photons, "dependence of the efficiency on angle|R6231|F\n");
+  CHECK_FALSE(contains(photons, "resolution"));  // there are no events
+
+  const std::string events = names(traced(kCrystal + kEvents));
+  check_contains(events, "intrinsic resolution|LSO|R\n");
+  check_contains(events, "|RT\n");
+  check_contains(events, "electronics and response of the sensors");
+  CHECK_FALSE(contains(events, "electronic noise"));
+
+  const std::string readout = R"(
+[readout]
+before = "0 ns"
+window = "200 ns"
+shaping = { order = 1, time_constant = "4 ns" }
+sampling = "1 GHz"
+time_pickoff = "leading_edge"
+threshold = 0.5
+)";
+  const std::string read_out = names(traced(kCrystal + kEvents + readout));
+  for (const char* line :
+       {"electronic noise||RT\n", "time spread of single photons|R6231|T\n", "charge spread|R6231|RT\n",
+        "crosstalk, if it is a SiPM|R6231|RT\n", "dark counts|R6231|RT\n"})
+    check_contains(read_out, line);
+  CHECK_FALSE(contains(read_out, "electronics and response"));
+
+  // What is stated is not listed, and a sensor that detects all light reflects none.
+  std::string full = kCrystal + kEvents + readout + R"(noise = 0.1
+[sensors.tube]
+base = "R6231"
+transit_time = { sigma = "0.3 ns" }
+single_electron = { charge_spread = 0.4 }
+dark_counts = { rate = "1 kHz" }
+)";
+  full.replace(full.find("sensor = \"R6231\""), 16, "sensor = \"tube\"");
+  const std::string stated = names(traced(full));
+  for (const char* effect : {"time spread", "charge spread", "dark counts", "electronic noise"})
+    CHECK_FALSE(contains(stated, effect));
+  std::string ideal = kCrystal + kPhotons;
+  ideal.replace(ideal.find("R6231"), 5, "ideal");
+  CHECK(names(traced(ideal)).empty());
 }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kLeastTimed = 50, kLeastPlane = 4;
+constexpr const char* kNoDepthAxis = "[analysis] states no direction of depth";
 
 core::Vec3 to_vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -100,7 +101,10 @@ void EventCollector::add(const tally::EventRecord& event) {
   row.part = event.part;
   for (const tally::ChannelRecord& channel : event.channels) row.detected += channel.detected;
   add_light(event, row);
-  if (event.energy_keV > 0.0F) light_of_energy_.add(event.energy_keV, row.light);
+  if (event.energy_keV > 0.0F) {
+    light_of_energy_.add(event.energy_keV, row.light);
+    if (row.part.has_value()) light_of_energy_in_[row.part].add(event.energy_keV, row.light);
+  }
   if (!(row.light > 0.0)) return;
   add_times(event, row);
   rows_.push_back(row);
@@ -122,14 +126,36 @@ void EventCollector::analyze_light(EventAnalysis& analysis) const {
   if (analysis.spectrum && fine > 0.0 && fine < analysis.spectrum->width)
     analysis.spectrum =
         make_histogram_of_width(light, analysis.spectrum->low, analysis.spectrum->high(), fine);
+  analyze_parts(analysis);
   analyze_depth(depths, light, analysis);
+}
+
+void EventCollector::analyze_parts(EventAnalysis& analysis) const {
+  std::map<core::PartId, std::vector<double>> light_of;
+  for (const Row& row : rows_)
+    if (row.part.has_value()) light_of[row.part].push_back(row.light);
+  for (const auto& [id, light] : light_of) {
+    PartLight part;
+    part.part = id;
+    part.pulses = light.size();
+    part.mean_light = mean_of(light);
+    if (const auto ratio = light_of_energy_in_.find(id); ratio != light_of_energy_in_.end())
+      part.light_per_keV = ratio->second.ratio();
+    part.spectrum = automatic_histogram(light);
+    part.peak = fit_photopeak(light, setup_.photopeak);
+    analysis.parts.push_back(std::move(part));
+  }
 }
 
 void EventCollector::analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,
                                    EventAnalysis& analysis) const {
   // Without an axis there are none, and dark counts have no position.
   const std::vector<double> known = sorted_finite(depths);
-  if (known.empty()) return;
+  if (known.empty()) {
+    analysis.left_out.push_back("light against depth: " +
+                                (setup_.depth ? "no pulse has a position" : std::string(kNoDepthAxis)));
+    return;
+  }
   analysis.mean_depth_mm = mean_of(known);
   const std::vector<DepthPoint> points = depth_points(depths, light, setup_.slices);
   const bool spread = std::all_of(points.begin(), points.end(),
@@ -158,7 +184,15 @@ std::vector<const EventCollector::Row*> EventCollector::select(EventAnalysis& an
 }
 
 void EventCollector::analyze_flood(const std::vector<const Row*>& rows, EventAnalysis& analysis) const {
-  if (plane_channels_.empty()) return;
+  if (plane_channels_.empty()) {
+    if (layout_)
+      analysis.left_out.push_back(
+          fmt::format("flood map: {} readout channels in the plane with the most; {} are needed",
+                      std::max(layout_->near.size(), layout_->far.size()), kLeastPlane));
+    return;
+  }
+  analysis.across_x = layout_->across_x;
+  analysis.across_y = layout_->across_y;
   std::vector<std::array<double, 2>> positions;
   std::vector<core::PartId> parts;
   for (const Row* row : rows) {
@@ -191,7 +225,12 @@ void EventCollector::analyze_flood(const std::vector<const Row*>& rows, EventAna
 }
 
 void EventCollector::analyze_ends(const std::vector<const Row*>& rows, EventAnalysis& analysis) const {
-  if (!layout_ || layout_->far.empty()) return;
+  if (!layout_) return;
+  if (layout_->far.empty()) {
+    analysis.left_out.emplace_back(
+        "depth of interaction: the readout channels are at one end; the light of two ends is needed");
+    return;
+  }
   std::vector<double> ratios, layer_ratios;
   std::vector<std::size_t> layer;
   for (const Row* row : rows) {
@@ -206,6 +245,8 @@ void EventCollector::analyze_ends(const std::vector<const Row*>& rows, EventAnal
       analysis.doi =
           analyze_doi(column(rows, &Row::depth_mm), ratios, setup_.ratio, setup_.calibration, setup_.slices);
     });
+  else
+    analysis.left_out.push_back(std::string("depth of interaction: ") + kNoDepthAxis);
   std::vector<std::size_t> evens;
   for (std::size_t i = 0; i < layer.size(); i += 2) evens.push_back(layer[i]);
   std::sort(evens.begin(), evens.end());
@@ -264,15 +305,26 @@ EventAnalysis EventCollector::finish() const {
   analysis.pulses = rows_.size();
   analysis.has_readout = has_readout_;
   analyze_light(analysis);
-  if (!layout_ && !setup_.channels_mm.empty())
-    analysis.left_out.emplace_back(
-        "flood map, depth of interaction: the channels are neither in one plane nor at two ends");
+  if (!layout_) {
+    std::string reason = ": there are no readout channels";
+    if (!setup_.channels_mm.empty()) {
+      reason = ": the readout channels are neither in one plane nor at two ends";
+      if (!setup_.depth) reason += std::string(", and ") + kNoDepthAxis;
+    }
+    for (const char* name : {"flood map", "depth of interaction"}) analysis.left_out.push_back(name + reason);
+  }
   const std::vector<const Row*> rows = select(analysis);
   analyze_flood(rows, analysis);
   analyze_ends(rows, analysis);
   analyze_timing(rows, analysis);
   analyze_photon_orders(rows, analysis);
   return analysis;
+}
+
+std::string reason_left_out(const EventAnalysis& analysis, const std::string& name) {
+  for (const std::string& line : analysis.left_out)
+    if (line.rfind(name + ": ", 0) == 0) return line.substr(name.size() + 2);
+  return "";
 }
 
 EventAnalysis analyze_events(std::span<const tally::EventRecord> events, const AnalysisSetup& setup) {

@@ -41,6 +41,16 @@ struct AnalysisSetup {
       true;  ///< flood map, depth of interaction and timing use the peak's events, if a fit locates it
 };
 
+/// Light of the events of one part, the part of their largest deposit.
+struct PartLight {
+  core::PartId part;
+  std::uint64_t pulses = 0;
+  core::Estimate mean_light;     ///< of pulses
+  core::Estimate light_per_keV;  ///< light of the events over the energy deposited in scintillators
+  std::optional<Histogram> spectrum;
+  Photopeak peak;
+};
+
 struct EventAnalysis {
   std::uint64_t events = 0;    ///< of the point
   std::uint64_t pulses = 0;    ///< events with light in a channel
@@ -52,6 +62,9 @@ struct EventAnalysis {
   Photopeak peak;
   core::Estimate mean_light;     ///< of pulses
   core::Estimate light_per_keV;  ///< light of the events over the energy deposited in scintillators
+  std::vector<PartLight> parts;  ///< by part; without pulses that have no part (dark counts)
+  /// Directions of the axes of the flood map.
+  core::Vec3 across_x = core::Vec3::UnitX(), across_y = core::Vec3::UnitY();
   std::optional<core::Estimate> mean_depth_mm;
   std::optional<DepthCurve> light_against_depth;  ///< the reference is the middle of the depths
   std::optional<DoiAnalysis> doi;
@@ -66,8 +79,14 @@ struct EventAnalysis {
   std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
   std::vector<OrderSlice> orders_against_depth;
   std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
-  std::vector<std::string> left_out;                     ///< "flood map: why not"
+  /// "flood map: why not", for each analysis that has no result: "light against depth", "flood map", "depth
+  /// of interaction", "timing", "timing by order of photons".
+  std::vector<std::string> left_out;
 };
+
+/// The reason why an analysis has no result; empty when it has one.
+/// @param name  of the analysis, as in EventAnalysis::left_out
+std::string reason_left_out(const EventAnalysis& analysis, const std::string& name);
 
 /// Accumulator of events, which keeps 64 bytes of each, and 8 for each n-th photon.
 class EventCollector {
@@ -76,6 +95,8 @@ class EventCollector {
   explicit EventCollector(AnalysisSetup setup);
   /// @throws InputError when the number of channels of the event differs from that of the setup
   void add(const tally::EventRecord& event);
+  /// Sets AnalysisSetup::light_timing, where that is known after the events only.
+  void set_light_timing(std::optional<tally::LightTiming> timing) { setup_.light_timing = std::move(timing); }
   EventAnalysis finish() const;
 
  private:
@@ -89,6 +110,7 @@ class EventCollector {
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;
   void analyze_light(EventAnalysis& analysis) const;
+  void analyze_parts(EventAnalysis& analysis) const;
   void analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,
                      EventAnalysis& analysis) const;
   std::vector<const Row*> select(EventAnalysis& analysis) const;
@@ -104,6 +126,7 @@ class EventCollector {
   std::vector<Row> rows_;
   OrderCollector orders_;  ///< of the same events as `rows_`
   RatioOfSums light_of_energy_;
+  std::map<core::PartId, RatioOfSums> light_of_energy_in_;  ///< by part
   std::uint64_t events_ = 0;
   bool has_readout_ = false;
 };

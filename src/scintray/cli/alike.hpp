@@ -8,6 +8,20 @@
 
 namespace scintray::cli {
 
+/// The text with every number replaced by a star.
+inline std::string without_numbers(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const bool digit = std::string("0123456789.-+e").find(c) != std::string::npos;
+    if (!digit) {
+      result += c;
+    } else if (result.empty() || result.back() != '*') {
+      result += '*';
+    }
+  }
+  return result;
+}
+
 /// Items that share a line, in order of first appearance.
 template <typename Thing>
 class Alike {

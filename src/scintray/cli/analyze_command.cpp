@@ -7,6 +7,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/report/pages/event_section.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/analysis.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 struct AnalyzeOptions {
   std::filesystem::path results, settings, page, readout, output;
+  bool json = false;
 };
 
 /// The result to analyze, with the electronics applied again where requested.
@@ -50,15 +52,23 @@ void analyze(const AnalyzeOptions& options) {
                       "run a scene whose [source] is an event source (docs/gamma_sources.md)"});
   std::vector<report::PointAnalysis> points;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
-    points.push_back({report::point_label(run.points[i]), analyses[i]});
+    points.push_back({report::point_label(run.points[i]), analyses[i], run.points[i].omitted});
+    if (options.json) continue;
     if (analyses.size() > 1) std::cout << points.back().label << "\n";
-    std::cout << report::event_lines(analyses[i]);
+    std::cout << report::event_lines(analyses[i], run.points[i].omitted);
   }
-  if (!options.output.empty()) std::cout << "results  " << options.output.string() << "\n";
+  if (options.json) {
+    report::RunAnalysis all;
+    all.points = analyses;
+    std::cout << report::result_json(run, all);
+  }
+  std::ostream& out = options.json ? std::cerr : std::cout;  // JSON is alone on standard output
+  if (!options.output.empty()) out << "results  " << options.output.string() << "\n";
   if (options.page.empty()) return;
-  core::write_whole_file(options.page, report::event_page(run.header.title, results.string(), points),
+  core::write_whole_file(options.page,
+                         report::event_page(run.header.title, results.string(), points, run.header.parts),
                          "the page");
-  std::cout << "page     " << options.page.string() << "\n";
+  out << "page     " << options.page.string() << "\n";
 }
 
 }  // namespace
@@ -75,6 +85,7 @@ void add_analyze_command(CLI::App& app) {
                       "without tracing");
   command->add_option("-o,--output", options->output, "the result with these electronics (HDF5)");
   command->add_option("--page", options->page, "write an HTML page with the plots");
+  command->add_flag("--json", options->json, "print the numbers as JSON");
   command->callback([options] { analyze(*options); });
 }
 

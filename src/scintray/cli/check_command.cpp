@@ -69,8 +69,8 @@ void check_scene(const CheckOptions& options) {
     if (!shown) continue;
     const scene_file::SceneSpec& spec = ready->spec();
     const scene::BuiltScene& built = *ready->built();
-    const std::vector<core::Problem> gaps = gap_warnings(*ready);
-    if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps);
+    const GapFindings gaps = find_gaps(*ready, options.all);
+    if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps.warnings);
     if (file.points() > 1) {
       std::cout << (point > 0 ? "\n" : "") << "point " << point + 1 << " of " << file.points() << ":";
       for (std::size_t k = 0; k < file.sweep_keys().size(); ++k)
@@ -85,7 +85,7 @@ void check_scene(const CheckOptions& options) {
     print_scene(built, options.all);
     print_source(ready->source(), built.scene);
     print_notes(std::cout, file, *ready);
-    print_warnings(std::cout, gaps, options.all);
+    print_gaps(std::cout, gaps);
   }
   std::cout << "\n"
             << path.string() << ": no errors in " << file.points() << " point"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
@@ -13,34 +12,11 @@
 #include <vector>
 
 #include "scintray/cli/alike.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/mesh/smooth_faces.hpp"
 
 namespace scintray::cli {
 namespace {
-
-/// Pattern of a name, with the content of square brackets, else the number at its end, replaced by a star:
-/// "crystal[*]" for crystal[3,4], "pad*" for pad12, "crystal[*]:exit" for crystal[3,4]:exit.
-std::string pattern_of(const std::string& name) {
-  std::string pattern;
-  bool bracketed = false;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const std::size_t close = name[i] == '[' ? name.find(']', i) : std::string::npos;
-    if (close == std::string::npos) {
-      pattern += name[i];
-      continue;
-    }
-    pattern += "[*]";
-    bracketed = true;
-    i = close;
-  }
-  if (bracketed) return pattern;
-  // "part:face": the number is the part's.
-  const std::size_t end = std::min(name.find(':'), name.size());
-  std::size_t begin = end;
-  while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1])) != 0) --begin;
-  if (begin == end || begin == 0) return name;
-  return name.substr(0, begin) + "*" + name.substr(end);
-}
 
 std::string yes_no(bool value) { return value ? "yes" : "NO"; }
 
@@ -65,7 +41,7 @@ class Printer {
     std::string name, rest;
   };
 
-  std::string shown(const std::string& name) const { return every_one_ ? name : pattern_of(name); }
+  std::string shown(const std::string& name) const { return every_one_ ? name : core::pattern_of(name); }
 
   static std::string with_count(const std::string& name, const std::string& pattern, std::size_t count) {
     return count == 1 ? name : fmt::format("{} x {}", pattern, count);

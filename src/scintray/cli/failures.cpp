@@ -1,24 +1,81 @@
 #include "scintray/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <ostream>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "scintray/cli/alike.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/pattern.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray::cli {
 
 namespace {
 
+/// Problems of one kind above this number share one message.
+constexpr std::size_t kFewAlike = 3;
+
+/// Problems that differ in numbers, and in numbers of names, only.
+struct Kind {
+  std::vector<const core::Problem*> problems;
+};
+
+/// "lines 12, 15, 20 and 61 more": where the problems after the first are.
+std::string other_places(const Kind& kind) {
+  constexpr std::size_t kMostPlaces = 8;
+  std::set<long> lines;
+  for (std::size_t i = 1; i < kind.problems.size(); ++i)
+    if (kind.problems[i]->where.line > 0) lines.insert(kind.problems[i]->where.line);
+  if (lines.empty()) return "";
+  std::string text = lines.size() > 1 ? ", at lines " : ", at line ";
+  std::size_t named = 0;
+  for (const long line : lines) {
+    if (named == kMostPlaces) break;
+    text += (named++ > 0 ? ", " : "") + std::to_string(line);
+  }
+  return named < lines.size() ? text + " and " + std::to_string(lines.size() - named) + " more" : text;
+}
+
+void print_kind(const Kind& kind, std::ostream& err) {
+  if (kind.problems.size() <= kFewAlike) {
+    for (const core::Problem* problem : kind.problems) err << problem->text() << '\n';
+    return;
+  }
+  const core::Problem& first = *kind.problems.front();
+  err << first.text() << '\n'
+      << "  and " << kind.problems.size() - 1 << " more of this kind" << other_places(kind) << '\n';
+  const std::string hint = core::with_patterns(first.hint);
+  if (hint != first.hint) err << "  for all of them: " << hint << '\n';
+}
+
 int report_input_error(const core::InputError& error, std::ostream& err) {
-  for (const core::Problem& problem : error.problems()) err << problem.text() << '\n';
-  if (error.problems().size() > 1) err << error.problems().size() << " problems\n";
+  std::vector<Kind> kinds;
+  std::map<std::string, std::size_t> known;
+  for (const core::Problem& problem : error.problems()) {
+    const std::string key = problem.where.file + '\n' + without_numbers(core::with_patterns(problem.what));
+    const auto [at, is_new] = known.try_emplace(key, kinds.size());
+    if (is_new) kinds.emplace_back();
+    kinds[at->second].problems.push_back(&problem);
+  }
+  for (const Kind& kind : kinds) print_kind(kind, err);
+  const std::size_t count = error.problems().size();
+  const bool some_shared = std::any_of(kinds.begin(), kinds.end(),
+                                       [](const Kind& kind) { return kind.problems.size() > kFewAlike; });
+  if (count > 1)
+    err << count << " problems"
+        << (some_shared ? " of " + std::to_string(kinds.size()) + (kinds.size() > 1 ? " kinds" : " kind")
+                        : "")
+        << '\n';
   return kBadInput;
 }
 

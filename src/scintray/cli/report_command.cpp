@@ -6,6 +6,7 @@
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"
 
@@ -17,6 +18,7 @@ struct ReportOptions {
   std::filesystem::path results;
   std::filesystem::path output;
   bool text = false;
+  bool json = false;
 };
 
 /// Path of the page: beside the results file unless set otherwise, never the results file itself.
@@ -36,6 +38,10 @@ void report(const ReportOptions& options) {
     std::cout << report::text_summary(run, analysis_of(options.results, run));
     return;
   }
+  if (options.json) {
+    std::cout << report::result_json(run, analysis_of(options.results, run));
+    return;
+  }
   const auto page = page_path(options);
   report::write_report(page, run, analysis_of(options.results, run));
   std::cout << "report   " << page.string() << "\n";
@@ -49,6 +55,8 @@ void add_report_command(CLI::App& app) {
   command->add_option("RESULT", options->results, "results file (HDF5) of `scintray run`")->required();
   command->add_option("-o,--output", options->output, "page (default: RESULT with .html)");
   command->add_flag("--text", options->text, "print the summary instead of writing a page");
+  command->add_flag("--json", options->json, "print the numbers as JSON instead of writing a page")
+      ->excludes("--text");
   command->callback([options] { report(*options); });
 }
 

@@ -65,10 +65,10 @@ simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
 void say_before_tracing(simulation::Simulation& simulation, const scene_file::SceneFile& file,
                         ProgressLine& line) {
   const std::shared_ptr<const simulation::SimulationPoint> first = simulation.point(0);
-  const std::vector<core::Problem> gaps = gap_warnings(*first);
+  const GapFindings gaps = find_gaps(*first);
   line.clear();
   print_notes(std::cerr, file, *first);
-  print_warnings(std::cerr, gaps, false);
+  print_gaps(std::cerr, gaps);
 }
 
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {

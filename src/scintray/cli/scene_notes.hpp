@@ -11,15 +11,23 @@
 
 namespace scintray::cli {
 
-/// Warnings about parts that nearly touch, each with its place.
-std::vector<core::Problem> gap_warnings(const simulation::SimulationPoint& point);
+/// Parts that nearly touch.
+struct GapFindings {
+  /// Gaps that may be mistakes: one for all between parts of the same two patterns, or for each, the one with
+  /// the largest area first; with the places of its gaps.
+  std::vector<core::Problem> warnings;
+  /// Gaps that a builder left between its own parts, one text for each pair of patterns.
+  std::vector<std::string> intended;
+};
+/// @param every_one  a warning for each gap
+GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one = false);
 
 /// Prints notes on the scene and the source of a point, and on definitions of the scene file that nothing
 /// uses.
 void print_notes(std::ostream& out, const scene_file::SceneFile& file,
                  const simulation::SimulationPoint& point);
 
-/// Prints one line for each warning; warnings that differ in numbers only share one, unless `every_one`.
-void print_warnings(std::ostream& out, const std::vector<core::Problem>& warnings, bool every_one);
+/// Prints the findings, warnings with their numbers: those of the marks of a picture.
+void print_gaps(std::ostream& out, const GapFindings& gaps);
 
 }  // namespace scintray::cli

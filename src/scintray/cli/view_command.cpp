@@ -56,7 +56,7 @@ void view_scene(const ViewOptions& options) {
   report::SceneView view{
       point->spec().title, parts_of(point->built()->placed), paths_of(*point, options.paths), {}};
   if (view.title.empty()) view.title = options.scene.filename().string();
-  for (const core::Problem& warning : gap_warnings(*point)) {
+  for (const core::Problem& warning : find_gaps(*point).warnings) {
     report::ViewMark mark{warning.what, {}};
     for (const auto& [x, y, z] : warning.places_mm) mark.places.emplace_back(x, y, z);
     view.marks.push_back(std::move(mark));

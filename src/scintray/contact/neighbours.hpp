@@ -51,6 +51,7 @@ struct SmallGap {
   std::string a, b;
   double gap_mm = 0.0;                    ///< at its narrowest
   core::Vec3 place = core::Vec3::Zero();  ///< there, mm
+  double area_mm2 = 0.0;                  ///< of the faces on both sides of it, seen along their normals
 };
 
 /// A gap is small below this share of the smaller part's diagonal.

@@ -34,15 +34,18 @@ std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, doub
   for (const BodyPair& pair : near_pairs(bodies, reach)) {
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     const double widest = std::min(limit[pair.a], limit[pair.b]);
-    SmallGap gap{parts[pair.a].name, parts[pair.b].name, HUGE_VAL, core::Vec3::Zero()};
+    SmallGap gap{parts[pair.a].name, parts[pair.b].name, HUGE_VAL, core::Vec3::Zero(), 0.0};
     bool touching = false;
     for (const auto& [ta, tb] : pair.parallel) {
       if (a.normal[ta].dot(b.normal[tb]) > 0.0) continue;
       const Plane plane{a.corner(ta, 0), a.normal[ta]};
       const core::Vec3 middle = (b.corner(tb, 0) + b.corner(tb, 1) + b.corner(tb, 2)) / 3.0;
       const double height = plane.height(middle);
-      if (height < -tolerance_mm || height > widest || height >= gap.gap_mm) continue;
-      if (overlap(a, ta, b, tb, plane).width() <= tolerance_mm) continue;
+      if (height < -tolerance_mm || height > widest) continue;
+      const Overlap facing = overlap(a, ta, b, tb, plane);
+      if (facing.width() <= tolerance_mm) continue;
+      gap.area_mm2 += facing.area;
+      if (height >= gap.gap_mm) continue;
       touching |= height <= tolerance_mm;
       gap.gap_mm = height;
       gap.place = place_between(a, ta, b, tb, height);

@@ -34,6 +34,8 @@ class Group {
   Group create_group(const std::string& name);
   Group open_group(const std::string& name) const;
   bool has(const std::string& name) const;
+  /// True for a member that is a dataset.
+  bool has_dataset(const std::string& name) const;
   /// Names of members (groups and datasets), in creation order.
   std::vector<std::string> members() const;
 
@@ -76,6 +78,16 @@ class Group {
   /// `values` are whole rows when the dataset has a width.
   template <typename T>
   void append(const std::string& name, const std::vector<T>& values);
+
+  /// Marks a one-dimensional dataset as a dimension scale (HDF5 Dimension Scale Specification 1.0): readers
+  /// of netCDF, as xarray, take its name as that of a dimension, and its values as coordinates.
+  void make_scale(const std::string& name);
+  /// Attaches a scale of `owner` to a dimension of a dataset, from 0. A dataset that is itself a scale has
+  /// none.
+  void attach_scale(const std::string& name, unsigned dimension, const Group& owner,
+                    const std::string& scale);
+  /// True when a dimension of a dataset has a scale, or the dataset is one.
+  bool has_scale(const std::string& name, unsigned dimension) const;
 
  private:
   friend class File;

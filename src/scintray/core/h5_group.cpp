@@ -1,3 +1,5 @@
+#include <hdf5_hl.h>
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -111,6 +113,13 @@ bool Group::has(const std::string& name) const {
   }
 }
 
+bool Group::has_dataset(const std::string& name) const {
+  if (!has(name)) return false;
+  const Quiet quiet;
+  const Handle object(H5Oopen(state_->group.id(), name.c_str(), H5P_DEFAULT), H5Oclose);
+  return object.valid() && H5Iget_type(object.id()) == H5I_DATASET;
+}
+
 std::vector<std::string> Group::members() const {
   state_->require_open();
   const Quiet quiet;
@@ -142,14 +151,13 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
   const Handle space = space_of(shape);
   const Handle properties = dataset_properties();
   if (values.size() * sizeof(T) > kCompressFromBytes) compress(properties, chunk_of(shape, sizeof(T)));
-  const Handle dataset(H5Dcreate2(state_->group.id(), name.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
-                                  properties.id(), H5P_DEFAULT),
-                       H5Dclose);
+  Handle dataset(H5Dcreate2(state_->group.id(), name.c_str(), native_type<T>(), space.id(), H5P_DEFAULT,
+                            properties.id(), H5P_DEFAULT),
+                 H5Dclose);
   if (!dataset.valid()) state_->fail("create dataset", name);
   if (values.empty()) return;
-  // Flushed here, because an error at closing could no longer be distinguished from one in another dataset.
   if (H5Dwrite(dataset.id(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0 ||
-      H5Dflush(dataset.id()) < 0)
+      !dataset.close())
     state_->give_up("write dataset", name);
 }
 
@@ -162,15 +170,15 @@ void Group::write_strings(const std::string& name, const std::vector<std::string
   const Handle type = text_type();
   const Handle space = space_of({values.size()});
   const Handle properties = dataset_properties();
-  const Handle dataset(H5Dcreate2(state_->group.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT,
-                                  properties.id(), H5P_DEFAULT),
-                       H5Dclose);
+  Handle dataset(H5Dcreate2(state_->group.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT,
+                            properties.id(), H5P_DEFAULT),
+                 H5Dclose);
   if (!dataset.valid()) state_->fail("create dataset", name);
   if (values.empty()) return;
   std::vector<const char*> pointers;
   for (const std::string& value : values) pointers.push_back(value.c_str());
   if (H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0 ||
-      H5Dflush(dataset.id()) < 0)
+      !dataset.close())
     state_->give_up("write dataset", name);
 }
 
@@ -354,6 +362,32 @@ void Group::append(const std::string& name, const std::vector<T>& values) {
           0 ||
       H5Dwrite(dataset, native_type<T>(), memory_space.id(), file_space.id(), H5P_DEFAULT, values.data()) < 0)
     state_->give_up("append to dataset", name);
+}
+
+void Group::make_scale(const std::string& name) {
+  const Quiet quiet;
+  state_->reserve(0, "make a dimension scale of", name);
+  if (H5DSset_scale(state_->open_dataset(name).id(), name.c_str()) < 0)
+    state_->give_up("make a dimension scale of", name);
+}
+
+void Group::attach_scale(const std::string& name, unsigned dimension, const Group& owner,
+                         const std::string& scale) {
+  const Quiet quiet;
+  state_->reserve(0, "attach a dimension scale to", name);
+  const auto found = state_->streams.find(name);
+  const auto attached = [&](hid_t dataset) {
+    return H5DSattach_scale(dataset, owner.state_->open_dataset(scale).id(), dimension) >= 0;
+  };
+  const bool done = found != state_->streams.end() ? attached(found->second.id())
+                                                   : attached(state_->open_dataset(name).id());
+  if (!done) state_->give_up("attach a dimension scale to", name);
+}
+
+bool Group::has_scale(const std::string& name, unsigned dimension) const {
+  const Quiet quiet;
+  const Handle dataset = state_->open_dataset(name);
+  return H5DSis_scale(dataset.id()) > 0 || H5DSget_num_scales(dataset.id(), dimension) > 0;
 }
 
 #define SCINTRAY_H5_VALUE(T)                                                                           \

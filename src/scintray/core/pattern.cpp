@@ -1,6 +1,7 @@
 #include "scintray/core/pattern.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace scintray::core {
 
@@ -34,6 +35,42 @@ std::vector<std::string> matching(std::string_view pattern, const std::vector<st
   for (const std::string& name : names)
     if (matches_pattern(pattern, name)) found.push_back(name);
   return found;
+}
+
+std::string pattern_of(const std::string& name) {
+  std::string pattern;
+  bool bracketed = false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const std::size_t close = name[i] == '[' ? name.find(']', i) : std::string::npos;
+    if (close == std::string::npos) {
+      pattern += name[i];
+      continue;
+    }
+    pattern += "[*]";
+    bracketed = true;
+    i = close;
+  }
+  if (bracketed) return pattern;
+  // "part:face": the number is the part's.
+  const std::size_t end = std::min(name.find(':'), name.size());
+  std::size_t begin = end;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(name[begin - 1])) != 0) --begin;
+  if (begin == end || begin == 0) return name;
+  return name.substr(0, begin) + "*" + name.substr(end);
+}
+
+std::string with_patterns(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t close = text[i] == '"' ? text.find('"', i + 1) : std::string::npos;
+    if (close == std::string::npos) {
+      result += text[i];
+      continue;
+    }
+    result += '"' + pattern_of(text.substr(i + 1, close - i - 1)) + '"';
+    i = close;
+  }
+  return result;
 }
 
 }  // namespace scintray::core

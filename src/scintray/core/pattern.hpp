@@ -18,4 +18,11 @@ std::size_t literal_length(std::string_view pattern);
 /// The matching names, in their order.
 std::vector<std::string> matching(std::string_view pattern, const std::vector<std::string>& names);
 
+/// Pattern of a name, with the content of square brackets, else the number at its end, replaced by a star:
+/// "crystal[*]" for crystal[3,4], "pad*" for pad12, "crystal[*]:exit" for crystal[3,4]:exit.
+std::string pattern_of(const std::string& name);
+
+/// A text with every name in double quotes replaced by its pattern.
+std::string with_patterns(const std::string& text);
+
 }  // namespace scintray::core

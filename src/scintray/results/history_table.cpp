@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "scintray/core/error.hpp"
+#include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results_format.hpp"
 
 namespace scintray::results {
@@ -116,16 +117,25 @@ HistoryWriter::HistoryWriter(core::h5::Group& root, HistoryColumns columns)
 
   const std::size_t widest = std::max<std::size_t>({1, columns_.media.size(), columns_.reflectors.size()});
   block_rows_ = std::max<std::size_t>(1, kBlockNumbers / widest);
+  format::create_rows(group_, block_rows_);
   const auto create = [&](const char* name, const auto* column, std::size_t width) {
     group_.create_stream<std::decay_t<decltype(column->front())>>(name, block_rows_, width);
     format::describe(group_, name);
+    group_.attach_scale(name, 0, group_, "row");
   };
   for_each_photon_column([&](const char* name, auto member) { create(name, &(waiting_.*member), 0); });
   for_each_media_column(
       [&](const char* name, auto member) { create(name, &(waiting_.*member), columns_.media.size()); });
-  if (columns_.reflectors.empty()) return;
-  for_each_reflector_column(
-      [&](const char* name, auto member) { create(name, &(waiting_.*member), columns_.reflectors.size()); });
+  if (!columns_.reflectors.empty())
+    for_each_reflector_column([&](const char* name, auto member) {
+      create(name, &(waiting_.*member), columns_.reflectors.size());
+    });
+  format::DimensionNames names{{"history_media", {"medium_index"}}};
+  for_each_media_column([&](const char* name, auto) { names[name] = {"row", "medium_index"}; });
+  for_each_reflector_column([&](const char* name, auto) { names[name] = {"row", "reflector_index"}; });
+  for (const char* name : {"reflector_surface", "reflector_stack", "reflector_name"})
+    names[name] = {"reflector_index"};
+  format::name_dimensions(group_, names);
 }
 
 void HistoryWriter::add(const tally::PhotonHistories& rows, const tally::HistorySubjects& point) {
@@ -150,6 +160,8 @@ void HistoryWriter::write_waiting() {
   for_each_photon_column(write);
   for_each_media_column(write);
   if (!columns_.reflectors.empty()) for_each_reflector_column(write);
+  format::append_rows(group_, written_, written_ + waiting_.rows());
+  written_ += waiting_.rows();
   waiting_ = {};
 }
 
@@ -162,6 +174,10 @@ void HistoryWriter::describe_point(core::h5::Group& point, const tally::HistoryS
              places_of(columns_.media, subjects.media), columns_.media.size());
   put_ranges(group, "reflectance", subjects.reflectance, places_of(columns_.reflectors, subjects.reflectors),
              columns_.reflectors.size());
+  format::name_dimensions(group, {{"absorption_per_mm_least", {"medium_index"}},
+                                  {"absorption_per_mm_most", {"medium_index"}},
+                                  {"reflectance_least", {"reflector_index"}},
+                                  {"reflectance_most", {"reflector_index"}}});
 }
 
 namespace {

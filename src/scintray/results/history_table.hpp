@@ -37,6 +37,7 @@ class HistoryWriter {
   HistoryColumns columns_;
   tally::PhotonHistories waiting_;
   std::size_t block_rows_;
+  std::uint64_t written_ = 0;  ///< rows in the file
 };
 
 /// Optics of one point as traced, in the columns of the run: not a number where the point has no such medium

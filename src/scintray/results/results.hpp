@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/analysis/event_analysis.hpp"
 #include "scintray/analysis/goniometer/surface_analysis.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/results/history_table.hpp"
@@ -46,8 +47,10 @@ class ResultsWriter {
   void begin_histories(HistoryColumns columns);
   /// Appends histories of the point that has these media and reflectors, as append_photons does.
   void append_histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& point);
-  /// Adds the result of the next point, and its optics as traced where histories are kept.
-  void add_point(const tally::PointResult& point, const tally::HistorySubjects* history = nullptr);
+  /// Adds the result of the next point, its optics as traced where histories are kept, and the analysis of
+  /// its events where there is one.
+  void add_point(const tally::PointResult& point, const tally::HistorySubjects* history = nullptr,
+                 const analysis::EventAnalysis* analysis = nullptr);
   /// Replaces the warnings of the header, which may grow during the run.
   void set_note(const std::string& note);
   /// Renames the file to its path. An interrupted run is committed with complete = false and the reason

@@ -1,7 +1,9 @@
 #include "scintray/results/results_format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numeric>
 
 #include "scintray/results/results.hpp"
 
@@ -20,7 +22,34 @@ constexpr std::array kFields = {
     Field{"parts", "", "names of the parts; columns called part are indices into this"},
     Field{"faces", "", "names of the faces as part:face; columns called face are indices into this"},
     Field{"fate_names", "", "names of the fates; the fate datasets are in this order"},
+    // dimension scales
+    Field{"row", "1", "number of the row"},
+    Field{"index", "1", "number along a dimension, from 0"},
+    Field{"index_2", "1", "number along another dimension, from 0"},
+    Field{"index_3", "1", "number along another dimension, from 0"},
+    Field{"index_4", "1", "number along another dimension, from 0"},
+    Field{"index_5", "1", "number along another dimension, from 0"},
+    Field{"index_6", "1", "number along another dimension, from 0"},
+    Field{"fate", "", "name of each fate"},
+    Field{"medium", "", "name of each medium"},
+    Field{"surface", "", "name of each surface"},
+    Field{"swept_key", "", "swept keys, the slowest first"},
+    Field{"path_low_mm", "mm", "lower end of the bin of path length; the last bin has no upper end"},
+    Field{"angle_low_deg", "deg", "lower end of the bin of angles"},
+    Field{"sample", "1", "number of the sample within its row, from 0"},
+    Field{"bin_0", "1", "number of the bin along axis_0"},
+    Field{"bin_1", "1", "number of the bin along axis_1"},
+    Field{"bin_2", "1", "number of the bin along axis_2"},
+    Field{"bin_3", "1", "number of the bin along axis_3"},
+    Field{"bin_4", "1", "number of the bin along axis_4"},
+    Field{"bin_5", "1", "number of the bin along axis_5"},
+    Field{"medium_index", "1", "index into history_media"},
+    Field{"reflector_index", "1", "index into reflector_name"},
+    Field{"channel_index", "1", "number of the channel"},
     // a point
+    Field{"parameter_value", "see parameter_unit",
+          "value of each swept key as a number; NaN for one that is no number"},
+    Field{"parameter_unit", "", "unit of each value, as written"},
     Field{"parameters", "", "value of each swept key at this point, as written"},
     Field{"photons_requested", "1", "photons requested"},
     Field{"photons_traced", "1", "photons followed to their end"},
@@ -70,6 +99,13 @@ constexpr std::array kFields = {
     Field{"rise_ns", "ns", "its rise time"},
     Field{"decay_share", "1", "its share of the light"},
     Field{"time_spread_ns", "ns", "standard deviation of the sensors' transit time or single photon time"},
+    // omitted_effects
+    Field{"effect", "", "physical effect that the numbers of this point do not include"},
+    Field{"subject", "", "medium or sensor without it; empty: of the whole detector"},
+    Field{"remedy", "", "what a scene states to include it; empty: there is no model of it"},
+    Field{"in_resolution", "1", "1: it would change the energy resolution"},
+    Field{"in_timing", "1", "1: it would change the coincidence time resolution"},
+    Field{"in_fraction", "1", "1: it would change the detected fraction"},
     // events
     Field{"energy_keV", "keV", "energy deposited in scintillators"},
     Field{"escaped_keV", "keV", "energy carried out of the scene"},
@@ -223,6 +259,39 @@ core::InputError damaged(const std::filesystem::path& path, const std::string& w
 core::InputError lacking(const std::filesystem::path& path, const std::string& what,
                          const std::string& hint) {
   return core::InputError({{path.string()}, what, hint});
+}
+
+namespace {
+
+/// Name of a dimension that has none: one for each length, in order of appearance.
+std::string index_name(std::vector<std::uint64_t>& lengths, std::uint64_t length) {
+  auto at = std::find(lengths.begin(), lengths.end(), length);
+  if (at == lengths.end()) at = lengths.insert(at, length);
+  const auto number = at - lengths.begin() + 1;
+  return number == 1 ? "index" : "index_" + std::to_string(number);
+}
+
+}  // namespace
+
+void name_dimensions(core::h5::Group& group, const DimensionNames& names) {
+  std::vector<std::uint64_t> lengths;
+  for (const std::string& member : group.members()) {
+    if (!group.has_dataset(member)) continue;
+    const core::h5::Shape shape = group.shape(member);
+    const auto named = names.find(member);
+    for (unsigned k = 0; k < shape.size(); ++k) {
+      if (group.has_scale(member, k)) continue;
+      const std::string scale =
+          named != names.end() && k < named->second.size() ? named->second[k] : index_name(lengths, shape[k]);
+      if (!group.has(scale)) {
+        std::vector<std::int64_t> indices(shape[k]);
+        std::iota(indices.begin(), indices.end(), 0);
+        put(group, scale, indices);
+      }
+      if (!group.has_scale(scale, 0)) group.make_scale(scale);
+      if (scale != member) group.attach_scale(member, k, group, scale);
+    }
+  }
 }
 
 std::string numbered(std::size_t index) {

@@ -2,6 +2,8 @@
 /// Names, units and descriptions of the datasets of a results file, for its writer and its reader.
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +57,15 @@ void put(core::h5::Group& group, const std::string& name, T value) {
   group.write(name, std::vector<T>{value}, {});
   describe(group, name);
 }
+
+/// Names of the dimensions of datasets of a group.
+using DimensionNames = std::map<std::string, std::vector<std::string>, std::less<>>;
+
+/// Gives every dimension of a group's datasets that has no dimension scale one, so that readers of netCDF, as
+/// xarray, open the group. A scale is the dataset of the group with the name of the dimension; where there is
+/// none it is written: indices from 0.
+/// @param names  of dimensions; others are called index, index_2, ..., one for each length
+void name_dimensions(core::h5::Group& group, const DimensionNames& names = {});
 
 /// "0007": name of the group of a point or tally.
 std::string numbered(std::size_t index);

@@ -77,4 +77,26 @@ std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path
   return analyses;
 }
 
+RunningAnalysis::RunningAnalysis(const tally::RunHeader& header)
+    : parts_(header.parts), spec_(scene_file::analysis_of_text(header.scene_text, header.scene_file)) {}
+
+void RunningAnalysis::begin_point(const std::vector<tally::ReadoutChannel>& channels,
+                                  const std::optional<detector::ReadoutSpec>& readout) {
+  analysis::AnalysisSetup setup = setup_of(spec_, channels, parts_);
+  if (readout) setup.photon_order = readout->photon_order;
+  collector_.emplace(std::move(setup));
+}
+
+void RunningAnalysis::add(const std::vector<tally::EventRecord>& events) {
+  for (const tally::EventRecord& event : events) collector_->add(event);
+}
+
+std::optional<analysis::EventAnalysis> RunningAnalysis::finish_point(const tally::PointResult& result) {
+  if (!collector_) return std::nullopt;
+  collector_->set_light_timing(result.light_timing);
+  const analysis::EventAnalysis analysis = collector_->finish();
+  collector_.reset();
+  return analysis;
+}
+
 }  // namespace scintray::simulation

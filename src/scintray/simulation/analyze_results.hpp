@@ -2,10 +2,12 @@
 /// Analysis of the events of a results file.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scintray/analysis/event_analysis.hpp"
+#include "scintray/detector/readout_spec.hpp"
 #include "scintray/scene_file/analysis.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
@@ -27,5 +29,23 @@ analysis::AnalysisSetup analysis_setup(const scene_file::AnalysisSpec& spec,
 std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,
                                                      const tally::RunResult& run,
                                                      const scene_file::AnalysisSpec& spec);
+
+/// Analysis of the events of a run as they come, point after point, by the [analysis] of its scene.
+class RunningAnalysis {
+ public:
+  explicit RunningAnalysis(const tally::RunHeader& header);
+  /// @param channels  of the point, with the ids of the header
+  /// @throws InputError for a part of a layer that the run does not have
+  void begin_point(const std::vector<tally::ReadoutChannel>& channels,
+                   const std::optional<detector::ReadoutSpec>& readout);
+  void add(const std::vector<tally::EventRecord>& events);
+  /// The analysis of the point; nothing when it has no events.
+  std::optional<analysis::EventAnalysis> finish_point(const tally::PointResult& result);
+
+ private:
+  core::IdVector<core::PartId, std::string> parts_;
+  scene_file::AnalysisSpec spec_;
+  std::optional<analysis::EventCollector> collector_;
+};
 
 }  // namespace scintray::simulation

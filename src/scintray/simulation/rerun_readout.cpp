@@ -5,6 +5,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "scintray/tally/event_tally.hpp"
 
@@ -126,6 +127,7 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
   header.note += (header.note.empty() ? "" : "\n") + std::string("electronics applied again by ") +
                  readout.where.file + " from the photons of " + path.filename().string();
   results::ResultsWriter writer(output, header, false);
+  RunningAnalysis analysis(header);
   SimulationOptions options;
   options.seed = run.header.seed;
   options.change = [&](scene_file::SceneSpec& spec) {
@@ -141,6 +143,7 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
     const auto built = simulation.point(number);
     const std::vector<tally::ReadoutChannel> recorded = results::read_channels(path, number);
     writer.begin_events(number, recorded, readout);
+    analysis.begin_point(recorded, readout);
     PointElectronics electronics(path, run, *built, recorded);
     for (;;) {
       if (at == events.size()) {
@@ -150,11 +153,14 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
       }
       if (events.empty() || events[at].point != number) break;
       electronics.read_out(events[at], photons);
-      writer.append_events({events[at++]});
+      writer.append_events({events[at]});
+      analysis.add({events[at++]});
     }
     tally::PointResult point = run.points[number];
     point.light_timing = built->timing();
-    writer.add_point(point);
+    point.omitted = built->omitted();
+    const std::optional<analysis::EventAnalysis> analyzed = analysis.finish_point(point);
+    writer.add_point(point, nullptr, analyzed ? &*analyzed : nullptr);
     simulation.release(number);
   }
   writer.commit(run.complete(), run.partial_reason);

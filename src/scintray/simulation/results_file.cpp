@@ -4,6 +4,7 @@ namespace scintray::simulation {
 
 void ResultsFile::begin(const RunOutline& run) {
   writer_.emplace(path_, run.header, run.photon_list);
+  analysis_.emplace(run.header);
   if (run.histories) writer_->begin_histories(*run.histories);
 }
 
@@ -14,6 +15,7 @@ void ResultsFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyse
 void ResultsFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                                const std::optional<detector::ReadoutSpec>& readout) {
   writer_->begin_events(point, channels, readout);
+  analysis_->begin_point(channels, readout);
 }
 
 void ResultsFile::photons(const std::vector<tally::DetectedPhoton>& photons) {
@@ -24,10 +26,14 @@ void ResultsFile::histories(const tally::PhotonHistories& histories, const tally
   writer_->append_histories(histories, of_point);
 }
 
-void ResultsFile::events(const std::vector<tally::EventRecord>& events) { writer_->append_events(events); }
+void ResultsFile::events(const std::vector<tally::EventRecord>& events) {
+  writer_->append_events(events);
+  analysis_->add(events);
+}
 
 void ResultsFile::point(const tally::PointResult& result, const tally::HistorySubjects* histories) {
-  writer_->add_point(result, histories);
+  const std::optional<analysis::EventAnalysis> analysis = analysis_->finish_point(result);
+  writer_->add_point(result, histories, analysis ? &*analysis : nullptr);
 }
 
 void ResultsFile::commit(bool complete, const std::string& reason) { writer_->commit(complete, reason); }

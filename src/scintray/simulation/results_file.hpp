@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "scintray/results/results.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 #include "scintray/simulation/result_sink.hpp"
 
 namespace scintray::simulation {
 
-/// Sink that writes a results file. There is no file at its path before commit().
+/// Sink that writes a results file, with the analysis of its events. There is no file at its path before
+/// commit().
 class ResultsFile : public ResultSink {
  public:
   explicit ResultsFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -29,6 +31,7 @@ class ResultsFile : public ResultSink {
  private:
   std::filesystem::path path_;
   std::optional<results::ResultsWriter> writer_;
+  std::optional<RunningAnalysis> analysis_;
 };
 
 }  // namespace scintray::simulation

@@ -84,12 +84,14 @@ std::optional<tally::LightTiming> SimulationPoint::timing() const {
 tally::PointResult SimulationPoint::trace(const RunHooks& hooks) const {
   tally::PointResult result = run_point(scene(), *source_, plan_, settings_, hooks);
   result.light_timing = timing();
+  result.omitted = omitted();
   return result;
 }
 
 tally::PointResult SimulationPoint::trace(const MappedResponse& response, const RunHooks& hooks) const {
   tally::PointResult result = run_mapped(scene(), *source_, plan_, response, settings_, hooks);
   result.light_timing = timing();
+  result.omitted = omitted();
   return result;
 }
 

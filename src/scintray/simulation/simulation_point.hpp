@@ -49,6 +49,10 @@ class SimulationPoint {
   /// Distribution of the detection time of a photon, where it is the same for all light.
   std::optional<tally::LightTiming> timing() const;
 
+  /// Effects that results of this point do not include: of the media in which events scintillate, of the
+  /// sensors and of the electronics.
+  std::vector<tally::OmittedEffect> omitted() const;
+
   /// Result of all photons. Indices in it and in the arguments of hooks are those of scene().
   /// @throws InternalError when a photon has no fate
   tally::PointResult trace(const RunHooks& hooks = {}) const;

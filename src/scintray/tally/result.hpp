@@ -79,6 +79,16 @@ struct LightTiming {
   double time_spread_ns = 0.0;  ///< standard deviation
 };
 
+/// A physical effect that a result does not include, because its definitions have no numbers for it or
+/// because there is no model of it.
+struct OmittedEffect {
+  std::string effect;   ///< "intrinsic resolution"
+  std::string subject;  ///< the medium or sensor without it; empty: of the whole detector
+  std::string remedy;   ///< what a scene states to include it; empty: no model of it exists
+  /// Figures that it would change: energy resolution, coincidence time resolution, detected fraction.
+  bool in_resolution = false, in_timing = false, in_fraction = false;
+};
+
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
@@ -93,6 +103,8 @@ struct PointResult {
   bool complete = false;  ///< false when interrupted
   EnergyBalance energy;
   std::optional<LightTiming> light_timing;  ///< of an event source, where it is the same for all light
+  /// Empty list: everything that is modelled is included. Nothing: a file from before they were recorded.
+  std::optional<std::vector<OmittedEffect>> omitted;
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;

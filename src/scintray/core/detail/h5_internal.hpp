@@ -49,6 +49,8 @@ class Handle {
   }
   hid_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
+  /// Closes it now. False when that fails: a dataset may then have values that have not reached the file.
+  bool close() { return closer_(std::exchange(id_, -1)) >= 0; }
   /// For a file that is already closed, with everything in it.
   void release() { id_ = -1; }
 

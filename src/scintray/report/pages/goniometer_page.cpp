@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/plots/detail/hemisphere_map.hpp"
 #include "scintray/report/plots/goniometer_plots.hpp"
@@ -26,9 +27,9 @@ std::string in_degrees(const core::Estimate& angle) {
 }
 
 std::string share_table(const std::vector<analysis::GoniometerReading>& readings) {
-  std::string out =
-      "<div class=\"scroll\"><table>\n<thead><tr><th class=\"n\">incidence</th><th class=\"n\">reflected</th>"
-      "<th class=\"n\">transmitted</th><th class=\"n\">absorbed</th></tr></thead>\n<tbody>\n";
+  std::string out = scroll_area("reflectance by incidence") +
+                    "<table>\n<thead><tr><th class=\"n\">incidence</th><th class=\"n\">reflected</th>"
+                    "<th class=\"n\">transmitted</th><th class=\"n\">absorbed</th></tr></thead>\n<tbody>\n";
   for (const analysis::GoniometerReading& reading : readings) {
     out += "<tr><th class=\"n\">" + angle_text(reading.settings.incidence_rad) + "</th>";
     for (const core::Estimate& share :
@@ -50,7 +51,8 @@ std::string lobe_row(const std::string& name, const analysis::Lobe& lobe) {
 }
 
 std::string lobe_table(const analysis::GoniometerReading& reading) {
-  return "<div class=\"scroll\"><table>\n<thead><tr><th>light</th><th class=\"n\">mean direction in plane, "
+  return scroll_area("directions") +
+         "<table>\n<thead><tr><th>light</th><th class=\"n\">mean direction in plane, "
          "deg</th>"
          "<th class=\"n\">out of plane, deg</th><th class=\"n\">rms width in plane, deg</th><th "
          "class=\"n\">rms width across, deg</th></tr></thead>\n<tbody>\n" +

@@ -13,6 +13,7 @@
 #include "scintray/report/plots/detail/light_curves.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 
 namespace scintray::report {
@@ -23,21 +24,22 @@ using namespace report;
 
 constexpr const char* kReportStyle = R"css(
 :root { --panel:#f6f8fa; --alarm:#8a1c00; --alarm-paper:#fdeee9;
-  --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#7a8790; --f5:#b35a8c; }
+  --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#66727c; --f5:#a34f7e; }
 @media (prefers-color-scheme: dark) {
 :root { --panel:#1c2227; --alarm:#ffb4a0; --alarm-paper:#40180d;
-  --f0:#2f8fcc; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#b0648f; } }
+  --f0:#2678b0; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#a3578a; } }
 h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
 .headline { font-size: 1.15rem; margin: 1.5rem 0 0; } .headline b { font-size: 2rem; color: var(--f0); }
 .partial { margin: 1rem 0; padding: .75rem 1rem; border-left: 5px solid var(--alarm); background: var(--alarm-paper);
   color: var(--alarm); }
-table { font-size: .85rem; margin: .5rem 0; } th, td { padding: .3rem .65rem; white-space: nowrap; }
+table { font-size: .85rem; margin: .5rem 0; } th, td { padding: .3rem .65rem; white-space: nowrap; } td.why { white-space: normal; }
 thead th, thead .n { font-weight: 600; vertical-align: bottom; white-space: normal; }
 tr.sum th, tr.sum td { font-weight: 600; border-top: 2px solid var(--soft); }
 table.pairs td { white-space: normal; } table.pairs th { color: var(--soft); }
 figure { margin: 0 0 1rem; }
+.omitted { color: var(--soft); font-size: .88rem; margin: .25rem 0; }
 figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0; }
-.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)); gap: 1.25rem; }
+.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(24rem, 100%), 1fr)); gap: 1.25rem; }
 .grid figure { max-width: 36rem; }
 .claims td, .claims th { white-space: normal; }
 .bars { display: grid; grid-template-columns: max-content 1fr; gap: .35rem .9rem; align-items: center; }
@@ -53,6 +55,8 @@ figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0;
   vertical-align: -1px; }
 details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
+@media (max-width: 40rem) { .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
+  .headline b { font-size: 1.6rem; } }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
   .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   .scroll { overflow: visible; } table { font-size: .72rem; } th, td { padding: .2rem .4rem; } }
@@ -74,8 +78,8 @@ std::string partial_banner(const tally::RunResult& run) {
 std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
   std::vector<PointAnalysis> points;
   for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
-    points.push_back({point_label(run.points[i]), analyses.points[i]});
-  return event_section(points);
+    points.push_back({point_label(run.points[i]), analyses.points[i], run.points[i].omitted});
+  return event_section(points, run.header.parts);
 }
 
 std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
@@ -83,9 +87,10 @@ std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
   if (run.points.size() == 1) return run.traced_photons() ? headline(run.points.front()) : "";
   const auto view = view_sweep(run);
   if (!view) return "";
+  const std::string left_out = omission_note(omitted_anywhere(run), Figure::fraction);
   if (analyses.points.size() == run.points.size())
-    return light_section(*view, analyses.points, analyses.reference);
-  return sweep_section(run, *view);
+    return light_section(*view, analyses.points, analyses.reference) + left_out;
+  return sweep_section(run, *view) + left_out;
 }
 
 }  // namespace
@@ -99,7 +104,8 @@ std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
   page += condition_section(run);
-  page += "<section>\n<h2>Scene</h2>\n<pre>" + escape_html(run.header.scene_text) + "</pre>\n</section>\n";
+  page += "<section>\n<h2>Scene</h2>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"scene file\">" +
+          escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return html_frame(title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
                     kReportStyle + grid_map_style() + hemisphere_map_style(), page);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/plots/detail/height_image.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
@@ -76,10 +77,10 @@ std::string profiles(const topography::HeightMap& before, const topography::Heig
 
 std::string number_table(const topography::HeightMap& before, const topography::HeightMap& after) {
   const std::vector<MapNumber> old_numbers = map_numbers(before), new_numbers = map_numbers(after);
-  std::string table =
-      "<div class=\"scroll\"><table>\n<thead><tr><th></th><th class=\"n\">before</th><th "
-      "class=\"n\">after</th>"
-      "<th></th></tr></thead>\n<tbody>\n";
+  std::string table = scroll_area("numbers of the map") +
+                      "<table>\n<thead><tr><th></th><th class=\"n\">before</th><th "
+                      "class=\"n\">after</th>"
+                      "<th></th></tr></thead>\n<tbody>\n";
   for (std::size_t k = 0; k < new_numbers.size(); ++k)
     table += fmt::format(
         "<tr><th>{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"meaning\">{}</td></tr>\n",

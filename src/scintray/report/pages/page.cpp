@@ -22,11 +22,41 @@ h2 { font-size: 1.2rem; margin: 2.5rem 0 .75rem; padding-bottom: .3rem; border-b
 .under { color: var(--soft); margin: 0; }
 figure { margin: 0; break-inside: avoid; } figcaption { font-weight: 600; margin-bottom: .3rem; }
 figcaption span { color: var(--soft); font-weight: 400; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; } .scroll:focus-visible, pre:focus-visible { outline: 2px solid var(--c0); }
+.contents ol { columns: 16rem; margin: .75rem 0 0; padding-left: 1.4rem; font-size: .9rem; } .contents a { color: inherit; }
+@media (max-width: 40rem) { body { padding: 1.25rem 1rem 3rem; } h1 { font-size: 1.4rem; }
+  .contents ol { columns: auto; } }
+@media print { .contents { display: none; } }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
 th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
 thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
+td.why { color: var(--soft); min-width: 9rem; white-space: normal; }
+.small-spectrum { display: block; } .small-spectrum path { fill: var(--c0); }
 )css";
+
+}  // namespace
+
+namespace {
+
+/// Sections from which on a page has a list of them.
+constexpr std::size_t kListedSections = 4;
+
+/// A page's content with an id on every heading of a section, after a list of links to them.
+std::string with_contents(const std::string& body) {
+  const std::string opening = "<h2>", closing = "</h2>";
+  std::string content, links;
+  std::size_t count = 0, done = 0;
+  for (std::size_t at = body.find(opening); at != std::string::npos; at = body.find(opening, done)) {
+    const std::size_t start = at + opening.size(), end = body.find(closing, start);
+    const std::string id = "section-" + std::to_string(++count);
+    content += body.substr(done, at - done) + "<h2 id=\"" + id + "\">";
+    links += "<li><a href=\"#" + id + "\">" + body.substr(start, end - start) + "</a></li>\n";
+    done = start;
+  }
+  content += body.substr(done);
+  if (count < kListedSections) return content;
+  return "<nav class=\"contents\" aria-label=\"contents\"><ol>\n" + links + "</ol></nav>\n" + content;
+}
 
 }  // namespace
 
@@ -36,8 +66,9 @@ std::string html_frame(const std::string& title, const std::string& under, const
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
           escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
           "</style>\n</head>\n<body>\n";
-  page += "<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) + "</p>\n";
-  return page + body + "</body>\n</html>\n";
+  page += "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) +
+          "</p>\n</header>\n";
+  return page + "<main>\n" + with_contents(body) + "</main>\n</body>\n</html>\n";
 }
 
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,

@@ -6,8 +6,9 @@
 
 namespace scintray::report {
 
-/// A page whose style covers text, tables (.n: numbers), figures and plots; `style` is added CSS.
-/// `title` and `under`, the line below it, are escaped. `body` is HTML.
+/// A page with a list of its sections where there are four or more, whose style covers text, tables (.n:
+/// numbers), figures and plots; `style` is added CSS. `title` and `under`, the line below it, are escaped.
+/// `body` is HTML.
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
                        const std::string& body);
 

@@ -163,10 +163,44 @@ std::string rings(const ViewPainter& painter, const std::vector<PictureMark>& ma
       Spot& spot = same != spots.end() ? *same : spots.emplace_back(Spot{x, y, {}});
       if (spot.numbers.empty() || spot.numbers.back() != m + 1) spot.numbers.push_back(m + 1);
     }
-  std::string svg;
-  for (const Spot& spot : spots)
-    svg +=
-        ring(spot.x, spot.y) + label(spot.x + 8, spot.y - 5, fmt::format("{}", fmt::join(spot.numbers, ",")));
+  // A number is drawn where it covers no other: to the right, left, above or below its ring. A mark of many
+  // places has its number at one of them at least.
+  constexpr double kDigit = 8.0, kHeight = 14.0;
+  struct Box {
+    double x, y, width;
+  };
+  std::vector<Box> taken;
+  std::vector<bool> numbered(marks.size(), false);
+  const auto free = [&](const Box& box) {
+    return std::none_of(taken.begin(), taken.end(), [&](const Box& other) {
+      return box.x < other.x + other.width && other.x < box.x + box.width &&
+             std::abs(box.y - other.y) < kHeight;
+    });
+  };
+  std::string svg, labels;
+  for (const Spot& spot : spots) {
+    svg += ring(spot.x, spot.y);
+    const std::string text = fmt::format("{}", fmt::join(spot.numbers, ","));
+    const double width = kDigit * static_cast<double>(text.size());
+    const std::array<Box, 4> places{
+        Box{spot.x + 8, spot.y - 5, width}, Box{spot.x - 8 - width, spot.y - 5, width},
+        Box{spot.x - 0.5 * width, spot.y - 11, width}, Box{spot.x - 0.5 * width, spot.y + 21, width}};
+    const auto* place = std::find_if(places.begin(), places.end(), free);
+    const bool known = std::all_of(spot.numbers.begin(), spot.numbers.end(),
+                                   [&](std::size_t number) { return numbered[number - 1]; });
+    Box box = place != places.end() ? *place : places.front();
+    if (place == places.end()) {
+      if (known) continue;
+      while (!free(box)) box.y += kHeight;
+      labels +=
+          fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"#b00000\" stroke-width=\"0.8\"/>\n",
+                      spot.x, spot.y, box.x, box.y);
+    }
+    for (const std::size_t number : spot.numbers) numbered[number - 1] = true;
+    taken.push_back(box);
+    labels += label(box.x, box.y, text);
+  }
+  svg += labels;
   return svg;
 }
 

@@ -19,6 +19,7 @@ constexpr double kLetterWidth = 8.4, kBoldLetterWidth = 9.6;
 constexpr int kColours = 7;
 constexpr double kLegendRow = 22.0;
 constexpr double kMarker = 4.5;
+constexpr double kTopAxisHeight = 46.0;
 
 double text_width(const std::string& words, double letter) {
   return letter * static_cast<double>(display_width(words));
@@ -163,6 +164,7 @@ class Drawing {
     left_ = widest + 46.0;
     right_ = plot_.width - std::max(16.0, longest + 22.0);
     top_ = direct_labels_ || plot_.series.size() < 2 ? 14.0 : legend_places().back().y + 22.0;
+    if (plot_.top) top_ += kTopAxisHeight;
     bottom_ = plot_.height - 54.0;
     x_.start = left_;
     x_.end = right_;
@@ -197,7 +199,20 @@ class Drawing {
     const double middle = 0.5 * (top_ + bottom_);
     out += "<text transform=\"translate(18 " + number(middle) + ") rotate(-90)\" class=\"label middle\">" +
            escape_html(plot_.y_label) + "</text>\n";
-    return out;
+    return out + top_axis();
+  }
+
+  std::string top_axis() const {
+    if (!plot_.top) return "";
+    std::string out = line(left_, top_, right_, top_, "axis");
+    const double low = x_.low / plot_.top->per_unit, high = x_.high / plot_.top->per_unit;
+    for (const double tick : nice_ticks(low, high, 8)) {
+      if (tick < low || tick > high) continue;
+      const double x = x_.at(tick * plot_.top->per_unit);
+      out += line(x, top_, x, top_ - 5.0, "axis");
+      out += text(x, top_ - 10.0, "tick middle", tick_text(tick));
+    }
+    return out + text(0.5 * (left_ + right_), top_ - 28.0, "label middle", plot_.top->label);
   }
 
   std::string series(std::size_t index) const {
@@ -361,6 +376,12 @@ std::string svg_plot_style() {
 :root { --c0:#0072b2; --c1:#d55e00; --c2:#009e73; --c3:#b35a8c; --c4:#b8860b; --c5:#3a9bd6; --c6:#555555; }
 @media (prefers-color-scheme: dark) {
 :root { --c0:#56b4e9; --c1:#f0894a; --c2:#2fc79c; --c3:#e096bf; --c4:#e6b822; --c5:#9ad0f2; --c6:#bbbbbb; } }
+/* Colours of names: 4.5 to 1 against the page. */
+:root { --t0:#0072b2; --t1:#a84a00; --t2:#00704f; --t3:#9a4476; --t4:#7d5b00; --t5:#1c6ea4; --t6:#555555; }
+@media (prefers-color-scheme: dark) {
+:root { --t0:#56b4e9; --t1:#f0894a; --t2:#2fc79c; --t3:#e096bf; --t4:#e6b822; --t5:#9ad0f2; --t6:#bbbbbb; } }
+.c0 { --t: var(--t0); } .c1 { --t: var(--t1); } .c2 { --t: var(--t2); } .c3 { --t: var(--t3); }
+.c4 { --t: var(--t4); } .c5 { --t: var(--t5); } .c6 { --t: var(--t6); }
 .c0 { --c: var(--c0); } .c1 { --c: var(--c1); } .c2 { --c: var(--c2); } .c3 { --c: var(--c3); }
 .c4 { --c: var(--c4); } .c5 { --c: var(--c5); } .c6 { --c: var(--c6); }
 svg.plot { width: 100%; height: auto; display: block; font: 14px system-ui, sans-serif; }
@@ -368,7 +389,7 @@ svg.plot .grid { stroke: var(--rule); stroke-width: 1; }
 svg.plot .axis { stroke: var(--soft); stroke-width: 1.2; }
 svg.plot text { fill: var(--ink); } svg.plot text.tick { fill: var(--soft); font-variant-numeric: tabular-nums; }
 svg.plot .middle { text-anchor: middle; } svg.plot .end { text-anchor: end; }
-svg.plot text.name { fill: var(--c); font-weight: 600; }
+svg.plot text.name { fill: var(--t); font-weight: 600; }
 svg.plot .curve { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
 svg.plot .dashed { stroke-dasharray: 7 5; }
 svg.plot .mark { fill: var(--c); } svg.plot .error { stroke: var(--c); stroke-width: 1.4; }

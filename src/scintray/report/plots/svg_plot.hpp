@@ -18,10 +18,17 @@ struct PlotSeries {
   bool dashed = false;        ///< lines: for computed, not measured, curves
 };
 
+/// A second scale along the top of a plot, proportional to that along the bottom.
+struct TopAxis {
+  std::string label;
+  double per_unit = 1.0;  ///< units of the bottom axis for one of the top; above 0
+};
+
 struct Plot {
   std::string title;  ///< read by screen readers; not drawn
   std::string x_label, y_label;
   std::vector<PlotSeries> series;
+  std::optional<TopAxis> top;
   bool log_y = false;                    ///< values of zero and below are left out
   bool y_from_zero = true;               ///< linear axis only
   std::optional<double> x_low, x_high;   ///< range of the axis, both or none; else that of the data

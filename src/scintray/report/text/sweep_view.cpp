@@ -1,37 +1,21 @@
 #include "scintray/report/text/sweep_view.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
 #include "scintray/core/text.hpp"
+#include "scintray/core/value_text.hpp"
 
 namespace scintray::report {
 
 namespace {
 
-struct Quantity {
-  double value = 0.0;
-  std::string unit;
-};
-
-std::optional<Quantity> quantity(const std::string& text) {
-  Quantity q;
-  const char* last = text.data() + text.size();
-  const auto [end, status] = std::from_chars(text.data(), last, q.value);
-  if (status != std::errc{}) return std::nullopt;
-  q.unit.assign(end, last);
-  q.unit.erase(
-      0, q.unit.find_first_not_of(' ') == std::string::npos ? q.unit.size() : q.unit.find_first_not_of(' '));
-  return q;
-}
-
 bool numeric(const tally::RunResult& run, std::size_t key) {
   std::set<std::string> units;
   std::set<double> values;
   for (const tally::PointResult& point : run.points) {
-    const auto q = quantity(point.parameters.at(key));
+    const auto q = core::value_of_text(point.parameters.at(key));
     if (!q) return false;
     units.insert(q->unit);
     values.insert(q->value);
@@ -56,7 +40,7 @@ std::optional<SweepView> view_sweep(const tally::RunResult& run) {
   std::map<double, std::string> rows;
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const auto& parameters = run.points[i].parameters;
-    const Quantity q = *quantity(parameters[key]);
+    const core::ValueText q = *core::value_of_text(parameters[key]);
     view.unit = q.unit;
     rows.emplace(q.value, parameters[key]);
     const std::string label = list_without(parameters, key);

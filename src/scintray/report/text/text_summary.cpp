@@ -7,6 +7,7 @@
 #include "scintray/report/pages/event_section.hpp"
 #include "scintray/report/plots/detail/light_curves.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 
 namespace scintray::report {
@@ -54,11 +55,12 @@ std::string fate_table(const tally::PointResult& point) {
     table.push_back({fate_text(fate), std::to_string(point.count(fate)), with_error(point.fraction(fate))});
   }
   table.push_back({"all", std::to_string(point.photons), ""});
-  if (point.birth_efficiency == 1.0) return aligned(table);
-  return aligned(table) + "Traced are " + std::to_string(point.photons) + " of " +
-         std::to_string(point.emitted) + " photons: no sensor converts more than " +
-         compact(point.birth_efficiency, 4) +
-         " of them, and that share was drawn at birth. Fractions are of all photons.\n";
+  std::string traced;
+  if (point.birth_efficiency < 1.0)
+    traced = "Traced are " + std::to_string(point.photons) + " of " + std::to_string(point.emitted) +
+             " photons: no sensor converts more than " + compact(point.birth_efficiency, 4) +
+             " of them, and that share was drawn at birth. Fractions are of all photons.\n";
+  return aligned(table) + traced + omission_sentence(point.omitted, Figure::fraction) + "\n";
 }
 
 std::string warnings(const tally::RunResult& run) {
@@ -97,9 +99,9 @@ std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyse
   if (run.points.empty()) return "No point was finished.\n" + warnings(run);
   if (run.points.size() == 1)
     return (run.traced_photons() ? fate_table(run.points.front()) : "") +
-           shift_lines(run.header, run.points.front()) + tally_lines(run.points.front()) +
+           shift_lines(run.header, run.points.front()) + tally_lines(run.header, run.points.front()) +
            energy_lines(run.points.front()) +
-           (analyses.points.empty() ? "" : event_lines(analyses.points.front())) +
+           (analyses.points.empty() ? "" : event_lines(analyses.points.front(), run.points.front().omitted)) +
            criterion_lines(evaluate(run, analyses)) + warnings(run);
   const auto view = view_sweep(run);
   const std::string table =
@@ -108,7 +110,8 @@ std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyse
           ? "Light of events at 511 keV\n" +
                 aligned(upright(light_table(*view, analyses.points, analyses.reference), kMostColumns))
           : sweep_table(run, *view);
-  return table + criterion_lines(evaluate(run, analyses)) + warnings(run);
+  const std::string omitted = omission_sentence(omitted_anywhere(run), Figure::fraction) + "\n";
+  return table + omitted + criterion_lines(evaluate(run, analyses)) + warnings(run);
 }
 
 }  // namespace scintray::report

@@ -140,4 +140,18 @@ void for_each_shift_column(Visit&& visit) {
   visit("energy_kept", &optics::ShiftCount::kept_eV);
 }
 
+/// Columns of omitted effects; `member` points to the text, or to the truth value, that a column holds.
+template <typename Visit>
+void for_each_omission_text(Visit&& visit) {
+  visit("effect", &tally::OmittedEffect::effect);
+  visit("subject", &tally::OmittedEffect::subject);
+  visit("remedy", &tally::OmittedEffect::remedy);
+}
+template <typename Visit>
+void for_each_omission_figure(Visit&& visit) {
+  visit("in_resolution", &tally::OmittedEffect::in_resolution);
+  visit("in_timing", &tally::OmittedEffect::in_timing);
+  visit("in_fraction", &tally::OmittedEffect::in_fraction);
+}
+
 }  // namespace scintray::results::format

@@ -11,7 +11,10 @@ namespace scintray::results::format {
 /// What a file has in place of no id.
 inline constexpr std::uint32_t kNoIdInFile = std::numeric_limits<std::uint32_t>::max();
 
-/// What a value is in a file: an id is its index, other values are themselves.
+/// What a value is in a file: an id is its index, a count or a number of 64 bits is signed, since NumPy and
+/// pandas refuse unsigned ones as indices, other values are themselves.
+/// @pre a count is below 2^63
+inline std::int64_t to_file(std::uint64_t count) { return static_cast<std::int64_t>(count); }
 template <typename Value>
 const Value& to_file(const Value& value) {
   return value;
@@ -22,6 +25,9 @@ std::uint32_t to_file(core::Id<Tag> id) {
 }
 
 /// The value that is `stored` in a file.
+inline void from_file(std::int64_t stored, std::uint64_t& count) {
+  count = static_cast<std::uint64_t>(stored);
+}
 template <typename Value>
 void from_file(const Value& stored, Value& value) {
   value = stored;

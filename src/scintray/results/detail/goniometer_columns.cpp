@@ -43,6 +43,7 @@ void put_cells(core::h5::Group& group) {
   put(group, "cell_azimuth_low_deg", azimuth_low);
   put(group, "cell_azimuth_high_deg", azimuth_high);
   put(group, "cell_solid_angle_sr", solid_angle);
+  format::name_dimensions(group);
 }
 
 void put_analysis(core::h5::Group group, const analysis::SurfaceAnalysis& analysis) {
@@ -68,6 +69,11 @@ void put_analysis(core::h5::Group group, const analysis::SurfaceAnalysis& analys
   put(group, "transmitted_cells", reading.transmitted_directions.cells);
   put(group, "reflected_profile", reading.reflected_directions.profile);
   put(group, "transmitted_profile", reading.transmitted_directions.profile);
+  format::name_dimensions(group, {{"incidence_deg", {"incidence_deg"}},
+                                  {"reflectance", {"incidence_deg"}},
+                                  {"reflectance_error", {"incidence_deg"}},
+                                  {"mean_slope_deg", {"incidence_deg"}},
+                                  {"mean_slope_error_deg", {"incidence_deg"}}});
 }
 
 template <typename T>

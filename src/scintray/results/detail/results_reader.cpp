@@ -111,6 +111,7 @@ class PointReader {
     point.wall_seconds = get<double>(group_, "wall_seconds");
     if (group_.has("energy")) point.energy = energy();
     if (group_.has("light_timing")) point.light_timing = light_timing();
+    if (group_.has("omitted_effects")) point.omitted = omitted_effects();
     check_counts(point);
     check_numbers(point);
     return point;
@@ -218,6 +219,20 @@ class PointReader {
     for (std::size_t i = 0; i < decay.size(); ++i) timing.decay.push_back({decay[i], rise[i], share[i]});
     timing.time_spread_ns = get<double>(group, "time_spread_ns");
     return timing;
+  }
+
+  std::vector<tally::OmittedEffect> omitted_effects() const {
+    const core::h5::Group group = group_.open_group("omitted_effects");
+    std::vector<tally::OmittedEffect> effects(group.read_strings("effect").size());
+    const auto fill = [&](const char* name, auto member, const auto& values) {
+      require(values.size() == effects.size(), std::string("omitted_effects differs in length in ") + name);
+      for (std::size_t i = 0; i < effects.size(); ++i) effects[i].*member = values[i];
+    };
+    format::for_each_omission_text(
+        [&](const char* name, auto member) { fill(name, member, group.read_strings(name)); });
+    format::for_each_omission_figure(
+        [&](const char* name, auto member) { fill(name, member, group.read<std::uint8_t>(name)); });
+    return effects;
   }
 
   /// Zeros from a file older than wavelength shifters.

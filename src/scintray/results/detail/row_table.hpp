@@ -2,6 +2,7 @@
 /// Tables of a results file: a group whose datasets are columns of equal length.
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -19,6 +20,20 @@ template <typename Row, typename Member>
 using ColumnValue =
     std::remove_cvref_t<decltype(to_file(std::declval<const std::invoke_result_t<Member, Row&>&>()))>;
 
+/// Creates the dimension of a table's rows: their numbers.
+inline void create_rows(core::h5::Group& group, std::uint64_t block) {
+  group.create_stream<std::int64_t>("row", block);
+  describe(group, "row");
+  group.make_scale("row");
+}
+
+/// Appends the numbers of the rows from `first` to `last` - 1.
+inline void append_rows(core::h5::Group& group, std::uint64_t first, std::uint64_t last) {
+  std::vector<std::int64_t> numbers(last - first);
+  std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first));
+  group.append("row", numbers);
+}
+
 /// Writer of rows; they are written in blocks, so memory is bounded.
 template <typename Row>
 class RowWriter {
@@ -28,9 +43,11 @@ class RowWriter {
   RowWriter(core::h5::Group& root, const std::string& name, const std::string& description)
       : group_(root.create_group(name)) {
     group_->set_attribute("", "description", description);
+    create_rows(*group_, kBlockRows);
     for_each_column(static_cast<const Row*>(nullptr), [&](const char* column, auto member) {
       group_->create_stream<ColumnValue<Row, decltype(member)>>(column, kBlockRows);
       describe(*group_, column);
+      group_->attach_scale(column, 0, *group_, "row");
     });
   }
 
@@ -51,6 +68,7 @@ class RowWriter {
       for (const Row& row : waiting_) column.push_back(to_file(member(row)));
       group_->append(name, column);
     });
+    append_rows(*group_, rows_ - waiting_.size(), rows_);
     waiting_.clear();
   }
 
@@ -74,8 +92,15 @@ class SampleWriter {
         width_(width),
         rows_(std::max<std::size_t>(1, kBlockSamples / width)) {
     group_->set_attribute("", "description", description);
+    create_rows(*group_, rows_);
     group_->create_stream<float>("samples", rows_, width);
     describe(*group_, "samples");
+    std::vector<std::int64_t> samples(width);
+    std::iota(samples.begin(), samples.end(), 0);
+    put(*group_, "sample", samples);
+    group_->make_scale("sample");
+    group_->attach_scale("samples", 0, *group_, "row");
+    group_->attach_scale("samples", 1, *group_, "sample");
   }
 
   core::h5::Group& group() { return *group_; }
@@ -89,7 +114,12 @@ class SampleWriter {
   }
 
   void write_waiting() {
-    if (group_) group_->append("samples", waiting_);
+    if (group_) {
+      group_->append("samples", waiting_);
+      const std::uint64_t rows = waiting_.size() / width_;
+      append_rows(*group_, written_, written_ + rows);
+      written_ += rows;
+    }
     waiting_.clear();
   }
 
@@ -99,6 +129,7 @@ class SampleWriter {
 
   std::optional<core::h5::Group> group_;
   std::size_t width_ = 0, rows_ = 0;
+  std::uint64_t written_ = 0;  ///< rows in the file
   std::vector<float> waiting_;
 };
 

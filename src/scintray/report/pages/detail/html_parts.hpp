@@ -13,8 +13,11 @@ std::string cell(const std::string& text, const char* tag = "td", const char* ki
 /// A right-aligned cell.
 std::string number_cell(const std::string& text);
 
-/// A table that scrolls when it is wide. `rows` is HTML. Columns from `first_number` on are right-aligned, as
-/// numbers are.
+/// Opening tag of an area that scrolls sideways, which the keyboard reaches. @param name  for screen readers
+std::string scroll_area(const std::string& name);
+
+/// A table that scrolls when it is wide, folded when it is long. `rows` is HTML. Columns from `first_number`
+/// on are right-aligned, as numbers are.
 std::string table(const std::vector<std::string>& head, const std::string& rows,
                   std::size_t first_number = 1);
 

@@ -8,6 +8,7 @@
 #include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 
 namespace scintray::report {
 
@@ -234,7 +235,7 @@ std::string sweep_section(const tally::RunResult& run, const SweepView& view) {
 
 std::string headline(const tally::PointResult& point) {
   return "<p class=\"headline\"><b>" + escape_html(percent_with_error(point.fraction(core::Fate::detected))) +
-         "</b> of the photons were detected</p>\n";
+         "</b> of the photons were detected</p>\n" + omission_note(point.omitted, Figure::fraction);
 }
 
 std::string fate_section(const tally::RunResult& run) {
@@ -245,7 +246,8 @@ std::string fate_section(const tally::RunResult& run) {
   return section("Where every photon ended",
                  bars(run, entries) +
                      "<details open=\"open\"><summary>In per cent of the photons</summary>\n" + numbers +
-                     "</details>\n");
+                     "</details>\n<p class=\"omitted\">" +
+                     escape_html(omission_sentence(omitted_anywhere(run), Figure::fraction)) + "</p>\n");
 }
 
 std::string sensor_section(const tally::RunResult& run) {
@@ -376,7 +378,8 @@ std::string condition_section(const tally::RunResult& run) {
     }
     notes += "</ul>\n";
   }
-  return section("Conditions of the run", "<div class=\"scroll\"><table class=\"pairs\"><tbody>\n" + rows +
+  return section("Conditions of the run", scroll_area("conditions of the run") +
+                                              "<table class=\"pairs\"><tbody>\n" + rows +
                                               "</tbody></table></div>\n" + notes);
 }
 

@@ -34,7 +34,7 @@ std::string shift_section(const tally::RunResult& run);
 std::string tally_section(const tally::RunResult& run);
 
 /// One line a tally, for a terminal; empty without tallies.
-std::string tally_lines(const tally::PointResult& point);
+std::string tally_lines(const tally::RunHeader& header, const tally::PointResult& point);
 
 /// A section for each goniometer: mean visible slope and reflectance against incidence, the latter beside
 /// Fresnel's for each medium behind the surfaces, and where reflected light goes. Empty without readings. The

@@ -7,6 +7,7 @@
 
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/core/words.hpp"
 #include "scintray/report/pages/detail/html_parts.hpp"
@@ -70,7 +71,6 @@ bool is_number(const tally::TallyAxis& axis) { return axis.names.empty(); }
 
 std::string spread_text(const tally::TallyResult& tally) {
   const analysis::LightSpread spread = analysis::light_spread(tally);
-  if (spread.photons <= 0.0) return "no photons";
   const auto along = [&](std::size_t k) {
     return axis_label(tally.axes[k]) + ": centre " +
            with_error({spread.centre_mm[k], spread.centre_error_mm[k]}) + ", rms " +
@@ -197,8 +197,36 @@ std::string histogram(const tally::TallyResult& tally, const tally::PointResult&
   return svg_plot(plot);
 }
 
-std::string drawing(const tally::TallyResult& tally, const tally::PointResult& point, std::string& caption) {
+bool is_empty(const tally::TallyResult& tally) {
+  return std::all_of(tally.sum.begin(), tally.sum.end(), [](double sum) { return sum == 0.0; });
+}
+
+/// Why a tally of nothing has no map. Light spread counts where light reaches a sensor: the faces where it
+/// did.
+std::string nothing_counted(const tally::RunHeader& header, const tally::PointResult& point,
+                            const tally::TallyResult& tally) {
+  if (tally.outside > 0.0) return "nothing was counted within its axes: make them wider";
+  if (tally.type != "light_spread")
+    return "nothing was counted: no photon was there in the way and under the conditions that it states";
+  std::vector<std::string> reached;
+  for (const tally::SensorFaceCount& count : point.sensor_faces)
+    if (count.detected + count.not_detected > 0) reached.push_back(header.faces.at(count.face));
+  constexpr std::size_t kMostNamed = 4;
+  const std::string more = reached.size() > kMostNamed ? ", ..." : "";
+  reached.resize(std::min(reached.size(), kMostNamed));
+  return reached.empty()
+             ? "nothing was counted: no light reached a sensor"
+             : "nothing was counted: light reached the sensors not through this face, but through " +
+                   core::list_of(reached) + more + "; name such a face";
+}
+
+std::string drawing(const tally::RunHeader& header, const tally::TallyResult& tally,
+                    const tally::PointResult& point, std::string& caption) {
   const TallyView view = view_of(tally);
+  if (!tally.axes.empty() && is_empty(tally)) {
+    caption += ": " + nothing_counted(header, point, tally);
+    return "";
+  }
   if (view == TallyView::crosstalk && tally.axes[0].bins() <= kMostCells &&
       tally.axes[1].bins() <= kMostCells) {
     caption += ". Share of the light of each row that each sensor detected.";
@@ -229,9 +257,10 @@ std::string drawing(const tally::TallyResult& tally, const tally::PointResult& p
   return "";
 }
 
-std::string figure(const tally::TallyResult& tally, const tally::PointResult& point) {
+std::string figure(const tally::RunHeader& header, const tally::TallyResult& tally,
+                   const tally::PointResult& point) {
   std::string caption = point_label(point) + ": " + tally.name;
-  const std::string drawn = drawing(tally, point, caption);
+  const std::string drawn = drawing(header, tally, point, caption);
   if (tally.outside > 0.0) caption += " " + compact(tally.outside) + " " + tally.score + " outside the axes.";
   return "<figure>" + drawn + "<figcaption>" + escape_html(caption) + "</figcaption></figure>\n";
 }
@@ -244,7 +273,7 @@ std::string tally_section(const tally::RunResult& run) {
   for (std::size_t i = 0; i < run.points.size(); ++i)
     for (const tally::TallyResult& tally : run.points[i].tallies) {
       if (view_of(tally) == TallyView::hidden) continue;
-      (i < kFewPoints ? first : others) += figure(tally, run.points[i]);
+      (i < kFewPoints ? first : others) += figure(run.header, tally, run.points[i]);
     }
   if (first.empty()) return "";
   std::string body = "<div class=\"grid\">\n" + first + "</div>\n";
@@ -254,7 +283,7 @@ std::string tally_section(const tally::RunResult& run) {
   return section("Tallies", body);
 }
 
-std::string tally_lines(const tally::PointResult& point) {
+std::string tally_lines(const tally::RunHeader& header, const tally::PointResult& point) {
   std::string lines;
   for (const analysis::CrossingAngles& tally : analysis::crossing_angles(point)) {
     const auto within = [](const std::vector<std::uint64_t>& counts) {
@@ -272,7 +301,9 @@ std::string tally_lines(const tally::PointResult& point) {
   for (const tally::TallyResult& tally : point.tallies) {
     const TallyView view = view_of(tally);
     if (view == TallyView::hidden) continue;
-    if (tally.axes.empty())
+    if (!tally.axes.empty() && is_empty(tally))
+      lines += tally.name + ": " + nothing_counted(header, point, tally) + "\n";
+    else if (tally.axes.empty())
       lines += tally.name + ": " + with_error(tally.per_photon(0, point.emitted)) + " " + tally.score +
                " per photon\n";
     else if (view == TallyView::etendue)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace scintray::report {
@@ -69,6 +70,10 @@ Plot spectrum_plot(const analysis::EventAnalysis& analysis) {
   Plot plot =
       small_plot("energy spectrum", "light of a pulse (" + light_unit(analysis) + ")", "pulses per bin");
   plot.series.push_back(histogram_series("pulses", *analysis.spectrum, 1.0));
+  if (analysis.light_per_keV.value > 0.0) {
+    plot.top = TopAxis{"energy (keV), at the mean light per keV", analysis.light_per_keV.value};
+    plot.height += 46.0;
+  }
   if (analysis.peak.has_numbers())
     plot.series.push_back(
         model_series(analysis.peak.fit.model, analysis.peak.fitted, analysis.spectrum->width, 1.0));
@@ -108,7 +113,89 @@ Plot doi_plot(const analysis::DoiAnalysis& doi) {
   return plot;
 }
 
-GridMap flood_picture(const analysis::FloodMap& flood) {
+std::string small_spectrum(const analysis::PartLight& part) {
+  constexpr double kWide = 120.0, kHigh = 26.0;
+  constexpr std::size_t kMostBins = 60;
+  if (!part.spectrum || part.spectrum->counts.empty()) return "";
+  const std::vector<double>& counts = part.spectrum->counts;
+  const std::size_t joined = (counts.size() + kMostBins - 1) / kMostBins;
+  std::vector<double> bars;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (i % joined == 0) bars.push_back(0.0);
+    bars.back() += counts[i];
+  }
+  const double most = std::max(*std::max_element(bars.begin(), bars.end()), 1.0);
+  std::string path = fmt::format("M0 {:.0f}", kHigh);
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    path += fmt::format("V{:.1f}H{:.1f}", kHigh * (1.0 - bars[i] / most),
+                        kWide * static_cast<double>(i + 1) / static_cast<double>(bars.size()));
+  return fmt::format(
+      "<svg class=\"small-spectrum\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "role=\"img\" aria-label=\"spectrum from {2:.4g} to {3:.4g}\"><path d=\"{4}V{1:.0f}Z\"/></svg>",
+      kWide, kHigh, part.spectrum->low, part.spectrum->high(), path);
+}
+
+std::size_t part_number(const analysis::EventAnalysis& analysis, core::PartId part) {
+  const auto found = std::find_if(analysis.parts.begin(), analysis.parts.end(),
+                                  [&](const analysis::PartLight& one) { return one.part == part; });
+  return static_cast<std::size_t>(found - analysis.parts.begin()) + 1;
+}
+
+namespace {
+
+/// "x (mm)" for a direction along an axis of the world; else "across, 1st direction (mm)".
+std::string across_label(const core::Vec3& direction, const char* otherwise) {
+  static const char* const kAxes[] = {"x", "y", "z"};
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (std::abs(direction[k]) > 1.0 - 1e-9)
+      return std::string(direction[k] < 0.0 ? "-" : "") + kAxes[k] + " by Anger logic (mm)";
+  return std::string(otherwise) + " by Anger logic (mm)";
+}
+
+/// Borders between cells of different peaks, cells in a row or column joined to one line.
+std::vector<std::array<double, 4>> region_borders(const analysis::FloodMap& flood) {
+  const analysis::FloodGrid& grid = flood.grid;
+  const auto x = [&](std::size_t column) {
+    return grid.x_low +
+           (grid.x_high - grid.x_low) * static_cast<double>(column) / static_cast<double>(grid.columns);
+  };
+  const auto y = [&](std::size_t row) {
+    return grid.y_low +
+           (grid.y_high - grid.y_low) * static_cast<double>(row) / static_cast<double>(grid.rows);
+  };
+  const auto peak = [&](std::size_t row, std::size_t column) {
+    return flood.peak_of_cell[row * grid.columns + column];
+  };
+  std::vector<std::array<double, 4>> lines;
+  // Calls add(first, last) for each longest run of places that differ().
+  const auto runs = [](std::size_t count, const auto& differs, const auto& add) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!differs(i)) continue;
+      const std::size_t first = i;
+      while (i < count && differs(i)) ++i;
+      add(first, i);
+    }
+  };
+  for (std::size_t column = 1; column < grid.columns; ++column)
+    runs(
+        grid.rows, [&](std::size_t row) { return peak(row, column - 1) != peak(row, column); },
+        [&](std::size_t low, std::size_t high) {
+          lines.push_back({x(column), y(low), x(column), y(high)});
+        });
+  for (std::size_t row = 1; row < grid.rows; ++row)
+    runs(
+        grid.columns, [&](std::size_t column) { return peak(row - 1, column) != peak(row, column); },
+        [&](std::size_t low, std::size_t high) {
+          lines.push_back({x(low), y(row), x(high), y(row)});
+        });
+  return lines;
+}
+
+}  // namespace
+
+GridMap flood_picture(const analysis::EventAnalysis& analysis) {
+  constexpr double kLowPeak = 0.2;
+  const analysis::FloodMap& flood = *analysis.flood;
   GridMap map;
   map.rows = (flood.grid.rows + 1) / 2;
   map.columns = (flood.grid.columns + 1) / 2;
@@ -123,10 +210,20 @@ GridMap flood_picture(const analysis::FloodMap& flood) {
   map.y_low = flood.grid.y_low;
   map.y_high = flood.grid.y_low + (flood.grid.y_high - flood.grid.y_low) * static_cast<double>(2 * map.rows) /
                                       static_cast<double>(flood.grid.rows);
-  map.x_label = "position across (mm)";
-  map.y_label = "position across (mm)";
+  map.x_label = across_label(analysis.across_x, "first direction across");
+  map.y_label = across_label(analysis.across_y, "second direction across");
   map.value_label = "events per cell";
   map.alternative = "flood map";
+  map.lines = region_borders(flood);
+  double lowest = flood.peaks.empty() ? 0.0 : flood.peaks.front().height, highest = lowest;
+  for (const analysis::FloodPeak& peak : flood.peaks) {
+    lowest = std::min(lowest, peak.height);
+    highest = std::max(highest, peak.height);
+    if (flood.crystals.empty()) continue;
+    map.marks.push_back({peak.position_mm[0], peak.position_mm[1],
+                         std::to_string(part_number(analysis, flood.crystals[peak.owner]))});
+  }
+  map.logarithmic = lowest < kLowPeak * highest;
   return map;
 }
 

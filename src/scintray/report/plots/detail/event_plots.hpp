@@ -19,7 +19,8 @@ namespace scintray::report {
 /// Unit of the light of an analysis: "photoelectrons" or "photons".
 std::string light_unit(const analysis::EventAnalysis& analysis);
 
-/// The spectrum with the fitted photopeak, if there is one. Requires a spectrum.
+/// The spectrum with the fitted photopeak, if there is one, and a scale in keV at the mean light per energy
+/// deposited where that is known. Requires a spectrum.
 Plot spectrum_plot(const analysis::EventAnalysis& analysis);
 
 /// A depth curve relative to its reference, with its line dashed.
@@ -28,8 +29,17 @@ Plot depth_plot(const analysis::DepthCurve& curve);
 /// Width (FWHM) and bias of the estimated depth, against depth.
 Plot doi_plot(const analysis::DoiAnalysis& doi);
 
-/// Counts of a flood map, four of its cells in one: the segmentation needs finer cells than a picture.
-GridMap flood_picture(const analysis::FloodMap& flood);
+/// Spectrum of one part in a few lines' height, for a table. Empty when all its light is equal.
+std::string small_spectrum(const analysis::PartLight& part);
+
+/// Numbers of the parts of an analysis, from 1 in their order, as on its flood map: that of one part.
+std::size_t part_number(const analysis::EventAnalysis& analysis, core::PartId part);
+
+/// Counts of a flood map, four of its cells in one (the segmentation needs finer cells than a picture), with
+/// the borders between the regions of its peaks and the number of the part that owns each. Colours are
+/// logarithmic where the lowest peak has less than a fifth of the height of the highest. Requires a flood
+/// map.
+GridMap flood_picture(const analysis::EventAnalysis& analysis);
 
 /// A distribution of time differences with its Gaussian, in ps. Requires fitted bins.
 Plot difference_plot(const analysis::Spread& differences, const std::string& label);

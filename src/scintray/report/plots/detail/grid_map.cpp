@@ -30,9 +30,54 @@ double largest(const GridMap& map) {
   return std::max(*std::max_element(map.values.begin(), map.values.end()), 1e-300);
 }
 
+/// Place of a value on the scale of colours, 0 to 1.
+double shade(const GridMap& map, double value, double most) {
+  return map.logarithmic ? std::log1p(value / map.unit) / std::log1p(most / map.unit) : value / most;
+}
+
 std::string scale(const GridMap& map) {
-  return "<div class=\"scale\"><span>0</span><i style=\"background:" + viridis_gradient() + "\"></i><span>" +
-         escape_html(compact(largest(map), 3) + " " + map.value_label) + "</span></div>\n";
+  const double most = largest(map);
+  std::string gradient = "<i style=\"background:" + viridis_gradient() + "\"></i>";
+  std::string unit = map.value_label;
+  if (map.logarithmic) {
+    const double middle = map.unit * std::expm1(0.5 * std::log1p(most / map.unit));
+    gradient =
+        "<span class=\"shades\">" + gradient + "<span>" + escape_html(compact(middle, 2)) + "</span></span>";
+    unit += ", logarithmic";
+  }
+  return "<div class=\"scale\"><span>0</span>" + gradient + "<span>" +
+         escape_html(compact(most, 3) + " " + unit) + "</span></div>\n";
+}
+
+/// The lines over the map as one path.
+std::string line_path(const GridMap& map, double width, double height) {
+  if (map.lines.empty()) return "";
+  std::string path;
+  for (const auto& [x1, y1, x2, y2] : map.lines) {
+    const auto right = [&](double x) { return kLeft + width * (x - map.x_low) / (map.x_high - map.x_low); };
+    const auto down = [&](double y) {
+      return kMargin + height * (map.y_high - y) / (map.y_high - map.y_low);
+    };
+    path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", right(x1), down(y1), right(x2), down(y2));
+  }
+  return "<path class=\"border\" d=\"" + path + "\"/>\n";
+}
+
+/// Texts at places of the map, as large as their distance allows; none when they would be too small to read.
+std::string mark_texts(const GridMap& map, double width, double height) {
+  constexpr double kLargest = 13.0, kSmallest = 5.5;
+  if (map.marks.empty()) return "";
+  const double apart = std::sqrt(width * height / static_cast<double>(map.marks.size()));
+  const double size = std::min(kLargest, 0.45 * apart);
+  if (size < kSmallest) return "";
+  std::string out;
+  for (const GridMap::Mark& mark : map.marks)
+    out += fmt::format(
+        "<text class=\"mark-text\" style=\"font-size:{:.1f}px\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", size,
+        kLeft + width * (mark.x - map.x_low) / (map.x_high - map.x_low),
+        kMargin + height * (map.y_high - mark.y) / (map.y_high - map.y_low) + 0.35 * size,
+        escape_html(mark.text));
+  return out;
 }
 
 std::string image(const std::string& data, double x, double y, double width, double height) {
@@ -63,12 +108,13 @@ std::string grid_map(const GridMap& map) {
   const double most = largest(map);
   for (std::size_t row = map.rows; row-- > 0;)
     for (std::size_t column = 0; column < map.columns; ++column)
-      pixels.push_back(viridis(map.values[row * map.columns + column] / most));
+      pixels.push_back(viridis(shade(map, map.values[row * map.columns + column], most)));
   const std::string data =
       png_data(pixels, static_cast<std::uint32_t>(map.columns), static_cast<std::uint32_t>(map.rows));
 
   std::string out = opening(kLeft + width + kMargin, kMargin + height + kBelow, map.alternative);
-  out += image(data, kLeft, kMargin, width, height);
+  out += image(data, kLeft, kMargin, width, height) + line_path(map, width, height) +
+         mark_texts(map, width, height);
   for (const double tick : nice_ticks(map.x_low, map.x_high, 5)) {
     if (tick < map.x_low || tick > map.x_high) continue;
     out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
@@ -106,7 +152,7 @@ std::string polar_map(const GridMap& map) {
       const auto column = std::min(
           map.columns - 1,
           static_cast<std::size_t>((azimuth + core::kPi) / core::kTwoPi * static_cast<double>(map.columns)));
-      pixels.push_back(viridis(map.values[row * map.columns + column] / most));
+      pixels.push_back(viridis(shade(map, map.values[row * map.columns + column], most)));
     }
   std::string out = opening(kSide + 2.0 * kMargin, kSide + 2.0 * kMargin, map.alternative);
   out += image(png_data(pixels, kPolarPixels, kPolarPixels), kMargin, kMargin, kSide, kSide);
@@ -126,6 +172,10 @@ std::string grid_map_style() {
          "var(--ink); }\n"
          ".grid-map .tick { font-size: 12px; fill: var(--soft); } .grid-map .beyond { fill: var(--paper); }\n"
          ".grid-map .ring { fill: none; stroke: #fff; stroke-opacity: .5; }\n"
+         ".grid-map .border { fill: none; stroke: #fff; stroke-opacity: .75; stroke-width: 1; }\n"
+         ".grid-map .mark-text { fill: #fff; stroke: #000; stroke-width: .18em; paint-order: stroke; "
+         "text-anchor: middle; font-weight: 600; }\n"
+         ".scale .shades { display: flex; flex-direction: column; align-items: center; }\n"
          ".scale { display: flex; gap: .5rem; align-items: center; font-size: .85rem; color: var(--soft); }\n"
          ".scale i { width: 10rem; height: .7rem; border-radius: 2px; }\n";
 }

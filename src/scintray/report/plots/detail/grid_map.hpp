@@ -1,6 +1,7 @@
 #pragma once
 /// Pictures of a quantity over two axes.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,19 @@ struct GridMap {
   double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
   std::string x_label, y_label, value_label;
   std::string alternative;  ///< read by screen readers
+  /// Colours are even in log(1 + value / unit) instead of in the value.
+  bool logarithmic = false;
+  double unit = 1.0;                         ///< of the logarithmic scale, above 0
+  std::vector<std::array<double, 4>> lines;  ///< drawn over the cells: x and y of both ends
+  struct Mark {
+    double x = 0.0, y = 0.0;
+    std::string text;
+  };
+  std::vector<Mark> marks;  ///< texts centred at places of the map
 };
 
-/// Colours (viridis) from 0 to the largest value, axes with ticks, and the scale below. Cells keep the
-/// proportions of the axes when these are within a factor of 4, so that a face keeps its shape.
+/// Colours (viridis) from 0 to the largest value, axes with ticks, lines, marks, and the scale below. Cells
+/// keep the proportions of the axes when these are within a factor of 4, so that a face keeps its shape.
 /// Throws std::invalid_argument when the values do not fill the grid.
 std::string grid_map(const GridMap& map);
 

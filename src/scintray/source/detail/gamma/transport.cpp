@@ -5,6 +5,7 @@
 
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 
 namespace scintray::source {
@@ -39,12 +40,37 @@ struct GammaTransport::Walk {
   }
 };
 
+namespace {
+
+/// Names of parts by their pattern.
+using PartGroups = std::map<std::string, std::vector<std::string>>;
+
+/// One name or pattern for each group.
+std::vector<std::string> patterns_of(const PartGroups& groups) {
+  std::vector<std::string> patterns;
+  for (const auto& [pattern, names] : groups) patterns.push_back(names.size() > 1 ? pattern : names.front());
+  return patterns;
+}
+
+/// "\"guide\", 64 parts \"crystal[*]\"".
+std::string parts_text(const PartGroups& groups) {
+  std::string text;
+  for (const auto& [pattern, names] : groups)
+    text += (text.empty() ? "" : ", ") + (names.size() > 1
+                                              ? std::to_string(names.size()) + " parts \"" + pattern + "\""
+                                              : "\"" + names.front() + "\"");
+  return text;
+}
+
+}  // namespace
+
 GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scene_file::MatterSpec>& matter,
                                bool fluorescence, const core::FileLocation& where)
     : fluorescence_(fluorescence) {
   std::map<core::MediumId, std::shared_ptr<const GammaMatter>> by_medium;
   std::map<const scene_file::MatterSpec*, std::shared_ptr<const GammaMatter>> by_spec;
-  std::map<core::MediumId, std::string> unknown;  // media, with the parts that consist of each
+  // Media, with the parts that consist of each: parts of one pattern once, with their number.
+  std::map<core::MediumId, PartGroups> unknown;
   for (const core::RegionId region : scene.regions.ids()) {
     matter_.push_back(nullptr);
     if (const scene_file::MatterSpec* named = matter_named(matter, scene, region)) {
@@ -58,8 +84,8 @@ GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scen
     const optics::Medium& medium = scene.media[id].medium();
     if (medium.empty_space) continue;
     if (medium.composition.empty()) {
-      std::string& names = unknown[id];
-      names += (names.empty() ? "\"" : ", \"") + scene.region_names[region] + "\"";
+      const std::string& name = scene.region_names[region];
+      unknown[id][core::pattern_of(name)].push_back(name);
       continue;
     }
     std::shared_ptr<const GammaMatter>& known = by_medium[id];
@@ -69,10 +95,13 @@ GammaTransport::GammaTransport(const scene::Scene& scene, const std::vector<scen
   core::Problems problems;
   for (const auto& [medium, parts] : unknown)
     problems.add(where,
-                 "gammas come through the medium \"" + scene.media[medium].medium().name + "\" of " + parts +
-                     ", but it does not say what it is made of",
+                 "gammas come through the medium \"" + scene.media[medium].medium().name + "\" of " +
+                     parts_text(parts) + ", but it does not say what it is made of",
                  "add [composition] and [density] to the medium, or to [source] either [[source.matter]] "
-                 "with part, formula and density, or vacuum = [PART], for parts that gammas are to pass");
+                 "with part, formula and density, or, for parts that gammas are to pass, vacuum = [" +
+                     core::list_of(patterns_of(parts), ", ",
+                                   [](const std::string& name) { return "\"" + name + "\""; }) +
+                     "]; a * stands for any characters");
   problems.throw_if_any();
 }
 
