@@ -71,6 +71,10 @@ tally::PointResult SimulationPoint::trace(const RunHooks& hooks) const {
   return result;
 }
 
+tally::BlockRange SimulationPoint::trace(const tally::BlockRange& blocks, const RunHooks& hooks) const {
+  return trace_blocks(scene(), *source_, plan_, settings_, blocks, hooks);
+}
+
 tally::PointResult SimulationPoint::trace(const MappedResponse& response, const RunHooks& hooks) const {
   tally::PointResult result = run_mapped(scene(), *source_, plan_, response, settings_, hooks);
   result.light_timing = timing();
