@@ -13,7 +13,7 @@ namespace scintray::simulation {
 /// What is done with the checkpoints of an earlier run.
 enum class Resume {
   refuse,   ///< those of this very run are an error, so that none is lost by mistake; others are removed
-  resume,   ///< the run goes on after them; those of another run, or none, are an error
+  resume,   ///< the run goes on after them; those of another run are an error
   restart,  ///< they are removed
 };
 
