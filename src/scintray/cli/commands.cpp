@@ -14,6 +14,7 @@ namespace scintray::cli {
 #define SCINTRAY_COMMANDS(ADD) \
   ADD(new)                     \
   ADD(run)                     \
+  ADD(merge)                   \
   ADD(check)                   \
   ADD(view)                    \
   ADD(import)                  \

@@ -1,12 +1,12 @@
 #pragma once
-/// Ctrl-C as a request to stop and to keep the result so far.
+/// Ctrl-C, and the signals by which systems end programs, as a request to stop and to keep the result so far.
 
 #include <atomic>
 
 namespace scintray::cli {
 
-/// During its lifetime SIGINT and SIGTERM set `requested()`; a second SIGINT ends the program at once.
-/// Only one may exist at a time.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP set `requested()`; a second signal ends the program at
+/// once. SIGPIPE is ignored, so that a closed pipe does not end a run. Only one may exist at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -15,6 +15,10 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static const std::atomic<bool>& requested();
+  /// States whether there is a result to keep (as from the beginning). Where there is none, as while a scene
+  /// is read, a signal ends the program with exit code kInterrupted after two seconds, if it has not ended by
+  /// then.
+  static void keeps_results(bool keeps);
 };
 
 }  // namespace scintray::cli

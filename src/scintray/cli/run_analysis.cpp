@@ -5,6 +5,7 @@
 #include "scintray/report/acceptance.hpp"
 #include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/surface_acceptance.hpp"
+#include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/analysis.hpp"
 #include "scintray/simulation/analyze_results.hpp"
@@ -28,6 +29,14 @@ report::RunAnalysis analysis_of(const std::filesystem::path& results, const tall
   return {simulation::analyze_results(results, run, analysis), analysis.reference,
           scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
           results::read_surfaces(results)};
+}
+
+void show_results(const std::filesystem::path& results, const tally::RunResult& run,
+                  const ShownResults& shown) {
+  const report::RunAnalysis analyses = analysis_of(results, run);
+  if (shown.summary) std::cout << report::text_summary(run, analyses);
+  std::cout << "results  " << results.string() << "\n";
+  if (shown.page) write_page(results, run, analyses);
 }
 
 void write_page(const std::filesystem::path& results, const tally::RunResult& run,

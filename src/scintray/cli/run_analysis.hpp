@@ -16,6 +16,15 @@ void check_criteria(const scene_file::SceneFile& scene);
 /// is of.
 report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
 
+/// What a command shows of results that it has written.
+struct ShownResults {
+  bool summary = true, page = true;
+};
+
+/// Prints the path of results, with the summary and the page of the run as far as they are wanted.
+void show_results(const std::filesystem::path& results, const tally::RunResult& run,
+                  const ShownResults& shown);
+
 /// Writes the page of a run beside its results file, and prints its path.
 void write_page(const std::filesystem::path& results, const tally::RunResult& run,
                 const report::RunAnalysis& analyses);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -13,7 +15,8 @@
 #include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/report/text/text_summary.hpp"
+#include "scintray/core/file_lock.hpp"
+#include "scintray/core/units.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 
@@ -29,15 +32,58 @@ struct RunOptions {
   bool no_report = false;
   bool quiet = false;
   bool quick = false;
+  std::string shard_text;         ///< "17/400"; empty: the whole run
+  simulation::Shard shard;        ///< of that text
+  std::string interval = "60 s";  ///< between checkpoints
+  bool resume = false, restart = false, no_checkpoints = false;
 };
 
-/// Path of the results: that of the command line, else that of the scene, else the scene's name in the
-/// working folder.
+/// Path of the output without -o: the results as the scene has it, else the scene's name in the working
+/// folder; of a shard its number is in the name, so that shards of one run lie side by side.
 std::filesystem::path output_path(const RunOptions& options, const std::filesystem::path& scene,
                                   const scene_file::SceneFile& file) {
   if (!options.output.empty()) return options.output;
-  if (const auto own = file.spec(0).run.output; !own.empty()) return own;
-  return scene.stem().string() + ".h5";
+  std::filesystem::path results = file.spec(0).run.output;
+  if (results.empty()) results = scene.stem().string() + ".h5";
+  if (options.shard_text.empty()) return results;
+  const std::size_t digits = std::to_string(options.shard.of).size();
+  return results.replace_extension(
+      fmt::format("{:0{}}-of-{}.shard", options.shard.number, digits, options.shard.of));
+}
+
+/// The shard of "17/400". @throws CLI::ValidationError
+simulation::Shard shard_of(const std::string& text) {
+  simulation::Shard shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  const bool slash = number.ec == std::errc{} && number.ptr != end && *number.ptr == '/';
+  const auto of = slash ? std::from_chars(number.ptr + 1, end, shard.of) : number;
+  if (!slash || of.ec != std::errc{} || of.ptr != end || shard.number < 1 || shard.number > shard.of)
+    throw CLI::ValidationError("--shard", "\"" + text + "\" is no K/N with K from 1 to N, as 17/400");
+  return shard;
+}
+
+/// @throws CLI::ValidationError
+std::chrono::milliseconds interval_of(const std::string& text) {
+  constexpr double kNanosecondsPerMillisecond = 1e6, kMost = 1e12;
+  try {
+    const double ms = core::parse_quantity(text, core::Dimension::time) / kNanosecondsPerMillisecond;
+    if (ms >= 0.0 && ms < kMost) return std::chrono::milliseconds(std::llround(ms));
+  } catch (const core::InputError& error) {
+    throw CLI::ValidationError("--checkpoint-every",
+                               error.problems().front().what + "; " + error.problems().front().hint);
+  }
+  throw CLI::ValidationError("--checkpoint-every", "\"" + text + "\" is no time from 0 to 30 years");
+}
+
+simulation::CheckpointSettings checkpoint_settings(const RunOptions& options,
+                                                   const std::filesystem::path& output) {
+  simulation::CheckpointSettings settings;
+  settings.folder = output.string() + ".checkpoints";
+  settings.every = interval_of(options.interval);
+  if (options.resume) settings.resume = simulation::Resume::resume;
+  if (options.restart) settings.resume = simulation::Resume::restart;
+  return settings;
 }
 
 simulation::SimulationOptions simulation_options(const RunOptions& options, ProgressLine& line) {
@@ -71,25 +117,56 @@ void say_before_tracing(simulation::Simulation& simulation, const scene_file::Sc
   print_gaps(std::cerr, gaps);
 }
 
+/// Ends a command whose run was stopped.
+[[noreturn]] void end_stopped(const std::string& what, bool can_resume) {
+  std::cerr << "stopped: " << what << (can_resume ? "; --resume goes on from here" : "") << "\n";
+  throw CLI::RuntimeError(kInterrupted);
+}
+
+/// Traces into a sink, with checkpoints. What is finished outlasts a failure of the system, as a full disk.
+tally::RunResult trace(const RunOptions& options, simulation::Simulation& simulation,
+                       simulation::ResultSink& sink, const std::filesystem::path& output,
+                       ProgressLine& line) {
+  simulation::Checkpoints checkpoints(checkpoint_settings(options, output));
+  simulation::SimulationHooks hooks = simulation_hooks(line);
+  if (!options.no_checkpoints) hooks.checkpoints = &checkpoints;
+  simulation.build(hooks);
+  InterruptGuard::keeps_results(true);
+  try {
+    tally::RunResult result = simulation.run_all(sink, hooks, options.shard);
+    line.clear();
+    return result;
+  } catch (const core::SystemError& error) {
+    line.clear();
+    const auto folder = checkpoint_settings(options, output).folder;
+    if (simulation::range_files(folder).empty() || !std::filesystem::exists(folder)) throw;
+    throw core::SystemError(std::string(error.what()) + "\n  the blocks finished before are in " +
+                            folder.string() + "; --resume goes on after them");
+  }
+}
+
+void run_shard(const RunOptions& options, simulation::Simulation& simulation,
+               const std::filesystem::path& output, ProgressLine& line) {
+  simulation::RangeFile file(output, options.shard);
+  const tally::RunResult result = trace(options, simulation, file, output, line);
+  if (!result.partial_reason.empty()) end_stopped("there is no shard yet", !options.no_checkpoints);
+  std::cout << "shard    " << output.string() << "\n";
+}
+
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
+  InterruptGuard::keeps_results(false);
   const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
   check_criteria(file);
   ProgressLine line(!options.quiet);
   const std::filesystem::path output = output_path(options, scene, file);
+  const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::Simulation simulation(file, simulation_options(options, line));
   if (!options.quiet) say_before_tracing(simulation, file, line);
+  if (!options.shard_text.empty()) return run_shard(options, simulation, output, line);
   simulation::ResultsFile results(output);
-  const tally::RunResult result = simulation.run_all(results, simulation_hooks(line));
-  line.clear();
-
-  const report::RunAnalysis analyses = analysis_of(output, result);
-  if (!options.quiet) std::cout << report::text_summary(result, analyses);
-  std::cout << "results  " << output.string() << "\n";
-  if (!options.no_report) write_page(output, result, analyses);
-  if (!result.complete()) {
-    std::cerr << "stopped: the results are partial and marked so\n";
-    throw CLI::RuntimeError(kInterrupted);
-  }
+  const tally::RunResult result = trace(options, simulation, results, output, line);
+  show_results(output, result, {!options.quiet, !options.no_report});
+  if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
 }
 
 /// Throws CLI::ValidationError when two scenes would write to one results file.
@@ -123,9 +200,27 @@ void add_run_command(CLI::App& app) {
       ->check(above_zero());
   command->add_flag("--quick", options->quick,
                     "take the scene's quick_events or quick_photons: fewer, for a test");
+  command->add_option("--shard", options->shard_text,
+                      "compute part K of N, as 17/400, for `scintray merge` (docs/scaling.md)");
+  CLI::Option* resume = command->add_flag("--resume", options->resume,
+                                          "go on after the checkpoints of a run that was stopped or killed");
+  CLI::Option* restart =
+      command->add_flag("--restart", options->restart, "remove checkpoints of before, and begin anew");
+  CLI::Option* never = command->add_flag("--no-checkpoints", options->no_checkpoints,
+                                         "keep nothing of a run that is killed, and write less");
+  resume->excludes(restart)->excludes(never);
+  command->add_option("--checkpoint-every", options->interval,
+                      "time between checkpoints, at least; \"0 s\": after each block (default: \"60 s\")");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
+  command->footer(
+      "Examples:\n"
+      "  scintray run quickstart.toml\n"
+      "  scintray run scanner.toml --resume            after Ctrl-C, a crash or a full disk\n"
+      "  scintray run scanner.toml --shard 17/400      one of 400 jobs; then: scintray merge *.shard");
   command->callback([options] {
+    if (!options->shard_text.empty()) options->shard = shard_of(options->shard_text);
+    interval_of(options->interval);
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
     const InterruptGuard guard;

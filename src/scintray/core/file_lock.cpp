@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "scintray/core/error.hpp"
@@ -22,6 +23,25 @@ bool still_named(const std::filesystem::path& file, int descriptor) {
   }, held{};
   return ::stat(file.c_str(), &named) == 0 && ::fstat(descriptor, &held) == 0 &&
          named.st_ino == held.st_ino && named.st_dev == held.st_dev;
+}
+
+/// Removes ".NAME.PROCESS.unfinished" of any process.
+void remove_unfinished(const std::filesystem::path& folder, const std::string& name) {
+  constexpr std::string_view kEnding = ".unfinished";
+  const std::string beginning = "." + name + ".";
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string found = entry->path().filename().string();
+    if (found.size() <= beginning.size() + kEnding.size() || !found.starts_with(beginning) ||
+        !found.ends_with(kEnding))
+      continue;
+    const std::string_view process =
+        std::string_view(found).substr(beginning.size(), found.size() - beginning.size() - kEnding.size());
+    std::error_code ignored;
+    if (process.find_first_not_of("0123456789") == std::string_view::npos)
+      std::filesystem::remove(entry->path(), ignored);
+  }
 }
 
 }  // namespace
@@ -55,6 +75,22 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
     if (still_named(file, descriptor)) return FileLock(file, descriptor);
     ::close(descriptor);
   }
+}
+
+std::optional<FileLock> claim_output(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::string name = path.filename().string();
+  try {
+    if (std::optional<FileLock> taken = FileLock::try_take(folder / ("." + name + ".lock"))) {
+      remove_unfinished(folder, name);
+      return taken;
+    }
+  } catch (const SystemError&) {
+    return std::nullopt;  // that it cannot be written there is found out by who writes
+  }
+  throw InputError({{path.string()},
+                    "another process is writing this file",
+                    "wait for it, or choose another name with -o"});
 }
 
 }  // namespace scintray::core

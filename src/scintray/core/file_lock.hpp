@@ -27,4 +27,11 @@ class FileLock {
   int descriptor_;  ///< -1: moved from
 };
 
+/// The right of this process alone to write a file: the lock ".NAME.lock" beside it. What processes that were
+/// killed have left there of their writing, ".NAME.PROCESS.unfinished" of OutputFile and h5::File, is
+/// removed.
+/// @return the lock; nothing on a file system without locks
+/// @throws InputError when another process holds it
+std::optional<FileLock> claim_output(const std::filesystem::path& path);
+
 }  // namespace scintray::core

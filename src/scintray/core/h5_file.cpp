@@ -7,6 +7,7 @@
 
 #include "scintray/core/detail/h5_internal.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/core/output_file.hpp"
 
 namespace scintray::core::h5 {
@@ -111,6 +112,7 @@ File File::open(const std::filesystem::path& path) {
   if (file.state_->life->file < 0)
     throw wrong("this HDF5 file is damaged: " + hdf5_reason(),
                 "copy it again from where it was made, or run again");
+  InputRecord::add(path);
   return file;
 }
 
@@ -145,6 +147,7 @@ void File::commit() {
   if (error)
     throw SystemError(state_->path.string() + ": cannot put the finished file in place: " + error.message());
   state_->temporary.clear();
+  sync_folder_of(state_->path);
 }
 
 const std::filesystem::path& File::path() const { return state_->path; }

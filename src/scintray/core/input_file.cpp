@@ -1,9 +1,51 @@
 #include "scintray/core/input_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
+#include "scintray/core/sha256.hpp"
+
 namespace scintray::core {
+
+namespace {
+
+/// The innermost record of this thread. Readers are called through many interfaces that know of no record.
+thread_local InputRecord* innermost = nullptr;
+
+constexpr std::size_t kPart = 1 << 16;
+
+}  // namespace
+
+InputRecord::InputRecord() : outer_(innermost) { innermost = this; }
+
+InputRecord::~InputRecord() { innermost = outer_; }
+
+void InputRecord::add(const std::filesystem::path& path, std::string_view content) {
+  if (innermost != nullptr && !innermost->hashes_.contains(path))
+    innermost->hashes_[path] = core::sha256(content);
+}
+
+void InputRecord::add(const std::filesystem::path& path) {
+  if (innermost == nullptr || innermost->hashes_.contains(path)) return;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;
+  Sha256 hash;
+  std::array<char, kPart> part{};
+  while (file) {
+    file.read(part.data(), part.size());
+    hash.add({part.data(), static_cast<std::size_t>(file.gcount())});
+  }
+  if (!file.bad()) innermost->hashes_[path] = hash.hex();
+}
+
+std::vector<InputFile> InputRecord::files() const {
+  std::vector<InputFile> files;
+  for (const auto& [path, hash] : hashes_) files.push_back({path.filename().string(), hash});
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& path) {
   std::error_code error;
@@ -15,12 +57,13 @@ std::optional<std::string> read_whole_file(const std::filesystem::path& path) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   if (!unknown) content.reserve(static_cast<std::size_t>(size));
-  std::array<char, 1 << 16> part{};
+  std::array<char, kPart> part{};
   while (file) {
     file.read(part.data(), part.size());
     content.append(part.data(), static_cast<std::size_t>(file.gcount()));
   }
   if (file.bad()) return std::nullopt;
+  InputRecord::add(path, content);
   return content;
 }
 

@@ -158,6 +158,15 @@ void OutputFile::commit() {
   std::filesystem::rename(s.temporary, s.path, error);
   if (error) s.fail(error.value());
   s.committed = true;
+  sync_folder_of(s.path);
+}
+
+void sync_folder_of(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content, const std::string& what) {

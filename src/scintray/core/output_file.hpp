@@ -38,13 +38,17 @@ class OutputFile {
   void write(std::string_view text);
   /// Ends the stream and waits until it is on the disk, without renaming it yet.
   void finish();
-  /// `finish`, then renames the temporary file to the target.
+  /// `finish`, then renames the temporary file to the target and waits until that is on the disk, too.
   void commit();
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Waits until the names in the folder of a file are on the disk, so that they survive a loss of power. Does
+/// nothing where the system cannot.
+void sync_folder_of(const std::filesystem::path& file);
 
 /// Writes a whole file. @throws SystemError as OutputFile does, and InputError as require_replaceable
 void write_whole_file(const std::filesystem::path& path, std::string_view content,

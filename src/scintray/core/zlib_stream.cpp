@@ -36,6 +36,12 @@ int run(z_stream& stream, std::string_view& input, const Step& step, const TakeB
 
 }  // namespace
 
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
+  if (bytes.empty()) return before;  // a null pointer would mean the initial value
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 Unpacked unpack(std::string_view packed, Packing packing, const TakeBytes& take) {
   z_stream stream{};
   constexpr int kWindowBits = 15, kGzipOnly = 16;

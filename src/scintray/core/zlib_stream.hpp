@@ -2,6 +2,7 @@
 /// Streaming compression and decompression: zlib (RFC 1950) and gzip (RFC 1952).
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string_view>
@@ -23,6 +24,10 @@ struct Unpacked {
 /// Unpacks one stream into `take`, which receives all that can be unpacked of a damaged or truncated one.
 /// @throws SystemError when zlib cannot start
 Unpacked unpack(std::string_view packed, Packing packing, const TakeBytes& take);
+
+/// CRC-32 of bytes as in gzip and PNG (RFC 1952, section 8).
+/// @param before  of the bytes before these
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 /// A zlib stream being written.
 class Packer {

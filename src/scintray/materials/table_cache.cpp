@@ -97,6 +97,7 @@ std::shared_ptr<const optics::SurfaceTable> TableCache::get(
 }
 
 std::shared_ptr<const optics::SurfaceTable> TableCache::find(const CacheEntry& entry) {
+  const core::InputRecord apart;  // whether a table was kept changes no result
   const std::filesystem::path path = folder_.file_of(entry.key);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return nullptr;
@@ -132,6 +133,7 @@ std::optional<core::FileLock> TableCache::lock(const CacheEntry& entry) {
 }
 
 void TableCache::keep(const CacheEntry& entry, const optics::SurfaceTable& table) {
+  const core::InputRecord apart;
   const std::filesystem::path path = folder_.file_of(entry.key);
   std::error_code ignored;
   try {

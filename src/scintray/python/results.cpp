@@ -133,7 +133,9 @@ py::dict point_of(const RunDataPtr& data, std::size_t number) {
   py::dict entry;
   entry["parameters"] = point.parameters;
   entry["photons_requested"] = point.photons_requested;
-  entry["photons"] = point.photons;
+  entry["photons"] = point.emitted;
+  entry["photons_traced"] = point.photons;
+  entry["birth_efficiency"] = point.birth_efficiency;
   entry["complete"] = point.complete;
   entry["fate_count"] = view(point.fates.data(), {core::kFateCount}, owner);
   std::vector<core::Estimate> fractions;
@@ -154,7 +156,7 @@ py::dict point_of(const RunDataPtr& data, std::size_t number) {
   entry["wall_seconds"] = point.wall_seconds;
   entry["cut_bias_bound"] = point.cut_bias_bound();
   py::list tallies;
-  for (const tally::TallyResult& tally : point.tallies) tallies.append(tally_of(tally, point.photons, owner));
+  for (const tally::TallyResult& tally : point.tallies) tallies.append(tally_of(tally, point.emitted, owner));
   entry["tallies"] = tallies;
   return entry;
 }

@@ -97,18 +97,21 @@ tally::PointResult run_mapped(const scene::Scene& scene, const source::LightSour
                               const RunSettings& settings, const RunHooks& hooks) {
   if (!source.has_energy()) throw core::InternalError("a response map was given a source of photons");
   const auto start = std::chrono::steady_clock::now();
-  tally::PointResult total = tally::empty_result(scene, plan);
+  tally::PointSums sums = tally::empty_sums(scene, plan);
   const EventMaker maker(scene, source, plan, response, settings);
   const auto make = [&](std::uint64_t piece) { return maker.make(piece); };
   const auto collect = [&](std::uint64_t, const tally::EventTally& tally) {
-    tally.add_to(total.energy);
+    tally.add_to(sums.energy);
     if (hooks.events) hooks.events(tally.events());
-    if (hooks.progress) hooks.progress(total.energy.events);
+    if (hooks.progress) hooks.progress(sums.energy.events);
   };
-  total.complete =
-      transport::work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect) == maker.pieces();
+  const std::uint64_t made =
+      transport::work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect);
+  sums.counts.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (hooks.range) hooks.range({0, made}, sums);
+  tally::PointResult total = sums.result();
+  total.complete = made == maker.pieces();
   total.energy.events_requested = source.events();
-  total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return total;
 }
 

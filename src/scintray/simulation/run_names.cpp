@@ -29,15 +29,17 @@ Renumbering::Renumbering(const scene::Scene& scene, const RunNames& names)
   for (const scene::FaceInfo& face : scene.faces) faces_.push_back(names.faces.id(face.name));
 }
 
-void Renumbering::apply(tally::PointResult& result) const {
-  result.absorbed_in_medium = moved(result.absorbed_in_medium, media_, media_count_);
-  result.absorbed_at_surface = moved(result.absorbed_at_surface, surfaces_, surface_count_);
-  result.shifted_in_medium = moved(result.shifted_in_medium, media_, media_count_);
-  result.shifted_at_surface = moved(result.shifted_at_surface, surfaces_, surface_count_);
-  for (tally::SensorFaceCount& count : result.sensor_faces) {
+tally::PointSums Renumbering::applied(tally::PointSums sums) const {
+  tally::PointResult& counts = sums.counts;
+  counts.absorbed_in_medium = moved(counts.absorbed_in_medium, media_, media_count_);
+  counts.absorbed_at_surface = moved(counts.absorbed_at_surface, surfaces_, surface_count_);
+  sums.shifted_in_medium = moved(sums.shifted_in_medium, media_, media_count_);
+  sums.shifted_at_surface = moved(sums.shifted_at_surface, surfaces_, surface_count_);
+  for (tally::SensorFaceCount& count : counts.sensor_faces) {
     count.part = parts_[count.part];
     count.face = faces_[count.face];
   }
+  return sums;
 }
 
 std::vector<tally::ReadoutChannel> Renumbering::applied(std::vector<tally::ReadoutChannel> channels) const {

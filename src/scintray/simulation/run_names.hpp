@@ -8,8 +8,8 @@
 
 #include "scintray/scene/scene.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/tally/point_sums.hpp"
 #include "scintray/tally/readout_channels.hpp"
-#include "scintray/tally/result.hpp"
 
 namespace scintray::simulation {
 
@@ -46,7 +46,7 @@ class Renumbering {
   /// @param names  with those of the scene
   Renumbering(const scene::Scene& scene, const RunNames& names);
 
-  void apply(tally::PointResult& result) const;
+  tally::PointSums applied(tally::PointSums sums) const;
   std::vector<tally::ReadoutChannel> applied(std::vector<tally::ReadoutChannel> channels) const;
   std::vector<tally::EventRecord> applied(std::vector<tally::EventRecord> events) const;
   std::vector<tally::DetectedPhoton> applied(std::vector<tally::DetectedPhoton> photons) const;

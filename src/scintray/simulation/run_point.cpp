@@ -176,14 +176,53 @@ class BlockTracer {
   int lane_width_;
 };
 
-void check_every_photon_has_a_fate(tally::PointResult& result, std::uint64_t traced) {
+void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64_t started) {
   std::uint64_t ended = 0;
-  for (const std::uint64_t count : result.fates) ended += count;
-  result.lost = traced - ended;
-  if (result.lost != 0)
-    throw core::InternalError(std::to_string(result.lost) + " of " + std::to_string(traced) +
+  for (const std::uint64_t count : traced.fates) ended += count;
+  if (ended != started)
+    throw core::InternalError(std::to_string(started - ended) + " of " + std::to_string(started) +
                               " photons have no fate");
 }
+
+/// Collects blocks in their order into ranges.
+class RangeCollector {
+ public:
+  RangeCollector(tally::PointSums empty, std::uint64_t first, const RunHooks& hooks)
+      : empty_(std::move(empty)), sums_(empty_), present_{first, first}, hooks_(hooks) {}
+
+  void add(const Block& block) {
+    block.photons.add_to(sums_);
+    block.events.add_to(sums_.energy);
+    sums_.counts.emitted += block.emitted;
+    traced_ += block.traced;
+    ++present_.last;
+    if (hooks_.detected && !block.photons.photons().empty()) hooks_.detected(block.photons.photons());
+    if (hooks_.histories && block.photons.histories()) hooks_.histories(*block.photons.histories());
+    if (hooks_.events && !block.events.events().empty()) hooks_.events(block.events.events());
+    if (hooks_.range_ends && hooks_.range_ends(present_)) end_range();
+  }
+
+  /// Ends the present range, unless it is empty.
+  void end_range() {
+    if (present_.count() == 0) return;
+    check_every_photon_has_a_fate(sums_.counts, traced_);
+    const auto now = std::chrono::steady_clock::now();
+    sums_.counts.wall_seconds = std::chrono::duration<double>(now - start_).count();
+    if (hooks_.range) hooks_.range(present_, sums_);
+    present_.first = present_.last;
+    sums_ = empty_;
+    traced_ = 0;
+    start_ = now;
+  }
+
+ private:
+  const tally::PointSums empty_;
+  tally::PointSums sums_;  ///< over the present range
+  tally::BlockRange present_;
+  std::uint64_t traced_ = 0;  ///< photons of the present range
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const RunHooks& hooks_;
+};
 
 }  // namespace
 
@@ -225,36 +264,42 @@ int lane_width_of(const scene::Scene& scene, const source::LightSource& source, 
   return ends_only && starts_in_lanes(scene, source) ? settings.lane_width : 1;
 }
 
+tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,
+                               const tally::TallyPlan& plan, const RunSettings& settings,
+                               tally::BlockRange blocks, const RunHooks& hooks) {
+  const BlockTracer tracer(scene, source, plan, settings);
+  RangeCollector collector(tally::empty_sums(scene, plan), blocks.first, hooks);
+  const bool energy = source.has_energy();
+  std::uint64_t done = 0;
+  const auto trace = [&](std::uint64_t number) { return tracer.trace(blocks.first + number); };
+  const auto collect = [&](std::uint64_t, const Block& block) {
+    done += energy ? block.events.events().size() : block.emitted;
+    collector.add(block);
+    if (hooks.progress) hooks.progress(done);
+  };
+  const std::uint64_t traced =
+      transport::work_in_order(blocks.count(), settings.threads, hooks.stop, trace, collect);
+  collector.end_range();
+  return {blocks.first, blocks.first + traced};
+}
+
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
                              const tally::TallyPlan& plan, const RunSettings& settings,
                              const RunHooks& hooks) {
-  const auto start = std::chrono::steady_clock::now();
-  tally::PointResult total = tally::empty_result(scene, plan);
-  const BlockTracer tracer(scene, source, plan, settings);
   const bool energy = source.has_energy();
-  const std::uint64_t blocks = source.blocks();
-  std::uint64_t traced = 0;
-
-  const auto trace = [&](std::uint64_t block) { return tracer.trace(block); };
-  const auto collect = [&](std::uint64_t, const Block& block) {
-    block.photons.add_to(total);
-    block.events.add_to(total.energy);
-    total.emitted += block.emitted;
-    traced += block.traced;
-    if (hooks.detected && !block.photons.photons().empty()) hooks.detected(block.photons.photons());
-    if (hooks.histories && block.photons.histories()) hooks.histories(*block.photons.histories());
-    if (hooks.events && !block.events.events().empty()) hooks.events(block.events.events());
-    if (hooks.progress) hooks.progress(energy ? total.energy.events : total.emitted);
+  tally::PointSums sums = tally::empty_sums(scene, plan);
+  RunHooks collecting = hooks;
+  collecting.range = [&](const tally::BlockRange& range, const tally::PointSums& more) {
+    sums.merge(more);
+    if (hooks.range) hooks.range(range, more);
   };
-  const std::uint64_t blocks_done =
-      transport::work_in_order(blocks, settings.threads, hooks.stop, trace, collect);
-
-  check_every_photon_has_a_fate(total, traced);
-  total.complete = blocks_done == blocks;
-  total.photons_requested = energy ? total.emitted : source.photons();
+  const tally::BlockRange all{0, source.blocks()};
+  const tally::BlockRange traced = trace_blocks(scene, source, plan, settings, all, collecting);
+  tally::PointResult total = sums.result();
   total.birth_efficiency = settings.birth_efficiency;
+  total.complete = traced == all;
+  total.photons_requested = energy ? total.emitted : source.photons();
   total.energy.events_requested = energy ? source.events() : 0;
-  total.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return total;
 }
 

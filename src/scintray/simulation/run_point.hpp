@@ -34,6 +34,10 @@ struct RunHooks {
   std::function<void(const std::vector<tally::DetectedPhoton>&)> detected;  ///< in the order of photons
   std::function<void(const tally::PhotonHistories&)> histories;        ///< of the detected, in the same order
   std::function<void(const std::vector<tally::EventRecord>&)> events;  ///< of an event source, in order
+  /// Called after each block with the present range of blocks; true ends it.
+  std::function<bool(const tally::BlockRange& present)> range_ends;
+  /// Sums over a range, after all else of its blocks. The ranges of a run follow each other without a gap.
+  std::function<void(const tally::BlockRange& range, const tally::PointSums& sums)> range;
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the current blocks and return
 };
 
@@ -77,9 +81,17 @@ inline transport::PropagationLimits limits_of(const RunSettings& settings) {
 int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
                   const RunSettings& settings);
 
+/// Traces some blocks of a source's photons: the ranges passed to hooks.range, from `blocks.first` on without
+/// a gap. One range unless hooks.range_ends divides them; fewer blocks after a stop.
+/// @return the blocks traced
+/// @throws InternalError when a photon has no fate
+tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,
+                               const tally::TallyPlan& plan, const RunSettings& settings,
+                               tally::BlockRange blocks, const RunHooks& hooks);
+
 /// Result of all photons of a source. It does not depend on the number of threads, to the last
-/// bit: every photon has its own random stream and blocks are merged in order. A stopped run contains
-/// the photons of the blocks before the stop, with `complete = false`.
+/// bit: every photon has its own random stream, blocks are passed on in order, and sums over them are exact.
+/// A stopped run contains the photons of the blocks before the stop, with `complete = false`.
 /// @throws InternalError when a photon has no fate.
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
                              const tally::TallyPlan& plan, const RunSettings& settings,

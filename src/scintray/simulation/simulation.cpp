@@ -19,7 +19,51 @@ std::size_t triangles_of(const scene::BuiltScene& built) {
 
 bool stopped(const SimulationHooks& hooks) { return hooks.stop && hooks.stop->load(); }
 
+/// Work of the blocks of a point that belong to a shard: photons or events, to the nearest below.
+std::uint64_t work_of(const RunOutline& run, std::size_t point, const Shard& shard) {
+  const PointOutline& outline = run.points[point];
+  if (shard.of == 1 || outline.blocks == 0) return outline.work;
+  const double share = static_cast<double>(blocks_of_point(blocks_of(shard, run), run, point).count()) /
+                       static_cast<double>(outline.blocks);
+  return static_cast<std::uint64_t>(share * static_cast<double>(outline.work));
+}
+
 }  // namespace
+
+/// Receiver of the blocks of one point: passes them on to the sink of the run, and to a second one where
+/// there is one, and sums them up.
+class PointSink : public ResultSink {
+ public:
+  PointSink(ResultSink& to, tally::PointSums empty) : to_(to), total_(std::move(empty)) {}
+
+  void photons(const std::vector<tally::DetectedPhoton>& photons) override {
+    to_.photons(photons);
+    if (also) also->photons(photons);
+  }
+  void histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& of_point) override {
+    to_.histories(histories, of_point);
+    if (also) also->histories(histories, of_point);
+  }
+  void events(const std::vector<tally::EventRecord>& events) override {
+    to_.events(events);
+    if (also) also->events(events);
+  }
+  void range(const PointRange& of, const tally::PointSums& sums) override {
+    if (!total_.alike(sums))
+      throw core::InputError(
+          {{}, "the tallies of a checkpoint are not those of this run", "add --restart to begin anew"});
+    to_.range(of, sums);
+    if (also) also->range(of, sums);
+    total_.merge(sums);
+  }
+  const tally::PointSums& total() const { return total_; }
+
+  ResultSink* also = nullptr;
+
+ private:
+  ResultSink& to_;
+  tally::PointSums total_;
+};
 
 Simulation::Simulation(scene_file::SceneFile file, SimulationOptions options)
     : file_(std::move(file)),
@@ -59,6 +103,7 @@ scene_file::SceneSpec Simulation::spec(std::size_t point) const {
 
 std::shared_ptr<const SimulationPoint> Simulation::point(std::size_t point) {
   if (point < points() && kept_[point]) return kept_[point];
+  const core::InputRecord files;
   scene_file::SceneSpec spec = this->spec(point);
   std::shared_ptr<const scene::BuiltScene> built = shared_scene(spec);
   const bool shared = built != nullptr;
@@ -70,6 +115,7 @@ std::shared_ptr<const SimulationPoint> Simulation::point(std::size_t point) {
       std::make_shared<const SimulationPoint>(std::move(spec), built, static_cast<std::uint32_t>(point));
   if (!shared) keep(built);
   kept_[point] = made;
+  for (const core::InputFile& file : files.files()) inputs_.insert(file);
   return made;
 }
 
@@ -111,7 +157,6 @@ void Simulation::build(const SimulationHooks& hooks) {
   outline_ = {};
   names_ = {};
   notes_.clear();
-  work_.clear();
   for (std::size_t i = 0; i < points(); ++i) {
     if (stopped(hooks)) throw core::Cancelled("while the scene was built, before any photon was traced");
     add_to_outline(*point(i));
@@ -123,12 +168,13 @@ void Simulation::build(const SimulationHooks& hooks) {
   header.surfaces = names_.surfaces.names();
   header.parts = names_.parts.names();
   header.faces = names_.faces.names();
+  outline_.inputs.assign(inputs_.begin(), inputs_.end());
   all_built_ = true;
 }
 
 void Simulation::add_to_outline(const SimulationPoint& point) {
   tally::RunHeader& header = outline_.header;
-  if (work_.empty()) {
+  if (outline_.points.empty()) {
     const scene_file::SceneSpec& first = point.spec();
     header.title = first.title;
     header.scene_file = first.file.string();
@@ -139,8 +185,9 @@ void Simulation::add_to_outline(const SimulationPoint& point) {
   }
   names_.add(point.scene());
   if (outline_.histories && point.plan().history) outline_.histories->add(point.plan().history->subjects());
-  energy_ = point.source().has_energy();
-  work_.push_back(point.work());
+  outline_.has_energy = point.source().has_energy();
+  outline_.points.push_back({parameters(outline_.points.size()), point.work(), point.source().blocks(),
+                             point.settings().max_interactions, point.settings().max_time_ns});
   for (const auto* notes : {&point.warnings(), &point.source_notes()})
     for (const std::string& note : *notes)
       if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) {
@@ -154,64 +201,103 @@ const RunOutline& Simulation::outline() {
   return outline_;
 }
 
-void Simulation::begin(ResultSink& sink, const SimulationHooks& hooks) {
+void Simulation::begin(ResultSink& sink, const SimulationHooks& hooks, const Shard& shard) {
   build(hooks);
   sink.begin(outline_);
   const scene_file::SceneSpec first = spec(0);
-  if (!first.goniometers.empty())
+  if (!first.goniometers.empty() && shard.number == 1)
     sink.surfaces(analysis::analyze_surfaces(first.goniometers, builder_.database(first), builder_.surfaces(),
                                              first.run.seed));
 }
 
-SimulationProgress Simulation::start_of(std::size_t number) const {
+SimulationProgress Simulation::start_of(std::size_t number, const Shard& shard) const {
   SimulationProgress progress;
   progress.point = number;
   progress.points = points();
-  progress.thing = energy_ ? "events" : "photons";
-  const auto before = work_.begin() + static_cast<std::ptrdiff_t>(number);
-  progress.done = std::accumulate(work_.begin(), before, std::uint64_t{0});
-  progress.total = std::accumulate(before, work_.end(), progress.done);
+  progress.thing = outline_.has_energy ? "events" : "photons";
+  for (std::size_t point = 0; point < points(); ++point) {
+    const std::uint64_t work = work_of(outline_, point, shard);
+    progress.total += work;
+    if (point < number) progress.done += work;
+  }
   return progress;
 }
 
 tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, ResultSink& sink,
-                                     const SimulationHooks& hooks) {
+                                     const SimulationHooks& hooks, const Shard& shard) {
   build(hooks);
   const std::shared_ptr<const SimulationPoint> traced = point(number);
   const Renumbering renumbering(traced->scene(), names_);
   const tally::HistorySubjects* subjects =
       traced->plan().history ? &traced->plan().history->subjects() : nullptr;
+  const PointRange of_point{number, {}, traced->facts(), subjects};
+  PointSink receiver(sink, renumbering.applied(tally::empty_sums(traced->scene(), traced->plan())));
 
   RunHooks run;
   run.stop = hooks.stop;
   if (hooks.progress)
-    run.progress = [&, start = start_of(number)](std::uint64_t done) {
+    run.progress = [&, start = start_of(number, shard)](std::uint64_t done) {
       SimulationProgress progress = start;
       progress.done += done;
       hooks.progress(progress);
     };
   if (traced->spec().run.photon_list)
     run.detected = [&](const std::vector<tally::DetectedPhoton>& photons) {
-      sink.photons(renumbering.applied(photons));
+      receiver.photons(renumbering.applied(photons));
     };
   if (subjects)
-    run.histories = [&](const tally::PhotonHistories& histories) { sink.histories(histories, *subjects); };
+    run.histories = [&](const tally::PhotonHistories& histories) {
+      receiver.histories(histories, *subjects);
+    };
+  run.range = [&](const tally::BlockRange& blocks, const tally::PointSums& sums) {
+    PointRange range = of_point;
+    range.blocks = blocks;
+    receiver.range(range, renumbering.applied(sums));
+  };
   if (traced->source().has_energy()) {
-    sink.begin_events(number, renumbering.applied(traced->plan().channels.list), traced->spec().readout);
+    const std::vector<tally::ReadoutChannel> channels = renumbering.applied(traced->plan().channels.list);
+    sink.begin_events(number, channels, traced->spec().readout);
+    if (hooks.checkpoints) hooks.checkpoints->begin_events(number, channels, traced->spec().readout);
     run.events = [&](const std::vector<tally::EventRecord>& events) {
-      sink.events(renumbering.applied(events));
+      receiver.events(renumbering.applied(events));
     };
   }
-  tally::PointResult result = tracer(*traced, run);
-  result.parameters = parameters(number);
-  renumbering.apply(result);
+  const bool complete = tracer(*traced, receiver, run);
+  tally::PointResult result = finished_point(receiver.total(), outline_, number, complete);
+  static_cast<tally::PointFacts&>(result) = of_point.facts;
   sink.point(result, subjects);
   return result;
 }
 
+tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
+                                          const Shard& shard) {
+  const auto tracer = [&](const SimulationPoint& ready, PointSink& receiver, RunHooks& run) {
+    tally::BlockRange blocks = blocks_of_point(blocks_of(shard, outline_), outline_, number);
+    const std::uint64_t last = blocks.last;
+    if (hooks.checkpoints) {
+      hooks.checkpoints->replay(number, receiver);
+      blocks.first = hooks.checkpoints->next_block(number, blocks.first);
+      receiver.also = hooks.checkpoints;
+      run.range_ends = [&](const tally::BlockRange&) { return hooks.checkpoints->due(); };
+      run.range = [&, pass_on = run.range](const tally::BlockRange& range, const tally::PointSums& sums) {
+        pass_on(range, sums);
+        if (hooks.checkpoints->due()) hooks.checkpoints->seal();
+      };
+      if (run.progress)
+        run.progress = [&, show = run.progress,
+                        before = outline_.has_energy ? receiver.total().energy.events
+                                                     : receiver.total().counts.emitted](std::uint64_t done) {
+          show(before + done);
+        };
+    }
+    return ready.trace(blocks, run).last == last;
+  };
+  return trace(number, tracer, sink, hooks, shard);
+}
+
 tally::PointResult Simulation::run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks) {
-  return trace(
-      point, [](const SimulationPoint& ready, const RunHooks& run) { return ready.trace(run); }, sink, hooks);
+  build(hooks);
+  return run_blocks(point, sink, hooks, {});
 }
 
 tally::PointResult Simulation::run(std::size_t point, const SimulationHooks& hooks) {
@@ -221,22 +307,31 @@ tally::PointResult Simulation::run(std::size_t point, const SimulationHooks& hoo
 
 tally::PointResult Simulation::run(std::size_t point, const MappedResponse& response, ResultSink& sink,
                                    const SimulationHooks& hooks) {
-  return trace(
-      point, [&](const SimulationPoint& ready, const RunHooks& run) { return ready.trace(response, run); },
-      sink, hooks);
+  const auto tracer = [&](const SimulationPoint& ready, PointSink&, RunHooks& run) {
+    return ready.trace(response, run).complete;
+  };
+  return trace(point, tracer, sink, hooks, {});
 }
 
-tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& hooks) {
-  begin(sink, hooks);
+tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& hooks, const Shard& shard) {
+  build(hooks);
+  if (hooks.checkpoints) hooks.checkpoints->open(outline_, shard);
+  begin(sink, hooks, shard);
+  const tally::BlockRange blocks = blocks_of(shard, outline_);
   tally::RunResult result;
   result.header = header();
-  for (std::size_t i = 0; i < points() && !stopped(hooks); ++i) {
-    result.points.push_back(run(i, sink, hooks));
-    release(i);
+  std::size_t ended = 0;
+  for (; ended < points() && !stopped(hooks); ++ended) {
+    if (shard.of > 1 && blocks_of_point(blocks, outline_, ended).count() == 0) continue;
+    result.points.push_back(run_blocks(ended, sink, hooks, shard));
+    release(ended);
+    if (!result.points.back().complete) break;
   }
-  const bool complete = result.points.size() == points() && result.complete();
+  const bool complete = ended == points();
   if (!complete) result.partial_reason = kStopped;
+  if (hooks.checkpoints && !complete) hooks.checkpoints->seal();
   sink.commit(complete, result.partial_reason);
+  if (hooks.checkpoints && complete) hooks.checkpoints->remove();
   return result;
 }
 

@@ -10,17 +10,21 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "scintray/core/cancelled.hpp"
 #include "scintray/scene_file/read_scene.hpp"
+#include "scintray/simulation/checkpoints.hpp"
 #include "scintray/simulation/result_sink.hpp"
 #include "scintray/simulation/run_names.hpp"
 #include "scintray/simulation/simulation_options.hpp"
 #include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::simulation {
+
+class PointSink;
 
 /// RunResult::partial_reason of a run that SimulationHooks::stop ended.
 inline constexpr const char* kStopped = "stopped by the user";
@@ -36,6 +40,8 @@ struct SimulationHooks {
   std::function<void(const SimulationProgress&)> progress;  ///< from one thread at a time
   /// Set from outside: the photons traced are kept, and the result is marked as partial.
   const std::atomic<bool>* stop = nullptr;
+  /// Keeps finished blocks of run_all(), and has those of an earlier run; null: none are kept.
+  Checkpoints* checkpoints = nullptr;
 };
 
 /// Simulation of a scene with its sweep. Each point is built once (within
@@ -76,8 +82,9 @@ class Simulation {
   /// Header of the results, with the names that indices refer to; builds every point.
   const tally::RunHeader& header() { return outline().header; }
 
-  /// Begins a sink for the following points, and computes the goniometer readings.
-  void begin(ResultSink& sink, const SimulationHooks& hooks = {});
+  /// Begins a sink for the following points, and computes the goniometer readings, which belong to the first
+  /// shard.
+  void begin(ResultSink& sink, const SimulationHooks& hooks = {}, const Shard& shard = {});
   /// Result of one point. After an early stop it contains the photons traced until then and is not complete.
   /// @param sink  begun before; receives the photons, events and histories that the scene requests, and the
   ///              result
@@ -88,8 +95,9 @@ class Simulation {
   tally::PointResult run(std::size_t point, const MappedResponse& response, ResultSink& sink,
                          const SimulationHooks& hooks = {});
   /// Begins the sink, traces all points one after the other and commits the sink, also after an early stop.
-  /// Points are released when they have been traced.
-  tally::RunResult run_all(ResultSink& sink, const SimulationHooks& hooks = {});
+  /// Points are released when they have been traced. Of a shard, its blocks alone: its points are then not
+  /// complete, and the sink is to be a RangeFile.
+  tally::RunResult run_all(ResultSink& sink, const SimulationHooks& hooks = {}, const Shard& shard = {});
   tally::RunResult run_all(const SimulationHooks& hooks = {});
 
   /// Replays one photon of run(); `visit` is called for every step. Returns the photon as it ended.
@@ -105,7 +113,9 @@ class Simulation {
   Counts counts() const;
 
  private:
-  using Tracer = std::function<tally::PointResult(const SimulationPoint&, const RunHooks&)>;
+  /// Traces a point, or makes its events otherwise, and passes all to a sink. Returns true when nothing is
+  /// left.
+  using Tracer = std::function<bool(const SimulationPoint&, PointSink&, RunHooks&)>;
 
   void expect_point(std::size_t point) const;
   /// The scene of a kept point, where it is the same as that of `spec`; else nothing.
@@ -113,8 +123,12 @@ class Simulation {
   void keep(const std::shared_ptr<const scene::BuiltScene>& built);
   void add_to_outline(const SimulationPoint& point);
   tally::PointResult trace(std::size_t number, const Tracer& tracer, ResultSink& sink,
-                           const SimulationHooks& hooks);
-  SimulationProgress start_of(std::size_t number) const;
+                           const SimulationHooks& hooks, const Shard& shard);
+  /// Result of the blocks of a point that belong to a shard; those among the checkpoints are taken from
+  /// there.
+  tally::PointResult run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
+                                const Shard& shard);
+  SimulationProgress start_of(std::size_t number, const Shard& shard) const;
 
   std::optional<scene_file::SceneFile> file_;
   scene_file::SceneSpec scene_;  ///< when there is no file
@@ -128,9 +142,8 @@ class Simulation {
   bool all_built_ = false;
   RunOutline outline_;
   RunNames names_;
-  std::vector<std::string> notes_;   ///< in the header, each once
-  std::vector<std::uint64_t> work_;  ///< photons or events, per point
-  bool energy_ = false;              ///< the source is an event source
+  std::vector<std::string> notes_;    ///< in the header, each once
+  std::set<core::InputFile> inputs_;  ///< read for all points so far
 };
 
 }  // namespace scintray::simulation

@@ -81,17 +81,23 @@ std::optional<tally::LightTiming> SimulationPoint::timing() const {
   return light_timing(scene(), spec_, *source_, plan_);
 }
 
+tally::PointFacts SimulationPoint::facts() const {
+  return {timing(), omitted(), settings_.birth_efficiency};
+}
+
 tally::PointResult SimulationPoint::trace(const RunHooks& hooks) const {
   tally::PointResult result = run_point(scene(), *source_, plan_, settings_, hooks);
-  result.light_timing = timing();
-  result.omitted = omitted();
+  static_cast<tally::PointFacts&>(result) = facts();
   return result;
+}
+
+tally::BlockRange SimulationPoint::trace(const tally::BlockRange& blocks, const RunHooks& hooks) const {
+  return trace_blocks(scene(), *source_, plan_, settings_, blocks, hooks);
 }
 
 tally::PointResult SimulationPoint::trace(const MappedResponse& response, const RunHooks& hooks) const {
   tally::PointResult result = run_mapped(scene(), *source_, plan_, response, settings_, hooks);
-  result.light_timing = timing();
-  result.omitted = omitted();
+  static_cast<tally::PointFacts&>(result) = facts();
   return result;
 }
 

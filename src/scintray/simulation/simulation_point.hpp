@@ -48,6 +48,8 @@ class SimulationPoint {
 
   /// Distribution of the detection time of a photon, where it is the same for all light.
   std::optional<tally::LightTiming> timing() const;
+  /// Timing, omitted effects and birth efficiency.
+  tally::PointFacts facts() const;
 
   /// Effects that results of this point do not include: of the media in which events scintillate, of the
   /// sensors and of the electronics.
@@ -56,6 +58,8 @@ class SimulationPoint {
   /// Result of all photons. Indices in it and in the arguments of hooks are those of scene().
   /// @throws InternalError when a photon has no fate
   tally::PointResult trace(const RunHooks& hooks = {}) const;
+  /// Traces some blocks of photons, as trace_blocks().
+  tally::BlockRange trace(const tally::BlockRange& blocks, const RunHooks& hooks) const;
   /// Events from a response map; no photon is traced. @throws InputError as run_mapped
   tally::PointResult trace(const MappedResponse& response, const RunHooks& hooks = {}) const;
   /// Replays one photon of trace(); `visit` is called for every step. Returns the photon as it ended.

@@ -20,37 +20,15 @@ PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
   return result;
 }
 
-void merge(PointResult& total, const PointResult& block) {
-  const auto add = [](auto& into, const auto& from) {
-    auto more = from.begin();
-    for (auto& value : into) value += *more++;
-  };
-  total.photons += block.photons;
-  add(total.fates, block.fates);
-  add(total.absorbed_in_medium, block.absorbed_in_medium);
-  add(total.absorbed_at_surface, block.absorbed_at_surface);
-  add(total.shifted_in_medium, block.shifted_in_medium);
-  add(total.shifted_at_surface, block.shifted_at_surface);
-  for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
-    total.sensor_faces[i].detected += block.sensor_faces[i].detected;
-    total.sensor_faces[i].not_detected += block.sensor_faces[i].not_detected;
-  }
-  total.interactions.merge(block.interactions);
-  total.detected_path_mm.merge(block.detected_path_mm);
-  total.detected_time_ns.merge(block.detected_time_ns);
-  total.detected_interactions.merge(block.detected_interactions);
-  add(total.detected_path_histogram, block.detected_path_histogram);
-  total.scatterings += block.scatterings;
-  total.segments += block.segments;
-  total.resolved_misses += block.resolved_misses;
-}
-
 }  // namespace
 
-PointResult empty_result(const scene::Scene& scene, const TallyPlan& plan) {
-  PointResult result = empty_block(scene, plan);
-  for (const CountRequest& count : plan.counts) result.tallies.push_back(count.empty);
-  return result;
+PointSums empty_sums(const scene::Scene& scene, const TallyPlan& plan) {
+  PointSums sums;
+  sums.counts = empty_block(scene, plan);
+  sums.shifted_in_medium.resize(scene.media.size());
+  sums.shifted_at_surface.resize(scene.surfaces.size());
+  for (const CountRequest& count : plan.counts) sums.tallies.emplace_back(count.empty);
+  return sums;
 }
 
 BlockTally::BlockTally(const scene::Scene& scene, const TallyPlan& plan)
@@ -118,8 +96,8 @@ void BlockTally::cut(const source::Photon& photon, core::Fate fate) {
   finish(photon, fate);
 }
 
-void BlockTally::add_to(PointResult& total) const {
-  merge(total, result_);
+void BlockTally::add_to(PointSums& total) const {
+  total.add(result_);
   if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
 }
 

@@ -7,14 +7,15 @@
 
 #include "scintray/source/photon_records.hpp"
 #include "scintray/tally/count_scorer.hpp"
+#include "scintray/tally/point_sums.hpp"
 #include "scintray/tally/result.hpp"
 #include "scintray/tally/tally_plan.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::tally {
 
-/// Counts of one block of photons. Blocks are merged in their order, so that sums do not depend on the thread
-/// that traced them.
+/// Counts of one block of photons. A block is traced by one thread in the order of its photons, and sums over
+/// blocks are exact (PointSums), so that results depend neither on threads nor on who traced which block.
 class BlockTally {
  public:
   explicit BlockTally(const scene::Scene& scene, const TallyPlan& plan);
@@ -51,8 +52,8 @@ class BlockTally {
   const std::vector<DetectedPhoton>& photons() const { return photons_; }
   /// Histories of the detected photons; null when none are requested.
   const PhotonHistories* histories() const { return history_ ? &history_->kept() : nullptr; }
-  /// Adds the block to the total of those before it.
-  void add_to(PointResult& total) const;
+  /// Adds the block to the sums over others.
+  void add_to(PointSums& total) const;
 
  private:
   void count_step(const transport::Step& step) { count_steps(step.segments, step.resolved); }
@@ -67,7 +68,7 @@ class BlockTally {
   std::uint64_t event_ = 0, photon_ = 0;
 };
 
-/// An all-zero result with the right sizes.
-PointResult empty_result(const scene::Scene& scene, const TallyPlan& plan);
+/// Sums over no blocks, with the right sizes.
+PointSums empty_sums(const scene::Scene& scene, const TallyPlan& plan);
 
 }  // namespace scintray::tally

@@ -167,15 +167,13 @@ void CountScorer::end(core::Fate fate) {
   pending_.clear();
 }
 
-void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallyResult>& total) {
+void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallySums>& total) {
   for (const Contribution& c : contributions) {
-    TallyResult& tally = total[c.count];
-    if (c.bin == Contribution::kOutside) {
-      tally.outside += c.score;
-      continue;
-    }
-    tally.sum[c.bin] += c.score;
-    tally.sum_of_squares[c.bin] += c.score * c.score;
+    TallySums& tally = total[c.count];
+    if (c.bin == Contribution::kOutside)
+      tally.add_outside(c.score);
+    else
+      tally.add(c.bin, c.score);
   }
 }
 

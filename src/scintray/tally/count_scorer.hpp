@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scintray/tally/point_sums.hpp"
 #include "scintray/tally/tally_plan.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -52,6 +53,6 @@ class CountScorer {
 };
 
 /// Adds contributions to the sums of `total`, which has one entry for each count of the plan.
-void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallyResult>& total);
+void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallySums>& total);
 
 }  // namespace scintray::tally

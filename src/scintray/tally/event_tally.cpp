@@ -76,14 +76,4 @@ void EventTally::end(const std::function<core::Rng(std::uint32_t)>& stream) {
   if (record.energy_keV > 0.0f) balance_.detected.add(static_cast<double>(record.detected));
 }
 
-void EventTally::add_to(EnergyBalance& total) const {
-  total.events += balance_.events;
-  total.silent += balance_.silent;
-  total.started += balance_.started;
-  total.deposited += balance_.deposited;
-  total.escaped += balance_.escaped;
-  total.non_scintillating += balance_.non_scintillating;
-  total.detected.merge(balance_.detected);
-}
-
 }  // namespace scintray::tally

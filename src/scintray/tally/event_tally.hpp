@@ -5,6 +5,7 @@
 
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/tally/point_sums.hpp"
 #include "scintray/tally/tally_plan.hpp"
 
 namespace scintray::tally {
@@ -33,8 +34,8 @@ class EventTally {
   void end(const std::function<core::Rng(std::uint32_t)>& stream);
 
   const std::vector<EventRecord>& events() const { return events_; }
-  /// Adds the events to the total of those before them.
-  void add_to(EnergyBalance& total) const;
+  /// Adds the events to the sums over others.
+  void add_to(EnergySums& total) const { total.add(balance_); }
 
  private:
   void read_out(std::uint32_t channel, core::Rng rng);

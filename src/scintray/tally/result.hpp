@@ -89,22 +89,26 @@ struct OmittedEffect {
   bool in_resolution = false, in_timing = false, in_fraction = false;
 };
 
-/// One traced point of a sweep (a run without a sweep has one point).
-struct PointResult {
-  std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
-  std::uint64_t photons_requested = 0;  ///< for events, the number emitted by those traced
-  std::uint64_t emitted = 0;            ///< photons, those that were not traced included
-  std::uint64_t photons = 0;            ///< traced to their end
+/// What is known of a point before its first photon, beside its scene.
+struct PointFacts {
+  std::optional<LightTiming> light_timing;  ///< of an event source, where it is the same for all light
+  /// Empty list: everything that is modelled is included. Nothing: a file from before they were recorded.
+  std::optional<std::vector<OmittedEffect>> omitted;
   /// Upper bound of the efficiency of every sensor, with which photons were drawn at their birth: the others,
   /// which no sensor would have converted, were not traced. 1: all were. Fates and what is derived from them
   /// are those of the traced photons, a random sample of all but in one respect: each detected photon stands
   /// for this many photons of the sample, and the rest of it reached the sensor as well but was not detected.
   double birth_efficiency = 1.0;
-  bool complete = false;  ///< false when interrupted
+};
+
+/// One traced point of a sweep (a run without a sweep has one point).
+struct PointResult : PointFacts {
+  std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
+  std::uint64_t photons_requested = 0;  ///< for events, the number emitted by those traced
+  std::uint64_t emitted = 0;            ///< photons, those that were not traced included
+  std::uint64_t photons = 0;            ///< of them, those traced to their end
+  bool complete = false;                ///< false when interrupted
   EnergyBalance energy;
-  std::optional<LightTiming> light_timing;  ///< of an event source, where it is the same for all light
-  /// Empty list: everything that is modelled is included. Nothing: a file from before they were recorded.
-  std::optional<std::vector<OmittedEffect>> omitted;
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;

@@ -85,7 +85,8 @@ class Events:
 class Point:
     """Results of one point of a sweep (a run without a sweep has one).
 
-    ``photons`` traced of ``photons_requested``, ``fate_count`` (in the order of ``Results.fates``),
+    ``photons`` emitted of ``photons_requested``; ``photons_traced``, of which ``fate_count`` (in the order of
+    ``Results.fates``) is: all but those that no sensor would convert, where ``birth_efficiency`` is below 1;
     ``interactions``, ``detected_path_mm``, ``detected_time_ns``, ``detected_interactions`` (``Moments``),
     ``detected_path_histogram`` (10 mm bins), ``segments``, ``scatterings``, ``energy`` (balance of an event source,
     keV), ``sensor_faces`` (columns), ``tallies`` (by name), ``wall_seconds``, ``complete``.
@@ -94,7 +95,7 @@ class Point:
     def __init__(self, entry: Dict[str, Any], header: Dict[str, Any]) -> None:
         self.parameters: Dict[str, str] = dict(zip(header["sweep_keys"], entry["parameters"]))
         self.fate_names: List[str] = header["fates"]
-        for name in ("photons", "photons_requested", "complete", "fate_count", "detected_path_histogram", "scatterings",
+        for name in ("photons", "photons_requested", "photons_traced", "birth_efficiency", "complete", "fate_count", "detected_path_histogram", "scatterings",
                      "segments", "wall_seconds", "cut_bias_bound", "energy", "sensor_faces"):
             setattr(self, name, entry[name])
         if self.energy["events_requested"]:
@@ -113,7 +114,7 @@ class Point:
 
     @property
     def fates(self) -> Dict[str, Estimate]:
-        """Share of the photons with each fate, with its binomial standard error."""
+        """Share of the emitted photons with each fate, with its standard error."""
         return {name: estimate(row) for name, row in zip(self.fate_names, self.fate_fraction)}
 
     @property

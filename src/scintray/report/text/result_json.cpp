@@ -106,7 +106,9 @@ Json point_json(const tally::RunResult& run, const tally::PointResult& point) {
     parameters[run.header.sweep_keys[i]] = point.parameters.at(i);
   Json json = {{"parameters", parameters}, {"complete", point.complete}};
   if (run.traced_photons()) {
-    json["photons"] = point.photons;
+    json["photons"] = point.emitted;
+    json["photons_traced"] = point.photons;
+    json["birth_efficiency"] = point.birth_efficiency;
     json["lost"] = point.lost;
     json["cut_bias_bound"] = number_json(point.cut_bias_bound());
     json["fates"] = fates_json(point);

@@ -511,6 +511,7 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   kept.parameters = point.parameters;
   kept.fates = point.fates;
   kept.photons = point.photons;
+  kept.birth_efficiency = point.birth_efficiency;
   core::h5::Group group = state_->points.create_group(format::numbered(number));
   group.set_attribute("", "complete", static_cast<std::int64_t>(point.complete));
   put_parameters(group, state_->keys, point.parameters);

@@ -13,6 +13,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/input_file.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/raw_mesh.hpp"
 
@@ -216,6 +217,10 @@ tinygltf::Model load(const std::filesystem::path& path, const std::string& whole
                 "expected glTF 2.0; export it again");
   }
   if (!warning.empty()) notes.push_back("tinygltf: " + warning);
+  for (const tinygltf::Buffer& buffer : model.buffers)
+    if (!buffer.uri.empty())
+      core::InputRecord::add(path.parent_path() / buffer.uri,
+                             {reinterpret_cast<const char*>(buffer.data.data()), buffer.data.size()});
   return model;
 }
 

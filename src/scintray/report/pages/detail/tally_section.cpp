@@ -309,7 +309,7 @@ std::string tally_lines(const tally::RunHeader& header, const tally::PointResult
     else if (view == TallyView::etendue)
       lines += tally.name + ": " + etendue_text(tally) + "\n";
     else if (view == TallyView::ledger)
-      lines += ledger_lines(tally, point.photons);
+      lines += ledger_lines(tally, point.emitted);
     else if (both(tally, is_position))
       lines += tally.name + ": " + spread_text(tally) + "\n";
   }

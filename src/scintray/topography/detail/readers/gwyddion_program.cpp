@@ -110,6 +110,7 @@ GwyddionResult query_gwyddion(const std::filesystem::path& path, const ReadReque
   std::error_code missing;
   const auto size = fs::file_size(converted, missing);
   if (*status != 0 || missing || size > kMostConverted) return {GwyddionAnswer::refused, {}};
+  const core::InputRecord apart;  // a file of a random name is none of the run's
   const std::optional<std::string> content = core::read_whole_file(converted);
   if (!content || !is_gwy(*content)) return {GwyddionAnswer::refused, {}};
   RawMap map = parse_converted_gwy(*content, request);

@@ -1,0 +1,188 @@
+#include "scintray/simulation/range_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scintray/core/output_file.hpp"
+#include "scintray/core/text.hpp"
+#include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/range_records.hpp"
+
+namespace scintray::simulation {
+
+using detail::encoded;
+using detail::Encoder;
+using detail::Record;
+
+namespace {
+
+/// Bytes of rows that are held before they are written as a record.
+constexpr std::size_t kRowBytes = 1 << 20;
+
+std::uint64_t blocks_of_run(const RunOutline& run) {
+  std::uint64_t blocks = 0;
+  for (const PointOutline& point : run.points) blocks += point.blocks;
+  return blocks;
+}
+
+/// a * b / c without overflow of the product.
+std::uint64_t share_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(static_cast<Wide>(a) * b / c);
+}
+
+/// Names of files of `from` that `of` does not have with the same content.
+std::vector<std::string> other_files(const RunOutline& of, const RunOutline& from) {
+  std::vector<std::string> names;
+  for (const core::InputFile& file : from.inputs)
+    if (std::find(of.inputs.begin(), of.inputs.end(), file) == of.inputs.end()) names.push_back(file.name);
+  return names;
+}
+
+/// The outline without what may differ: its file's path, and warnings.
+std::string identity(RunOutline run) {
+  run.header.scene_file.clear();
+  run.header.note.clear();
+  return encoded(run);
+}
+
+std::string counted_work(const RunOutline& run) {
+  std::uint64_t work = 0;
+  for (const PointOutline& point : run.points) work += point.work;
+  return fmt::format("{} {} in {} point{}", work, run.has_energy ? "events" : "photons", run.points.size(),
+                     run.points.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run) {
+  const std::uint64_t blocks = blocks_of_run(run);
+  return {share_of(blocks, shard.number - 1, shard.of), share_of(blocks, shard.number, shard.of)};
+}
+
+tally::BlockRange blocks_of_point(const tally::BlockRange& of_run, const RunOutline& run, std::size_t point) {
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < point; ++i) before += run.points[i].blocks;
+  const auto within = [&](std::uint64_t block) {
+    return block < before ? 0 : std::min(block - before, run.points[point].blocks);
+  };
+  return {within(of_run.first), within(of_run.last)};
+}
+
+std::string difference(const RunOutline& of, const RunOutline& from) {
+  if (of.header.version != from.header.version)
+    return fmt::format("the version of ScintRay is {}, not {}", of.header.version, from.header.version);
+  if (of.header.scene_text != from.header.scene_text) return "the scene file has another text";
+  if (of.header.seed != from.header.seed)
+    return fmt::format("the seed is {}, not {}", of.header.seed, from.header.seed);
+  if (counted_work(of) != counted_work(from))
+    return fmt::format("there are {}, not {}", counted_work(of), counted_work(from));
+  if (of.inputs != from.inputs) {
+    std::vector<std::string> names = other_files(of, from);
+    if (names.empty()) names = other_files(from, of);
+    return "input files differ: " + core::list_quoted(names);
+  }
+  return identity(of) == identity(from) ? "" : "the limits of photons, or the names in the results, differ";
+}
+
+struct RangeFile::State {
+  core::OutputFile file;
+  Encoder photons, histories, events;  ///< rows of the present range that wait to be written
+  bool has_subjects = false;           ///< of the present range
+  std::string readout;                 ///< record of the present point; empty for a source of photons
+  bool has_readout = false;            ///< in the present range
+
+  void write(Record record, std::string_view bytes) {
+    const std::string head = encoded(record_number(record), static_cast<std::uint64_t>(bytes.size()));
+    file.write(head);
+    file.write(bytes);
+    file.write(encoded(core::crc32(bytes, core::crc32(head))));
+  }
+
+  void write_rows(Record record, Encoder& rows, std::size_t least) {
+    if (rows.bytes.size() <= least) return;
+    write(record, rows.bytes);
+    rows.bytes.clear();
+  }
+
+  /// Writes the readout of the events of the present range, once.
+  void write_readout() {
+    if (!has_readout && !readout.empty()) write(Record::readout, readout);
+    has_readout = true;
+  }
+
+  static std::uint8_t record_number(Record record) { return static_cast<std::uint8_t>(record); }
+};
+
+RangeFile::RangeFile(std::filesystem::path path, const Shard& shard)
+    : path_(std::move(path)), shard_(shard) {}
+
+RangeFile::~RangeFile() = default;
+
+void RangeFile::begin(const RunOutline& run) {
+  state_.reset(new State{core::OutputFile(path_, core::Container::plain), {}, {}, {}, false, {}, false});
+  state_->file.write(detail::kMagic);
+  state_->file.write(encoded(detail::kRangesVersion));
+  state_->write(Record::outline, encoded(shard_, run));
+}
+
+void RangeFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  state_->write(Record::surfaces, encoded(analyses));
+}
+
+void RangeFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
+                             const std::optional<detector::ReadoutSpec>& readout) {
+  state_->readout = encoded(static_cast<std::uint64_t>(point), channels, readout);
+}
+
+void RangeFile::photons(const std::vector<tally::DetectedPhoton>& photons) {
+  for (tally::DetectedPhoton photon : photons) pass(state_->photons, photon);
+  state_->write_rows(Record::photons, state_->photons, kRowBytes);
+}
+
+void RangeFile::histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& of_point) {
+  if (!state_->has_subjects) state_->write(Record::subjects, encoded(of_point));
+  state_->has_subjects = true;
+  tally::PhotonHistories rows = histories;
+  pass(state_->histories, rows);
+  state_->write_rows(Record::histories, state_->histories, kRowBytes);
+}
+
+void RangeFile::events(const std::vector<tally::EventRecord>& events) {
+  state_->write_readout();
+  for (tally::EventRecord event : events) pass(state_->events, event);
+  state_->write_rows(Record::events, state_->events, kRowBytes);
+}
+
+void RangeFile::range(const PointRange& of, const tally::PointSums& sums) {
+  if (of.histories && !state_->has_subjects) state_->write(Record::subjects, encoded(*of.histories));
+  state_->write_readout();
+  state_->has_subjects = state_->has_readout = false;
+  state_->write_rows(Record::photons, state_->photons, 0);
+  state_->write_rows(Record::histories, state_->histories, 0);
+  state_->write_rows(Record::events, state_->events, 0);
+  state_->write(Record::range,
+                encoded(static_cast<std::uint64_t>(of.point), of.blocks, of.facts, sums));
+}
+
+void RangeFile::commit(bool complete, const std::string&) {
+  if (complete) {
+    state_->write(Record::end, {});
+    state_->file.commit();
+  }
+  state_.reset();
+}
+
+tally::PointResult finished_point(const tally::PointSums& sums, const RunOutline& run, std::size_t point,
+                                  bool complete) {
+  tally::PointResult result = sums.result();
+  const PointOutline& outline = run.points[point];
+  result.parameters = outline.parameters;
+  result.complete = complete;
+  result.photons_requested = run.has_energy ? result.emitted : outline.work;
+  result.energy.events_requested = run.has_energy ? outline.work : 0;
+  return result;
+}
+
+}  // namespace scintray::simulation
