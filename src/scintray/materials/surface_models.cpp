@@ -8,6 +8,9 @@ namespace scintray::materials {
   ADD(smooth)                        \
   ADD(painted)                       \
   ADD(unified)                       \
+  ADD(glisur)                        \
+  ADD(thin_film)                     \
+  ADD(metal)                         \
   ADD(table)                         \
   ADD(height_map)                    \
   ADD(recipe)

@@ -43,7 +43,8 @@ struct MediumRecord {
   double last = 0.0;                   ///< position of the last entry, count - 1
   optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
   bool opaque = false;
-  bool shifts = false;  ///< has a wavelength shifter
+  bool shifts = false;     ///< has a wavelength shifter
+  bool particles = false;  ///< has particles that scatter
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
@@ -80,7 +81,8 @@ struct SceneOptics {
 ///
 /// From back to front, light interacts with `back_surface` (whose inside is the back region), then, in a dry
 /// contact, crosses a gap of no thickness, then interacts with `front_surface` (whose inside is the front
-/// region). A bonded contact or a free face has exactly one of the two surfaces.
+/// region). A bonded contact or a free face has exactly one of the two surfaces, for light of both
+/// directions; where it has two and no gap medium, each is for light that leaves the region on its inside.
 struct Interface {
   core::RegionId back, front;
   core::SurfaceId back_surface, front_surface;

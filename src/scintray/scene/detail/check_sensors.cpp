@@ -7,13 +7,16 @@ namespace scintray::scene {
 
 namespace {
 
-/// Regions that light from `start` can reach through interfaces that are not opaque both ways.
+/// Regions that light from `start` can reach through interfaces that are not opaque in its direction.
 core::IdVector<core::RegionId, bool> lit_regions(const Scene& scene,
                                                  const std::vector<core::RegionId>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](core::SurfaceId id) { return id.has_value() && scene.surfaces[id].opaque(); };
     const core::RegionId next = from_back ? i.front : i.back;
-    return !opaque(i.back_surface) && !opaque(i.front_surface) &&
+    const bool each_side =
+        i.back_surface.has_value() && i.front_surface.has_value() && !i.gap_medium.has_value();
+    return (!opaque(i.back_surface) || (each_side && !from_back)) &&
+           (!opaque(i.front_surface) || (each_side && from_back)) &&
            !scene.media[scene.regions[next].medium].is_opaque();
   };
   core::IdVector<core::RegionId, bool> lit(scene.regions.size(), false);
@@ -43,6 +46,16 @@ std::vector<core::RegionId> starting_regions(const scene_file::SceneSpec& spec, 
   return regions;
 }
 
+/// True when light reaches a surface of the sensor's part from outside, and the sensor converts what is
+/// absorbed.
+bool absorbs_light(const Scene& scene, core::PartId part, const core::IdVector<core::RegionId, bool>& lit) {
+  if (!scene.sensors[scene.parts[part].sensor].converts_absorbed()) return false;
+  return std::any_of(scene.interfaces.begin(), scene.interfaces.end(), [&](const Interface& i) {
+    return (i.front_sensor.has_value() && i.front_sensor_part == part && lit[i.back]) ||
+           (i.back_sensor.has_value() && i.back_sensor_part == part && lit[i.front]);
+  });
+}
+
 }  // namespace
 
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
@@ -58,7 +71,7 @@ void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact:
   if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
   for (const core::PartId id : scene.parts.ids()) {
     const contact::PlacedMesh& part = placed[id.index()];
-    if (!part.sensor.empty() && !lit[scene.parts[id].region])
+    if (!part.sensor.empty() && !lit[scene.parts[id].region] && !absorbs_light(scene, id, lit))
       problems.add(
           part.where, "no light from the source can reach sensor \"" + part.name + "\"",
           "something opaque lies between: check the surfaces of the faces on the way, and that the parts "
