@@ -11,6 +11,8 @@ namespace scintray::materials {
   ADD(glisur)                        \
   ADD(thin_film)                     \
   ADD(metal)                         \
+  ADD(slightly_rough)                \
+  ADD(angular)                       \
   ADD(table)                         \
   ADD(height_map)                    \
   ADD(recipe)

@@ -281,6 +281,10 @@ class SceneMaker {
                                "], or --surface " + property + "=DATABASE_SURFACE");
     else
       surface_tables_ += "\n[surfaces." + toml_string(property) + "]\n" + surface.toml;
+    if (!surface.gap_index.empty())
+      surface_tables_ += "\n[media." + toml_string(gap_name(element.attribute("name").value())) +
+                         "]  # RINDEX of the surface\nindex = { n = " + surface.gap_index +
+                         " }\nabsorption = { none = true }\nscattering = { none = true }\n";
     return property;
   }
 

@@ -20,9 +20,6 @@ core::Curve read_part(const config::TomlTable& table, const std::string& key) {
 optics::UnifiedSurface read_facets(const config::TomlTable& table) {
   optics::UnifiedSurface facets;
   const bool rough = table.has("sigma_alpha"), smeared = table.has("polish");
-  for (const char* key : {"facets", "lobe", "spike", "backscatter"})
-    table.expect(key, rough || smeared, std::string("\"") + key + "\" is for rough metals",
-                 "give sigma_alpha = \"12 deg\" with its definition, or GLISUR's polish");
   if (!rough && !smeared) {
     for (const char* key : {"definition", "facets", "lobe", "spike", "backscatter"}) table.has(key);
     return facets;
@@ -46,7 +43,11 @@ SurfaceModel metal_model() {
     if (table.has("n") || table.has("k"))
       metal.metal = optics::MetalIndex{read_part(table, "n"), read_part(table, "k")};
     metal.facets = read_facets(table);
-    return FixedMicrosurface(metal);
+    std::vector<WavelengthTable> curves;
+    if (metal.metal)
+      curves = {{metal.metal->n, "real parts of its index", table.where("n")},
+                {metal.metal->k, "imaginary parts of its index", table.where("k")}};
+    return FixedMicrosurface(metal, std::nullopt, std::move(curves));
   };
   return {.word = "metal", .table = "metal", .read = read};
 }

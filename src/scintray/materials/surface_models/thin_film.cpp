@@ -37,13 +37,18 @@ SurfaceModel thin_film_model() {
   const auto read = [](const config::TomlTable& surface) {
     const config::TomlTable table = surface.table("thin_film");
     std::vector<optics::CoatingLayer> layers;
-    for (const config::TomlTable& layer : table.tables("layers")) layers.push_back(read_layer(layer));
+    std::vector<WavelengthTable> curves;
+    for (const config::TomlTable& layer : table.tables("layers")) {
+      layers.push_back(read_layer(layer));
+      curves.push_back({layers.back().index, "refractive indices of a film", layer.where("index")});
+      curves.push_back({layers.back().extinction, "extinctions of a film", layer.where("extinction")});
+    }
     if (layers.empty() || static_cast<double>(layers.size()) > kMostLayers)
       table.report(
           "layers",
           fmt::format("a thin film has 1 to {:g} layers, but this one has {}", kMostLayers, layers.size()),
           "list them from the inside, as layers = [{ index = 1.38, thickness = \"99.6 nm\" }]");
-    return FixedMicrosurface(optics::ThinFilmSurface(std::move(layers)));
+    return FixedMicrosurface(optics::ThinFilmSurface(std::move(layers)), std::nullopt, std::move(curves));
   };
   return {.word = "thin_film", .table = "thin_film", .read = read};
 }

@@ -73,9 +73,13 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
 
 struct ImportedSurface {
   std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be carried over
+  std::string gap_index;   ///< of a gap with dispersion, the medium gap_name(surface); else empty
   std::string efficiency;  ///< EFFICIENCY above 0, as TOML: share of the absorbed light that is detected
   std::vector<std::string> notes;  ///< what was not carried over, and why
 };
+
+/// Name of the medium of a surface's gap.
+inline std::string gap_name(const std::string& surface) { return "gap of " + surface; }
 
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
 /// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted. Tables

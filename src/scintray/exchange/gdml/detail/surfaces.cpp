@@ -168,7 +168,15 @@ class SurfaceImporter {
     if (finish_.ends_with("frontpainted")) return paint(finish_.starts_with("polished"));
     if (finish_.ends_with("backpainted")) return back_painted();
     const std::string rest = "between_media_only = true\n" + admission();
-    if (finish_ == kFinishes[0] || (glisur() && !smeared())) {
+    const double rms_mm = tables_.constant(surface_, {"SURFACEROUGHNESS"}).value_or(0.0);
+    const bool smooth = finish_ == kFinishes[0] || (glisur() && !smeared());
+    if (rms_mm > 0.0 && !smooth) note("its SURFACEROUGHNESS: only a face without facets has one here");
+    if (smooth && rms_mm > 0.0) {
+      result_.toml =
+          fmt::format("model = \"slightly_rough\"\nslightly_rough = {{ rms_height = \"{:.9g} mm\" }}\n",
+                      rms_mm) +
+          rest;
+    } else if (smooth) {
       result_.toml = "base = \"geant4_polished\"\n" + rest;
     } else if (smeared()) {
       result_.toml = "model = \"glisur\"\n" + facets("glisur") + rest;
@@ -184,8 +192,8 @@ class SurfaceImporter {
       result_.toml = "base = \"geant4_polishedfrontpainted\"\nreflectance = 0.0\n";
       return;
     }
-    if (most(gap) - least(gap) > 1e-6)
-      note("the dispersion of its gap: the index at the lowest energy is used");
+    const bool dispersive = most(gap) - least(gap) > 1e-9;
+    if (dispersive) result_.gap_index = curve(gap);
     if (most(table("TRANSMITTANCE")) > 0.0)
       note(
           "its TRANSMITTANCE, by which light passes the paint with its direction in the gap: it is absorbed "
@@ -194,7 +202,9 @@ class SurfaceImporter {
     result_.toml = (smeared() ? "model = \"glisur\"\nspecular_share = " +
                                     std::string(finish_.starts_with("polished") ? "1.0" : "0.0") + "\n"
                               : "base = \"geant4_" + finish_ + "\"\n") +
-                   facets(table_name) + fmt::format("gap = {:.9g}\n", gap.value.front()) +
+                   facets(table_name) +
+                   (dispersive ? "gap = \"" + gap_name(surface_.attribute("name").value()) + "\"\n"
+                               : fmt::format("gap = {:.9g}\n", gap.value.front())) +
                    "reflectance = " + reflectivity() + "\n";
   }
 
@@ -232,14 +242,11 @@ class SurfaceImporter {
                                             "COATEDRINDEX",
                                             "COATEDTHICKNESS",
                                             "COATEDFRUSTRATEDTRANSMISSION",
-                                            "GROUPVEL"};
+                                            "GROUPVEL",
+                                            "SURFACEROUGHNESS"};
     for (const Node child : surface_.children("property")) {
       const std::string name = child.attribute("name").value();
-      if (name == "SURFACEROUGHNESS")
-        note(
-            "its SURFACEROUGHNESS, by which Geant4 scatters a share of the reflected light by Lambert's law");
-      else if (!read.contains(name))
-        note("its property " + name);
+      if (!read.contains(name)) note("its property " + name);
     }
   }
 
