@@ -82,3 +82,41 @@ TEST_CASE("A medium without an index at the wavelengths in use is reported where
   check_scene(scene, {"medium \"thin\"", "refractive indices", "400 to 500 nm", "600 nm"},
               {"index table", "other wavelengths"});
 }
+
+TEST_CASE(
+    "Bonded parts may keep a surface for each direction, and parts without a surface have the other's") {
+  const std::string rough = "surface = \"roncali2013_unified_rough\"\n";
+  const auto between = [](std::string scene) {
+    scene.erase(scene.find("@@"), 2);
+    const BuiltScene built = SceneBuilder().build(
+        SceneFile::from_text("contacts_default = \"each_side\"\n" + scene, "scene.toml").spec(0));
+    for (const Interface& i : built.scene.interfaces)
+      if (i.back != kAmbientRegion && i.front != kAmbientRegion)
+        return std::pair(i.back_surface.has_value() ? built.scene.surfaces[i.back_surface].definition : "",
+                         i.front_surface.has_value() ? built.scene.surfaces[i.front_surface].definition : "");
+    return std::pair<std::string, std::string>();
+  };
+  using Pair = std::pair<std::string, std::string>;
+  const Pair different = between(boxes(at("0", "2") + kPolished, at("2", "4") + rough));
+  CHECK(different.first != different.second);
+  CHECK(between(boxes(at("0", "2"), at("2", "4") + rough)) ==
+        Pair("roncali2013_unified_rough", "roncali2013_unified_rough"));
+  CHECK(between(boxes(at("0", "2"), at("2", "4") + kPolished)) == Pair("polished", ""));  // plain: once
+  const std::string contact = "[[contact]]\nbetween = [\"a\", \"b\"]\nkind = \"each_side\"\n";
+  CHECK(between(boxes(at("0", "2"), at("2", "4"),
+                      contact + "leaving_second = \"roncali2013_unified_rough\"\n")) ==
+        Pair("", "roncali2013_unified_rough"));
+}
+
+TEST_CASE("Surfaces of one direction belong to a contact for each side, and that has no other") {
+  const auto with_contact = [](const std::string& keys) {
+    std::string scene = boxes(at("0", "2") + kPolished, at("2", "4") + kPolished,
+                              "[[contact]]\nbetween = [\"a\", \"b\"]\n" + keys);
+    scene.erase(scene.find("@@"), 2);
+    return scene;
+  };
+  check_scene(with_contact("kind = \"bonded\"\nleaving_first = @@\"polished\"\n"), "for one direction",
+              "kind = \"each_side\"");
+  check_scene(with_contact("kind = \"each_side\"\nsurface = @@\"polished\"\n"), "surface for each direction",
+              "leaving_first");
+}

@@ -208,7 +208,11 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   check_contains(scene.toml, "between = [\"pa\", \"pd\"]");
   const SceneSpec spec = written(scene);
   CHECK(spec.parts[0].surface.name == "rough");
-  CHECK(spec.parts[3].surface.name == "geant4_polished");
+  CHECK(spec.parts[3].surface.empty());  // no skin: light interacts with that of the part it comes from
+  CHECK(spec.contacts_default == ContactKind::each_side);
+  REQUIRE(spec.contacts.size() == 1);
+  CHECK(spec.contacts[0].leaving[0].name == "mirror");
+  CHECK(spec.contacts[0].leaving[1].empty());
   const TomlNodePtr rough = spec.surfaces.at("rough");
   CHECK(rough->find("base")->text == "geant4_ground");
   CHECK(rough->find("unified")->find("lobe")->number == doctest::Approx(0.7));
@@ -217,10 +221,12 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   CHECK(spec.surfaces.at("wrapped")->find("gap")->number == doctest::Approx(1.1));
   CHECK(spec.surfaces.at("mirror")->find("base")->text == "geant4_polishedfrontpainted");
   CHECK(spec.surfaces.at("white")->find("base")->text == "geant4_groundfrontpainted");
-  // Light that passes goes straight on in Geant4: a film here, but no diffuser.
-  CHECK(spec.surfaces.at("mirror")->find("transmittance"));
-  CHECK_FALSE(spec.surfaces.at("white")->find("transmittance"));
-  check_contains(scene.toml, "its property TRANSMITTANCE");
+  // Light that passes goes straight on in Geant4, undeflected, whatever the finish.
+  for (const char* name : {"mirror", "white"}) {
+    CHECK(spec.surfaces.at(name)->find("undeflected"));
+    CHECK(spec.surfaces.at(name)->find("admitted"));
+    CHECK(spec.surfaces.at(name)->find("reflectance")->number == 1.0);
+  }
   CHECK_NOTHROW(built(scene));
 
   text.structure += R"(<skinsurface name="s5" surfaceproperty="davis"><volumeref ref="d"/></skinsurface>)";

@@ -3,6 +3,7 @@
 
 #include "database_helpers.hpp"
 #include "scintray/core/curve.hpp"
+#include "scintray/optics/coherent_layers.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -73,6 +74,48 @@ TEST_CASE("published numbers come out of the files") {
   const std::vector<std::pair<double, double>> chen{{405, 1.833}, {420, 1.827}, {436, 1.822}, {461, 1.818},
                                                     {486, 1.813}, {516, 1.810}, {546, 1.806}};
   for (const auto& [wavelength_nm, n] : chen) CHECK(std::abs(lso(wavelength_nm) - n) < 0.0016);
+}
+
+TEST_CASE("published numbers of iodides, plastics and metals come out of the files") {
+  const MaterialDatabase& database = shipped_database();
+  // Malitson 1965, table I (n_d); the Sellmeier sums of Li 1976 and Sultanova et al. 2009 by hand.
+  CHECK(database.medium("silica").index(587.5618) == doctest::Approx(1.45846).epsilon(1e-5));
+  const auto sellmeier = [](double um, const std::vector<std::pair<double, double>>& terms) {
+    double n2 = 1.0;
+    for (const auto& [b, c] : terms) n2 += b * um * um / (um * um - c * c);
+    return std::sqrt(n2);
+  };
+  CHECK(database.medium("NaI_Tl").index(415.0) ==
+        doctest::Approx(sellmeier(0.415, {{0.478, 0.0}, {1.532, 0.170}, {4.27, 86.21}})).epsilon(1e-5));
+  CHECK(database.medium("CsI_Tl").index(550.0) == doctest::Approx(sellmeier(0.55, {{0.27587, 0.0},
+                                                                                   {0.68689, 0.130},
+                                                                                   {0.26090, 0.147},
+                                                                                   {0.06256, 0.163},
+                                                                                   {0.06527, 0.177},
+                                                                                   {0.14991, 0.185},
+                                                                                   {0.51818, 0.206},
+                                                                                   {0.01918, 0.218},
+                                                                                   {3.38229, 161.29}}))
+                                                      .epsilon(1e-5));
+  CHECK(database.medium("polystyrene").index(587.6) ==
+        doctest::Approx(std::sqrt(1.0 + 1.4435 / (1.0 - 0.020216 / (0.5876 * 0.5876)))).epsilon(1e-5));
+  for (const std::string name : {"CsI_Tl", "CsI_Na", "NaI_Tl"}) {
+    const Medium medium = database.medium(name);
+    CHECK(medium.yield_per_keV > 30.0);
+    CHECK(medium.index.covers(medium.emission.x().front(), medium.emission.x().back()));
+    CHECK(medium.decay.size() == 1);
+  }
+  const auto metal = [&](const std::string& name) {
+    return *microsurface_of<MetalSurface>(database.surface(name)).metal;
+  };
+  const auto reflectance = [](const MetalIndex& index, double nm) {
+    return std::pow(std::hypot(index.n(nm) - 1.0, index.k(nm)) / std::hypot(index.n(nm) + 1.0, index.k(nm)),
+                    2);
+  };
+  CHECK(reflectance(metal("aluminium"), 500.0) > 0.91);
+  CHECK(reflectance(metal("aluminium"), 500.0) < 0.94);
+  CHECK(reflectance(metal("silver"), 500.0) > 0.96);
+  CHECK(reflectance(metal("silver"), 320.0) < 0.3);  // the plasma edge
 }
 
 TEST_CASE("the paper's crystal is the paper's") {

@@ -4,6 +4,7 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/optics/coherent_layers.hpp"
 #include "scintray/optics/surface.hpp"
 #include "scintray/optics/unified.hpp"
 #include "scintray/topography/build_table.hpp"
@@ -32,6 +33,13 @@ UnifiedSurface unified(double sigma_deg, FacetSampling sampling, double lobe) {
   surface.sigma_alpha_rad = sigma_deg * kDegree;
   surface.sampling = sampling;
   surface.lobe = lobe;
+  return surface;
+}
+
+UnifiedSurface glisur(double polish) {
+  UnifiedSurface surface;
+  surface.smear = 1.0 - polish;
+  surface.sampling = FacetSampling::geant4;
   return surface;
 }
 
@@ -96,6 +104,10 @@ struct Named {
 
 std::vector<Named> lossless_surfaces() {
   return {{"smooth", with(SmoothSurface{})},
+          {"thin films", with(ThinFilmSurface({{Curve::constant(1.38), Curve::constant(0.0), 76.0},
+                                               {Curve::constant(2.2), Curve::constant(0.0), 110.0}}))},
+          {"air film to a medium of n 1",
+           with(ThinFilmSurface({{Curve::constant(1.1), Curve::constant(0.0), 150.0}}))},
           {"height map on the spot", with(ground_map())},
           {"table of the height map", with(ground_table())}};
 }
@@ -139,7 +151,8 @@ std::vector<Named> facet_models() {
   return {{"UNIFIED 18 deg, Geant4 facets", with(unified(18, FacetSampling::geant4, 1.0))},
           {"UNIFIED 18 deg, facets by projected area", with(unified(18, FacetSampling::projected_area, 1.0))},
           {"UNIFIED 1.2 deg", with(unified(1.2, FacetSampling::projected_area, 1.0))},
-          {"UNIFIED Lambertian", with(unified(18, FacetSampling::geant4, 0.0))}};
+          {"UNIFIED Lambertian", with(unified(18, FacetSampling::geant4, 0.0))},
+          {"GLISUR, polish 0.7", with(glisur(0.7))}};
 }
 
 /// Chi-square that isotropic light on both sides leaves the inside as isotropic light: what comes back

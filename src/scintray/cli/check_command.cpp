@@ -80,7 +80,7 @@ void check_scene(const CheckOptions& options) {
     std::cout << fmt::format(
         "wavelengths in use: {:g} to {:g} nm; ambient medium: {}; contacts are {} by default{}\n",
         built.scene.low_nm, built.scene.high_nm, spec.ambient.name,
-        spec.contacts_default == scene_file::ContactKind::bonded ? "bonded" : "dry",
+        core::word_of(scene_file::kContactKinds, spec.contacts_default),
         spec.contacts_default_given ? "" : " (not stated in the scene)");
     print_scene(built, options.all);
     print_source(ready->source(), built.scene);

@@ -195,6 +195,8 @@ class Printer {
     if (interface.back_surface.has_value()) text = scene_.surfaces[interface.back_surface].name;
     if (interface.gap_medium.has_value())
       text += " | dry gap of " + scene_.media[interface.gap_medium].medium().name + " | ";
+    else if (interface.back_surface.has_value() && interface.front_surface.has_value())
+      text += " | back: ";
     if (interface.front_surface.has_value()) text += scene_.surfaces[interface.front_surface].name;
     const auto sensor = [&](core::SensorId id) {
       if (id.has_value()) text += ", detected by " + scene_.sensors[id].name;

@@ -23,6 +23,13 @@ enum class AngleMedium {
   outside,  ///< of the ray in the reference index, before the window
 };
 
+/// Light that a sensor converts.
+enum class ConvertedLight {
+  entering,  ///< light that enters the sensor's part, or leaves its part at the sensor's face
+  absorbed,  ///< light that the surfaces of the sensor's part absorb, from either side (Geant4's EFFICIENCY)
+  both,
+};
+
 /// Dependence of the efficiency on angle, relative to normal incidence.
 struct AngularEfficiency {
   core::Curve factor;  ///< against the angle to the normal (rad), 1 at 0; constant beyond its last angle
@@ -48,6 +55,7 @@ struct DarkCounts {
 /// A sensor of the material database (`materials/sensors/NAME.toml`).
 struct Sensor {
   std::string name;
+  ConvertedLight converts = ConvertedLight::entering;
   core::Curve efficiency;  ///< conversion probability against wavelength (nm), as published
   EfficiencyDefinition definition = EfficiencyDefinition::internal;
   double reference_index = 1.0;  ///< of the medium in which an external efficiency was measured
@@ -60,6 +68,9 @@ struct Sensor {
   core::Shared<AvalancheModel> avalanches = ProportionalModel();
   DarkCounts dark_counts;
   std::vector<std::string> sources;
+
+  bool converts_entering() const { return converts != ConvertedLight::absorbed; }
+  bool converts_absorbed() const { return converts != ConvertedLight::entering; }
 
   /// Probability that a photon that has entered the sensor at normal incidence is converted, at a
   /// wavelength (nm).

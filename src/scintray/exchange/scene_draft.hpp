@@ -60,9 +60,9 @@ struct GdmlImport {
 /// it, its materials as media, its optical surfaces as surfaces.
 ///
 /// A material without RINDEX is opaque, as in Geant4. Skin surfaces become the surface of the parts of their
-/// volume, and of the daughters that have none; a border from a daughter into its mother the surface of the
-/// daughter; a border between two volumes of one mother a bonded contact. Light starts, as an example, in
-/// the first part that scintillates, else in the first that is transparent.
+/// volume; borders become contacts, each with the surface of its direction; all contacts follow Geant4's rule
+/// (ContactKind::each_side). The EFFICIENCY of a surface makes a sensor of its volume. Light starts, as an
+/// example, in the first part that scintillates and is no sensor, else in the first that is transparent.
 /// Throws InputError as GdmlFile, Definitions, Solids, the materials and the structure.
 SceneDraft draft_of_gdml(const std::string& content, const std::string& file, const GdmlImport& options);
 

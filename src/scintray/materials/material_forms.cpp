@@ -225,6 +225,32 @@ std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::Toml
   return std::make_shared<const optics::WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
 }
 
+double read_mean_cosine(const config::TomlTable& block, const std::string& key,
+                        std::optional<double> fallback) {
+  const double g = fallback ? block.number(key, *fallback) : block.number(key);
+  block.expect(
+      key, g > -1.0 && g < 1.0,
+      fmt::format("the mean cosine of a lobe lies between -1 and 1, but this one is {:g}", g),
+      "0 is isotropic, 0.9 strongly forward; of the backward lobe it is counted from the reversed ray");
+  return g;
+}
+
+/// [particles]: scattering by particles, in addition to [scattering].
+optics::ParticleScattering read_particles(const config::TomlTable& block, SourceRule rule,
+                                          std::vector<std::string>& sources) {
+  read_source(block, rule, sources);
+  optics::ParticleScattering particles;
+  particles.per_mm = read_extinction(block);
+  block.expect("none", false, "particles that do not scatter", "leave [particles] out");
+  particles.forward_g = read_mean_cosine(block, "forward", std::nullopt);
+  particles.backward_g = read_mean_cosine(block, "backward", 0.0);
+  particles.forward_share = block.quantity("forward_share", core::Dimension::dimensionless, 1.0);
+  block.expect("forward_share", particles.forward_share >= 0.0 && particles.forward_share <= 1.0,
+               fmt::format("a share lies between 0 and 1, but this one is {:g}", particles.forward_share),
+               core::share_hint(particles.forward_share));
+  return particles;
+}
+
 using CompositionReader = optics::Composition (*)(const config::TomlTable& block);
 
 optics::Composition read_formula(const config::TomlTable& block) {
@@ -283,6 +309,12 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
   if (table.has("index")) {
     read_source(index, rule, medium.sources);
     medium.index = read_index(index);
+    medium.group_index = index.optional_curve("group", core::Dimension::dimensionless);
+    if (medium.group_index) {
+      index.expect("group", medium.group_index->min_y() >= 1.0 && medium.group_index->max_y() <= 10.0,
+                   "a group index lies between 1 and 10", "it is the speed of light over the group velocity");
+      expect_wavelengths(index, "group", *medium.group_index);
+    }
   }
   const config::TomlTable absorption = table.table("absorption");
   if (table.has("absorption")) {
@@ -295,6 +327,8 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
     medium.scattering_per_mm = read_extinction(scattering);
     if (!scattering.has("none")) medium.scattering = scattering.choice("kind", kScatteringKinds);
   }
+  if (const std::optional<config::TomlTable> particles = table.optional_table("particles"))
+    medium.particles = read_particles(*particles, rule, medium.sources);
   if (const std::optional<config::TomlTable> density = table.optional_table("density")) {
     read_source(*density, rule, medium.sources);
     medium.density_g_per_cm3 = density->quantity("value", core::Dimension::density);

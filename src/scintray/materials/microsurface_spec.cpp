@@ -2,12 +2,24 @@
 
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/table_key.hpp"
+#include "scintray/materials/wavelength_cover.hpp"
 
 namespace scintray::materials {
 
 optics::IndexPair SurfaceSetting::indices(double wavelength_nm) const {
   const bool layer = stack.reflector || stack.gap_thickness_um;
   return {inside.index(wavelength_nm), layer ? stack.gap_index(wavelength_nm) : outside.index(wavelength_nm)};
+}
+
+optics::Microsurface FixedMicrosurface::make(const SurfaceSetting& setting, ReliefStore&) const {
+  core::Problems problems;
+  for (const WavelengthTable& table : tables_)
+    check_cover(problems, table.where,
+                {table.curve, "surface \"" + setting.stack.name + "\"", table.what,
+                 "extend the table in its definition, or choose other wavelengths"},
+                setting.low_nm, setting.high_nm);
+  problems.throw_if_any();
+  return microsurface_;
 }
 
 optics::Microsurface ReliefSpec::make(const SurfaceSetting& setting, ReliefStore& reliefs) const {

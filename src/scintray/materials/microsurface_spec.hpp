@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "scintray/core/error.hpp"
 #include "scintray/core/shared.hpp"
 #include "scintray/materials/relief_store.hpp"
 #include "scintray/optics/medium.hpp"
@@ -55,21 +57,32 @@ class MicrosurfaceDefinition {
 /// A definition of any model, as a value.
 using MicrosurfaceSpec = core::Shared<MicrosurfaceDefinition>;
 
+/// A curve against wavelength (nm) of a microsurface, which must cover the wavelengths in use.
+struct WavelengthTable {
+  core::Curve curve;
+  std::string what;  ///< "refractive indices", for messages
+  core::FileLocation where;
+};
+
 /// A microsurface that is the same between any two media.
 class FixedMicrosurface : public MicrosurfaceDefinition {
  public:
-  /// @param key  as MicrosurfaceDefinition::key
-  explicit FixedMicrosurface(optics::Microsurface microsurface, std::optional<std::string> key = std::nullopt)
-      : microsurface_(std::move(microsurface)), key_(std::move(key)) {}
+  /// @param key     as MicrosurfaceDefinition::key
+  /// @param tables  curves of the microsurface; make() throws InputError where one does not cover the
+  ///                wavelengths in use
+  explicit FixedMicrosurface(optics::Microsurface microsurface, std::optional<std::string> key = std::nullopt,
+                             std::vector<WavelengthTable> tables = {})
+      : microsurface_(std::move(microsurface)), key_(std::move(key)), tables_(std::move(tables)) {}
 
   const optics::Microsurface& microsurface() const { return microsurface_; }
-  optics::Microsurface make(const SurfaceSetting&, ReliefStore&) const override { return microsurface_; }
+  optics::Microsurface make(const SurfaceSetting& setting, ReliefStore&) const override;
   std::optional<std::string> key() const override { return key_; }
   optics::MicrosurfaceKind kind() const override { return microsurface_->kind(); }
 
  private:
   optics::Microsurface microsurface_;
   std::optional<std::string> key_;
+  std::vector<WavelengthTable> tables_;
 };
 
 }  // namespace scintray::materials

@@ -33,6 +33,11 @@ MadeSurface SurfaceFactory::make(const SurfaceSpec& spec, const optics::Medium& 
   optics::Surface& surface = made.surface;
   static_cast<optics::SurfaceStack&>(surface) = spec;
   surface.definition = spec.name;
+  if (spec.between_media_only && inside.name == outside.name) {
+    static_cast<optics::SurfaceStack&>(surface) = {};
+    surface.name = spec.name;
+    return made;
+  }
   for (const ShareSpec& part : spec.mixture) {
     MadeSurface share = make(*part.surface, inside, outside, reference_nm, low_nm, high_nm);
     surface.mixture.push_back(

@@ -8,6 +8,11 @@ namespace scintray::materials {
   ADD(smooth)                        \
   ADD(painted)                       \
   ADD(unified)                       \
+  ADD(glisur)                        \
+  ADD(thin_film)                     \
+  ADD(metal)                         \
+  ADD(slightly_rough)                \
+  ADD(angular)                       \
   ADD(table)                         \
   ADD(height_map)                    \
   ADD(recipe)

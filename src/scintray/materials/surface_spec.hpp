@@ -22,6 +22,8 @@ struct SurfaceSpec : optics::SurfaceStack {
   MicrosurfaceSpec microsurface = FixedMicrosurface(optics::SmoothSurface(), "smooth");
   /// One of the two faces of a sheet: `reflector` is this face's share of it (optics/reflector.hpp).
   bool face_of_sheet = false;
+  /// Without effect, smooth, between two parts of one medium, as Geant4's polished and ground finishes.
+  bool between_media_only = false;
   std::vector<ShareSpec> mixture;    ///< shares with a sum of 1; empty: not a mixture
   std::vector<std::string> sources;  ///< published sources, its own first, then its bases'
 };

@@ -88,10 +88,14 @@ std::string text(const topography::SpectrumRelief& spectrum) {
 
 /// Key of the layers under a microsurface; nothing when they shift wavelengths.
 std::optional<std::string> layers_key(const optics::SurfaceStack& stack) {
-  const auto& [name, gap, gap_index, gap_absorption, gap_shifter, gap_thickness_um, reflector, direction] =
-      stack;
+  const auto& [name, admission, gap, gap_index, gap_absorption, gap_shifter, gap_thickness_um, reflector,
+               direction] = stack;
   if (gap_shifter) return std::nullopt;
-  return fmt::format("gap index {}, absorption {}, thickness {} um; reflector {}; direction {} {} {}",
+  const std::string admitted = admission ? "admitted " + text(admission->admitted) + ", undeflected " +
+                                               text(admission->undeflected) + "; "
+                                         : "";
+  return admitted +
+         fmt::format("gap index {}, absorption {}, thickness {} um; reflector {}; direction {} {} {}",
                      text(gap_index), text(gap_absorption), text(gap_thickness_um),
                      reflector ? text(*reflector) : "none", direction.x(), direction.y(), direction.z());
 }
@@ -143,7 +147,7 @@ std::optional<std::string> stack_key(const SurfaceSpec& surface) {
   const std::optional<std::string> microsurface = surface.microsurface->key();
   const std::optional<std::string> layers = layers_key(surface);
   if (!microsurface || !layers) return std::nullopt;
-  return *microsurface + " | " + *layers;
+  return *microsurface + " | " + *layers + (surface.between_media_only ? " | between media only" : "");
 }
 
 std::string table_key(const std::string& surface, const topography::TableSettings& settings,

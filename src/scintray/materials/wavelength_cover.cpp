@@ -37,6 +37,11 @@ void check_cover(core::Problems& problems, const core::FileLocation& where, cons
       problems, where,
       {medium.index, whose, "refractive indices", "extend its index table, or choose other wavelengths"},
       low_nm, high_nm);
+  if (medium.group_index)
+    check_cover(
+        problems, where,
+        {*medium.group_index, whose, "group indices", "extend its table, or choose other wavelengths"},
+        low_nm, high_nm);
   check_cover_of_shifter(problems, where, medium.shifter.get(), low_nm, high_nm, whose);
 }
 
@@ -49,6 +54,11 @@ void check_cover(core::Problems& problems, const SurfaceSpec& surface, double lo
   check(surface.gap_index, gap, "refractive indices");
   check(surface.gap_absorption_per_mm, gap, "an absorption");
   check_cover_of_shifter(problems, surface.where, surface.gap_shifter.get(), low_nm, high_nm, gap);
+  if (surface.admission) {
+    const std::string whose = "surface \"" + surface.name + "\"";
+    check(surface.admission->admitted, whose, "admitted shares");
+    check(surface.admission->undeflected, whose, "undeflected shares");
+  }
   if (surface.reflector) {
     const std::string reflector = "reflector \"" + surface.reflector->name + "\"";
     check(surface.reflector->reflectance, reflector, "reflectances");

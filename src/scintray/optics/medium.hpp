@@ -2,6 +2,7 @@
 /// Optical properties of a homogeneous medium.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,21 +15,33 @@ namespace scintray::optics {
 
 enum class ScatteringKind { isotropic, rayleigh };
 
+/// Scattering by particles, in addition to that of the medium itself: two lobes of Henyey and Greenstein
+/// 1941, Astrophys. J. 93, 70 (cited from memory), one forward and one backward, as Geant4's MIEHG. The mean
+/// cosine is forward_share * forward_g - (1 - forward_share) * backward_g.
+struct ParticleScattering {
+  core::Curve per_mm;                        ///< 1/scattering length against wavelength (nm)
+  double forward_g = 0.0, backward_g = 0.0;  ///< mean cosine of each lobe to its axis, within -1 and 1
+  double forward_share = 1.0;                ///< of the scattered light, the forward lobe's
+};
+
 /// Optical properties of a medium at one wavelength, as transport uses them.
 struct MediumOptics {
   double index = 1.0;              ///< refractive index n
   double group_index = 1.0;        ///< n - wavelength dn/dwavelength
   double absorption_per_mm = 0.0;  ///< including that of the wavelength shifter
-  double scattering_per_mm = 0.0;
+  double scattering_per_mm = 0.0;  ///< including that of particles
 };
 
 /// A medium of the material database (`materials/media/NAME.toml`) or of a scene file.
 struct Medium {
   std::string name;
-  core::Curve index;              ///< refractive index against wavelength (nm)
+  core::Curve index;  ///< refractive index against wavelength (nm)
+  /// Group index against wavelength (nm), as measured; nothing: from the slope of `index`.
+  std::optional<core::Curve> group_index;
   core::Curve absorption_per_mm;  ///< 1/absorption length (no re-emission) against wavelength (nm); 0: none
   core::Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
+  std::optional<ParticleScattering> particles;
   /// Wavelength shifter, which absorbs in addition to `absorption_per_mm` and re-emits; null: none.
   std::shared_ptr<const WavelengthShifter> shifter;
 
@@ -46,9 +59,9 @@ struct Medium {
   bool empty_space = false;          ///< declared as empty space: gammas pass
   std::vector<std::string> sources;  ///< published sources, as cited in reports
 
-  /// Optical properties at a wavelength (nm). The group index uses the slope of the index table
-  /// (n_g = n - lambda dn/dlambda, e.g. Born & Wolf, Principles of Optics, section 1.3.4); a constant index
-  /// gives n_g = n.
+  /// Optical properties at a wavelength (nm). A group index that is not given follows from the slope of the
+  /// index table (n_g = n - lambda dn/dlambda, e.g. Born & Wolf, Principles of Optics, section 1.3.4); a
+  /// constant index gives n_g = n.
   MediumOptics at(double wavelength_nm) const;
 };
 

@@ -76,6 +76,15 @@ class Interaction {
   ShiftingLight* light_;
 };
 
+/// What happens to light before it reaches a surface that does not admit all of it.
+enum class Arrival { admitted, undeflected, absorbed };
+
+Arrival arrive(const Admission& admission, double wavelength_nm, core::Rng& rng) {
+  const double u = rng.uniform(), admitted = admission.admitted(wavelength_nm);
+  if (u < admitted) return Arrival::admitted;
+  return u < admitted + admission.undeflected(wavelength_nm) ? Arrival::undeflected : Arrival::absorbed;
+}
+
 const Surface& pick(const std::vector<SurfaceShare>& mixture, core::Rng& rng) {
   double u = rng.uniform();
   for (const SurfaceShare& part : mixture) {
@@ -122,6 +131,11 @@ struct FarFace {
 SurfaceOutcome Surface::interact(Ray& ray, const Incidence& incidence, ShiftingLight* light,
                                  core::Rng& rng) const {
   if (!mixture.empty()) return pick(mixture, rng).interact(ray, incidence, light, rng);
+  if (admission) {
+    const Arrival arrival = arrive(*admission, incidence.wavelength_nm, rng);
+    if (arrival == Arrival::absorbed) return SurfaceOutcome::absorbed;
+    if (arrival == Arrival::undeflected) return outcome_on(other(incidence.side));
+  }
   Interaction interaction(*this, incidence, light, rng);
   if (!reflector && !gap_thickness_um) return interaction.scatter(ray, incidence.side, incidence.index);
 
@@ -177,7 +191,9 @@ bool Surface::opaque() const {
   if (!mixture.empty())
     return std::all_of(mixture.begin(), mixture.end(),
                        [](const SurfaceShare& part) { return part.surface->opaque(); });
-  return (reflector && !reflector->transmittance) || microsurface->opaque();
+  if (admission && admission->undeflected.max_y() > 0.0) return false;
+  return (reflector && !reflector->transmittance) || microsurface->opaque() ||
+         (admission && admission->admitted.max_y() <= 0.0);
 }
 
 }  // namespace scintray::optics

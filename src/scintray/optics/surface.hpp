@@ -14,9 +14,18 @@
 
 namespace scintray::optics {
 
+/// Share of the light that is incident on a surface, from either side, which the surface admits: what neither
+/// is admitted nor passes undeflected is absorbed before anything else happens to it. Geant4's REFLECTIVITY
+/// and TRANSMITTANCE.
+struct Admission {
+  core::Curve admitted;                                  ///< against wavelength (nm)
+  core::Curve undeflected = core::Curve::constant(0.0);  ///< continues straight on, without refraction
+};
+
 /// The layers under a surface's microsurface, and the orientation of the surface on a face.
 struct SurfaceStack {
   std::string name;
+  std::optional<Admission> admission;  ///< nothing: all light is admitted
 
   /// Gap or glue in front of the reflector or, with a thickness and no reflector, between the microsurface
   /// and the smooth boundary of the next medium.
@@ -93,7 +102,7 @@ struct Surface : SurfaceStack {
   /// True for a smooth boundary without further layers.
   bool plain() const {
     return mixture.empty() && microsurface->kind() == MicrosurfaceKind::smooth && !reflector &&
-           !gap_thickness_um;
+           !gap_thickness_um && !admission;
   }
   /// True when light may leave the surface at another wavelength.
   bool shifts() const { return mixture.empty() ? gap_shifter != nullptr : mixture_shifts(); }

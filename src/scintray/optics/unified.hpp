@@ -1,9 +1,10 @@
 #pragma once
-/// The UNIFIED facet model.
+/// The UNIFIED facet model, and GLISUR's facets.
 ///
 /// Source: A. Levin and C. Moisan 1996, "A more physical approach to model the surface treatment of
 /// scintillation counters and its implementation into DETECT", IEEE NSS; S. K. Nayar et al. 1991,
-/// IEEE PAMI 13(7), for the lobes.
+/// IEEE PAMI 13(7), for the lobes. GLISUR: GEANT3's surface model as Geant4's boundary process has it (Book
+/// For Application Developers, section "Boundary Process").
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,11 @@ class UnifiedSurface : public MicrosurfaceModel {
   double spike = 0.0;
   double lobe = 1.0;
   double backscatter = 0.0;
+  /// GLISUR: facet normals are the mean normal plus a point of the ball of this radius, uniform over its
+  /// volume (1 less GLISUR's polish); 0: facets by sigma_alpha.
+  double smear = 0.0;
+
+  enum class Lobe { spike, facet, backscatter, lambertian };
 
   /// The side on which the ray leaves. A ray whose outcome at a facet still heads into the surface hits
   /// another facet from there (as in Geant4's boundary process).
@@ -45,8 +51,14 @@ class UnifiedSurface : public MicrosurfaceModel {
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
 
+  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`; of a GLISUR facet
+  /// also beyond.
+  core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
+  Lobe sample_lobe(core::Rng& rng) const;
+  /// Replaces a specular reflection at a facet by the chosen lobe. `before` is the incident ray.
+  static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
+
  private:
-  enum class Lobe { spike, facet, backscatter, lambertian };
   /// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
   /// bounds the projected area of a facet.
   static constexpr double kWidestFacet_sigma = 6.0;
@@ -55,11 +67,7 @@ class UnifiedSurface : public MicrosurfaceModel {
   double sample_facet_angle(core::Rng& rng) const;
   /// Largest cosine between the reversed direction of a ray and any facet normal.
   double greatest_facing(double cos_incidence) const;
-  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`.
-  core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
-  Lobe sample_lobe(core::Rng& rng) const;
-  /// Replaces a specular reflection at a facet by the chosen lobe. `before` is the incident ray.
-  static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
+  core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
 inline double UnifiedSurface::sample_facet_angle(core::Rng& rng) const {
@@ -88,6 +96,8 @@ inline double UnifiedSurface::greatest_facing(double cos_incidence) const {
 
 inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
                                                core::Rng& rng) const {
+  if (smear > 0.0) [[unlikely]]
+    return sample_smeared_facet(k, frame.z, rng);
   if (sigma_alpha_rad == 0.0) return frame.z;
   const bool weighted = sampling == FacetSampling::projected_area;
   const double bound = weighted ? greatest_facing(-k.dot(frame.z)) : 1.0;
@@ -101,6 +111,22 @@ inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::
     const double facing = -k.dot(m);
     if (facing <= 0.0) continue;
     if (weighted && rng.uniform() * bound > facing) continue;
+    return m;
+  }
+}
+
+inline core::Vec3 UnifiedSurface::sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean,
+                                                       core::Rng& rng) const {
+  for (;;) {
+    const core::Vec3 point(2.0 * rng.uniform() - 1.0, 2.0 * rng.uniform() - 1.0, 2.0 * rng.uniform() - 1.0);
+    if (point.squaredNorm() > 1.0) continue;
+    const core::Vec3 sum = mean + smear * point;
+    const double length = sum.norm();
+    if (length == 0.0) continue;
+    const core::Vec3 m = sum / length;
+    const double facing = -k.dot(m);
+    if (facing <= 0.0) continue;
+    if (sampling == FacetSampling::projected_area && rng.uniform() > facing) continue;
     return m;
   }
 }

@@ -165,7 +165,8 @@ class AssemblyMaker {
     std::vector<std::string> names;
     for (const AssemblyPart& part : assembly_.parts) names.push_back(part.geometry.name);
     for (const scene_file::ContactSpec& contact : spec_.contacts) {
-      if (!contact.surface.empty()) find_surface(contact.surface);
+      for (const config::NameRef& surface : {contact.surface, contact.leaving[0], contact.leaving[1]})
+        if (!surface.empty()) find_surface(surface);
       if (contact.by_builder) continue;
       for (const config::NameRef& part : contact.between) {
         if (!core::matching(part.name, names).empty()) continue;

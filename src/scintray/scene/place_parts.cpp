@@ -183,6 +183,7 @@ class PartPlacer {
  private:
   /// A part in its own frame, rotated only.
   contact::PlacedMesh loaded(const scene_file::PartSpec& part) const {
+    const bool needs_surface = spec_.contacts_default != scene_file::ContactKind::each_side;
     contact::PlacedMesh result;
     result.name = part.name.name;
     result.where = part.where;
@@ -191,7 +192,7 @@ class PartPlacer {
     result.surface = part.surface;
     result.priority = part.priority;
     result.needs_surface =
-        !part.liquid && part.sensor.empty() && part.medium.name != scene_file::kOpaqueMedium;
+        needs_surface && !part.liquid && part.sensor.empty() && part.medium.name != scene_file::kOpaqueMedium;
     scene_file::ShapeMesh shape = scene_file::shape_mesh(part.shape, formats_);
     result.notes = std::move(shape.notes);
     if (mesh::orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");

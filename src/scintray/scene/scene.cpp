@@ -12,6 +12,8 @@ constexpr double kWavelengthStep_nm = 0.5;
 bool constant_optics(const optics::Medium& medium) {
   return medium.index.is_constant() && medium.absorption_per_mm.is_constant() &&
          medium.scattering_per_mm.is_constant() &&
+         (!medium.group_index || medium.group_index->is_constant()) &&
+         (!medium.particles || medium.particles->per_mm.is_constant()) &&
          (!medium.shifter || medium.shifter->absorption_per_mm().is_constant());
 }
 
@@ -24,6 +26,7 @@ void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double hig
   record.scattering = medium.scattering;
   record.opaque = scene_medium.is_opaque();
   record.shifts = medium.shifter != nullptr;
+  record.particles = medium.particles.has_value();
   record.first_shift = static_cast<std::uint32_t>(shifting_per_mm.size());
   const auto tabulate = [&](double wavelength_nm) {
     table.push_back(medium.at(wavelength_nm));

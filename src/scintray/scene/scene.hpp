@@ -44,7 +44,8 @@ struct MediumRecord {
   optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
   bool opaque = false;
   bool shifts = false;            ///< has a wavelength shifter
-  std::uint32_t first_shift = 0;  ///< with one: first entry of SceneOptics::shifting_per_mm, `count` in all
+  bool particles = false;         ///< has particles that scatter
+  std::uint32_t first_shift = 0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
@@ -105,7 +106,8 @@ struct SceneOptics {
 ///
 /// From back to front, light interacts with `back_surface` (whose inside is the back region), then, in a dry
 /// contact, crosses a gap of no thickness, then interacts with `front_surface` (whose inside is the front
-/// region). A bonded contact or a free face has exactly one of the two surfaces.
+/// region). A bonded contact or a free face has exactly one of the two surfaces, for light of both
+/// directions; where it has two and no gap medium, each is for light that leaves the region on its inside.
 struct Interface {
   core::RegionId back, front;
   core::SurfaceId back_surface, front_surface;

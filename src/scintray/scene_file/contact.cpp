@@ -37,7 +37,15 @@ std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,
     for (std::size_t i = 0; i < names.size(); ++i) read_side(table, names[i], part_names, parts, contact, i);
     contact.kind = table.choice("kind", kContactKinds);
     contact.surface = read_name(table, "surface", false);
-    table.expect("surface", contact.kind == ContactKind::bonded,
+    contact.leaving = {read_name(table, "leaving_first", false), read_name(table, "leaving_second", false)};
+    for (const char* key : {"leaving_first", "leaving_second"})
+      table.expect(key, contact.kind == ContactKind::each_side,
+                   "a surface for one direction belongs to a contact with a surface for each",
+                   "write kind = \"each_side\", or surface = \"...\" for both directions");
+    table.expect("surface", contact.kind != ContactKind::each_side,
+                 "a contact of kind \"each_side\" has a surface for each direction",
+                 "give leaving_first and leaving_second, or write kind = \"bonded\"");
+    table.expect("surface", contact.kind != ContactKind::dry,
                  "a dry contact has no surface of its own: each part keeps the one of its face",
                  "remove surface, or write kind = \"bonded\"");
     contact.tolerance_mm = table.optional_quantity("tolerance", core::Dimension::length);

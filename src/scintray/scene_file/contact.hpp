@@ -17,17 +17,23 @@ namespace scintray::scene_file {
 enum class ContactKind {
   bonded,  ///< optical contact: one interface between both media
   dry,     ///< a gap of no thickness: each face keeps its surface to the ambient medium
+  /// Optical contact in which light that leaves a part interacts with that part's surface alone, and with the
+  /// other part's where the part that it leaves has none (Geant4's rule for skin surfaces).
+  each_side,
 };
 
-inline constexpr core::Word<ContactKind> kContactKinds[] = {{"bonded", ContactKind::bonded},
-                                                            {"dry", ContactKind::dry}};
+inline constexpr core::Word<ContactKind> kContactKinds[] = {
+    {"bonded", ContactKind::bonded}, {"dry", ContactKind::dry}, {"each_side", ContactKind::each_side}};
 
 struct ContactSpec {
   std::array<config::NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
   std::array<std::string, 2> faces;        ///< of the two parts; empty: every face
   ContactKind kind = ContactKind::bonded;
   config::NameRef surface;  ///< of the shared interface; empty: from the surfaces of the two faces
-  bool joint = false;       ///< bonded within one body: smooth, independent of the faces' surfaces
+  /// Of a contact of kind each_side: surfaces for light from the first part and from the second (Geant4's
+  /// border surfaces); empty: as without them.
+  std::array<config::NameRef, 2> leaving;
+  bool joint = false;  ///< bonded within one body: smooth, independent of the faces' surfaces
   bool by_builder =
       false;  ///< made with a builder's parts: contacts of the file precede it; may match no pair
   /// Distance within which faces, curved ones included, are made one (contact/neighbours.hpp); nothing: the

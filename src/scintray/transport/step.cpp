@@ -113,6 +113,32 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
   }
 }
 
+/// A lobe of Henyey and Greenstein about the direction of the ray. The cosine is the inverse of the
+/// cumulative distribution of their phase function (equation of docs/surfaces.md). A polarised ray keeps the
+/// part of its polarisation across the new direction.
+void scatter_henyey_greenstein(optics::Ray& ray, double g, bool forward, core::Rng& rng) {
+  const double u = rng.uniform();
+  const double ratio = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
+  const double cosine = std::abs(g) < 1e-6 ? 2.0 * u - 1.0 : (1.0 + g * g - ratio * ratio) / (2.0 * g);
+  const core::Vec3 axis = forward ? ray.direction.vec() : core::Vec3(-ray.direction.vec());
+  ray.direction = core::turned(axis, std::clamp(cosine, -1.0, 1.0), core::kTwoPi * rng.uniform());
+  if (ray.polarisation.isZero(0.0)) return;
+  const core::Vec3 across =
+      ray.polarisation - ray.polarisation.dot(ray.direction.vec()) * ray.direction.vec();
+  ray.polarisation =
+      across.norm() > 1e-9 ? core::Vec3(across.normalized()) : core::sample_polarisation(ray.direction, rng);
+}
+
+/// Scattering in a medium with particles; false where it is the medium's own. Out of line as shift_in_bulk.
+[[gnu::noinline, gnu::cold]] bool scatter_at_particles(const scene::Scene& scene, core::MediumId id,
+                                                       source::Photon& photon, core::Rng& rng) {
+  const optics::ParticleScattering& particles = *scene.media[id].medium().particles;
+  if (rng.uniform() * photon.optics.scattering_per_mm >= particles.per_mm(photon.wavelength_nm)) return false;
+  const bool forward = rng.uniform() < particles.forward_share;
+  scatter_henyey_greenstein(photon.ray, forward ? particles.forward_g : particles.backward_g, forward, rng);
+  return true;
+}
+
 /// Absorption in a medium with a wavelength shifter: true when the photon is re-emitted. Out of line, since
 /// few scenes have one: inlined, it made every other step 3 % slower.
 [[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
@@ -147,10 +173,12 @@ Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
     }
     return result;
   }
-  if (medium.scattering == optics::ScatteringKind::rayleigh)
-    scatter_rayleigh(photon.ray, rng);
-  else
-    optics::scatter_isotropic(photon.ray, rng);
+  if (!medium.particles || !scatter_at_particles(scene, id, photon, rng)) {
+    if (medium.scattering == optics::ScatteringKind::rayleigh)
+      scatter_rayleigh(photon.ray, rng);
+    else
+      optics::scatter_isotropic(photon.ray, rng);
+  }
   photon.optical_depth = core::sample_exponential(rng);
   ++photon.scatterings;
   result.event = core::StepEvent::scattered;
@@ -263,6 +291,33 @@ InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Phot
   }
 }
 
+/// Light absorbed by a surface at an interface: converted by a sensor that converts such light, or lost.
+void absorb_at_surface(const scene::Scene& scene, const scene::Interface& interface,
+                       const source::Photon& photon, Step& result) {
+  result.event = core::StepEvent::absorbed_at_surface;
+  const core::SensorId id = result.from_back ? interface.front_sensor : interface.back_sensor;
+  if (!id.has_value() || !scene.sensors[id].converts_absorbed()) return;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_before * result.cos_before));
+  const double probability =
+      scene.sensors[id].conversion_probability(photon.wavelength_nm, photon.optics.index * sine);
+  result.event =
+      photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
+  result.sensor_part = result.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+}
+
+/// True when light that enters a region through an interface reaches the sensor there, rather than passing
+/// it.
+bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back) {
+  const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
+  if (!id.has_value()) return false;
+  const detector::Sensor& sensor = scene.sensors[id];
+  if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
+    return true;
+  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+  return sensor.converts_entering() &&
+         scene.regions[from_back ? interface.front : interface.back].part == part;
+}
+
 Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
                           core::Rng& rng, source::PhotonRecords* records) {
   const scene::Region& region = scene.regions[photon.region];
@@ -297,8 +352,8 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (outcome.absorbed_by.has_value()) {
-      result.event = core::StepEvent::absorbed_at_surface;
       result.surface = outcome.absorbed_by;
+      absorb_at_surface(scene, interface, photon, result);
       return result;
     }
     crossed = outcome.in_front == link.from_back;
@@ -313,7 +368,7 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   photon.region = next;
   photon.on_triangle = scene::kNoTriangle;
   photon.optics = optics.at(next_medium, photon.wavelength_nm);
-  if (sensor.has_value()) {
+  if (reaches_sensor(scene, interface, link.from_back)) {
     const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
     const double probability =
         scene.sensors[sensor].conversion_probability(photon.wavelength_nm, there * sine);

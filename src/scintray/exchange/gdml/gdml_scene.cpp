@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "scintray/core/units.hpp"
@@ -27,27 +28,30 @@ class SceneMaker {
       : options_(options),
         file_(file),
         definitions_(file),
+        tables_(file, definitions_),
         solids_(file, definitions_, options.tessellation),
         structure_(read_structure(file, definitions_)) {}
 
   SceneDraft make(const std::string& file_name) {
     read_media();
     name_parts();
+    find_sensors();
     std::string parts;
     for (std::size_t i = 0; i < structure_.placed.size(); ++i) parts += part(i);
-    const std::string contacts = contacts_between_siblings();
+    const std::string contacts = border_contacts();
     SceneDraft& draft = draft_;
+    for (const std::string& differs : definitions_.notes()) note(differs);
     for (const std::string& note : structure_.notes) draft.notes.push_back(note);
     const std::string source_table = source();
     std::string notes;
     for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
     draft.toml = "# Made by scintray import from " + file_name + ".\n";
     if (!notes.empty()) draft.toml += "# Not carried over:\n" + notes;
-    draft.toml +=
-        "title = " + toml_string(file_name) +
-        "\nambient = " + toml_string(medium_name(structure_.world_material)) +
-        "  # the material of the world\ncontacts_default = \"bonded\"  # as volumes that touch in Geant4\n" +
-        parts + contacts + source_table + media_tables() + surface_tables_;
+    draft.toml += "title = " + toml_string(file_name) +
+                  "\nambient = " + toml_string(medium_name(structure_.world_material)) +
+                  "  # the material of the world\ncontacts_default = \"each_side\"  # Geant4's rule for skin "
+                  "surfaces\n" +
+                  parts + contacts + source_table + media_tables() + surface_tables_ + sensor_tables_;
     return std::move(draft);
   }
 
@@ -58,8 +62,10 @@ class SceneMaker {
   }
 
   void read_media() {
-    for (ImportedMedium& medium : import_materials(file_, definitions_))
-      media_[medium.material] = std::move(medium);
+    for (ImportedMedium& medium : import_materials(tables_)) {
+      const std::string name = medium.material;
+      media_.emplace(name, std::move(medium));
+    }
     for (const auto& [material, definition] : options_.media)
       if (!media_.contains(material))
         throw core::InputError(
@@ -139,7 +145,9 @@ class SceneMaker {
       return "";
     }
     std::string text = "\n[[part]]\nname = " + toml_string(names_[i]) + "\n";
-    if (!placed.sensitive.empty())
+    if (!sensors_[i].empty())
+      text += "sensor = " + toml_string(sensors_[i]) + "\n";
+    else if (!placed.sensitive.empty())
       text += "# Geant4 has the sensitive detector " + toml_string(placed.sensitive) +
               " here: give it sensor = \"...\" to detect light\n";
     text += keys;
@@ -153,60 +161,107 @@ class SceneMaker {
     text += "medium = " + toml_string(medium_name(placed.material)) +
             (is_opaque(placed.material) ? "  # material " + placed.material + " has no RINDEX" : "") + "\n";
     used_media_.insert(placed.material);
-    return text + "surface = " + toml_string(surface_of(i)) + "\n";
+    const SurfacePlacement* skin = skin_of(placed.volume);
+    if (!skin && !placed.mother) skin = skin_of(structure_.world_volume);
+    return skin ? text + "surface = " + toml_string(use_surface(*skin)) + "\n" : text;
   }
 
-  /// A border into the mother, else the skin of the volume, else that of the mother's.
-  std::string surface_of(std::size_t i) {
-    const PlacedVolume& placed = structure_.placed[i];
-    const std::optional<std::size_t> mother = placed.mother;
-    if (mother) {
-      const std::string& outside = structure_.placed[*mother].physvol;
-      if (const SurfacePlacement* border = find_border(placed.physvol, outside)) {
-        if (const SurfacePlacement* back = find_border(outside, placed.physvol);
-            back && back->property != border->property)
-          note("the border from " + outside + " into " + placed.physvol +
-               ": a face has one finish, and that of the outward crossing is used");
-        return use_surface(*border);
-      }
-      if (const SurfacePlacement* back = find_border(outside, placed.physvol)) return use_surface(*back);
-    }
-    for (std::optional<std::size_t> owner = i; owner; owner = owner == i ? mother : std::nullopt)
-      for (const SurfacePlacement& surface : structure_.surfaces)
-        if (surface.volume == structure_.placed[*owner].volume) return use_surface(surface);
-    return "geant4_polished";
-  }
-
-  const SurfacePlacement* find_border(const std::string& from, const std::string& to) const {
+  /// The skin surface of a volume; of several the first, as G4LogicalSkinSurface keeps it.
+  const SurfacePlacement* skin_of(const std::string& volume) const {
     for (const SurfacePlacement& surface : structure_.surfaces)
-      if (surface.volume.empty() && surface.from == from && surface.to == to) return &surface;
+      if (surface.volume == volume) return &surface;
     return nullptr;
   }
 
-  std::string contacts_between_siblings() {
-    std::string text;
-    std::set<std::pair<std::size_t, std::size_t>> done;
+  /// The copies of the physical volume of a name: of several of one name the first, as G4PhysicalVolumeStore
+  /// returns it.
+  std::vector<std::size_t> copies_of(const std::string& physvol) const {
+    std::vector<std::size_t> copies;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (structure_.placed[i].physvol == physvol &&
+          (copies.empty() || structure_.placed[i].placement == structure_.placed[copies.front()].placement))
+        copies.push_back(i);
+    return copies;
+  }
+
+  bool may_touch(std::size_t a, std::size_t b) const {
+    const auto &one = structure_.placed[a], &other = structure_.placed[b];
+    return one.mother == b || other.mother == a || one.mother == other.mother;
+  }
+
+  /// [[contact]]s of all borders, with the surfaces of both directions.
+  std::string border_contacts() {
+    std::map<std::pair<std::size_t, std::size_t>, std::array<const SurfacePlacement*, 2>> pairs;
     for (const SurfacePlacement& surface : structure_.surfaces) {
       if (!surface.volume.empty()) continue;
       bool used = false;
-      for (std::size_t a = 0; a < names_.size(); ++a) {
-        if (structure_.placed[a].physvol != surface.from) continue;
-        for (std::size_t b = 0; b < names_.size(); ++b) {
-          if (structure_.placed[b].physvol != surface.to || a == b) continue;
-          used |= structure_.placed[a].mother == b || structure_.placed[b].mother == a;
-          if (structure_.placed[a].mother != structure_.placed[b].mother) continue;
+      for (const std::size_t a : copies_of(surface.from))
+        for (const std::size_t b : copies_of(surface.to)) {
+          if (a == b || !may_touch(a, b) || left_out_[a] || left_out_[b]) continue;
           used = true;
-          if (left_out_[a] || left_out_[b] || !done.insert(std::minmax(a, b)).second) continue;
-          text += "\n[[contact]]\nbetween = [" + toml_string(names_[a]) + ", " + toml_string(names_[b]) +
-                  "]\nkind = \"bonded\"\nsurface = " + toml_string(use_surface(surface)) + "\n";
+          auto& both = pairs.try_emplace(std::minmax(a, b)).first->second;
+          const SurfacePlacement*& own = both[a < b ? 0 : 1];
+          if (!own) own = &surface;
         }
-      }
       if (!used)
         note("border surface " + surface.property +
              ": it is not between two volumes of which one is in the "
              "other, or both in a third");
     }
+    std::string text;
+    for (const auto& [pair, surfaces] : pairs) {
+      text += "\n[[contact]]\nbetween = [" + toml_string(names_[pair.first]) + ", " +
+              toml_string(names_[pair.second]) + "]\nkind = \"each_side\"\n";
+      for (const std::size_t side : {0, 1})
+        if (surfaces[side])
+          text += std::string(side == 0 ? "leaving_first" : "leaving_second") + " = " +
+                  toml_string(use_surface(*surfaces[side])) + "\n";
+    }
     return text;
+  }
+
+  /// Efficiency of the surface as TOML; empty without one, or where the user replaces the surface.
+  std::string efficiency_of(const SurfacePlacement& placement) {
+    if (options_.surfaces.contains(placement.property)) return "";
+    const Node element = solids_.optical_surface(placement.property);
+    return element ? import_surface(element, tables_).efficiency : "";
+  }
+
+  /// The sensor of each part: Geant4's boundary process detects the share EFFICIENCY of the light that a
+  /// surface absorbs. A skin's hits are those of its volume, a border's those of the volume behind it.
+  void find_sensors() {
+    sensors_.assign(names_.size(), "");
+    const auto give = [&](std::size_t i, const SurfacePlacement& surface, const std::string& efficiency) {
+      const std::string name = sensor(surface, efficiency, !structure_.placed[i].sensitive.empty());
+      if (sensors_[i].empty()) sensors_[i] = name;
+      if (sensors_[i] != name)
+        note("volume " + structure_.placed[i].volume + ": a second EFFICIENCY, of surface " +
+             surface.property + "; its sensor has that of " + sensors_[i]);
+    };
+    for (const SurfacePlacement& surface : structure_.surfaces) {
+      const std::string efficiency = efficiency_of(surface);
+      if (efficiency.empty()) continue;
+      if (surface.volume.empty()) {
+        std::vector<std::size_t> behind = copies_of(surface.to);
+        if (behind.empty()) behind = copies_of(surface.from);
+        for (const std::size_t i : behind) give(i, surface, efficiency);
+        continue;
+      }
+      for (std::size_t i = 0; i < names_.size(); ++i)
+        if (structure_.placed[i].volume == surface.volume) give(i, surface, efficiency);
+    }
+  }
+
+  /// Name of the sensor of a surface's EFFICIENCY; writes its definition on first use. In a sensitive volume
+  /// light that enters is a hit, too.
+  std::string sensor(const SurfacePlacement& surface, const std::string& efficiency, bool sensitive) {
+    const std::string name = surface.property + (sensitive ? " of a sensitive volume" : " sensor");
+    if (defined_sensors_.insert(name).second)
+      sensor_tables_ += "\n[sensors." + toml_string(name) + "]  # EFFICIENCY of " + surface.property +
+                        "\nconverts = \"" + (sensitive ? "both" : "absorbed") +
+                        "\"\nefficiency = { definition = \"internal\", value = " + efficiency +
+                        " }\nwindow = { index = 1.0 }\n";
+    return name;
   }
 
   /// Name of the surface in the scene; writes its definition on first use.
@@ -219,13 +274,17 @@ class SceneMaker {
     if (!element)
       file_.reject(placement.element, "no <opticalsurface> is called \"" + property + "\"",
                    "define it in <solids>");
-    const ImportedSurface surface = import_surface(element, file_, definitions_);
+    const ImportedSurface surface = import_surface(element, tables_);
     for (const std::string& left_out : surface.notes) note("surface " + property + ": " + left_out);
     if (surface.toml.empty())
       draft_.missing.push_back("surface " + toml_string(property) + ": [surfaces." + toml_string(property) +
                                "], or --surface " + property + "=DATABASE_SURFACE");
     else
       surface_tables_ += "\n[surfaces." + toml_string(property) + "]\n" + surface.toml;
+    if (!surface.gap_index.empty())
+      surface_tables_ += "\n[media." + toml_string(gap_name(element.attribute("name").value())) +
+                         "]  # RINDEX of the surface\nindex = { n = " + surface.gap_index +
+                         " }\nabsorption = { none = true }\nscattering = { none = true }\n";
     return property;
   }
 
@@ -246,8 +305,10 @@ class SceneMaker {
           medium && !options_.media.contains(placed.material))
         for (const std::string& left_out : medium->notes)
           note("material " + placed.material + ": " + left_out);
-    for (const bool scintillating : {true, false})
+    for (const auto& [scintillating, apart] :
+         {std::pair{true, true}, std::pair{true, false}, std::pair{false, true}, std::pair{false, false}})
       for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (apart && !sensors_[i].empty()) continue;
         const PlacedVolume& placed = structure_.placed[i];
         const ImportedMedium* medium = find_medium(placed.material);
         const bool own = medium && !options_.media.contains(placed.material);
@@ -267,14 +328,16 @@ class SceneMaker {
   const GdmlImport& options_;
   const GdmlFile& file_;
   Definitions definitions_;
+  OpticalTables tables_;
   Solids solids_;
   Structure structure_;
   SceneDraft draft_;
   std::map<std::string, ImportedMedium> media_;
   std::vector<std::string> names_;
   std::vector<bool> left_out_;
-  std::set<std::string> used_media_, defined_surfaces_;
-  std::string surface_tables_;
+  std::vector<std::string> sensors_;  ///< of the parts; empty: none
+  std::set<std::string> used_media_, defined_surfaces_, defined_sensors_;
+  std::string surface_tables_, sensor_tables_;
   int mirrored_count_ = 1;
 };
 

@@ -13,6 +13,10 @@ namespace {
 
 constexpr core::Word<detector::AngleMedium> kAngleMedia[] = {{"window", detector::AngleMedium::window},
                                                              {"outside", detector::AngleMedium::outside}};
+constexpr core::Word<detector::ConvertedLight> kConvertedLight[] = {
+    {"entering", detector::ConvertedLight::entering},
+    {"absorbed", detector::ConvertedLight::absorbed},
+    {"both", detector::ConvertedLight::both}};
 /// Width measures of a normal distribution relative to its standard deviation.
 constexpr core::Word<double> kWidthsPerSigma[] = {{"fwhm", core::kFwhmPerSigma}, {"sigma", 1.0}};
 constexpr core::Word<double detector::DarkCounts::*> kDarkRates[] = {
@@ -182,6 +186,7 @@ detector::Sensor read_sensor(const config::TomlTable& table, const std::string& 
                              const SensorModels& models) {
   detector::Sensor sensor;
   sensor.name = name;
+  sensor.converts = table.choice("converts", kConvertedLight, detector::ConvertedLight::entering);
   const config::TomlTable window = table.table("window");
   if (table.has("window")) read_window(window, rule, sensor);
   const config::TomlTable efficiency = table.table("efficiency");

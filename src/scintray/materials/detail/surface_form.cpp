@@ -1,5 +1,7 @@
 #include "scintray/materials/detail/forms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -218,6 +220,33 @@ void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
                  "give gap = \"MEDIUM\", or remove it");
 }
 
+/// admitted = CURVE and undeflected = CURVE: what happens to light before it reaches the microsurface.
+void read_admission(const config::TomlTable& table, SurfaceSpec& surface) {
+  if (!table.has("admitted") && !table.has("undeflected")) return;
+  optics::Admission admission{core::Curve::constant(1.0)};
+  for (const auto& [key, curve] :
+       {std::pair{"admitted", &admission.admitted}, std::pair{"undeflected", &admission.undeflected}}) {
+    if (!table.has(key)) continue;
+    *curve = table.curve(key, core::Dimension::dimensionless);
+    expect_share(table, key, *curve, "a share of the light");
+  }
+  if (!table.has("admitted")) {
+    table.report("admitted", "\"undeflected\" is given without \"admitted\"",
+                 "give the share of the light that the surface reflects or refracts, as admitted = 0.9");
+    return;
+  }
+  constexpr double kRounding = 1e-9;
+  double most = 0.0;
+  for (const core::Curve* curve : {&admission.admitted, &admission.undeflected})
+    for (const double nm : curve->x())
+      most = std::max(most, admission.admitted(nm) + admission.undeflected(nm));
+  table.expect(
+      table.has("undeflected") ? "undeflected" : "admitted", most <= 1.0 + kRounding,
+      fmt::format("admitted and undeflected light come to {:.6g}; together they are at most 1", most),
+      "what is left of 1 is absorbed: lower one of them where they exceed 1");
+  surface.admission = std::move(admission);
+}
+
 }  // namespace
 
 config::TomlNode merge_over_base(const config::TomlNode& base, const config::TomlNode& over,
@@ -275,8 +304,8 @@ SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name
   surface.direction = table.optional_direction("direction").value_or(core::Vec3::Zero());
   if (table.has("mixture")) {
     surface.mixture = read_mixture(table, lookup, problems);
-    for (const char* key :
-         {"model", "gap", "gap_thickness", "reflector", "reflectance", "transmittance", "direction"})
+    for (const char* key : {"model", "gap", "gap_thickness", "reflector", "reflectance", "transmittance",
+                            "direction", "admitted", "undeflected", "between_media_only"})
       if (table.has(key))
         table.report(key,
                      "a mixture is made of whole surfaces, and has no " + std::string(key) + " of its own",
@@ -284,6 +313,8 @@ SurfaceSpec read_surface(const config::TomlTable& table, const std::string& name
     return surface;
   }
   surface.gap_thickness_um = read_optional_um(table, "gap_thickness");
+  surface.between_media_only = table.boolean("between_media_only", false);
+  read_admission(table, surface);
   surface.microsurface = read_microsurface(table, lookup.models);
   read_gap(table, lookup, problems, surface);
   read_surface_reflector(table, lookup, problems, surface);

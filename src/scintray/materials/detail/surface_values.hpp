@@ -6,6 +6,7 @@
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
+#include "scintray/optics/unified.hpp"
 
 namespace scintray::materials {
 
@@ -15,6 +16,12 @@ std::optional<double> read_optional_um(const config::TomlTable& table, const std
 
 /// A share, from 0 to 1; required when there is no fallback.
 double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback);
+
+/// facets = "projected_area" or "geant4".
+optics::FacetSampling read_facet_sampling(const config::TomlTable& table);
+
+/// The keys of [unified]: widths of the facets' angles and shares of the lobes.
+optics::UnifiedSurface read_unified_facets(const config::TomlTable& table);
 
 /// [tracing] of a surface: settings of its table; nothing for rays traced on the spot.
 std::optional<TracingSpec> read_tracing(const config::TomlTable& surface);

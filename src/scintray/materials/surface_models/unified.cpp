@@ -15,14 +15,27 @@ constexpr core::Word<optics::SigmaAlphaDefinition> kDefinitions[] = {
 constexpr core::Word<optics::FacetSampling> kFacets[] = {
     {"projected_area", optics::FacetSampling::projected_area}, {"geant4", optics::FacetSampling::geant4}};
 
-optics::UnifiedSurface read_unified(const config::TomlTable& table) {
+std::string key_of(const optics::UnifiedSurface& surface) {
+  return fmt::format("UNIFIED {} rad, {}, {}, lobe {}, spike {}, backscatter {}", surface.sigma_alpha_rad,
+                     core::word_of(kDefinitions, surface.definition),
+                     core::word_of(kFacets, surface.sampling), surface.lobe, surface.spike,
+                     surface.backscatter);
+}
+
+}  // namespace
+
+optics::FacetSampling read_facet_sampling(const config::TomlTable& table) {
+  return table.choice("facets", kFacets);
+}
+
+optics::UnifiedSurface read_unified_facets(const config::TomlTable& table) {
   optics::UnifiedSurface surface;
   surface.sigma_alpha_rad = table.quantity("sigma_alpha", core::Dimension::angle);
   table.expect("sigma_alpha",
                surface.sigma_alpha_rad >= 0.0 && surface.sigma_alpha_rad < 90.0 * core::kDegree,
                "\"sigma_alpha\" lies between 0 and 90 deg");
   surface.definition = table.choice("definition", kDefinitions);
-  surface.sampling = table.choice("facets", kFacets);
+  surface.sampling = read_facet_sampling(table);
   surface.lobe = read_share(table, "lobe", std::nullopt);
   surface.spike = read_share(table, "spike", 0.0);
   surface.backscatter = read_share(table, "backscatter", 0.0);
@@ -33,18 +46,9 @@ optics::UnifiedSurface read_unified(const config::TomlTable& table) {
   return surface;
 }
 
-std::string key_of(const optics::UnifiedSurface& surface) {
-  return fmt::format("UNIFIED {} rad, {}, {}, lobe {}, spike {}, backscatter {}", surface.sigma_alpha_rad,
-                     core::word_of(kDefinitions, surface.definition),
-                     core::word_of(kFacets, surface.sampling), surface.lobe, surface.spike,
-                     surface.backscatter);
-}
-
-}  // namespace
-
 SurfaceModel unified_model() {
   const auto read = [](const config::TomlTable& surface) {
-    const optics::UnifiedSurface unified = read_unified(surface.table("unified"));
+    const optics::UnifiedSurface unified = read_unified_facets(surface.table("unified"));
     return FixedMicrosurface(unified, key_of(unified));
   };
   return {.word = "unified", .table = "unified", .read = read};

@@ -39,6 +39,7 @@ class InterfaceMaker {
   void report_unused_contacts() {
     for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
       if (contact_used_[i] || assembly_.contacts[i].by_builder) continue;
+      if (assembly_.contacts[i].kind == scene_file::ContactKind::each_side) continue;  // as Geant4's borders
       const scene_file::ContactSpec& contact = assembly_.contacts[i];
       problems_.add(
           contact.where,
@@ -75,7 +76,8 @@ class InterfaceMaker {
     return result;
   }
 
-  /// A sensor part detects light that enters it; a sensor face light that leaves its part there.
+  /// A sensor part detects light that enters it, or that its surfaces absorb, also from its own side; a
+  /// sensor face light that leaves its part there.
   void bind_sensors(const contact::InterfaceTriangle& t, Interface& result) const {
     const auto bind = [&](core::PartId entered, core::PartId left, core::FaceId left_face,
                           core::SensorId& sensor, core::PartId& part) {
@@ -84,6 +86,10 @@ class InterfaceMaker {
         part = entered;
       } else if (left_face.has_value() && assembly_.faces[left_face].sensor.has_value()) {
         sensor = assembly_.faces[left_face].sensor;
+        part = left;
+      } else if (left != contact::kAmbient && assembly_.parts[left].sensor.has_value() &&
+                 assembly_.sensors[assembly_.parts[left].sensor].converts_absorbed()) {
+        sensor = assembly_.parts[left].sensor;
         part = left;
       }
     };
@@ -102,10 +108,32 @@ class InterfaceMaker {
   void make_nested(const contact::InterfaceTriangle& t, Interface& result) {
     const scene_file::ContactSpec* contact = find_contact(t).first;
     const std::string& own = face(t.back_face).surface;
-    if (contact && contact->kind == scene_file::ContactKind::dry)
+    const scene_file::ContactKind kind = contact ? contact->kind : assembly_.contacts_default;
+    if (contact && kind == scene_file::ContactKind::dry)
       make_dry(t, own, part(t.front).surface, result);
+    else if (kind == scene_file::ContactKind::each_side)
+      make_each_side(t, own, part(t.front).surface, result);
     else
       set_surface(t, result, true, contact && !contact->surface.empty() ? contact->surface.name : own);
+  }
+
+  /// Surfaces for light of either direction. A smooth one that holds for both is made once, so that the
+  /// interface is plain.
+  void make_each_side(const contact::InterfaceTriangle& t, const std::string& back, const std::string& front,
+                      Interface& result) {
+    const auto [contact, back_is_first] = find_contact(t);
+    const auto leaving = [&, first = back_is_first, given = contact](bool from_back) {
+      if (given) {
+        const config::NameRef& own = given->leaving[from_back == first ? 0 : 1];
+        if (!own.empty()) return own.name;
+      }
+      const std::string& here = from_back ? back : front;
+      return here.empty() ? (from_back ? front : back) : here;
+    };
+    const std::string from_back = leaving(true), from_front = leaving(false);
+    result.back_surface = surface(from_back, medium(t.back), medium(t.front));
+    if (from_back == from_front && scene_.surfaces[result.back_surface].plain()) return;
+    result.front_surface = surface(from_front, medium(t.front), medium(t.back));
   }
 
   void make_contact(const contact::InterfaceTriangle& t, Interface& result) {
@@ -116,7 +144,9 @@ class InterfaceMaker {
       make_dry(t, back.surface, front.surface, result);
       return;
     }
-    if (contact && contact->joint) {
+    if (kind == scene_file::ContactKind::each_side) {
+      make_each_side(t, back.surface, front.surface, result);
+    } else if (contact && contact->joint) {
       set_surface(t, result, true, std::string());
     } else if (contact && !contact->surface.empty()) {
       set_surface(t, result, back_is_first, contact->surface.name);

@@ -9,14 +9,17 @@ namespace scintray::scene {
 
 namespace {
 
-/// Regions that light from `start` can reach through interfaces that are not opaque both ways; into opaque
-/// parts too, and not beyond.
+/// Regions that light from `start` can reach through interfaces that are not opaque in its direction; into
+/// opaque parts too, and not beyond.
 core::IdVector<core::RegionId, bool> lit_regions(const Scene& scene,
                                                  const std::vector<core::RegionId>& start) {
   const auto passes = [&](const Interface& i, bool from_back) {
     const auto opaque = [&](core::SurfaceId id) { return id.has_value() && scene.surfaces[id].opaque(); };
     const core::RegionId from = from_back ? i.back : i.front;
-    return !opaque(i.back_surface) && !opaque(i.front_surface) &&
+    const bool each_side =
+        i.back_surface.has_value() && i.front_surface.has_value() && !i.gap_medium.has_value();
+    return (!opaque(i.back_surface) || (each_side && !from_back)) &&
+           (!opaque(i.front_surface) || (each_side && from_back)) &&
            !scene.media[scene.regions[from].medium].is_opaque();
   };
   core::IdVector<core::RegionId, bool> lit(scene.regions.size(), false);
@@ -58,6 +61,16 @@ void warn_of_empty_gaps(const scene_file::SceneSpec& spec, std::vector<std::stri
   }
 }
 
+/// True when light reaches a surface of the sensor's part from outside, and the sensor converts what is
+/// absorbed.
+bool absorbs_light(const Scene& scene, core::PartId part, const core::IdVector<core::RegionId, bool>& lit) {
+  if (!scene.sensors[scene.parts[part].sensor].converts_absorbed()) return false;
+  return std::any_of(scene.interfaces.begin(), scene.interfaces.end(), [&](const Interface& i) {
+    return (i.front_sensor.has_value() && i.front_sensor_part == part && lit[i.back]) ||
+           (i.back_sensor.has_value() && i.back_sensor_part == part && lit[i.front]);
+  });
+}
+
 }  // namespace
 
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
@@ -74,7 +87,7 @@ void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact:
   if (!any_sensor) warnings.push_back("the scene has no sensor: no photon can be detected");
   for (const core::PartId id : scene.parts.ids()) {
     const contact::PlacedMesh& part = placed[id.index()];
-    if (!part.sensor.empty() && !lit[scene.parts[id].region])
+    if (!part.sensor.empty() && !lit[scene.parts[id].region] && !absorbs_light(scene, id, lit))
       problems.add(
           part.where, "no light from the source can reach sensor \"" + part.name + "\"",
           "something opaque lies between: check the surfaces of the faces on the way, and that the parts "

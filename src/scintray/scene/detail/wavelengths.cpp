@@ -106,7 +106,8 @@ double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<c
     surfaces.insert(part.surface.name);
     for (const contact::PlacedFace& face : part.faces) surfaces.insert(face.surface.name);
   }
-  for (const scene_file::ContactSpec& contact : spec.contacts) surfaces.insert(contact.surface.name);
+  for (const scene_file::ContactSpec& contact : spec.contacts)
+    surfaces.insert({contact.surface.name, contact.leaving[0].name, contact.leaving[1].name});
   surfaces.erase("");
 
   double longest = 0.0;

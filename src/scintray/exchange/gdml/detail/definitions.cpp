@@ -161,6 +161,13 @@ void Definitions::define(Node node) {
     if (!(columns >= 1.0 && columns <= 1000.0)) file_.reject(node, "a matrix of no columns, or of over 1000");
     matrix.columns = static_cast<std::size_t>(columns);
     matrix.values.clear();
+    if (!node.attribute("values") && matrix.columns == 1) {
+      matrix.values = {0.0};
+      notes_.push_back("matrix " + own + " has no \"values\"" +
+                       (node.attribute("value") ? " (it has \"value\")" : "") +
+                       ": Geant4 reads it as the number 0, and so it is here");
+      return;
+    }
     std::istringstream words(file_.required(node, "values"));
     for (std::string word; words >> word;) {
       if (matrix.values.size() >= kMostMatrixNumbers)
@@ -172,11 +179,24 @@ void Definitions::define(Node node) {
                    "matrix \"" + own + "\" has " + std::to_string(matrix.values.size()) +
                        " numbers, which do not fill " + std::to_string(matrix.columns) + " columns",
                    "give every row all its numbers");
+    name_elements(own, matrix);
   } else {
     file_.reject(
         node, std::string("<") + node.name() + "> in <define> is not known",
         "expected constant, variable, quantity, expression, position, rotation, scale, matrix, loop");
   }
+}
+
+void Definitions::name_elements(const std::string& name, const Matrix& matrix) {
+  const std::size_t rows = matrix.values.size() / matrix.columns;
+  constexpr std::size_t kMostNamed = 10'000;
+  if (matrix.values.size() > kMostNamed) return;
+  const bool one_index = rows == 1 || matrix.columns == 1;
+  for (std::size_t i = 0; i < matrix.values.size(); ++i)
+    evaluator_->set(one_index ? name + "_" + std::to_string(i)
+                              : name + "_" + std::to_string(i / matrix.columns) + "_" +
+                                    std::to_string(i % matrix.columns),
+                    matrix.values[i]);
 }
 
 double Definitions::evaluate(const std::string& expression, Node where) const {

@@ -59,12 +59,18 @@ class Definitions {
   /// Calls `action` for the children of a node, those in <loop>s once for every value of the loop's variable.
   void for_each_child(Node parent, const std::function<void(Node)>& action) const;
 
+  /// What differs from what the file seems to state, as Geant4 reads it.
+  const std::vector<std::string>& notes() const { return notes_; }
+
   const LoopVariables& loop_variables() const;
   void set_loop_variables(const LoopVariables& variables) const;
 
  private:
   class Evaluator;
   void define(Node node);
+  /// Elements of a matrix by name in expressions: NAME_0 of a row or column, else NAME_0_1 (GDML User's
+  /// Guide, section "Matrices").
+  void name_elements(const std::string& name, const Matrix& matrix);
   core::Vec3 referred(const std::map<std::string, core::Vec3>& known, Node node, const std::string& tag,
                       const char* default_unit, double fallback) const;
 
@@ -72,6 +78,7 @@ class Definitions {
   std::unique_ptr<Evaluator> evaluator_;
   std::map<std::string, core::Vec3> positions_, rotations_, scales_;
   std::map<std::string, Matrix> matrices_;
+  std::vector<std::string> notes_;
 };
 
 /// Restores loop variables during its lifetime.

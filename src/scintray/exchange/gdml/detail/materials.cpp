@@ -59,20 +59,42 @@ double integral(const EnergyTable& table) {
   return sum;
 }
 
+/// A table beyond its ends, where Geant4 continues with the last value.
+double continued(const EnergyTable& table, double energy_eV) {
+  if (energy_eV <= table.energy_eV.front()) return table.value.front();
+  if (energy_eV >= table.energy_eV.back()) return table.value.back();
+  return interpolated(table, energy_eV);
+}
+
+/// A spectrum per energy as one per wavelength, at the same energies with added points.
+EnergyTable per_wavelength(const EnergyTable& spectrum) {
+  EnergyTable result;
+  result.energy_eV = refined(spectrum.energy_eV);
+  for (const double energy : result.energy_eV)
+    result.value.push_back(std::max(0.0, interpolated(spectrum, energy)) * energy * energy / core::kHc_eV_nm);
+  return result;
+}
+
 class MaterialImporter {
  public:
-  MaterialImporter(const GdmlFile& file, const Definitions& definitions)
-      : file_(file), definitions_(definitions) {}
+  explicit MaterialImporter(const OpticalTables& tables)
+      : tables_(tables), file_(tables.file()), definitions_(tables.definitions()) {}
 
   std::vector<ImportedMedium> import() {
     std::vector<Node> materials;
     definitions_.for_each_child(file_.section("materials"), [&](Node node) {
       if (std::string(node.name()) == "material") materials.push_back(node);
     });
-    for (const Node material : materials)
-      for (const char* name : {"RINDEX", "ABSLENGTH", "RAYLEIGH"}) widen_range(table(material, name));
     std::vector<ImportedMedium> media;
-    for (const Node material : materials) media.push_back(import_one(material));
+    for (const Node material : materials) {
+      const std::string name = definitions_.name(file_.required(material, "name"), material);
+      const auto first = std::find_if(media.begin(), media.end(),
+                                      [&](const ImportedMedium& known) { return known.material == name; });
+      if (first == media.end())
+        media.push_back(import_one(material, name));
+      else
+        first->notes.push_back("a second material of this name: the first is used, as in Geant4");
+    }
     return media;
   }
 
@@ -82,43 +104,23 @@ class MaterialImporter {
     double share = 0.0, decay_ns = 0.0, rise_ns = 0.0;
   };
 
-  EnergyTable table(Node material, const std::string& name) const {
-    return property(material, name, file_, definitions_);
-  }
-
-  void widen_range(const EnergyTable& table) {
-    if (table.value.size() < 2) return;
-    const double low = core::kHc_eV_nm / table.energy_eV.back(),
-                 high = core::kHc_eV_nm / table.energy_eV.front();
-    low_nm_ = low_nm_ == 0.0 ? low : std::min(low_nm_, low);
-    high_nm_ = std::max(high_nm_, high);
-  }
-
-  /// A property of one number.
+  EnergyTable table(Node material, const std::string& name) const { return tables_.property(material, name); }
   std::optional<double> constant(Node material, std::initializer_list<std::string> names) const {
-    for (const std::string& name : names) {
-      const Node node = property_node(material, name);
-      if (!node) continue;
-      const std::string reference = definitions_.name(file_.required(node, "ref"), node);
-      if (const Matrix* matrix = definitions_.matrix(reference)) return matrix->values.front();
-      return definitions_.constant(reference);
-    }
-    return std::nullopt;
+    return tables_.constant(material, names);
+  }
+  std::string curve(const EnergyTable& values, const char* unit) const {
+    return curve_toml(values, unit, tables_.low_nm(), tables_.high_nm());
   }
 
-  ImportedMedium import_one(Node material) {
+  ImportedMedium import_one(Node material, const std::string& name) {
     ImportedMedium medium;
-    medium.material = definitions_.name(file_.required(material, "name"), material);
+    medium.material = name;
     const EnergyTable index = table(material, "RINDEX");
     medium.opaque = index.empty();
     if (medium.opaque) return medium;
-    const auto curve = [&](const EnergyTable& values, const char* unit) {
-      return curve_toml(values, unit, low_nm_, high_nm_);
-    };
-    medium.toml = "index = { n = " + curve(index, "") + " }\n";
-    const EnergyTable absorption = table(material, "ABSLENGTH"), rayleigh = table(material, "RAYLEIGH");
-    medium.toml += absorption.empty() ? "absorption = { none = true }\n"
-                                      : "absorption = { length = " + curve(absorption, "mm") + " }\n";
+    medium.toml = "index = { n = " + curve(index, "") + group_index(material, medium) + " }\n";
+    const EnergyTable rayleigh = table(material, "RAYLEIGH");
+    medium.toml += absorption(material, medium);
     medium.toml += rayleigh.empty()
                        ? "scattering = { none = true }\n"
                        : "scattering = { kind = \"rayleigh\", length = " + curve(rayleigh, "mm") + " }\n";
@@ -128,9 +130,107 @@ class MaterialImporter {
           definitions_.number(density, "value") * unit / definitions_.evaluate("g/cm3", density);
       medium.toml += fmt::format("density = {{ value = \"{:.9g} g/cm3\" }}\n", value);
     }
+    add_particles(material, medium);
     add_scintillation(material, medium);
     note_others(material, medium);
     return medium;
+  }
+
+  /// The group index of a GROUPVEL; Geant4 computes its own from RINDEX when that comes later.
+  std::string group_index(Node material, ImportedMedium& medium) const {
+    EnergyTable group = table(material, "GROUPVEL");
+    if (group.empty()) return "";
+    if (!OpticalTables::in_order(material, "RINDEX", "GROUPVEL")) {
+      medium.notes.push_back(
+          "its GROUPVEL, which comes before RINDEX: Geant4 replaces it by what follows from RINDEX, as it is "
+          "here");
+      return "";
+    }
+    for (double& value : group.value) {
+      if (!(value > 0.0)) file_.reject(material, "a GROUPVEL that is not above 0", "give it in mm/ns");
+      value = std::max(1.0, core::kSpeedOfLight_mm_per_ns / value);
+    }
+    return ", group = " + curve(group, "");
+  }
+
+  /// Absorption, and the wavelength shifter beside it. A shifter without a spectrum absorbs for good.
+  std::string absorption(Node material, ImportedMedium& medium) const {
+    const EnergyTable plain = table(material, "ABSLENGTH"), shifting = table(material, "WLSABSLENGTH");
+    const EnergyTable spectrum = table(material, "WLSCOMPONENT");
+    const bool shifts = !shifting.empty() && spectrum.value.size() > 1 && integral(spectrum) > 0.0;
+    if (!shifts && !shifting.empty()) {
+      medium.notes.push_back(
+          "its WLSABSLENGTH has no WLSCOMPONENT: as in Geant4 the light is absorbed and not re-emitted");
+      return "absorption = { coefficient = " + curve(both(plain, shifting), "1/mm") + " }\n";
+    }
+    if (!spectrum.empty() && shifting.empty())
+      medium.notes.push_back("its WLSCOMPONENT has no WLSABSLENGTH: as in Geant4 nothing is shifted");
+    const std::string own = plain.empty()
+                                ? "absorption = { none = true }\n"
+                                : "absorption = { length = " + curve(positive(plain), "mm") + " }\n";
+    return shifts ? own + shifter(material, positive(shifting), spectrum, medium) : own;
+  }
+
+  /// Lengths, none below a thousandth of a nanometre: Geant4 takes 0 as absorbed at once.
+  static EnergyTable positive(EnergyTable lengths) {
+    for (double& length : lengths.value) length = std::max(length, 1e-9);
+    return lengths;
+  }
+
+  /// Sum of the coefficients of two absorptions, of which the first may be none.
+  static EnergyTable both(const EnergyTable& one, const EnergyTable& other) {
+    EnergyTable sum;
+    std::set<double> energies(one.energy_eV.begin(), one.energy_eV.end());
+    energies.insert(other.energy_eV.begin(), other.energy_eV.end());
+    sum.energy_eV = refined({energies.begin(), energies.end()});
+    for (const double energy : sum.energy_eV) {
+      double coefficient = 0.0;
+      for (const EnergyTable* lengths : {&one, &other})
+        if (!lengths->empty()) coefficient += 1.0 / std::max(1e-9, continued(*lengths, energy));
+      sum.value.push_back(coefficient);
+    }
+    return sum;
+  }
+
+  std::string shifter(Node material, const EnergyTable& lengths, const EnergyTable& spectrum,
+                      ImportedMedium& medium) const {
+    const double photons = constant(material, {"WLSMEANNUMBERPHOTONS"}).value_or(1.0);
+    const double time_ns = constant(material, {"WLSTIMECONSTANT"}).value_or(0.0);
+    if (photons > 1.0)
+      medium.notes.push_back(fmt::format(
+          "WLSMEANNUMBERPHOTONS of {:g}: one photon at most is re-emitted here, in Geant4 {:g} on average",
+          photons, photons));
+    else if (photons < 1.0)
+      medium.notes.push_back(
+          fmt::format("WLSMEANNUMBERPHOTONS of {:g}: re-emitted with this probability; in Geant4 the number "
+                      "is Poisson's, "
+                      "of the same mean",
+                      photons));
+    if (time_ns > 0.0)
+      medium.notes.push_back(
+          "WLSTIMECONSTANT: an exponential decay here, as Geant4's time profile \"exponential\"; its "
+          "default, "
+          "\"delta\", delays all light by the same time");
+    constexpr double kAtOnce_ns = 1e-6;
+    return "wavelength_shifting = { absorption = { length = " + curve(lengths, "mm") +
+           " }, quantum_yield = { value = " + fmt::format("{:.9g}", std::clamp(photons, 0.0, 1.0)) +
+           " }, emission = { spectrum = " + curve_toml(per_wavelength(spectrum), "", 0.0, 0.0) +
+           " }, decay = [{ time = \"" + fmt::format("{:.9g}", std::max(time_ns, kAtOnce_ns)) +
+           " ns\", rise = \"0 ns\", fraction = 1 }] }\n";
+  }
+
+  void add_particles(Node material, ImportedMedium& medium) const {
+    const EnergyTable lengths = table(material, "MIEHG");
+    if (lengths.empty()) return;
+    const double limit = 1.0 - 1e-9;
+    const auto lobe = [&](const char* name) {
+      return std::clamp(constant(material, {name}).value_or(0.0), -limit, limit);
+    };
+    medium.toml +=
+        "particles = { length = " + curve(positive(lengths), "mm") +
+        fmt::format(", forward = {:.9g}, backward = {:.9g}, forward_share = {:.9g} }}\n",
+                    lobe("MIEHG_FORWARD"), lobe("MIEHG_BACKWARD"),
+                    std::clamp(constant(material, {"MIEHG_FORWARD_RATIO"}).value_or(0.0), 0.0, 1.0));
   }
 
   std::vector<Component> components(Node material) const {
@@ -192,10 +292,24 @@ class MaterialImporter {
     medium.toml += "]\n";
   }
 
-  static void note_others(Node material, ImportedMedium& medium) {
-    static const std::set<std::string> carried{
-        "RINDEX",        "ABSLENGTH",        "RAYLEIGH",         "SCINTILLATIONYIELD", "FASTCOMPONENT",
-        "SLOWCOMPONENT", "FASTTIMECONSTANT", "SLOWTIMECONSTANT", "YIELDRATIO"};
+  void note_others(Node material, ImportedMedium& medium) const {
+    static const std::set<std::string> carried{"RINDEX",
+                                               "ABSLENGTH",
+                                               "RAYLEIGH",
+                                               "GROUPVEL",
+                                               "FASTCOMPONENT",
+                                               "SLOWCOMPONENT",
+                                               "FASTTIMECONSTANT",
+                                               "SLOWTIMECONSTANT",
+                                               "YIELDRATIO",
+                                               "WLSABSLENGTH",
+                                               "WLSCOMPONENT",
+                                               "WLSTIMECONSTANT",
+                                               "WLSMEANNUMBERPHOTONS",
+                                               "MIEHG",
+                                               "MIEHG_FORWARD",
+                                               "MIEHG_BACKWARD",
+                                               "MIEHG_FORWARD_RATIO"};
     std::string others;
     for (const Node child : material.children("property")) {
       const std::string name = child.attribute("name").value();
@@ -203,35 +317,90 @@ class MaterialImporter {
       if (!scintillation && !carried.contains(name)) others += (others.empty() ? "" : ", ") + name;
     }
     if (!others.empty()) medium.notes.push_back("properties that have no counterpart here: " + others);
+    std::string without;
+    for (const std::string& name : tables_.passed_over(material))
+      without += (without.empty() ? "" : ", ") + name;
+    if (!without.empty())
+      medium.notes.push_back("properties without \"ref\", which Geant4 passes over, and so they are here: " +
+                             without);
   }
 
+  const OpticalTables& tables_;
   const GdmlFile& file_;
   const Definitions& definitions_;
-  double low_nm_ = 0.0, high_nm_ = 0.0;
 };
 
 }  // namespace
 
-EnergyTable property(Node owner, const std::string& name, const GdmlFile& file,
-                     const Definitions& definitions) {
+OpticalTables::OpticalTables(const GdmlFile& file, const Definitions& definitions)
+    : file_(file), definitions_(definitions) {
+  for (const char* section : {"materials", "solids"})
+    definitions_.for_each_child(file_.section(section), [&](Node owner) {
+      for (const Node child : owner.children("property")) {
+        const EnergyTable table = property(owner, child.attribute("name").value());
+        if (table.value.size() < 2) continue;
+        const double low = core::kHc_eV_nm / table.energy_eV.back(),
+                     high = core::kHc_eV_nm / table.energy_eV.front();
+        low_nm_ = low_nm_ == 0.0 ? low : std::min(low_nm_, low);
+        high_nm_ = std::max(high_nm_, high);
+      }
+    });
+}
+
+EnergyTable OpticalTables::property(Node owner, const std::string& name) const {
   const Node node = property_node(owner, name);
   EnergyTable table;
-  if (!node) return table;
-  const std::string reference = definitions.name(file.required(node, "ref"), node);
-  const Matrix* matrix = definitions.matrix(reference);
-  if (!matrix) file.reject(node, "no matrix is called \"" + reference + "\"", "define it in <define>");
-  if (matrix->columns != 2)
-    file.reject(node, name + " requires a matrix of two columns, energy and value; \"" + reference +
-                          "\" has " + std::to_string(matrix->columns));
-  for (std::size_t i = 0; i < matrix->values.size(); i += 2) {
+  if (!node || !node.attribute("ref")) return table;
+  const std::string reference = definitions_.name(node.attribute("ref").value(), node);
+  const Matrix* matrix = definitions_.matrix(reference);
+  if (!matrix && definitions_.constant(reference)) return table;
+  if (!matrix) file_.reject(node, "no matrix is called \"" + reference + "\"", "define it in <define>");
+  if (matrix->columns < 2) return table;
+  std::vector<std::pair<double, double>> rows;
+  for (std::size_t i = 0; i < matrix->values.size(); i += matrix->columns) {
     const double energy = matrix->values[i] * kMeV_eV;
-    if (!(energy > 0.0) || (!table.empty() && energy <= table.energy_eV.back()))
-      file.reject(node, name + ": the energies of \"" + reference + "\" do not rise from above 0",
-                  "sort the matrix, and list every energy once");
-    table.energy_eV.push_back(energy);
-    table.value.push_back(matrix->values[i + 1]);
+    if (!(energy > 0.0))
+      file_.reject(node, name + ": \"" + reference + "\" has an energy that is not above 0",
+                   "give photon energies, as 3.1*eV; the first column holds them");
+    rows.emplace_back(energy, matrix->values[i + 1]);
+  }
+  // Geant4 inserts each row at its place, so any order will do; rows of one energy make a step.
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  constexpr double kStep = 1e-7;
+  for (const auto& [energy, value] : rows) {
+    const double least = table.empty() ? 0.0 : table.energy_eV.back() * (1.0 + kStep);
+    table.energy_eV.push_back(std::max(energy, least));
+    table.value.push_back(value);
   }
   return table;
+}
+
+std::optional<double> OpticalTables::constant(Node owner, std::initializer_list<std::string> names) const {
+  for (const std::string& name : names) {
+    const Node node = property_node(owner, name);
+    if (!node || !node.attribute("ref")) continue;
+    const std::string reference = definitions_.name(node.attribute("ref").value(), node);
+    if (const Matrix* matrix = definitions_.matrix(reference)) return matrix->values.front();
+    return definitions_.constant(reference);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> OpticalTables::passed_over(Node owner) const {
+  std::vector<std::string> names;
+  for (const Node child : owner.children("property"))
+    if (!child.attribute("ref")) names.push_back(child.attribute("name").value());
+  return names;
+}
+
+bool OpticalTables::in_order(Node owner, const std::string& first, const std::string& second) {
+  bool seen = false;
+  for (const Node child : owner.children("property")) {
+    const std::string name = child.attribute("name").value();
+    if (name == first) seen = true;
+    if (name == second && seen) return true;
+  }
+  return false;
 }
 
 std::string curve_toml(const EnergyTable& table, const std::string& unit, double low_nm, double high_nm) {
@@ -257,8 +426,8 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
          (unit.empty() ? "" : ", value_unit = \"" + unit + "\"") + " }";
 }
 
-std::vector<ImportedMedium> import_materials(const GdmlFile& file, const Definitions& definitions) {
-  return MaterialImporter(file, definitions).import();
+std::vector<ImportedMedium> import_materials(const OpticalTables& tables) {
+  return MaterialImporter(tables).import();
 }
 
 }  // namespace scintray::exchange::gdml

@@ -1,8 +1,8 @@
 #pragma once
 /// The optics of a GDML file: its materials as media, its optical surfaces as surface definitions.
 
-#include <array>
-#include <map>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +10,42 @@
 #include "scintray/exchange/gdml/detail/gdml_file.hpp"
 
 namespace scintray::exchange::gdml {
+
+/// A table of an optical property: photon energies (eV) upwards, and the property.
+struct EnergyTable {
+  std::vector<double> energy_eV, value;
+  bool empty() const { return value.empty(); }
+};
+
+/// The properties of materials and surfaces, read as Geant4 11.4 reads them (G4GDMLReadMaterials,
+/// G4GDMLReadSolids, G4MaterialPropertiesTable): a matrix of one column is a number, one of more columns a
+/// table whose energies may come in any order; a property without a `ref` is passed over.
+class OpticalTables {
+ public:
+  /// Finds the wavelengths that all tables of the file span together.
+  OpticalTables(const GdmlFile& file, const Definitions& definitions);
+
+  /// A table; empty when the owner has none of this name. Throws InputError for a `ref` without its matrix
+  /// and for energies that are not above 0.
+  EnergyTable property(Node owner, const std::string& name) const;
+  /// The number of the first of these names that the owner has.
+  std::optional<double> constant(Node owner, std::initializer_list<std::string> names) const;
+  /// Names of properties that the owner lists without a `ref`.
+  std::vector<std::string> passed_over(Node owner) const;
+  /// True when the owner lists the first property before the second, and has both.
+  static bool in_order(Node owner, const std::string& first, const std::string& second);
+
+  /// Wavelengths (nm) of all tables of the file together; 0 without a table.
+  double low_nm() const { return low_nm_; }
+  double high_nm() const { return high_nm_; }
+  const GdmlFile& file() const { return file_; }
+  const Definitions& definitions() const { return definitions_; }
+
+ private:
+  const GdmlFile& file_;
+  const Definitions& definitions_;
+  double low_nm_ = 0.0, high_nm_ = 0.0;
+};
 
 /// A material as a medium of a scene.
 struct ImportedMedium {
@@ -20,39 +56,34 @@ struct ImportedMedium {
   std::vector<std::string> notes;  ///< what was not carried over
 };
 
-/// Every <material>, in file order. Tables over energy become tables over wavelength, with added points where
-/// they are coarse, since linear interpolation over energy is not linear over wavelength; outside its table
-/// Geant4 uses the value at the end, so tables are extended at constant value over the range of all tables of
-/// the file. Absorption from ABSLENGTH, Rayleigh scattering from RAYLEIGH (none where they are left out),
-/// scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3 and their constants, or their names
-/// before Geant4 11. Emission: Geant4 samples the components per energy, S(E); here one spectrum per
-/// wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c). Throws InputError for
-/// tables that are not in order of energy or do not have two columns.
-std::vector<ImportedMedium> import_materials(const GdmlFile& file, const Definitions& definitions);
-
-/// A table of an optical property: photon energies (eV) upwards, and the property.
-struct EnergyTable {
-  std::vector<double> energy_eV, value;
-  bool empty() const { return value.empty(); }
-};
-
-/// The property of a material or surface; empty when it has none. Throws InputError as above.
-EnergyTable property(Node owner, const std::string& name, const GdmlFile& file,
-                     const Definitions& definitions);
+/// Every <material>, in file order; of several of one name the first, as in Geant4. Tables over energy become
+/// tables over wavelength, with added points where they are coarse, since linear interpolation over energy is
+/// not linear over wavelength; outside its table Geant4 uses the value at the end, so tables are extended at
+/// constant value over the range of all tables of the file. Absorption from ABSLENGTH, Rayleigh scattering
+/// from RAYLEIGH (none where they are left out), particles from MIEHG, group index from a GROUPVEL that
+/// follows RINDEX (else Geant4 computes it), scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3
+/// and their constants, or their names before Geant4 11, wavelength shifting from WLSABSLENGTH, WLSCOMPONENT,
+/// WLSTIMECONSTANT and WLSMEANNUMBERPHOTONS. Spectra: Geant4 samples components per energy, S(E); here one
+/// spectrum per wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c).
+std::vector<ImportedMedium> import_materials(const OpticalTables& tables);
 
 /// { wavelength = [...], ... } of a table, or its one number when it has one value only; extended at constant
 /// value to the two wavelengths when they lie beyond it (0: no extension).
 std::string curve_toml(const EnergyTable& table, const std::string& unit, double low_nm, double high_nm);
 
 struct ImportedSurface {
-  std::string toml;                ///< the keys of [surfaces.NAME]; empty when it cannot be carried over
+  std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be carried over
+  std::string gap_index;   ///< of a gap with dispersion, the medium gap_name(surface); else empty
+  std::string efficiency;  ///< EFFICIENCY above 0, as TOML: share of the absorbed light that is detected
   std::vector<std::string> notes;  ///< what was not carried over, and why
 };
 
+/// Name of the medium of a surface's gap.
+inline std::string gap_name(const std::string& surface) { return "gap of " + surface; }
+
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
-/// dielectric_dielectric and dielectric_metal, the six finishes polished to groundbackpainted, as presets
-/// geant4_... of the material database. Tables (LUT, Davis, dichroic) are not in the file and cannot be
-/// carried over.
-ImportedSurface import_surface(Node surface, const GdmlFile& file, const Definitions& definitions);
+/// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted. Tables
+/// (LUT, Davis, dichroic) are not in the file and cannot be carried over.
+ImportedSurface import_surface(Node surface, const OpticalTables& tables);
 
 }  // namespace scintray::exchange::gdml

@@ -42,7 +42,7 @@ class StructureReader {
   void remember(Node node) {
     const std::optional<Element> element = element_of(node);
     if (element == Element::volume || element == Element::assembly) {
-      volumes_[definitions_.name(file_.required(node, "name"), node)] = {node, definitions_.loop_variables()};
+      remember_volume(node);
     } else if (element == Element::skin) {
       structure_.surfaces.push_back(
           {file_.required(node, "surfaceproperty"), reference(child(node, "volumeref")), "", "", node});
@@ -55,6 +55,28 @@ class StructureReader {
     } else {
       structure_.notes.push_back(std::string("<") + node.name() + "> in <structure>");
     }
+  }
+
+  /// Of several volumes of one name the first is used, as G4LogicalVolumeStore returns it.
+  void remember_volume(Node node) {
+    const std::string name = definitions_.name(file_.required(node, "name"), node);
+    if (!volumes_.try_emplace(name, LoopedNode{node, definitions_.loop_variables()}).second)
+      structure_.notes.push_back("a second volume \"" + name + "\": the first is used, as in Geant4");
+    for (const Node inner : node.children()) {
+      const std::optional<Element> element = element_of(inner);
+      if (element != Element::border && element != Element::skin) continue;
+      remember(inner);
+      structure_.notes.push_back(std::string("<") + inner.name() + "> \"" + inner.attribute("name").value() +
+                                 "\" stands within <volume name=\"" + name +
+                                 "\">, where Geant4 passes over it: it is taken over");
+    }
+  }
+
+  /// Number of a physical volume: those of one element and the same steps of its loops are one.
+  std::size_t placement_of(Node physvol) {
+    return placements_
+        .try_emplace({physvol.internal_object(), definitions_.loop_variables()}, placements_.size())
+        .first->second;
   }
 
   Node child(Node node, const char* tag) const {
@@ -97,10 +119,15 @@ class StructureReader {
       file_.reject(physvol, "a placement that leaves no volume: its scale is 0 or not finite");
     const std::string name =
         physvol.attribute("name") ? definitions_.name(physvol.attribute("name").value(), physvol) : volume;
-    add(name, volume, reference_node, mother_to_world * own, mother);
+    add({name, placement_of(physvol)}, volume, reference_node, mother_to_world * own, mother);
   }
 
-  void add(const std::string& physvol, const std::string& volume, Node where, const Eigen::Affine3d& to_world,
+  struct Physvol {
+    std::string name;
+    std::size_t placement;
+  };
+
+  void add(const Physvol& physvol, const std::string& volume, Node where, const Eigen::Affine3d& to_world,
            std::optional<std::size_t> mother) {
     const auto& [element, variables] = find(volume, where);
     const LoopScope scope(definitions_, variables);
@@ -112,14 +139,15 @@ class StructureReader {
     } else {
       if (structure_.placed.size() >= kMostPlaced)
         file_.reject(where, "more than " + std::to_string(kMostPlaced) + " volumes are placed");
-      PlacedVolume placed{physvol,
+      PlacedVolume placed{physvol.name,
                           volume,
                           reference(child(element, "materialref")),
                           reference(child(element, "solidref")),
                           element,
                           to_world,
                           mother,
-                          ""};
+                          "",
+                          physvol.placement};
       for (const Node auxiliary : element.children("auxiliary"))
         if (std::string(auxiliary.attribute("auxtype").value()) == "SensDet")
           placed.sensitive = auxiliary.attribute("auxvalue").value();
@@ -146,7 +174,7 @@ class StructureReader {
     const auto copies = static_cast<int>(count);
     for (int copy = 0; copy < copies; ++copy) {
       const core::Vec3 shift = axis * (width * (copy - 0.5 * (copies - 1)));
-      add(volume + "_" + std::to_string(copy), volume, reference_node,
+      add({volume + "_" + std::to_string(copy), placement_of(replica)}, volume, reference_node,
           mother_to_world * Eigen::Translation3d(shift), mother);
     }
   }
@@ -155,6 +183,7 @@ class StructureReader {
   const Definitions& definitions_;
   Structure structure_;
   std::map<std::string, LoopedNode> volumes_;
+  std::map<std::pair<const void*, LoopVariables>, std::size_t> placements_;
   std::set<std::string> inside_;
 };
 

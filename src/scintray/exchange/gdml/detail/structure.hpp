@@ -24,6 +24,7 @@ struct PlacedVolume {
   Eigen::Affine3d to_world = Eigen::Affine3d::Identity();  ///< mm; may mirror
   std::optional<std::size_t> mother;                       ///< empty: the world
   std::string sensitive;                                   ///< auxiliary "SensDet"
+  std::size_t placement = 0;  ///< number of its physical volume: one <physvol> of one step of its loops
 };
 
 /// A <skinsurface> or <bordersurface>.

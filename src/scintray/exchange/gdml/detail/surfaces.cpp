@@ -1,11 +1,11 @@
-#include "scintray/exchange/gdml/detail/optical.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
+
+#include "scintray/exchange/gdml/detail/optical.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -14,8 +14,14 @@ namespace {
 // In the order of Geant4's enumerations G4OpticalSurfaceModel, G4SurfaceType and G4OpticalSurfaceFinish
 // (Book For Application Developers, section "Boundary Process").
 constexpr std::array kModels{"glisur", "unified", "LUT", "DAVIS", "dichroic"};
-constexpr std::array kTypes{"dielectric_metal", "dielectric_dielectric", "dielectric_LUT",
-                            "dielectric_LUTDAVIS", "dielectric_dichroic"};
+constexpr std::array kTypes{"dielectric_metal",
+                            "dielectric_dielectric",
+                            "dielectric_LUT",
+                            "dielectric_LUTDAVIS",
+                            "dielectric_dichroic",
+                            "firsov",
+                            "x_ray",
+                            "coated"};
 constexpr std::array kFinishes{"polished", "polishedfrontpainted", "polishedbackpainted",
                                "ground",   "groundfrontpainted",   "groundbackpainted"};
 
@@ -29,151 +35,231 @@ std::string word(Node node, const char* attribute, const std::array<const char*,
   return index < N ? words[index] : text;
 }
 
+/// Applies the rules of Geant4's boundary process, G4OpBoundaryProcess of release 11.4, to one surface.
 class SurfaceImporter {
  public:
-  SurfaceImporter(Node surface, const GdmlFile& file, const Definitions& definitions)
+  SurfaceImporter(Node surface, const OpticalTables& tables)
       : surface_(surface),
-        file_(file),
-        definitions_(definitions),
+        tables_(tables),
         model_(word(surface, "model", kModels)),
         type_(word(surface, "type", kTypes)),
         finish_(word(surface, "finish", kFinishes)) {}
 
   ImportedSurface import() {
     note_others();
+    const EnergyTable efficiency = table("EFFICIENCY");
+    if (most(efficiency) > 0.0) result_.efficiency = curve(efficiency);
     const bool known_model = glisur() || unified();
     const bool known_finish = std::find(kFinishes.begin(), kFinishes.end(), finish_) != kFinishes.end();
-    if (!known_model || !known_finish) {
-      result_.notes.push_back("model \"" + model_ + "\", finish \"" + finish_ +
-                              "\": its table is not in the file; import one with scintray table import");
-      return result_;
-    }
-    if (metallic())
+    if (type_ == kTypes[7]) {
+      coated();
+    } else if (!known_model || !known_finish) {
+      note("model \"" + model_ + "\", finish \"" + finish_ +
+           "\": its table is not in the file; import one with scintray table import");
+    } else if (metallic()) {
       metal();
-    else if (type_ == kTypes[1])
+    } else if (type_ == kTypes[1]) {
       dielectric();
-    else
-      result_.notes.push_back("type \"" + type_ + "\" has no counterpart here");
+    } else {
+      note("type \"" + type_ + "\" has no counterpart here");
+    }
     return result_;
   }
 
  private:
+  void note(std::string text) { result_.notes.push_back(std::move(text)); }
   bool glisur() const { return model_ == kModels[0]; }
   bool unified() const { return model_ == kModels[1]; }
   bool metallic() const { return type_ == kTypes[0]; }
-  bool polished() const { return finish_.starts_with("polished"); }
-  EnergyTable table(const char* name) const { return property(surface_, name, file_, definitions_); }
-  double constant(const char* name) const {
+  EnergyTable table(const char* name) const { return tables_.property(surface_, name); }
+  static double most(const EnergyTable& values) {
+    return values.empty() ? 0.0 : *std::max_element(values.value.begin(), values.value.end());
+  }
+  static double least(const EnergyTable& values) {
+    return values.empty() ? 1.0 : *std::min_element(values.value.begin(), values.value.end());
+  }
+  /// Lobe constants are tables over energy in Geant4 and numbers here.
+  double constant(const char* name) {
     const EnergyTable values = table(name);
-    return values.empty() ? 0.0 : values.value.front();
+    if (values.empty()) return 0.0;
+    if (most(values) - least(values) > 1e-6)
+      note(std::string("the change of its ") + name + " over energy: the value at the lowest energy is used");
+    return values.value.front();
+  }
+  std::string curve(const EnergyTable& values) const {
+    return curve_toml(values, "", tables_.low_nm(), tables_.high_nm());
   }
 
-  std::string reflectance() const {
+  /// REFLECTIVITY; 1 when left out, except that a metal which only has an EFFICIENCY is a sensor.
+  std::string reflectivity() {
     const EnergyTable values = table("REFLECTIVITY");
-    return "reflectance = " + (values.empty() ? "1.0" : curve_toml(values, "", 0.0, 0.0)) + "\n";
+    if (!values.empty()) return curve(values);
+    if (!metallic() || result_.efficiency.empty()) return "1.0";
+    note(
+        "it is a metal with EFFICIENCY and without REFLECTIVITY: taken as a sensor that reflects nothing, as "
+        "GPU codes that read such files do. Geant4 takes REFLECTIVITY as 1, reflects all light, and detects "
+        "none");
+    return "0.0";
   }
 
-  /// Transmitted light continues straight in Geant4, as it does here through a film.
-  bool lets_through_as_film() const {
-    return polished() && (metallic() || finish_.ends_with("frontpainted"));
+  /// REFLECTIVITY and TRANSMITTANCE as Geant4 applies them before anything else; empty when all light is
+  /// admitted.
+  std::string admission() {
+    const EnergyTable reflectivity_table = table("REFLECTIVITY"), transmittance = table("TRANSMITTANCE");
+    const std::string admitted = reflectivity();
+    if (admitted == "1.0" || least(reflectivity_table) >= 1.0) return "";
+    std::string keys = "admitted = " + admitted + "\n";
+    if (most(transmittance) > 0.0) keys += "undeflected = " + curve(transmittance) + "\n";
+    return keys;
   }
-  std::string transmittance() const {
-    const EnergyTable values = lets_through_as_film() ? table("TRANSMITTANCE") : EnergyTable{};
-    return values.empty() ? "" : "transmittance = " + curve_toml(values, "", 0.0, 0.0) + "\n";
+
+  /// A face of paint or metal that reflects what it admits.
+  void paint(bool specular) {
+    const std::string base =
+        std::string("base = \"geant4_") + (specular ? "polished" : "ground") + "frontpainted\"\n";
+    result_.toml = most(table("TRANSMITTANCE")) > 0.0 ? base + "reflectance = 1.0\n" + admission()
+                                                      : base + "reflectance = " + reflectivity() + "\n";
   }
 
   /// Geant4 calls the number "value": sigma alpha of the unified model, polish of glisur.
-  double roughness() const { return definitions_.number(surface_, "value", glisur() ? 1.0 : 0.0); }
+  double roughness() const {
+    return std::clamp(tables_.definitions().number(surface_, "value", glisur() ? 1.0 : 0.0), 0.0, 1.5);
+  }
+  bool smeared() const { return glisur() && roughness() < 1.0; }
 
-  std::string facets() const {
+  /// Keys of facets and lobes, in a table of the model's own.
+  std::string facets(const std::string& table_name) {
+    if (smeared())
+      return fmt::format("{} = {{ polish = {:.9g}, facets = \"geant4\" }}\n", table_name, roughness());
     return fmt::format(
-        "unified = {{ sigma_alpha = \"{:.9g} rad\", lobe = {:.9g}, spike = {:.9g}, backscatter = "
-        "{:.9g} }}\n",
-        unified() ? roughness() : 0.0, constant("SPECULARLOBECONSTANT"), constant("SPECULARSPIKECONSTANT"),
-        constant("BACKSCATTERCONSTANT"));
+        "{} = {{ sigma_alpha = \"{:.9g} rad\", definition = \"solid_angle\", facets = \"geant4\", lobe = "
+        "{:.9g}, spike = {:.9g}, backscatter = {:.9g} }}\n",
+        table_name, unified() ? roughness() : 0.0, unified() ? constant("SPECULARLOBECONSTANT") : 1.0,
+        unified() ? constant("SPECULARSPIKECONSTANT") : 0.0,
+        unified() ? constant("BACKSCATTERCONSTANT") : 0.0);
   }
 
   bool lobes_given() const {
     for (const char* name : {"SPECULARLOBECONSTANT", "SPECULARSPIKECONSTANT", "BACKSCATTERCONSTANT"})
-      if (!table(name).empty()) return true;
+      if (most(table(name)) > 0.0) return true;
     return false;
   }
 
   void metal() {
-    if (!polished() && glisur() && roughness() < 1.0) return no_polish();
-    if (!table("REALRINDEX").empty() && table("REFLECTIVITY").empty()) {
-      result_.notes.push_back("its reflectance follows from a complex index, which has no counterpart here");
-      return;
+    const EnergyTable real = table("REALRINDEX"), imaginary = table("IMAGINARYRINDEX");
+    const bool rough =
+        finish_ == kFinishes[3] ? (unified() || smeared()) : unified() && finish_ != kFinishes[0];
+    if (!real.empty() && !imaginary.empty() && table("REFLECTIVITY").empty()) {
+      if (rough)
+        note(
+            "the roughness of a metal with a complex index, whose facets Geant4 does not follow either: "
+            "smooth");
+      result_.toml = "model = \"metal\"\nmetal = { n = " + curve(real) + ", k = " + curve(imaginary) + " }\n";
+    } else if (!rough) {
+      paint(true);
+    } else if (unified() && !lobes_given()) {
+      paint(false);
+    } else {
+      result_.toml = "model = \"metal\"\n" + facets("metal") + admission();
     }
-    if (!polished() && unified() && lobes_given()) {
-      result_.notes.push_back("a rough metal with lobes has no counterpart here");
-      return;
-    }
-    const bool mirror = polished() || glisur();
-    result_.toml = std::string("base = \"geant4_") + (mirror ? "polished" : "ground") + "frontpainted\"\n" +
-                   reflectance() + transmittance();
   }
 
   void dielectric() {
-    if (finish_.ends_with("frontpainted")) {
-      result_.toml = "base = \"geant4_" + finish_ + "\"\n" + reflectance() + transmittance();
-      return;
-    }
-    if (finish_.ends_with("backpainted")) {
-      const EnergyTable gap = table("RINDEX");
-      if (gap.empty()) {
-        result_.notes.push_back("finish \"" + finish_ + "\" without the RINDEX of its gap");
-        return;
-      }
-      if (gap.value.size() > 1 && gap.value.front() != gap.value.back())
-        result_.notes.push_back("the dispersion of its gap: the index at the lowest energy is used");
-      result_.toml = "base = \"geant4_" + finish_ + "\"\n" + facets() +
-                     fmt::format("gap = {:.9g}\n", gap.value.front()) + reflectance();
-      return;
-    }
-    const EnergyTable reflectivity = table("REFLECTIVITY");
-    if (std::any_of(reflectivity.value.begin(), reflectivity.value.end(), [](double r) { return r < 1.0; }))
-      result_.notes.push_back(
-          "its REFLECTIVITY below 1, by which Geant4 absorbs light before it is reflected or refracted");
-    if (polished() || (glisur() && roughness() >= 1.0)) {
-      result_.toml = "base = \"geant4_polished\"\n";
-    } else if (glisur()) {
-      no_polish();
+    if (finish_.ends_with("frontpainted")) return paint(finish_.starts_with("polished"));
+    if (finish_.ends_with("backpainted")) return back_painted();
+    const std::string rest = "between_media_only = true\n" + admission();
+    const double rms_mm = tables_.constant(surface_, {"SURFACEROUGHNESS"}).value_or(0.0);
+    const bool smooth = finish_ == kFinishes[0] || (glisur() && !smeared());
+    if (rms_mm > 0.0 && !smooth) note("its SURFACEROUGHNESS: only a face without facets has one here");
+    if (smooth && rms_mm > 0.0) {
+      result_.toml =
+          fmt::format("model = \"slightly_rough\"\nslightly_rough = {{ rms_height = \"{:.9g} mm\" }}\n",
+                      rms_mm) +
+          rest;
+    } else if (smooth) {
+      result_.toml = "base = \"geant4_polished\"\n" + rest;
+    } else if (smeared()) {
+      result_.toml = "model = \"glisur\"\n" + facets("glisur") + rest;
     } else {
-      result_.toml = "base = \"geant4_ground\"\n" + facets();
+      result_.toml = "base = \"geant4_ground\"\n" + facets("unified") + rest;
     }
   }
 
-  void no_polish() {
-    result_.notes.push_back(fmt::format("a glisur polish of {:.4g} has no counterpart here", roughness()));
+  void back_painted() {
+    const EnergyTable gap = table("RINDEX");
+    if (gap.empty()) {
+      note("finish \"" + finish_ + "\" without the RINDEX of its gap: Geant4 absorbs all light");
+      result_.toml = "base = \"geant4_polishedfrontpainted\"\nreflectance = 0.0\n";
+      return;
+    }
+    const bool dispersive = most(gap) - least(gap) > 1e-9;
+    if (dispersive) result_.gap_index = curve(gap);
+    if (most(table("TRANSMITTANCE")) > 0.0)
+      note(
+          "its TRANSMITTANCE, by which light passes the paint with its direction in the gap: it is absorbed "
+          "here");
+    const std::string table_name = smeared() ? "glisur" : "unified";
+    result_.toml = (smeared() ? "model = \"glisur\"\nspecular_share = " +
+                                    std::string(finish_.starts_with("polished") ? "1.0" : "0.0") + "\n"
+                              : "base = \"geant4_" + finish_ + "\"\n") +
+                   facets(table_name) +
+                   (dispersive ? "gap = \"" + gap_name(surface_.attribute("name").value()) + "\"\n"
+                               : fmt::format("gap = {:.9g}\n", gap.value.front())) +
+                   "reflectance = " + reflectivity() + "\n";
+  }
+
+  /// One film that interferes, between the two media.
+  void coated() {
+    const EnergyTable index = table("COATEDRINDEX");
+    const std::optional<double> thickness_mm = tables_.constant(surface_, {"COATEDTHICKNESS"});
+    if (index.empty() || !thickness_mm || !(*thickness_mm > 0.0)) {
+      note("type \"coated\" without COATEDRINDEX or a COATEDTHICKNESS above 0: smooth");
+      result_.toml = "base = \"geant4_polished\"\n";
+      return;
+    }
+    if (tables_.constant(surface_, {"COATEDFRUSTRATEDTRANSMISSION"}).value_or(0.0) == 0.0)
+      note(
+          "COATEDFRUSTRATEDTRANSMISSION is off: beyond the film's critical angle Geant4 reflects all light; "
+          "here "
+          "the evanescent wave transmits what it does");
+    if (!result_.efficiency.empty())
+      note("the EFFICIENCY of a coated face, by which Geant4 absorbs all light that it transmits");
+    result_.efficiency.clear();
+    result_.toml = "model = \"thin_film\"\nthin_film = { layers = [{ index = " + curve(index) +
+                   fmt::format(", thickness = \"{:.9g} mm\" }}] }}\n", *thickness_mm);
   }
 
   void note_others() {
-    static const std::set<std::string> read{
-        "REFLECTIVITY",        "RINDEX",     "SPECULARLOBECONSTANT", "SPECULARSPIKECONSTANT",
-        "BACKSCATTERCONSTANT", "REALRINDEX", "IMAGINARYRINDEX"};
+    static const std::set<std::string> read{"REFLECTIVITY",
+                                            "RINDEX",
+                                            "SPECULARLOBECONSTANT",
+                                            "SPECULARSPIKECONSTANT",
+                                            "BACKSCATTERCONSTANT",
+                                            "REALRINDEX",
+                                            "IMAGINARYRINDEX",
+                                            "EFFICIENCY",
+                                            "TRANSMITTANCE",
+                                            "COATEDRINDEX",
+                                            "COATEDTHICKNESS",
+                                            "COATEDFRUSTRATEDTRANSMISSION",
+                                            "GROUPVEL",
+                                            "SURFACEROUGHNESS"};
     for (const Node child : surface_.children("property")) {
       const std::string name = child.attribute("name").value();
-      if (name == "EFFICIENCY")
-        result_.notes.push_back("its EFFICIENCY: give the part, or one of its faces, a sensor instead");
-      else if (name == "TRANSMITTANCE" && lets_through_as_film())
-        continue;
-      else if (!read.contains(name))
-        result_.notes.push_back("its property " + name);
+      if (!read.contains(name)) note("its property " + name);
     }
   }
 
   Node surface_;
-  const GdmlFile& file_;
-  const Definitions& definitions_;
+  const OpticalTables& tables_;
   std::string model_, type_, finish_;
   ImportedSurface result_;
 };
 
 }  // namespace
 
-ImportedSurface import_surface(Node surface, const GdmlFile& file, const Definitions& definitions) {
-  return SurfaceImporter(surface, file, definitions).import();
+ImportedSurface import_surface(Node surface, const OpticalTables& tables) {
+  return SurfaceImporter(surface, tables).import();
 }
 
 }  // namespace scintray::exchange::gdml

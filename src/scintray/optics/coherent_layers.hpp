@@ -1,0 +1,88 @@
+#pragma once
+/// Thin films and metals: reflection and transmission with interference, and with complex indices.
+///
+/// Amplitudes: M. Born and E. Wolf, Principles of Optics, 7th ed., section 1.5.2 for one interface; G. B.
+/// Airy's sum over the reflections within a film, section 7.6.1, from the last film to the first (L. G.
+/// Parratt 1954, Phys. Rev. 95, 359). Absorbing media by a complex index n + i k, with fields that vary as
+/// exp(-i omega t), section 14.2. (Cited from memory, not opened.)
+
+#include <complex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/optics/unified.hpp"
+
+namespace scintray::optics {
+
+/// A film: its complex refractive index and its thickness.
+struct Film {
+  std::complex<double> index;
+  double thickness_nm = 0.0;
+};
+
+/// Response of a stack of films to light of the two polarisations, s (electric field across the plane of
+/// incidence) and p (in it).
+struct FilmResponse {
+  std::complex<double> r_s, r_p;  ///< amplitudes reflected, in the sign convention of FresnelAmplitudes
+  std::complex<double> t_s, t_p;  ///< amplitudes transmitted: of the electric field for s, magnetic for p
+  double reflectance_s = 1.0, reflectance_p = 1.0;      ///< shares of the power
+  double transmittance_s = 0.0, transmittance_p = 0.0;  ///< ...; what is left of 1 is absorbed in the films
+
+  double reflectance() const { return 0.5 * (reflectance_s + reflectance_p); }
+  double transmittance() const { return 0.5 * (transmittance_s + transmittance_p); }
+};
+
+/// Response of films between two media to light incident at an angle of cosine `cos_i` in [0, 1].
+///
+/// Light beyond the critical angle of a film crosses it as an evanescent wave, and is transmitted when the
+/// medium behind admits it (frustrated total reflection). With an absorbing medium behind, the transmitted
+/// power is absorbed there.
+/// @param n1     index of the medium of incidence, real
+/// @param films  in the order in which light crosses them; may be empty
+/// @param n2     complex index of the medium behind
+FilmResponse film_response(double cos_i, double n1, std::span<const Film> films, std::complex<double> n2,
+                           double wavelength_nm);
+
+/// A film of a surface: n and k against wavelength (nm).
+struct CoatingLayer {
+  core::Curve index, extinction = core::Curve::constant(0.0);
+  double thickness_nm = 0.0;
+};
+
+/// A smooth face with thin films, from the inside to the outside, which interfere. A polarised photon keeps
+/// one linear polarisation: of the phase between s and p only the linear part is kept, drawn so that the mean
+/// over photons of the first three Stokes parameters is exact; what a retarding film makes circular is not
+/// carried.
+class ThinFilmSurface : public MicrosurfaceModel {
+ public:
+  explicit ThinFilmSurface(std::vector<CoatingLayer> layers) : layers_(std::move(layers)) {}
+  const std::vector<CoatingLayer>& layers() const { return layers_; }
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
+                         SurfaceInteraction& interaction) const override;
+
+ private:
+  std::vector<CoatingLayer> layers_;  ///< from the inside to the outside
+};
+
+/// Complex index of a metal against wavelength (nm).
+struct MetalIndex {
+  core::Curve n, k;
+};
+
+/// A face of metal, which transmits nothing: the reflectance follows from the complex index of the metal and
+/// the index of the medium of incidence, or is 1 without an index. `facets` gives its roughness: the widths
+/// and lobes of UNIFIED or GLISUR; the lobe is chosen once, and light that a facet reflects into the surface
+/// interacts with another facet (the loop of Geant4's boundary process).
+class MetalSurface : public MicrosurfaceModel {
+ public:
+  std::optional<MetalIndex> metal;
+  UnifiedSurface facets;
+
+  bool opaque() const override { return true; }
+  SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
+                         SurfaceInteraction& interaction) const override;
+};
+
+}  // namespace scintray::optics

@@ -1,0 +1,221 @@
+#include "database_helpers.hpp"
+#include "scintray/core/sampling.hpp"
+#include "scintray/core/statistics.hpp"
+#include "scintray/materials/surface_factory.hpp"
+#include "scintray/materials/table_key.hpp"
+#include "scintray/optics/coherent_layers.hpp"
+#include "support/agreement.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::optics;
+using namespace scintray::materials;
+
+namespace {
+
+SurfaceSpec own_surface(const std::string& text) {
+  return database_with(DefinitionKind::surface, "mine", text).surface("mine");
+}
+
+std::vector<Problem> own_surface_problems(const std::string& text) {
+  const MaterialDatabase database = database_with(DefinitionKind::surface, "mine", text);
+  return problems_of([&] { database.surface("mine"); });
+}
+
+const std::string kFilm =
+    "model = \"thin_film\"\nthin_film = { layers = [{ index = 1.38, thickness = \"99.6 nm\" }, ";
+
+}  // namespace
+
+TEST_CASE("a thin film is a list of layers from the inside, with extinction where they absorb") {
+  const auto film = microsurface_of<ThinFilmSurface>(
+      own_surface(kFilm + "{ index = 2.1, extinction = 0.2, thickness = \"0.08 um\" }] }\n"));
+  REQUIRE(film.layers().size() == 2);
+  CHECK(film.layers()[0].index(500.0) == 1.38);
+  CHECK(film.layers()[0].thickness_nm == doctest::Approx(99.6));
+  CHECK(film.layers()[1].extinction(500.0) == 0.2);
+  CHECK(film.layers()[1].thickness_nm == doctest::Approx(80.0));
+  const auto wrong = [](const std::string& layer) { return own_surface_problems(kFilm + layer + "] }\n"); };
+  CHECK(reports(wrong("{ index = 2.1, thickness = \"2 mm\" }"), 2, "up to 0.1 mm"));
+  CHECK(reports(wrong("{ index = 0, thickness = \"2 nm\" }"), 2, "above 0"));
+  CHECK(reports(wrong("{ index = 2, extinction = -1, thickness = \"2 nm\" }"), 2, "imaginary part"));
+  CHECK(reports(own_surface_problems("model = \"thin_film\"\nthin_film = { layers = [] }\n"), 0,
+                "1 to 200 layers"));
+}
+
+TEST_CASE("a metal has a complex index, or facets, or neither") {
+  const auto metal = microsurface_of<MetalSurface>(
+      own_surface("model = \"metal\"\nmetal = { n = 0.96, k = 6.69, polish = 0.7, facets = \"geant4\" }\n"));
+  REQUIRE(metal.metal);
+  CHECK(metal.metal->k(500.0) == 6.69);
+  CHECK(metal.facets.smear == doctest::Approx(0.3));
+  CHECK_FALSE(microsurface_of<MetalSurface>(own_surface("model = \"metal\"\nmetal = {}\n")).metal);
+  CHECK(reports(own_surface_problems("model = \"metal\"\nmetal = { n = 0.96 }\n"), 0, "\"k\""));
+  CHECK(
+      reports(own_surface_problems("model = \"metal\"\nmetal = { n = 0.96, k = -6.7 }\n"), 2, "k positive"));
+  CHECK(reports(own_surface_problems("model = \"metal\"\nmetal = { lobe = 1 }\n"), 2, "\"lobe\""));
+}
+
+TEST_CASE("GLISUR's polish is a share, and its facets are weighted as the file states") {
+  const auto smeared = microsurface_of<UnifiedSurface>(
+      own_surface("model = \"glisur\"\nglisur = { polish = \"80 %\", facets = \"geant4\" }\n"));
+  CHECK(smeared.smear == doctest::Approx(0.2));
+  CHECK(smeared.lobe == 1.0);
+  CHECK(reports(own_surface_problems("model = \"glisur\"\nglisur = { polish = 1.2, facets = \"geant4\" }\n"),
+                2, "between 0 and 1"));
+  CHECK(reports(own_surface_problems("model = \"glisur\"\nglisur = { polish = 0.2 }\n"), 0, "\"facets\""));
+}
+
+TEST_CASE("a slightly rough face scatters the share of Bennett and Porteus of what it reflects from within") {
+  const SurfaceSpec spec =
+      own_surface("model = \"slightly_rough\"\nslightly_rough = { rms_height = \"10 nm\" }\n");
+  const auto* fixed = spec.microsurface.get_if<FixedMicrosurface>();
+  REQUIRE(fixed);
+  const Vec3 normal = Vec3::UnitZ(), sideways = Vec3(0.8, 0.0, 0.6);
+  for (const Side side : {Side::inside, Side::outside}) {
+    std::uint64_t reflected = 0, scattered = 0;
+    for (std::uint64_t i = 0; i < 200'000; ++i) {
+      Rng rng(3, StreamKind::other, i);
+      Ray ray{side == Side::inside ? sideways : Vec3(-sideways), Vec3::Zero()};
+      const Vec3 mirrored = mirror(ray.direction, normal);
+      SurfaceInteraction at{normal, Vec3::Zero(), 420.0, rng};
+      if (fixed->microsurface()->scatter(ray, side, {1.8, 1.0}, at) != outcome_on(side)) continue;
+      ++reflected;
+      scattered += (ray.direction - mirrored).norm() > 1e-9;
+    }
+    const double phase = 4.0 * kPi * 10.0 * 1.8 * 0.6 / 420.0;
+    const double law = side == Side::inside ? 1.0 - std::exp(-phase * phase) : 0.0;
+    CHECK(sigmas(binomial_estimate(scattered, reflected), {law, 0.0}) < test::kSigmas);
+  }
+  CHECK(reports(own_surface_problems("model = \"slightly_rough\"\nslightly_rough = {}\n"), 0,
+                "\"rms_height\""));
+}
+
+TEST_CASE("a surface by angle reflects and transmits what its table has between two angles and wavelengths") {
+  const std::string band = R"(model = "angular"
+[angular]
+transmitted = "TRANSMITTED"
+at = [
+  { angle = "0 deg", transmittance = { wavelength = [400, 500], wavelength_unit = "nm", value = [0.9, 0.5] } },
+  { angle = "60 deg", reflectance = 0.6, transmittance = 0.1 },
+]
+)";
+  for (const bool refracted : {false, true}) {
+    std::string text = band;
+    text.replace(text.find("TRANSMITTED"), 11, refracted ? "refracted" : "undeflected");
+    const SurfaceSpec spec = own_surface(text);
+    const auto* fixed = spec.microsurface.get_if<FixedMicrosurface>();
+    REQUIRE(fixed);
+    CHECK_FALSE(fixed->microsurface()->opaque());
+    for (const double degrees : {0.0, 15.0, 30.0, 60.0, 80.0}) {
+      std::uint64_t reflected = 0, transmitted = 0, wrong = 0;
+      const double angle = degrees * kDegree;
+      for (std::uint64_t i = 0; i < 100'000; ++i) {
+        Rng rng(4, StreamKind::other, i);
+        Ray ray{Vec3(std::sin(angle), 0.0, std::cos(angle)), Vec3::Zero()};
+        SurfaceInteraction at{Vec3::UnitZ(), Vec3::Zero(), 450.0, rng};
+        const SurfaceOutcome outcome = fixed->microsurface()->scatter(ray, Side::inside, {1.0, 1.5}, at);
+        reflected += outcome == SurfaceOutcome::inside;
+        transmitted += outcome == SurfaceOutcome::outside;
+        if (outcome == SurfaceOutcome::outside)
+          wrong += std::abs(ray.direction.x() * (refracted ? 1.5 : 1.0) - std::sin(angle)) > 1e-9;
+      }
+      const double t = std::min(1.0, degrees / 60.0);
+      CAPTURE(degrees);
+      CHECK(wrong == 0);
+      CHECK(sigmas(binomial_estimate(reflected, 100'000), {(1.0 - t) * 0.3 + t * 0.6, 0.0}) < test::kSigmas);
+      CHECK(sigmas(binomial_estimate(transmitted, 100'000), {(1.0 - t) * 0.7 + t * 0.1, 0.0}) <
+            test::kSigmas);
+    }
+  }
+  const std::string head = "model = \"angular\"\n[angular]\ntransmitted = \"refracted\"\nat = [";
+  CHECK(reports(own_surface_problems(head + "]\n"), 0, "without an angle"));
+  CHECK(reports(own_surface_problems(head + "{ angle = \"0 deg\" }]\n"), 4, "without reflectance"));
+  CHECK(
+      reports(own_surface_problems(head + "{ angle = \"0 deg\", reflectance = 0.7, transmittance = 0.4 }]\n"),
+              4, "1.1"));
+  CHECK(reports(own_surface_problems(head + "{ angle = \"95 deg\", reflectance = 0.7 }]\n"), 4, "90 deg"));
+  CHECK(
+      reports(own_surface_problems(
+                  head + "{ angle = \"9 deg\", reflectance = 1 }, { angle = \"9 deg\", reflectance = 1 }]\n"),
+              4, "rise"));
+}
+
+TEST_CASE("admitted and undeflected light are shares, at most 1 together, and part of the key of tables") {
+  const std::string smooth = "model = \"smooth\"\n";
+  const SurfaceSpec surface = own_surface(smooth + "admitted = 0.8\nundeflected = 0.1\n");
+  REQUIRE(surface.admission);
+  CHECK(surface.admission->undeflected(500.0) == 0.1);
+  CHECK(*stack_key(surface) != *stack_key(own_surface(smooth)));
+  CHECK(*stack_key(surface) != *stack_key(own_surface(smooth + "admitted = 0.8\n")));
+  CHECK(*stack_key(own_surface(smooth)) != *stack_key(own_surface(smooth + "between_media_only = true\n")));
+  CHECK(reports(own_surface_problems(smooth + "admitted = 0.8\nundeflected = 0.3\n"), 3, "1.1"));
+  CHECK(reports(own_surface_problems(smooth + "undeflected = 0.3\n"), 0, "without \"admitted\""));
+  CHECK(reports(own_surface_problems(smooth + "admitted = 80\n"), 2, "between 0 and 1"));
+}
+
+TEST_CASE("a surface between media only is smooth between two parts of one medium") {
+  const SurfaceSpec spec = own_surface("model = \"smooth\"\nbetween_media_only = true\nadmitted = 0.5\n");
+  SurfaceFactory factory{SurfaceFactory::Hooks{}};
+  Medium one, two;
+  one.name = "one";
+  two.name = "two";
+  one.index = two.index = Curve::constant(1.5);
+  CHECK(factory.make(spec, one, one, 420.0, 400.0, 500.0).surface.plain());
+  CHECK(factory.make(spec, one, two, 420.0, 400.0, 500.0).surface.admission.has_value());
+}
+
+TEST_CASE("curves of a film, a metal or a surface by angle must cover the wavelengths in use") {
+  const std::string table = "{ wavelength = [400, 500], wavelength_unit = \"nm\", value = [1, 1] }";
+  Medium glass;
+  glass.name = "glass";
+  glass.index = Curve::constant(1.5);
+  SurfaceFactory factory{SurfaceFactory::Hooks{}};
+  for (const std::string& text :
+       {"model = \"thin_film\"\nthin_film = { layers = [{ thickness = \"9 nm\", index = " + table + " }] }\n",
+        "model = \"metal\"\nmetal = { k = 6, n = " + table + " }\n",
+        "model = \"angular\"\nangular = { transmitted = \"refracted\", at = [{ angle = \"0 deg\", "
+        "reflectance = " +
+            table + " }] }\n"}) {
+    const SurfaceSpec spec = own_surface(text);
+    CHECK_NOTHROW(factory.make(spec, glass, glass, 450.0, 400.0, 500.0));
+    CHECK(reports(problems_of([&] { factory.make(spec, glass, glass, 450.0, 400.0, 510.0); }), 2,
+                  "from 400 to 500 nm"));
+  }
+}
+
+TEST_CASE("particles, group indices and what a sensor converts are read, and checked") {
+  const std::string medium =
+      "index = { n = 1.5, group = 1.7 }\nabsorption = { none = true }\nscattering = { none = true }\n";
+  const auto read = [&](const std::string& more) {
+    return database_with(DefinitionKind::medium, "mine", medium + more).medium("mine");
+  };
+  const Medium cloudy =
+      read("particles = { length = \"2 mm\", forward = 0.9, backward = 0.3, forward_share = 0.8 }\n");
+  REQUIRE(cloudy.particles);
+  CHECK(cloudy.at(400.0).group_index == 1.7);
+  CHECK(cloudy.at(400.0).scattering_per_mm == doctest::Approx(0.5));
+  const auto wrong = [&](const std::string& keys) {
+    const MaterialDatabase database = database_with(DefinitionKind::medium, "mine", medium + keys);
+    return problems_of([&] { database.medium("mine"); });
+  };
+  CHECK(reports(wrong("particles = { length = \"2 mm\", forward = 1 }\n"), 4, "between -1 and 1"));
+  CHECK(reports(wrong("particles = { length = \"2 mm\", forward = 0, forward_share = 2 }\n"), 4,
+                "between 0 and 1"));
+  CHECK(reports(wrong("particles = { none = true, forward = 0 }\n"), 4, "leave [particles] out"));
+  const MaterialDatabase slow = database_with(
+      DefinitionKind::medium, "mine",
+      "index = { n = 1.5, group = 0.7 }\nabsorption = { none = true }\nscattering = { none = true }\n");
+  CHECK(reports(problems_of([&] { slow.medium("mine"); }), 1, "between 1 and 10"));
+  const auto sensor = [](const std::string& converts) {
+    return database_with(
+               DefinitionKind::sensor, "mine",
+               converts +
+                   "efficiency = { definition = \"internal\", value = 0.3 }\nwindow = { index = 1.5 }\n")
+        .sensor("mine");
+  };
+  CHECK(sensor("").converts == detector::ConvertedLight::entering);
+  CHECK(sensor("converts = \"both\"\n").converts_absorbed());
+  CHECK_FALSE(sensor("converts = \"absorbed\"\n").converts_entering());
+  CHECK(reports(problems_of([&] { sensor("converts = \"all\"\n"); }), 1, "\"absorbed\""));
+}
