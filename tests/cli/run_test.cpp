@@ -236,3 +236,53 @@ TEST_CASE("check prints the size of parts and of the scene, and the normals of f
   check_contains(run_program({"check", "scene.toml", "--all"}, folder).output,
                  {"crystal:exit", "(0, 0, -1), (0, 0, 0)"});
 }
+
+TEST_CASE("outputs never replace what is of another kind, nor one another") {
+  const auto folder = folder_with("replaced", scene_text(1000, false));
+  for (const char* name : {"a", "b"}) {
+    std::filesystem::create_directory(folder / name);
+    std::filesystem::copy(folder / "scene.toml", folder / name / "scene.toml");
+  }
+  const Ended both = run_program({"run", "a/scene.toml", "b/scene.toml"}, folder);
+  CHECK(both.exit_code == cli::kBadUsage);
+  check_contains(both.output, {"a/scene.toml", "b/scene.toml", "scene.h5"});
+  CHECK_FALSE(std::filesystem::exists(folder / "scene.h5"));
+  REQUIRE(run_program({"run", "scene.toml", "-q"}, folder).exit_code == cli::kSuccess);
+  const auto size = std::filesystem::file_size(folder / "scene.h5");
+  const Ended page = run_program({"report", "scene.h5", "-o", "scene.toml"}, folder);
+  CHECK(page.exit_code == cli::kBadInput);
+  check_contains(page.output, {"scene.toml", "a TOML file", "not written over"});
+  const Ended device = run_program({"report", "scene.h5", "-o", "/dev/null"}, folder);
+  CHECK(device.exit_code == cli::kBadInput);
+  CHECK_FALSE(std::filesystem::is_regular_file("/dev/null"));
+  const Ended table = run_program({"table", "stack", "polished", "--inside", "LSO", "--outside", "air",
+                                   "--wavelength", "420 nm", "--rays", "1000", "-o", "scene.h5"},
+                                  folder);
+  CHECK(table.exit_code != 0);
+  CHECK(std::filesystem::file_size(folder / "scene.h5") == size);
+}
+
+TEST_CASE("a result with a flipped bit is refused by every command that reads results") {
+  const auto folder = folder_with("flipped", scene_text(1000, true));
+  REQUIRE(run_program({"run", "scene.toml", "-q"}, folder).exit_code == cli::kSuccess);
+  {
+    std::fstream file(folder / "scene.h5", std::ios::binary | std::ios::in | std::ios::out);
+    file.seekg(1200);
+    const int byte = file.get();
+    file.seekp(1200);
+    file.put(static_cast<char>(byte ^ 4));
+  }
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"report", "scene.h5"},
+        {"report", "--text", "scene.h5"},
+        {"analyze", "scene.h5"},
+        {"reweight", "scene.h5", "--reflectance", "white=0.9"},
+        {"replay", "scene.h5", "--event", "0", "--photon", "0"},
+        {"response", "run", "scene.toml", "scene.h5", "-o", "out.h5"},
+        {"table", "show", "scene.h5"}}) {
+    const Ended ended = run_program(command, folder);
+    CAPTURE(command[0]);
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kBadInput);
+  }
+}

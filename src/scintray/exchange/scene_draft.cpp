@@ -13,6 +13,7 @@
 #include "scintray/mesh/group_summary.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::exchange {
 
@@ -41,7 +42,7 @@ void write_scene_draft(const SceneDraft& draft, const std::filesystem::path& sce
 
 std::string toml_string(const std::string& text) {
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : mesh::plain_name(text)) {
     if (c == '"' || c == '\\') quoted += '\\';
     if (static_cast<unsigned char>(c) < 0x20)
       quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
@@ -52,10 +53,10 @@ std::string toml_string(const std::string& text) {
 }
 
 std::string part_name(const std::string& name) {
-  std::string plain = name;
+  std::string plain = mesh::plain_name(name);
   std::replace_if(
       plain.begin(), plain.end(),
-      [](char c) { return std::string_view(".:\"'\\ \t\n\r").find(c) != std::string_view::npos; }, '_');
+      [](char c) { return std::string_view(".:*\"'\\ ").find(c) != std::string_view::npos; }, '_');
   return plain.empty() ? "part" : plain;
 }
 

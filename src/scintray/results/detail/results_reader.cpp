@@ -134,8 +134,7 @@ class PointReader {
 
   /// Every photon has one fate, and what is counted by fate is counted by place, too.
   void check_counts(const tally::PointResult& point) const {
-    require(point.lost <= point.photons, "more photons are lost than traced");
-    require_sum(point.fates, point.photons - point.lost, "the fates are not those of the photons traced");
+    require_sum(point.fates, point.photons, "the fates are not those of the photons traced");
     require_sum(point.absorbed_in_medium, point.count(core::Fate::absorbed_in_medium),
                 "absorbed_in_medium does not sum to its fate");
     require_sum(point.absorbed_at_surface, point.count(core::Fate::absorbed_at_surface),
