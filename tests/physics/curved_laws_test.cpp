@@ -159,7 +159,7 @@ cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
 place = {{ touch = "rod", side = "-z" }}
 sensor = "perfect"
 )",
-                          sides) +
+                          sides, sides) +
               source_in("rod", 400'000) +
               "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
               "scattering = { none = true }\n");
