@@ -155,11 +155,11 @@ medium = "lso_300"
 surface = "flat"
 [[part]]
 name = "sensor"
-box = ["4 mm", "4 mm", "1 mm"]
+cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
 place = {{ touch = "rod", side = "-z" }}
 sensor = "perfect"
 )",
-                          sides) +
+                          sides, sides) +
               source_in("rod", 400'000) +
               "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
               "scattering = { none = true }\n");
@@ -220,7 +220,7 @@ TEST_CASE("Law: mean chord 4V/S of exact bodies, and white walls that keep every
     // White walls send isotropic light back, so that in the end photons are at the walls evenly, as Lambert's
     // law has it; chords between reflections are then 4V/S long in the mean, with scattering or without.
     Moments chord;
-    for (std::uint64_t i = 0; i < 4'000; ++i) {
+    for (std::uint64_t i = 0; i < 6'000; ++i) {
       Rng rng(21, StreamKind::photon, i);
       Photon photon = source.emit(built.scene, rng);
       double before = 0.0, sum = 0.0;

@@ -121,14 +121,20 @@ bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<c
 
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle) {
   static const GaussRule rule;
-  const core::Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  // From the corner that is nearest to the axis: at the tip of a cone the integrand depends on the direction.
+  const auto from_axis = [&](const core::Vec3& corner) { return (corner - surface.middle(corner)).norm(); };
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (from_axis(triangle[k]) < from_axis(triangle[first])) first = k;
+  const core::Vec3& corner = triangle[first];
+  const core::Vec3 u = triangle[(first + 1) % 3] - corner, v = triangle[(first + 2) % 3] - corner;
   const core::Vec3 doubled = u.cross(v);
   PatchExcess sum;
   for (std::size_t i = 0; i < kPoints; ++i)
     for (std::size_t j = 0; j < kPoints; ++j) {
       // The square onto the triangle (Duffy): s from the first corner, t across.
       const double s = rule.node[i], t = rule.node[j], weight = rule.weight[i] * rule.weight[j] * s;
-      const core::Vec3 point = triangle[0] + s * ((1.0 - t) * u + t * v) - surface.origin;
+      const core::Vec3 point = corner + s * ((1.0 - t) * u + t * v) - surface.origin;
       if (surface.is_sphere()) {
         const double rho2 = point.squaredNorm(), rho = std::sqrt(rho2), radius = std::sqrt(surface.radius2);
         const double solid_angle = weight * doubled.dot(point) / (rho2 * rho);
