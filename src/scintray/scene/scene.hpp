@@ -43,9 +43,10 @@ struct MediumRecord {
   double last = 0.0;                   ///< position of the last entry, count - 1
   optics::ScatteringKind scattering = optics::ScatteringKind::rayleigh;
   bool opaque = false;
-  bool shifts = false;            ///< has a wavelength shifter
-  bool particles = false;         ///< has particles that scatter
-  std::uint32_t first_shift = 0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
+  bool shifts = false;     ///< has a wavelength shifter
+  bool particles = false;  ///< has particles that scatter
+  std::uint32_t first_shift =
+      0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);

@@ -162,8 +162,7 @@ void RangeFile::range(const PointRange& of, const tally::PointSums& sums) {
   state_->write_rows(Record::photons, state_->photons, 0);
   state_->write_rows(Record::histories, state_->histories, 0);
   state_->write_rows(Record::events, state_->events, 0);
-  state_->write(Record::range,
-                encoded(static_cast<std::uint64_t>(of.point), of.blocks, of.facts, sums));
+  state_->write(Record::range, encoded(static_cast<std::uint64_t>(of.point), of.blocks, of.facts, sums));
 }
 
 void RangeFile::commit(bool complete, const std::string&) {

@@ -267,9 +267,8 @@ RangeReader::Content RangeReader::replay(const StoredRange& range, ResultSink& s
         throw damaged(path_);
     }
   }
-  sink.range(
-      {range.point, range.blocks, content.facts, content.histories ? &*content.histories : nullptr},
-      content.sums);
+  sink.range({range.point, range.blocks, content.facts, content.histories ? &*content.histories : nullptr},
+             content.sums);
   return content;
 }
 

@@ -81,9 +81,7 @@ std::optional<tally::LightTiming> SimulationPoint::timing() const {
   return light_timing(scene(), spec_, *source_, plan_);
 }
 
-tally::PointFacts SimulationPoint::facts() const {
-  return {timing(), omitted(), settings_.birth_efficiency};
-}
+tally::PointFacts SimulationPoint::facts() const { return {timing(), omitted(), settings_.birth_efficiency}; }
 
 tally::PointResult SimulationPoint::trace(const RunHooks& hooks) const {
   tally::PointResult result = run_point(scene(), *source_, plan_, settings_, hooks);

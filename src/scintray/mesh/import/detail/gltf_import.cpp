@@ -13,7 +13,6 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/input_file.hpp"
-#include "scintray/core/input_file.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/raw_mesh.hpp"
 
