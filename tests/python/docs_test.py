@@ -1,5 +1,6 @@
 """Every block of docs/python.md runs, one after the other; the example too, with fewer events."""
 
+import ast
 import os
 import re
 
@@ -42,6 +43,18 @@ class Pages(Case):
             self.assertRegex(text, rf'\b{name}\b')
         for name in scintray.__all__:
             self.assertTrue(getattr(scintray, name).__doc__, name)
+
+    def test_the_stubs_are_those_of_the_library(self):
+        import scintray._core as core
+        tree = ast.parse((SOURCE / 'src/scintray/python/scintray/_core.pyi').read_text())
+        functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+        classes = {node.name: {inner.name for inner in node.body} for node in tree.body
+                   if isinstance(node, ast.ClassDef)}
+        real = {name for name in dir(core) if not name.startswith('_')}
+        self.assertEqual(functions | set(classes), real)
+        for name, methods in classes.items():
+            public = {method for method in dir(getattr(core, name)) if not method.startswith('_')}
+            self.assertEqual(methods - {'__init__'}, public, name)
 
     def test_the_example_runs(self):
         source = (SOURCE / 'docs/examples/lyso_array.py').read_text()

@@ -96,6 +96,29 @@ class Bits(Case):
         self.assertEqual(part['name'], 'crystal')
 
 
+class Memory(Case):
+    def test_results_are_released(self):
+        scene = detector(100)
+        scene['source.energy'] = '5 keV'
+        scene['readout'] = {'sampling': '10 GHz', 'before': '20 ns', 'window': '400 ns', 'threshold': 2.0, 'pulses': True,
+                            'shaping': {'order': 1, 'time_constant': '5 ns'}}
+
+        def resident():
+            with open('/proc/self/statm') as file:
+                return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE')
+
+        def run(times):
+            for _ in range(times):
+                size = scene.run().events().waveform.nbytes
+            return size
+        run(5)
+        before = resident()
+        size = run(40)
+        self.assertGreater(size, 3e6)
+        # Forty runs that were kept would take 40 times the size.
+        self.assertLess(resident() - before, 8 * size)
+
+
 class Keys(Case):
     def test_keys_are_read_and_set_by_their_paths(self):
         scene = scintray.Scene.load(SOURCE / 'scenes/quickstart.toml')

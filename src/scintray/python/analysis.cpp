@@ -2,7 +2,8 @@
 
 #include "scintray/analysis/event_analysis.hpp"
 
-#include "scintray/python/bindings.hpp"
+#include "scintray/core/words.hpp"
+#include "scintray/python/detail/bindings.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/analysis.hpp"
 #include "scintray/simulation/analyze_results.hpp"
@@ -222,6 +223,10 @@ py::dict analyze(RunData& data, std::size_t point, const std::optional<std::stri
   return analysis_of(result, header.parts);
 }
 
+constexpr core::Word<simulation::OpticalProperty> kProperties[] = {
+    {"absorption_length", simulation::OpticalProperty::absorption_length},
+    {"reflectance", simulation::OpticalProperty::reflectance}};
+
 /// A point for other absorption lengths or reflectances, from the histories of a file.
 py::list reweight(const std::string& path, const std::string& property, const std::string& name, bool times,
                   std::vector<double> values) {
@@ -229,8 +234,7 @@ py::list reweight(const std::string& path, const std::string& property, const st
   {
     const py::gil_scoped_release released;
     simulation::PropertyScan scan;
-    scan.property = property == "reflectance" ? simulation::OpticalProperty::reflectance
-                                              : simulation::OpticalProperty::absorption_length;
+    scan.property = core::find_word(kProperties, property).value();
     scan.name = name;
     scan.times = times;
     scan.values = std::move(values);

@@ -1,6 +1,6 @@
 /// Response maps, and fits of scenes.
 
-#include "scintray/python/bindings.hpp"
+#include "scintray/python/detail/bindings.hpp"
 #include "scintray/simulation/fit.hpp"
 #include "scintray/simulation/response.hpp"
 
@@ -16,21 +16,36 @@ void raise_if(const py::object& error) {
   throw py::error_already_set();
 }
 
-MapPtr build_map(const std::string& text, const std::string& file,
-                 const simulation::ResponseSettings& settings, const std::optional<int>& threads,
-                 const std::optional<std::uint64_t>& seed, const py::object& progress) {
+/// A scene as Python hands it over.
+struct SceneText {
+  std::string text, file;
+};
+
+simulation::SimulationOptions options_of(const std::optional<int>& threads,
+                                         const std::optional<std::uint64_t>& seed,
+                                         const std::optional<std::uint64_t>& photons,
+                                         const std::optional<std::uint64_t>& events) {
+  simulation::SimulationOptions options;
+  options.threads = threads;
+  options.seed = seed;
+  options.photons = photons;
+  options.events = events;
+  return options;
+}
+
+MapPtr build_map(const SceneText& scene, const simulation::ResponseSettings& settings,
+                 const simulation::SimulationOptions& given, const py::object& progress) {
   auto map = std::make_shared<simulation::ResponseFile>();
   WatchedWork work;
   work.progress = progress;
   const py::object error = work.run([&] {
     simulation::MapOptions options;
     options.settings = settings;
-    options.simulation.threads = threads;
-    options.simulation.seed = seed;
+    options.simulation = given;
     options.simulation.surface_hooks.stop = [&] { return work.stop.load(); };
     options.hooks.stop = &work.stop;
     options.hooks.progress = [&](std::uint64_t cells, std::uint64_t of) { work.report(cells, of, "cells"); };
-    *map = simulation::build_map(scene_file::SceneFile::from_text(text, file), options);
+    *map = simulation::build_map(scene_file::SceneFile::from_text(scene.text, scene.file), options);
   });
   raise_if(error);
   if (map->map.grids.empty())
@@ -54,24 +69,19 @@ py::dict grid_of(const MapPtr& file, std::size_t number) {
 }
 
 /// @param keep  the results file stays; else its events are kept in memory
-py::tuple run_mapped(const std::string& text, const std::string& file, const std::string& map,
-                     const std::optional<int>& threads, const std::optional<std::uint64_t>& seed,
-                     const std::optional<std::uint64_t>& events, const std::string& output, bool keep,
-                     const py::object& progress) {
+py::tuple run_mapped(const SceneText& scene, const std::string& map, simulation::SimulationOptions options,
+                     const std::string& output, bool keep, const py::object& progress) {
   std::shared_ptr<RunData> data;
   WatchedWork work;
   work.progress = progress;
   const py::object error = work.run([&] {
-    simulation::SimulationOptions options;
-    options.threads = threads;
-    options.seed = seed;
-    options.events = events;
     options.surface_hooks.stop = [&] { return work.stop.load(); };
     simulation::SimulationHooks hooks;
     hooks.stop = &work.stop;
     hooks.progress = [&](const simulation::SimulationProgress& p) { work.report(p.done, p.total, p.thing); };
     simulation::ResultsFile results(output);
-    simulation::simulate_mapped(scene_file::SceneFile::from_text(text, file), map, results, options, hooks);
+    simulation::simulate_mapped(scene_file::SceneFile::from_text(scene.text, scene.file), map, results,
+                                options, hooks);
     data = open_results(output);
     if (keep) return;
     data->read_all_events();
@@ -135,22 +145,19 @@ py::dict fit_of(const analysis::FitRecord& record) {
   return entry;
 }
 
-py::dict fit_scene(const std::string& text, const std::string& file, const std::optional<int>& threads,
-                   const std::optional<std::uint64_t>& photons, const std::optional<std::uint64_t>& events,
+py::dict fit_scene(const SceneText& scene, const simulation::SimulationOptions& given,
                    const py::object& progress, const std::optional<std::string>& output) {
   analysis::FitRecord record;
   WatchedWork work;
   work.progress = progress;
   const py::object error = work.run([&] {
     simulation::SceneFitOptions options;
-    options.model.run.threads = threads;
-    options.model.run.photons = photons;
-    options.model.run.events = events;
+    options.model.run = given;
     options.model.run.surface_hooks.stop = [&] { return work.stop.load(); };
     options.model.stop = &work.stop;
     options.step = [&](const analysis::CurveFitStep& step) { work.report(step.number, 0, "steps"); };
     if (output) simulation::check_fit_path(*output);
-    record = simulation::fit_scene(scene_file::SceneFile::from_text(text, file), options);
+    record = simulation::fit_scene(scene_file::SceneFile::from_text(scene.text, scene.file), options);
     if (output) simulation::write_fit(*output, record);
   });
   raise_if(error);
@@ -174,14 +181,24 @@ void add_mapping(py::module_& module) {
         return std::make_shared<simulation::ResponseFile>(simulation::read_response(path));
       },
       released);
-  module.def("build_response",
-             [](const std::string& text, const std::string& file, double pitch_mm, std::uint32_t photons,
-                std::uint32_t delays, const std::optional<int>& threads,
-                const std::optional<std::uint64_t>& seed, const py::object& progress) {
-               return build_map(text, file, {pitch_mm, photons, delays}, threads, seed, progress);
+  using Threads = std::optional<int>;
+  using Number = std::optional<std::uint64_t>;
+  using Text = std::string;
+  module.def("build_response", [](const Text& text, const Text& file, double pitch_mm, std::uint32_t photons,
+                                  std::uint32_t delays, const Threads& threads, const Number& seed,
+                                  const py::object& progress) {
+    return build_map({text, file}, {pitch_mm, photons, delays}, options_of(threads, seed, {}, {}), progress);
+  });
+  module.def("run_mapped", [](const Text& text, const Text& file, const Text& map, const Threads& threads,
+                              const Number& seed, const Number& events, const Text& output, bool keep,
+                              const py::object& progress) {
+    return run_mapped({text, file}, map, options_of(threads, seed, {}, events), output, keep, progress);
+  });
+  module.def("fit_scene",
+             [](const Text& text, const Text& file, const Threads& threads, const Number& photons,
+                const Number& events, const py::object& progress, const std::optional<Text>& output) {
+               return fit_scene({text, file}, options_of(threads, {}, photons, events), progress, output);
              });
-  module.def("run_mapped", &run_mapped);
-  module.def("fit_scene", &fit_scene);
 }
 
 }  // namespace scintray::python

@@ -3,7 +3,7 @@
 #include "scintray/core/cancelled.hpp"
 #include "scintray/core/data_folder.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/python/bindings.hpp"
+#include "scintray/python/detail/bindings.hpp"
 
 namespace scintray::python {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "scintray/python/bindings.hpp"
+#include "scintray/python/detail/bindings.hpp"
 
 namespace scintray::python {
 

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "scintray/config/toml_reader.hpp"
-#include "scintray/python/bindings.hpp"
+#include "scintray/python/detail/bindings.hpp"
 
 namespace scintray::python {
 

@@ -5,7 +5,7 @@
 #include "scintray/analysis/goniometer/sample_surface.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/optics/table.hpp"
-#include "scintray/python/bindings.hpp"
+#include "scintray/python/detail/bindings.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/map_statistics.hpp"
 #include "scintray/topography/preparation.hpp"
@@ -245,11 +245,18 @@ MapPtr map_from(const py::array_t<double, py::array::c_style | py::array::forcec
   return map;
 }
 
+enum class RecipeKind { ground, polished, gaussian, k_correlation };
+constexpr core::Word<RecipeKind> kRecipes[] = {{"ground", RecipeKind::ground},
+                                               {"polished", RecipeKind::polished},
+                                               {"gaussian", RecipeKind::gaussian},
+                                               {"k_correlation", RecipeKind::k_correlation}};
+
 MapPtr synthesized(const std::string& kind, const std::map<std::string, double>& lengths, std::uint64_t seed,
                    std::uint32_t points) {
   topography::SynthesisRecipe recipe;
-  if (kind == "ground") recipe = topography::ground_recipe();
-  if (kind == "polished") recipe = topography::polished_recipe();
+  const RecipeKind recipe_kind = core::find_word(kRecipes, kind).value();
+  if (recipe_kind == RecipeKind::ground) recipe = topography::ground_recipe();
+  if (recipe_kind == RecipeKind::polished) recipe = topography::polished_recipe();
   recipe.name = kind;
   recipe.seed = seed;
   if (points > 0) recipe.columns = recipe.rows = points;
@@ -258,7 +265,7 @@ MapPtr synthesized(const std::string& kind, const std::map<std::string, double>&
     if (found != lengths.end()) value = found->second;
   };
   set("pitch_um", recipe.pitch_um);
-  if (kind == "k_correlation") {
+  if (recipe_kind == RecipeKind::k_correlation) {
     set("rms_height_um", recipe.k_correlation.rms_height_um);
     set("knee_length_um", recipe.k_correlation.knee_length_um);
     set("exponent", recipe.k_correlation.exponent);
