@@ -210,15 +210,17 @@ decay = [{ time = "10 ns", rise = "0 ns", fraction = 1 }]
             {static_cast<double>(shifted.absorbed) / photons, std::sqrt(0.7 / photons) / 0.3},
             {1.0 / 0.3, 0.0});
   CHECK(shifted.after_eV < shifted.before_eV);
-  // Law of repeated re-emission: the share 1 - u of the flat spectrum that is left is a product of uniform numbers,
-  // so that all re-emissions of a photon together have the density y w^-y of w = 1 - u. With w = v^(1 / (1 - y)):
+  // Law of repeated re-emission: the share 1 - u of the flat spectrum that is left is a product of uniform
+  // numbers, so that all re-emissions of a photon together have the density y w^-y of w = 1 - u. With w =
+  // v^(1 / (1 - y)):
   constexpr int kSteps = 100'000;
   double energy_eV = 0.0;
   for (int i = 0; i < kSteps; ++i)
     energy_eV += photon_energy_eV(560.0 - 80.0 * std::pow((i + 0.5) / kSteps, 1.0 / 0.3)) / kSteps;
   // Energies lie within 2.21 to 2.58 eV; as if each photon had one of its own.
   check_law("mean energy of repeatedly re-emitted light, eV",
-            {shifted.after_eV / static_cast<double>(shifted.emitted), 0.1 / std::sqrt(photons)}, {energy_eV, 0.0});
+            {shifted.after_eV / static_cast<double>(shifted.emitted), 0.1 / std::sqrt(photons)},
+            {energy_eV, 0.0});
 }
 
 TEST_CASE(

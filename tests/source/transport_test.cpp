@@ -89,7 +89,8 @@ TEST_CASE("in a speck the photofraction is the ratio of cross sections, and the 
     const double first_keV = deposited_at_first_keV(event);
     if (at_one_place(event) && event.escaped_keV == 0.0) ++full;
     CHECK((std::abs(first_keV - 511.0) < 1e-9 || first_keV <= edge_keV + 1e-9));
-    // A photoelectron lacks the binding energy of the K shell, which is a deposit of its own, or is an outer one.
+    // A photoelectron lacks the binding energy of the K shell, which is a deposit of its own, or is an outer
+    // one.
     if (std::abs(first_keV - 511.0) < 1e-9 && event.deposits.size() > 1) {
       CHECK(event.deposits.size() == 2);
       CHECK(event.deposits[1].energy_keV < 63.4);

@@ -108,8 +108,9 @@ TEST_CASE("Spike, lobe, backscatter and Lambertian shares are those of the setti
 
 namespace {
 
-/// Outcome of one ray on UNIFIED facets of a density per solid angle, written another way: facets by rejection from
-/// the whole hemisphere, everything in angles to the mean normal +z, unpolarised Fresnel equations by impedances.
+/// Outcome of one ray on UNIFIED facets of a density per solid angle, written another way: facets by
+/// rejection from the whole hemisphere, everything in angles to the mean normal +z, unpolarised Fresnel
+/// equations by impedances.
 struct Sampled {
   Vec3 direction;  ///< away from the surface, +z back into the medium of incidence
   bool back = false, spike = false;
@@ -149,7 +150,8 @@ Sampled independent_unified(Vec3 d, double sigma, double n1, double n2, const st
         d = -d;
       } else {
         const double sin2 = uniform(), phi = kTwoPi * uniform();
-        d = Vec3(std::sqrt(sin2) * std::cos(phi), std::sqrt(sin2) * std::sin(phi), up * std::sqrt(1.0 - sin2));
+        d = Vec3(std::sqrt(sin2) * std::cos(phi), std::sqrt(sin2) * std::sin(phi),
+                 up * std::sqrt(1.0 - sin2));
       }
     } else {
       d = (here / there) * d + (here / there * ci - std::sqrt(1.0 - sin2t)) * m;
@@ -181,8 +183,8 @@ TEST_CASE("Law of UNIFIED's shares: reflectance and directions are those of an i
     surface.lobe = shares[1];
     surface.backscatter = shares[2];
     const Vec3 k(std::sin(angle), 0.0, std::cos(angle));
-    // Light that keeps the incident direction or its mirror image is one bin each: it has no width that a histogram
-    // could share out, and on the edge of two bins rounding would decide.
+    // Light that keeps the incident direction or its mirror image is one bin each: it has no width that a
+    // histogram could share out, and on the edge of two bins rounding would decide.
     std::vector<std::uint64_t> ours(kPolar * kAround + 2, 0), theirs = ours;
     std::uint64_t back = 0, back_theirs = 0;
     const auto add = [&](const Vec3& d, std::vector<std::uint64_t>& counts) {  // d with +z out of the surface
@@ -204,8 +206,8 @@ TEST_CASE("Law of UNIFIED's shares: reflectance and directions are those of an i
         ++back;
         add(Vec3(ray.direction.x(), ray.direction.y(), -ray.direction.z()), ours);
       }
-      const Sampled sampled = independent_unified(Vec3(k.x(), k.y(), -k.z()), surface.sigma_alpha_rad, 1.82, 1.0,
-                                                  shares, other);
+      const Sampled sampled =
+          independent_unified(Vec3(k.x(), k.y(), -k.z()), surface.sigma_alpha_rad, 1.82, 1.0, shares, other);
       if (sampled.back) {
         ++back_theirs;
         add(sampled.direction, theirs);
