@@ -310,14 +310,13 @@ base = "polished"
 }
 
 TEST_CASE("A cone has two radii, one of which may be 0, and round faces may stay facets") {
+  const std::string with_cone =
+      replaced(kGoodScene, "box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+               "cone = { bottom_radius = \"2 mm\", top_radius = \"0 mm\", height = \"3 mm\" }");
   const SceneSpec scene =
-      SceneFile::from_text(
-          replaced(replaced(kGoodScene, "cylinder = { radius = \"1 mm\", height = \"20 mm\", segments = 48 }",
-                            "cone = { bottom_radius = \"2 mm\", top_radius = \"0 mm\", height = \"3 mm\" }"),
-                   "[run]\n", "[run]\ncurved = \"facets\"\n"),
-          "scene.toml")
+      SceneFile::from_text(replaced(with_cone, "[run]\n", "[run]\ncurved = \"facets\"\n"), "scene.toml")
           .spec(0);
-  const auto& cone = std::get<ConeSpec>(scene.parts[3].shape);
+  const auto& cone = std::get<ConeSpec>(scene.parts[0].shape);
   CHECK(cone.bottom_radius_mm == 2.0);
   CHECK(cone.top_radius_mm == 0.0);
   CHECK(cone.height_mm == 3.0);
