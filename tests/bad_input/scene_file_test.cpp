@@ -104,6 +104,12 @@ TEST_CASE("values outside their range") {
       "box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
       "winston = { exit_radius = \"1 mm\", acceptance = \"30 deg\", segments = 10000, rings = @@1000 }",
       {"10000 segments", "1000 rings", "20000000 triangles"}, "250000");
+  check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+                "cone = { bottom_radius = \"1 mm\", top_radius = @@\"-1 mm\", height = \"2 mm\" }",
+                "negative", "0 mm");
+  check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+                "cone = { bottom_radius = \"0 mm\", top_radius = @@\"0 mm\", height = \"2 mm\" }",
+                "both radii", "above 0");
   check_mistake("normal = [0, 0, -1]", "normal = @@[0, 0, 0]", "no length", "[0, 0, 1]");
   check_mistake("photons = 1000", "photons = @@0", "at least 1", "positive");
   check_mistake("seed = 7", "seed = @@-1", "seed below 0", "0 to");

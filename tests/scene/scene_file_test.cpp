@@ -175,6 +175,7 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK_FALSE(scene.run.max_time_ns.has_value());
   CHECK(scene.run.contact_tolerance_mm == 1e-4);
   CHECK(scene.run.accelerator == AcceleratorKind::automatic);
+  CHECK(scene.run.curved == CurvedFaces::exact);
   CHECK_FALSE(scene.run.photon_list);
   CHECK_FALSE(scene.run.photon_history);
   const TallySpec& angles = exit_angle_of(scene);
@@ -306,4 +307,19 @@ base = "polished"
   for (const DefinitionRef& definition : scene.unused_definitions())
     unused.push_back(definition_key(definition));
   CHECK(unused == std::vector<std::string>{"media.crystal"});  // the name of a part is not that of its medium
+}
+
+TEST_CASE("A cone has two radii, one of which may be 0, and round faces may stay facets") {
+  const std::string with_cone =
+      replaced(kGoodScene, "box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
+               "cone = { bottom_radius = \"2 mm\", top_radius = \"0 mm\", height = \"3 mm\" }");
+  const SceneSpec scene =
+      SceneFile::from_text(replaced(with_cone, "[run]\n", "[run]\ncurved = \"facets\"\n"), "scene.toml")
+          .spec(0);
+  const auto& cone = std::get<ConeSpec>(scene.parts[0].shape);
+  CHECK(cone.bottom_radius_mm == 2.0);
+  CHECK(cone.top_radius_mm == 0.0);
+  CHECK(cone.height_mm == 3.0);
+  CHECK(cone.segments == 64);
+  CHECK(scene.run.curved == CurvedFaces::facets);
 }

@@ -10,6 +10,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/optics/table_group.hpp"
 
 namespace scintray::materials {

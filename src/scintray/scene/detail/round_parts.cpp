@@ -26,6 +26,7 @@ core::Vec3 doubled_area(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[
 struct PartTriangle {
   Corners corners;
   std::uint32_t support;
+  bool own;  ///< of the part's mesh; not of an interface, which may cut facets where they are off the surface
 };
 
 /// The triangles of every part: those of its interfaces, whose corners have moved into contact, then its own.
@@ -33,9 +34,9 @@ core::IdVector<core::PartId, std::vector<PartTriangle>> triangles_of_parts(
     const Assembly& assembly, const std::vector<contact::InterfaceTriangle>& triangles) {
   core::IdVector<core::PartId, std::vector<PartTriangle>> result(assembly.parts.size());
   for (const contact::InterfaceTriangle& t : triangles) {
-    if (t.back_face.has_value()) result[t.back].push_back({t.vertex, t.back_support});
+    if (t.back_face.has_value()) result[t.back].push_back({t.vertex, t.back_support, false});
     if (t.front_face.has_value())
-      result[t.front].push_back({{t.vertex[0], t.vertex[2], t.vertex[1]}, t.front_support});
+      result[t.front].push_back({{t.vertex[0], t.vertex[2], t.vertex[1]}, t.front_support, false});
   }
   for (const core::PartId part : assembly.parts.ids()) {
     const auto by_area = [](const PartTriangle& a, const PartTriangle& b) {
@@ -46,7 +47,8 @@ core::IdVector<core::PartId, std::vector<PartTriangle>> triangles_of_parts(
     for (std::size_t t = 0; t < own.triangles.size(); ++t) {
       const auto& [a, b, c] = own.triangles[t];
       result[part].push_back({{own.vertices[a], own.vertices[b], own.vertices[c]},
-                              own.support.empty() ? mesh::kNoSupport : own.support[t]});
+                              own.support.empty() ? mesh::kNoSupport : own.support[t],
+                              true});
     }
   }
   return result;
@@ -104,7 +106,8 @@ class BodyFinder {
           if (plane.normal.dot(corner) > plane.offset + tolerance_) return "the part is not convex";
         for (const mesh::SupportSurface& quadric : body.quadrics)
           if (quadric.distance(corner) > tolerance_) return "the part is not convex";
-        if (t.support != mesh::kNoSupport && std::abs(body.quadrics[t.support].distance(corner)) > tolerance_)
+        if (t.own && t.support != mesh::kNoSupport &&
+            std::abs(body.quadrics[t.support].distance(corner)) > tolerance_)
           return "its corners have moved off the surface";
       }
       if (t.support == mesh::kNoSupport) continue;
