@@ -189,7 +189,7 @@ TEST_CASE("sweeps that lead nowhere") {
                 "did you mean \"crystal\"?");
   check_mistake(key, "key = @@\"part.crystal\"\nvalues = [\"a\"]", "names a whole table",
                 "part.crystal.surface");
-  check_mistake(key, "key = @@\"source.photns\"\nvalues = [1]", "unknown key \"photns\"",
+  check_mistake(key, "key = @@\"source.photns\"\nvalues = [1, 2]", "unknown key \"photns\"",
                 "did you mean \"photons\"?");
   check_mistake(key, "key = @@\"run.threads\"\nvalues = [1]", "cannot be swept", "scene file");
   check_mistake(key, "key = @@\"source.photons.\"\nvalues = [1]", "leads nowhere", "");

@@ -37,9 +37,18 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
   CHECK(read_events(folder / "result.h5", 0, 1'000).size() == 500);
   did({"report", "result.h5", "--text"}, cli::kSuccess, "Lost photons: 0");
   did({"report", "result.h5"}, cli::kSuccess, "result.html");
+  did({"report", "result.h5", "--json"}, cli::kSuccess, "\"not_included\"");
+  did({"analyze", "result.h5", "--json"}, cli::kSuccess, "\"photopeak\"");
+  did({"response", "run", "scene.toml", "map.h5", "-o", "again.h5", "--events", "500", "--seed", "77"},
+      cli::kSuccess, "500 events");
+  did({"report", "result.h5", "again.h5"}, cli::kSuccess, "result.comparison.html");
+  CHECK(contains(page_of(folder / "result.comparison.html"), "mean light of a pulse"));
+  did({"report", "result.h5", "again.h5", "--text"}, cli::kSuccess, "root mean square");
+  did({"report", "result.h5", "again.h5", "--json"}, cli::kBadUsage, "--json");
+  did({"report", "result.h5", "again.h5", "-o", "again.h5"}, cli::kBadInput, "would replace");
   did({"analyze", "result.h5"}, cli::kSuccess, "pulses: 500 of 500 events");
   const std::string text = page_of(folder / "result.html");
-  CHECK(contains(text, "<h2>Events"));
+  CHECK(contains(text, ">Events</h2>"));
   CHECK_FALSE(contains(text, "Where every photon ended"));  // none was traced
   did({"response", "build", "scene.toml", "-o", "map.h5", "--pitch", "1"}, cli::kBadUsage, "has no unit");
   did({"response", "run", "scene.toml", "result.h5", "-o", "other.h5"}, cli::kBadInput, "not a response map");

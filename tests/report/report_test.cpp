@@ -286,3 +286,11 @@ TEST_CASE("A long table is folded") {
   }
   check_contains(html_report(run), "<summary>Table of ");
 }
+
+TEST_CASE("A page of photons on a block of sensors says why it has no flood map") {
+  RunResult run = test::made_up_run();
+  CHECK_FALSE(contains(html_report(run), "No flood map"));  // one sensor
+  for (PointResult& point : run.points)
+    for (int i = 0; i < 2; ++i) point.sensor_faces.push_back(point.sensor_faces.front());
+  check_contains(html_report(run), {"No flood map", "photons, not events", "gamma_events"});
+}

@@ -5,6 +5,8 @@
 
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/output_file.hpp"
+#include "scintray/report/comparison.hpp"
 #include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
@@ -15,35 +17,58 @@ namespace scintray::cli {
 namespace {
 
 struct ReportOptions {
-  std::filesystem::path results;
+  std::vector<std::filesystem::path> files;
   std::filesystem::path output;
   bool text = false;
   bool json = false;
 };
 
-/// Path of the page: beside the results file unless set otherwise, never the results file itself.
+/// Path of the page: beside the first results file unless set otherwise, never one of the results.
 std::filesystem::path page_path(const ReportOptions& options) {
   auto page = options.output;
-  if (page.empty()) page = std::filesystem::path(options.results).replace_extension(".html");
+  if (page.empty())
+    page = std::filesystem::path(options.files.front())
+               .replace_extension(options.files.size() > 1 ? ".comparison.html" : ".html");
   std::error_code ignored;
-  if (page == options.results || std::filesystem::equivalent(page, options.results, ignored))
-    throw core::InputError(
-        {{page.string()}, "the page would replace the results file", "name another file with --output"});
+  for (const std::filesystem::path& results : options.files)
+    if (page == results || std::filesystem::equivalent(page, results, ignored))
+      throw core::InputError(
+          {{page.string()}, "the page would replace a results file", "name another file with --output"});
   return page;
 }
 
-void report(const ReportOptions& options) {
-  const tally::RunResult run = results::read_results(options.results);
+void report_one(const ReportOptions& options) {
+  const std::filesystem::path& results = options.files.front();
+  const tally::RunResult run = results::read_results(results);
   if (options.text) {
-    std::cout << report::text_summary(run, analysis_of(options.results, run));
+    std::cout << report::text_summary(run, analysis_of(results, run));
     return;
   }
   if (options.json) {
-    std::cout << report::result_json(run, analysis_of(options.results, run));
+    std::cout << report::result_json(run, analysis_of(results, run));
     return;
   }
   const auto page = page_path(options);
-  report::write_report(page, run, analysis_of(options.results, run));
+  report::write_report(page, run, analysis_of(results, run));
+  std::cout << "report   " << page.string() << "\n";
+}
+
+void compare(const ReportOptions& options) {
+  if (options.json)
+    throw CLI::ValidationError("--json", "prints one result; compare several with --text, or on a page");
+  std::vector<report::NamedResult> compared;
+  for (const std::filesystem::path& file : options.files) {
+    tally::RunResult run = results::read_results(file);
+    report::RunAnalysis analyses = analysis_of(file, run);
+    compared.push_back({file.stem().string(), std::move(run), std::move(analyses)});
+  }
+  for (std::size_t i = 0; i < compared.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (compared[i].name == compared[k].name) compared[i].name = options.files[i].string();
+  std::cout << report::comparison_text(compared);
+  if (options.text) return;
+  const auto page = page_path(options);
+  core::write_whole_file(page, report::comparison_page(compared), "the comparison");
   std::cout << "report   " << page.string() << "\n";
 }
 
@@ -51,13 +76,18 @@ void report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = app.add_subcommand("report", "Write the HTML page of a results file");
-  command->add_option("RESULT", options->results, "results file (HDF5) of `scintray run`")->required();
-  command->add_option("-o,--output", options->output, "page (default: RESULT with .html)");
+  CLI::App* command = app.add_subcommand(
+      "report", "Write the HTML page of a results file, or compare several, with differences in sigma");
+  command
+      ->add_option("RESULT", options->files,
+                   "results file (HDF5) of `scintray run`; several are compared with the first")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "page (default: the first RESULT with .html, or .comparison.html)");
   command->add_flag("--text", options->text, "print the summary instead of writing a page");
   command->add_flag("--json", options->json, "print the numbers as JSON instead of writing a page")
       ->excludes("--text");
-  command->callback([options] { report(*options); });
+  command->callback([options] { options->files.size() > 1 ? compare(*options) : report_one(*options); });
 }
 
 }  // namespace scintray::cli

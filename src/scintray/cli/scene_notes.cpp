@@ -52,7 +52,7 @@ struct GapGroup {
 /// A tolerance that closes a gap: above it, to two digits.
 double closing_tolerance(double gap_mm) {
   const double digit = std::pow(10.0, std::floor(std::log10(gap_mm)) - 1.0);
-  return digit * std::ceil(1.05 * gap_mm / digit);
+  return digit * std::ceil(1.05 * gap_mm / digit - 1e-6);
 }
 
 core::Problem warning_of(const GapGroup& group, const std::string& ambient, double tolerance_mm) {

@@ -208,7 +208,7 @@ config::TomlNode with_one_value(const config::TomlNode& document, const KeySetti
   }
   *target = setting.value;
   target->key = node->kind == Kind::table ? last : "";
-  target->key_where = setting.path.where;
+  target->key_where = setting.path.where;  // once for all values: a wrong key is one mistake
   return edited;
 }
 

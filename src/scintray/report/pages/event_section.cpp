@@ -208,7 +208,8 @@ std::string parts_table(const PointAnalysis& point, const PartNames& names) {
   head.emplace_back("spectrum");
   return "<details" + std::string(analysis.parts.size() <= kFewParts ? " open=\"open\"" : "") + "><summary>" +
          escape_html(point.label) + ": light of each of the " + std::to_string(analysis.parts.size()) +
-         " parts, by the largest deposit of an event</summary>\n" + table(head, rows) + "</details>\n";
+         " parts, by the largest deposit of an event</summary>\n" + table(head, rows, 1, false) +
+         "</details>\n";
 }
 
 /// Beside the table of numbers: the effects that its resolutions and CTRs do not include.

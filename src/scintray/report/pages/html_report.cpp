@@ -5,6 +5,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/report/acceptance.hpp"
+#include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/pages/detail/sections.hpp"
 #include "scintray/report/pages/event_section.hpp"
 #include "scintray/report/pages/page.hpp"
@@ -75,7 +76,21 @@ std::string partial_banner(const tally::RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
+/// For a block of sensors that photons, not events, were shot into: why there is no flood map.
+std::string no_events(const tally::RunResult& run) {
+  constexpr std::size_t kBlock = 4;
+  const bool block = std::any_of(run.points.begin(), run.points.end(), [](const tally::PointResult& point) {
+    return point.energy.events_requested == 0 && point.sensor_faces.size() >= kBlock;
+  });
+  if (!block) return "";
+  return section(
+      "Events",
+      "<p>No flood map, spectrum or timing: the source emits photons, not events. An event source, as type = "
+      "&quot;gamma_events&quot; in [source], has them (docs/gamma_sources.md).</p>\n");
+}
+
 std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
+  if (analyses.points.empty()) return no_events(run);
   std::vector<PointAnalysis> points;
   for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
     points.push_back({point_label(run.points[i]), analyses.points[i], run.points[i].omitted});

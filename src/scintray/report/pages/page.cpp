@@ -30,7 +30,7 @@ figcaption span { color: var(--soft); font-weight: 400; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
 th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
 thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
-td.why { color: var(--soft); min-width: 9rem; white-space: normal; }
+td.why { color: var(--soft); min-width: 7.5rem; white-space: normal; font-size: .8rem; line-height: 1.35; }
 .small-spectrum { display: block; } .small-spectrum path { fill: var(--c0); }
 )css";
 

@@ -28,15 +28,16 @@ std::size_t rows_in(const std::string& rows) {
 
 }  // namespace
 
-std::string table(const std::vector<std::string>& head, const std::string& rows, std::size_t first_number) {
+std::string table(const std::vector<std::string>& head, const std::string& rows, std::size_t first_number,
+                  bool fold) {
   const std::string name = head.empty() ? "table" : "table by " + head.front();
   std::string out = scroll_area(name) + "<table>\n<thead><tr>";
   for (std::size_t i = 0; i < head.size(); ++i) out += cell(head[i], "th", i < first_number ? "" : "n");
   out += "</tr></thead>\n<tbody>\n" + rows + "</tbody></table></div>\n";
   const std::size_t count = rows_in(rows);
-  return count <= kLongTable ? out
-                             : "<details><summary>Table of " + std::to_string(count) + " rows</summary>\n" +
-                                   out + "</details>\n";
+  return count <= kLongTable || !fold ? out
+                                      : "<details><summary>Table of " + std::to_string(count) +
+                                            " rows</summary>\n" + out + "</details>\n";
 }
 
 std::string section(const std::string& title, const std::string& body) {

@@ -261,12 +261,8 @@ std::string sensor_section(const tally::RunResult& run) {
           number_cell(percent_with_error(point.not_detected_fraction(count.not_detected, count.detected))) +
           "</tr>\n";
   if (rows.empty()) return "";
-  return section(
-      "Sensors, face by face",
-      "<details" + std::string(run.points.size() <= kFewPoints ? " open=\"open\"" : "") +
-          "><summary>Counts</summary>\n" +
-          table({"point", "sensor", "face", "detected", "of all photons", "not detected"}, rows, 3) +
-          "</details>\n");
+  return section("Sensors, face by face",
+                 table({"point", "sensor", "face", "detected", "of all photons", "not detected"}, rows, 3));
 }
 
 std::string angle_section(const tally::RunResult& run) {

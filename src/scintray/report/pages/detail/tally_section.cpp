@@ -69,7 +69,7 @@ bool both(const tally::TallyResult& tally, bool (*is)(const tally::TallyAxis&)) 
 bool is_named(const tally::TallyAxis& axis) { return !axis.names.empty(); }
 bool is_number(const tally::TallyAxis& axis) { return axis.names.empty(); }
 
-std::string spread_text(const tally::TallyResult& tally) {
+std::string light_spread_text(const tally::TallyResult& tally) {
   const analysis::LightSpread spread = analysis::light_spread(tally);
   const auto along = [&](std::size_t k) {
     return axis_label(tally.axes[k]) + ": centre " +
@@ -248,7 +248,7 @@ std::string drawing(const tally::RunHeader& header, const tally::TallyResult& ta
     turned.values = tally.sum;
     return polar_map(turned);
   }
-  if (both(tally, is_position)) caption += ". " + spread_text(tally);
+  if (both(tally, is_position)) caption += ". " + light_spread_text(tally);
   if (both(tally, is_named) && tally.axes[1].bins() <= kMostCells) return matrix_table(tally, point.emitted);
   if (tally.axes.size() == 2) return grid_map(map_of(tally));
   if (tally.axes.size() == 1 && is_named(tally.axes[0])) return names_table(tally, point.emitted);
@@ -311,7 +311,7 @@ std::string tally_lines(const tally::RunHeader& header, const tally::PointResult
     else if (view == TallyView::ledger)
       lines += ledger_lines(tally, point.emitted);
     else if (both(tally, is_position))
-      lines += tally.name + ": " + spread_text(tally) + "\n";
+      lines += tally.name + ": " + light_spread_text(tally) + "\n";
   }
   return lines;
 }

@@ -1,0 +1,78 @@
+// Several results, number by number.
+#include "scintray/report/comparison.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/made_up_result.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::tally;
+using namespace scintray::report;
+using namespace scintray::test;
+using doctest::Approx;
+
+namespace {
+
+NamedResult named(const std::string& name, std::uint64_t seed, double light) {
+  NamedResult result{name, made_up_run(), {}};
+  result.run.points = {made_up_point({"polished", "2 mm"}, light, 100'000),
+                       made_up_point({"polished", "6 mm"}, 0.40, 100'000)};
+  result.run.header.seed = seed;
+  return result;
+}
+
+const ComparedNumber& detected(const std::vector<ComparedNumber>& numbers, const std::string& point) {
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const ComparedNumber& number) {
+    return number.point == point && number.quantity.rfind("detected", 0) == 0;
+  });
+  REQUIRE(found != numbers.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("Differences are in standard errors of the difference, point by point") {
+  NamedResult other = named("b", 2, 0.46);
+  std::swap(other.run.points[0], other.run.points[1]);  // matched by their values, not by their order
+  const std::vector<NamedResult> results{named("a", 1, 0.45), other};
+  const std::vector<ComparedNumber> numbers = compare_results(results);
+  const ComparedNumber& first = detected(numbers, "polished, 2 mm");
+  const Estimate a = results[0].run.points[0].fraction(Fate::detected),
+                 b = results[1].run.points[1].fraction(Fate::detected);
+  CHECK_FALSE(first.sigmas[0]);
+  REQUIRE(first.sigmas[1]);
+  CHECK(*first.sigmas[1] == Approx((b.value - a.value) / std::hypot(a.error, b.error)));
+  CHECK(*detected(numbers, "polished, 6 mm").sigmas[1] == 0.0);
+  const std::string text = comparison_text(results);
+  check_contains(text, {"polished, 2 mm", "detected", "+4.5"});
+  check_contains(text, {"the largest 5.7 sigma", "absorbed at surface"});
+  CHECK_FALSE(contains(text, "has the seed"));
+}
+
+TEST_CASE("A point or a number that a result lacks is none, and equal seeds and partial results are said") {
+  NamedResult short_one = named("short", 1, 0.45);
+  short_one.run.points.resize(1);
+  short_one.run.partial_reason = "interrupted";
+  const std::vector<NamedResult> results{named("a", 1, 0.45), named("c", 3, 0.45), short_one};
+  const ComparedNumber& lacking = detected(compare_results(results), "polished, 6 mm");
+  CHECK(lacking.values[1]);
+  CHECK_FALSE(lacking.values[2]);
+  CHECK_FALSE(lacking.sigmas[2]);
+  const std::string page = comparison_page(results);
+  check_contains(page, "short has the seed of a result before it");
+  check_contains(page, "short is partial: interrupted");
+  check_contains(page, "<td class=\"n\">none</td>");
+  CHECK_FALSE(contains(page, "nan"));
+}
+
+TEST_CASE("Results of one point each are compared whatever was swept") {
+  NamedResult a = named("a", 1, 0.45), b = named("b", 2, 0.46);
+  a.run.points.resize(1);
+  b.run.points.resize(1);
+  b.run.points[0].parameters = {"ground", "9 mm"};
+  CHECK(detected(compare_results({a, b}), "polished, 2 mm").sigmas[1]);
+}
