@@ -88,7 +88,7 @@ void import_scene(const SceneImportArguments& arguments) {
   const std::filesystem::path scene = exchange::scene_file_of(arguments.output);
   const exchange::SceneDraft draft = draft_of(arguments, scene);
   exchange::write_scene_draft(draft, scene);
-  for (const std::string& note : draft.notes) std::cout << "not carried over: " << note << "\n";
+  for (const std::string& note : draft.notes) std::cout << "not carried over, or different: " << note << "\n";
   std::cout << "wrote " << scene.string();
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
   std::cout << "\n";

@@ -15,7 +15,7 @@ namespace scintray::exchange {
 struct SceneDraft {
   std::string toml;
   std::map<std::filesystem::path, mesh::TriMesh> meshes;  ///< by path from the scene's folder, .ply
-  std::vector<std::string> notes;                         ///< what was not carried over
+  std::vector<std::string> notes;                         ///< what was not carried over, or differs
   std::string size;                  ///< of all bodies together, "3 x 3 x 20 mm"; may be empty
   std::vector<std::string> missing;  ///< what the user must fill in before the scene runs
 };

@@ -56,15 +56,20 @@ struct Components {
   double share_of_s() const { return e_s * e_s / (e_s * e_s + e_p * e_p); }
 };
 
-/// Sets the polarisation of a ray of its new direction, given the amplitudes and power shares of s and p. The
-/// sign between the two is drawn so that its mean is the cosine of their phase.
-void polarise(Ray& ray, const Components& before, Complex a_s, Complex a_p, double power_s, double power_p,
-              core::Rng& rng) {
-  const double size = std::abs(a_s) * std::abs(a_p);
-  const double in_phase = size > 0.0 ? (a_p * std::conj(a_s)).real() / size : 1.0;
+/// Amplitudes and power shares of s and p that leave a face.
+struct Leaving {
+  Complex s, p;
+  double power_s, power_p;
+};
+
+/// Sets the polarisation of a ray of its new direction. The sign between s and p is drawn so that its mean is
+/// the cosine of their phase.
+void polarise(Ray& ray, const Components& before, const Leaving& out, core::Rng& rng) {
+  const double size = std::abs(out.s) * std::abs(out.p);
+  const double in_phase = size > 0.0 ? (out.p * std::conj(out.s)).real() / size : 1.0;
   const double sign = rng.uniform() < 0.5 * (1.0 + in_phase) ? 1.0 : -1.0;
-  const double out_s = std::sqrt(std::max(0.0, power_s)) * before.e_s;
-  const double out_p = sign * std::sqrt(std::max(0.0, power_p)) * before.e_p;
+  const double out_s = std::sqrt(std::max(0.0, out.power_s)) * before.e_s;
+  const double out_p = sign * std::sqrt(std::max(0.0, out.power_p)) * before.e_p;
   ray.polarisation = (out_s * before.s + out_p * before.s.cross(ray.direction.vec())).normalized();
 }
 
@@ -90,14 +95,14 @@ FilmOutcome interact_at_films(Ray& ray, const core::Vec3& m, const FilmResponse&
       reflect(ray, m);
     } else {
       ray.direction = core::mirror(ray.direction, m);
-      polarise(ray, *parts, film.r_s, film.r_p, film.reflectance_s, film.reflectance_p, rng);
+      polarise(ray, *parts, {film.r_s, film.r_p, film.reflectance_s, film.reflectance_p}, rng);
     }
     return FilmOutcome::reflected;
   }
   if (u >= reflectance + transmittance || refraction.total()) return FilmOutcome::absorbed;
   const double ratio = refraction.ratio;
   ray.direction = (ratio * ray.direction + (ratio * cos_i - refraction.cos_t()) * m).normalized();
-  if (parts) polarise(ray, *parts, film.t_s, film.t_p, film.transmittance_s, film.transmittance_p, rng);
+  if (parts) polarise(ray, *parts, {film.t_s, film.t_p, film.transmittance_s, film.transmittance_p}, rng);
   return FilmOutcome::transmitted;
 }
 

@@ -82,7 +82,7 @@ RunningAnalysis::RunningAnalysis(const tally::RunHeader& header)
 
 void RunningAnalysis::begin_point(const std::vector<tally::ReadoutChannel>& channels,
                                   const std::optional<detector::ReadoutSpec>& readout) {
-  analysis::AnalysisSetup setup = setup_of(spec_, channels, parts_);
+  analysis::AnalysisSetup setup = analysis_setup(spec_, channels, parts_);
   if (readout) setup.photon_order = readout->photon_order;
   collector_.emplace(std::move(setup));
 }

@@ -46,7 +46,7 @@ class SceneMaker {
     std::string notes;
     for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
     draft.toml = "# Made by scintray import from " + file_name + ".\n";
-    if (!notes.empty()) draft.toml += "# Not carried over:\n" + notes;
+    if (!notes.empty()) draft.toml += "# Not carried over, or different from Geant4:\n" + notes;
     draft.toml += "title = " + toml_string(file_name) +
                   "\nambient = " + toml_string(medium_name(structure_.world_material)) +
                   "  # the material of the world\ncontacts_default = \"each_side\"  # Geant4's rule for skin "

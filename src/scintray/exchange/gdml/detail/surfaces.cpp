@@ -48,7 +48,7 @@ class SurfaceImporter {
   ImportedSurface import() {
     note_others();
     const EnergyTable efficiency = table("EFFICIENCY");
-    if (most(efficiency) > 0.0) result_.efficiency = curve(efficiency);
+    if (most(efficiency) > 0.0) result_.efficiency = curve(shares(efficiency));
     const bool known_model = glisur() || unified();
     const bool known_finish = std::find(kFinishes.begin(), kFinishes.end(), finish_) != kFinishes.end();
     if (type_ == kTypes[7]) {
@@ -93,7 +93,7 @@ class SurfaceImporter {
   /// REFLECTIVITY; 1 when left out, except that a metal which only has an EFFICIENCY is a sensor.
   std::string reflectivity() {
     const EnergyTable values = table("REFLECTIVITY");
-    if (!values.empty()) return curve(values);
+    if (!values.empty()) return curve(shares(values));
     if (!metallic() || result_.efficiency.empty()) return "1.0";
     note(
         "it is a metal with EFFICIENCY and without REFLECTIVITY: taken as a sensor that reflects nothing, as "
@@ -106,11 +106,28 @@ class SurfaceImporter {
   /// admitted.
   std::string admission() {
     const EnergyTable reflectivity_table = table("REFLECTIVITY"), transmittance = table("TRANSMITTANCE");
-    const std::string admitted = reflectivity();
-    if (admitted == "1.0" || least(reflectivity_table) >= 1.0) return "";
-    std::string keys = "admitted = " + admitted + "\n";
-    if (most(transmittance) > 0.0) keys += "undeflected = " + curve(transmittance) + "\n";
-    return keys;
+    if (reflectivity_table.empty()) {
+      const std::string admitted = reflectivity();
+      return admitted == "1.0" ? "" : "admitted = " + admitted + "\n";
+    }
+    if (least(reflectivity_table) >= 1.0) return "";
+    if (most(transmittance) <= 0.0) return "admitted = " + reflectivity() + "\n";
+    // One random number decides in Geant4: TRANSMITTANCE takes at most what REFLECTIVITY leaves.
+    EnergyTable admitted, passed;
+    std::set<double> energies(reflectivity_table.energy_eV.begin(), reflectivity_table.energy_eV.end());
+    energies.insert(transmittance.energy_eV.begin(), transmittance.energy_eV.end());
+    admitted.energy_eV = passed.energy_eV = {energies.begin(), energies.end()};
+    for (const double energy : energies) {
+      admitted.value.push_back(std::clamp(value_at(reflectivity_table, energy), 0.0, 1.0));
+      passed.value.push_back(std::clamp(value_at(transmittance, energy), 0.0, 1.0 - admitted.value.back()));
+    }
+    return "admitted = " + curve(admitted) + "\nundeflected = " + curve(passed) + "\n";
+  }
+
+  /// Values beyond 0 and 1 as Geant4 takes them: never, or always.
+  static EnergyTable shares(EnergyTable values) {
+    for (double& value : values.value) value = std::clamp(value, 0.0, 1.0);
+    return values;
   }
 
   /// A face of paint or metal that reflects what it admits.
