@@ -120,8 +120,7 @@ std::filesystem::path scene_folder(const std::string& name, const std::string& t
 /// Two scenes that have all that results can hold, and shipped ones with few photons.
 std::vector<ShortScene> all_scenes() {
   std::vector<ShortScene> scenes{{"photons", "scene.toml", {}}, {"events", "scene.toml", {}}};
-  for (const char* name : {"quickstart", "block_detector", "doi_block", "dual_ended", "monolithic_slab",
-                           "phosphor_coated", "torture"})
+  for (const char* name : {"quickstart", "monolithic_slab"})
     scenes.push_back(
         {name, source_file("scenes/" + std::string(name) + ".toml").string(), {"--photons", "2600"}});
   return scenes;

@@ -8,7 +8,6 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
 #include "scintray/simulation/checkpoints.hpp"
-#include "scintray/simulation/merge_ranges.hpp"
 #include "scintray/simulation/results_file.hpp"
 
 namespace scintray::cli {

@@ -60,9 +60,7 @@ void Checkpoints::open(const RunOutline& run, const Shard& shard) {
   last_ = Clock::now();
   const std::filesystem::path& folder = settings_.folder;
   const std::vector<std::filesystem::path> files = files_in(folder);
-  if (settings_.resume == Resume::restart || (files.empty() && settings_.resume == Resume::refuse))
-    return clear(folder);
-  if (files.empty()) throw refused(folder, "there are no checkpoints of this run", "run without --resume");
+  if (settings_.resume == Resume::restart || files.empty()) return clear(folder);
   std::string other;
   for (const std::filesystem::path& file : files) {
     earlier_.emplace_back(file);
@@ -153,6 +151,10 @@ void Checkpoints::remove() {
   file_.reset();
   earlier_.clear();
   clear(settings_.folder);
+}
+
+void Checkpoints::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
+  if (earlier_.empty()) file().surfaces(analyses);  // else the first of them has these
 }
 
 void Checkpoints::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,

@@ -50,6 +50,7 @@ class Checkpoints : public ResultSink {
   /// Removes the folder, after a run that is complete.
   void remove();
 
+  void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

@@ -1,10 +1,9 @@
-#include "scintray/simulation/merge_ranges.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "scintray/core/text.hpp"
+#include "scintray/simulation/range_file.hpp"
 
 namespace scintray::simulation {
 
@@ -85,11 +84,12 @@ std::vector<Gap> gaps_between(const std::vector<Piece>& pieces, const RunOutline
 /// blocks.
 std::string missing_text(const std::vector<Gap>& gaps, const std::vector<RangeReader>& readers) {
   constexpr std::size_t kMostNamed = 20;
+  constexpr std::uint64_t kMostShards = 1'000'000;  // looked at one by one
   const RunOutline& run = readers.front().outline();
   const std::uint64_t of = readers.front().shard().of;
-  const bool shards = of > 1 && std::all_of(readers.begin(), readers.end(), [&](const RangeReader& reader) {
-                        return reader.shard().of == of;
-                      });
+  const bool shards = of > 1 && of <= kMostShards &&
+                      std::all_of(readers.begin(), readers.end(),
+                                  [&](const RangeReader& reader) { return reader.shard().of == of; });
   const auto in_gap = [&](std::uint64_t number) {
     const tally::BlockRange of_run = blocks_of({number, of}, run);
     return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {

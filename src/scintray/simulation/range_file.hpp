@@ -99,4 +99,16 @@ class RangeReader {
 tally::PointResult finished_point(const tally::PointSums& sums, const RunOutline& run, std::size_t point,
                                   bool complete);
 
+/// Passes the ranges of files, whatever their order, to a sink as the run of all blocks in one process would
+/// have done, bit for bit, and commits it. Wall times are sums.
+///
+/// @param files    of shards or checkpoints
+/// @param partial  true to accept that blocks are missing: the result is then marked as partial, with the
+/// reason
+/// @throws InputError for files that are damaged, of another run than the first, or that hold the same
+/// blocks,
+///         with each of them; and for missing blocks unless `partial`, with what is missing
+tally::RunResult merge_ranges(const std::vector<std::filesystem::path>& files, ResultSink& sink,
+                              bool partial = false);
+
 }  // namespace scintray::simulation

@@ -166,6 +166,18 @@ bool is_consistent(const RunOutline& run, const Shard& shard) {
   return !run.points.empty() && shard.number >= 1 && shard.number <= shard.of;
 }
 
+/// True when the media and reflectors of a point are among those of the run.
+bool is_consistent(const tally::HistorySubjects& subjects,
+                   const std::optional<results::HistoryColumns>& run) {
+  const auto among = [](const auto& all, const auto& some) {
+    return std::all_of(some.begin(), some.end(),
+                       [&](const auto& one) { return std::find(all.begin(), all.end(), one) != all.end(); });
+  };
+  return run && among(run->media, subjects.media) && among(run->reflectors, subjects.reflectors) &&
+         subjects.absorption_per_mm.size() == subjects.media.size() &&
+         subjects.reflectance.size() == subjects.reflectors.size();
+}
+
 /// Rows of histories of a record, each a block's.
 bool is_consistent(const tally::PhotonHistories& rows, const tally::HistorySubjects& subjects) {
   const std::size_t count = rows.rows(), media = subjects.media.size(),
@@ -211,6 +223,7 @@ RangeReader::RangeReader(std::filesystem::path path) : path_(std::move(path)) {
 RangeReader::Content RangeReader::replay(const StoredRange& range, ResultSink& sink, bool begins) const {
   const tally::RunHeader& header = outline_.header;
   Content content;
+  bool has_readout = false;
   std::size_t channels = 0, orders = 0, samples = 0;
   RecordStream records(path_, range.from, range.to);
   while (!records.at_end()) {
@@ -220,6 +233,7 @@ RangeReader::Content RangeReader::replay(const StoredRange& range, ResultSink& s
         std::vector<tally::ReadoutChannel> list;
         std::optional<detector::ReadoutSpec> readout;
         records.decode(point, list, readout);
+        has_readout = outline_.has_energy;
         channels = list.size();
         orders = readout ? readout->photon_order.size() : 0;
         samples = readout && readout->pulses && readout->period_ns > 0.0 ? readout->samples() : 0;
@@ -228,8 +242,10 @@ RangeReader::Content RangeReader::replay(const StoredRange& range, ResultSink& s
       }
       case Record::subjects:
         records.decode(content.histories.emplace());
+        if (!is_consistent(*content.histories, outline_.histories)) throw damaged(path_);
         break;
       case Record::photons: {
+        if (!outline_.photon_list) throw damaged(path_);
         const auto rows = records.rows<tally::DetectedPhoton>();
         for (const tally::DetectedPhoton& row : rows)
           if (!within(row.part, header.parts) || !within(row.face, header.faces) || row.point != range.point)
@@ -244,6 +260,7 @@ RangeReader::Content RangeReader::replay(const StoredRange& range, ResultSink& s
         }
         break;
       case Record::events: {
+        if (!has_readout) throw damaged(path_);
         const auto rows = records.rows<tally::EventRecord>();
         for (const tally::EventRecord& row : rows) {
           if (!within(row.part, header.parts) || row.channels.size() != channels || row.point != range.point)

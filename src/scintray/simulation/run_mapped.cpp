@@ -108,8 +108,8 @@ tally::PointResult run_mapped(const scene::Scene& scene, const source::LightSour
   const std::uint64_t made =
       transport::work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect);
   sums.counts.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (hooks.range) hooks.range({0, made}, sums);
   tally::PointResult total = sums.result();
+  if (hooks.range) hooks.range({0, made}, std::move(sums));
   total.complete = made == maker.pieces();
   total.energy.events_requested = source.events();
   return total;

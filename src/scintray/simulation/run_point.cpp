@@ -187,10 +187,12 @@ void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64
 /// Collects blocks in their order into ranges.
 class RangeCollector {
  public:
-  RangeCollector(tally::PointSums empty, std::uint64_t first, const RunHooks& hooks)
-      : empty_(std::move(empty)), sums_(empty_), present_{first, first}, hooks_(hooks) {}
+  /// @param empty  returns sums over no blocks
+  RangeCollector(std::function<tally::PointSums()> empty, std::uint64_t first, const RunHooks& hooks)
+      : empty_(std::move(empty)), present_{first, first}, hooks_(hooks) {}
 
   void add(const Block& block) {
+    if (present_.count() == 0) sums_ = empty_();
     block.photons.add_to(sums_);
     block.events.add_to(sums_.energy);
     sums_.counts.emitted += block.emitted;
@@ -208,15 +210,14 @@ class RangeCollector {
     check_every_photon_has_a_fate(sums_.counts, traced_);
     const auto now = std::chrono::steady_clock::now();
     sums_.counts.wall_seconds = std::chrono::duration<double>(now - start_).count();
-    if (hooks_.range) hooks_.range(present_, sums_);
+    if (hooks_.range) hooks_.range(present_, std::move(sums_));
     present_.first = present_.last;
-    sums_ = empty_;
     traced_ = 0;
     start_ = now;
   }
 
  private:
-  const tally::PointSums empty_;
+  std::function<tally::PointSums()> empty_;
   tally::PointSums sums_;  ///< over the present range
   tally::BlockRange present_;
   std::uint64_t traced_ = 0;  ///< photons of the present range
@@ -268,7 +269,7 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
                                const tally::TallyPlan& plan, const RunSettings& settings,
                                tally::BlockRange blocks, const RunHooks& hooks) {
   const BlockTracer tracer(scene, source, plan, settings);
-  RangeCollector collector(tally::empty_sums(scene, plan), blocks.first, hooks);
+  RangeCollector collector([&] { return tally::empty_sums(scene, plan); }, blocks.first, hooks);
   const bool energy = source.has_energy();
   std::uint64_t done = 0;
   const auto trace = [&](std::uint64_t number) { return tracer.trace(blocks.first + number); };
@@ -289,9 +290,9 @@ tally::PointResult run_point(const scene::Scene& scene, const source::LightSourc
   const bool energy = source.has_energy();
   tally::PointSums sums = tally::empty_sums(scene, plan);
   RunHooks collecting = hooks;
-  collecting.range = [&](const tally::BlockRange& range, const tally::PointSums& more) {
+  collecting.range = [&](const tally::BlockRange& range, tally::PointSums more) {
     sums.merge(more);
-    if (hooks.range) hooks.range(range, more);
+    if (hooks.range) hooks.range(range, std::move(more));
   };
   const tally::BlockRange all{0, source.blocks()};
   const tally::BlockRange traced = trace_blocks(scene, source, plan, settings, all, collecting);

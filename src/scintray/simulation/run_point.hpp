@@ -37,7 +37,7 @@ struct RunHooks {
   /// Called after each block with the present range of blocks; true ends it.
   std::function<bool(const tally::BlockRange& present)> range_ends;
   /// Sums over a range, after all else of its blocks. The ranges of a run follow each other without a gap.
-  std::function<void(const tally::BlockRange& range, const tally::PointSums& sums)> range;
+  std::function<void(const tally::BlockRange& range, tally::PointSums sums)> range;
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the current blocks and return
 };
 

@@ -34,7 +34,7 @@ std::uint64_t work_of(const RunOutline& run, std::size_t point, const Shard& sha
 /// there is one, and sums them up.
 class PointSink : public ResultSink {
  public:
-  PointSink(ResultSink& to, tally::PointSums empty) : to_(to), total_(std::move(empty)) {}
+  explicit PointSink(ResultSink& to) : to_(to) {}
 
   void photons(const std::vector<tally::DetectedPhoton>& photons) override {
     to_.photons(photons);
@@ -49,20 +49,22 @@ class PointSink : public ResultSink {
     if (also) also->events(events);
   }
   void range(const PointRange& of, const tally::PointSums& sums) override {
-    if (!total_.alike(sums))
-      throw core::InputError(
-          {{}, "the tallies of a checkpoint are not those of this run", "add --restart to begin anew"});
     to_.range(of, sums);
     if (also) also->range(of, sums);
-    total_.merge(sums);
+    if (total && !total->alike(sums))
+      throw core::InputError(
+          {{}, "the tallies of a checkpoint are not those of this run", "add --restart to begin anew"});
+    if (total)
+      total->merge(sums);
+    else
+      total = sums;
   }
-  const tally::PointSums& total() const { return total_; }
 
   ResultSink* also = nullptr;
+  std::optional<tally::PointSums> total;  ///< over the ranges so far; nothing before the first
 
  private:
   ResultSink& to_;
-  tally::PointSums total_;
 };
 
 Simulation::Simulation(scene_file::SceneFile file, SimulationOptions options)
@@ -205,9 +207,11 @@ void Simulation::begin(ResultSink& sink, const SimulationHooks& hooks, const Sha
   build(hooks);
   sink.begin(outline_);
   const scene_file::SceneSpec first = spec(0);
-  if (!first.goniometers.empty() && shard.number == 1)
-    sink.surfaces(analysis::analyze_surfaces(first.goniometers, builder_.database(first), builder_.surfaces(),
-                                             first.run.seed));
+  if (first.goniometers.empty() || shard.number != 1) return;
+  const std::vector<analysis::SurfaceAnalysis> analyses = analysis::analyze_surfaces(
+      first.goniometers, builder_.database(first), builder_.surfaces(), first.run.seed);
+  sink.surfaces(analyses);
+  if (hooks.checkpoints) hooks.checkpoints->surfaces(analyses);
 }
 
 SimulationProgress Simulation::start_of(std::size_t number, const Shard& shard) const {
@@ -231,7 +235,7 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
   const tally::HistorySubjects* subjects =
       traced->plan().history ? &traced->plan().history->subjects() : nullptr;
   const PointRange of_point{number, {}, traced->facts(), subjects};
-  PointSink receiver(sink, renumbering.applied(tally::empty_sums(traced->scene(), traced->plan())));
+  PointSink receiver(sink);
 
   RunHooks run;
   run.stop = hooks.stop;
@@ -249,10 +253,10 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
     run.histories = [&](const tally::PhotonHistories& histories) {
       receiver.histories(histories, *subjects);
     };
-  run.range = [&](const tally::BlockRange& blocks, const tally::PointSums& sums) {
+  run.range = [&](const tally::BlockRange& blocks, tally::PointSums sums) {
     PointRange range = of_point;
     range.blocks = blocks;
-    receiver.range(range, renumbering.applied(sums));
+    receiver.range(range, renumbering.applied(std::move(sums)));
   };
   if (traced->source().has_energy()) {
     const std::vector<tally::ReadoutChannel> channels = renumbering.applied(traced->plan().channels.list);
@@ -263,7 +267,9 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
     };
   }
   const bool complete = tracer(*traced, receiver, run);
-  tally::PointResult result = finished_point(receiver.total(), outline_, number, complete);
+  if (!receiver.total)
+    receiver.total = renumbering.applied(tally::empty_sums(traced->scene(), traced->plan()));
+  tally::PointResult result = finished_point(*receiver.total, outline_, number, complete);
   static_cast<tally::PointFacts&>(result) = of_point.facts;
   sink.point(result, subjects);
   return result;
@@ -279,16 +285,14 @@ tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, 
       blocks.first = hooks.checkpoints->next_block(number, blocks.first);
       receiver.also = hooks.checkpoints;
       run.range_ends = [&](const tally::BlockRange&) { return hooks.checkpoints->due(); };
-      run.range = [&, pass_on = run.range](const tally::BlockRange& range, const tally::PointSums& sums) {
-        pass_on(range, sums);
+      run.range = [&, pass_on = run.range](const tally::BlockRange& range, tally::PointSums sums) {
+        pass_on(range, std::move(sums));
         if (hooks.checkpoints->due()) hooks.checkpoints->seal();
       };
-      if (run.progress)
-        run.progress = [&, show = run.progress,
-                        before = outline_.has_energy ? receiver.total().energy.events
-                                                     : receiver.total().counts.emitted](std::uint64_t done) {
-          show(before + done);
-        };
+      if (run.progress && receiver.total)
+        run.progress = [show = run.progress, before = outline_.has_energy ? receiver.total->energy.events
+                                                                          : receiver.total->counts.emitted](
+                           std::uint64_t done) { show(before + done); };
     }
     return ready.trace(blocks, run).last == last;
   };
@@ -297,7 +301,9 @@ tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, 
 
 tally::PointResult Simulation::run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks) {
   build(hooks);
-  return run_blocks(point, sink, hooks, {});
+  SimulationHooks alone = hooks;
+  alone.checkpoints = nullptr;  // they are of a run of all points
+  return run_blocks(point, sink, alone, {});
 }
 
 tally::PointResult Simulation::run(std::size_t point, const SimulationHooks& hooks) {
@@ -310,7 +316,9 @@ tally::PointResult Simulation::run(std::size_t point, const MappedResponse& resp
   const auto tracer = [&](const SimulationPoint& ready, PointSink&, RunHooks& run) {
     return ready.trace(response, run).complete;
   };
-  return trace(point, tracer, sink, hooks, {});
+  SimulationHooks alone = hooks;
+  alone.checkpoints = nullptr;
+  return trace(point, tracer, sink, alone, {});
 }
 
 tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& hooks, const Shard& shard) {

@@ -191,7 +191,7 @@ void exchange_sparse(A& archive, std::vector<std::uint64_t>& words) {
   archive.plain(count);
   if constexpr (A::kReads) {
     if (count > kMostWords) throw Undecodable();
-    words.assign(count, 0);
+    words.clear();
   }
   for (std::uint64_t at = 0; at < count;) {
     std::uint64_t zeros = 0;
@@ -204,7 +204,8 @@ void exchange_sparse(A& archive, std::vector<std::uint64_t>& words) {
     if constexpr (A::kReads) {
       const std::uint64_t left = count - at;
       if (zeros > left || others.size() > left - zeros || zeros + others.size() == 0) throw Undecodable();
-      std::copy(others.begin(), others.end(), words.begin() + static_cast<std::ptrdiff_t>(at + zeros));
+      words.resize(at + zeros, 0);
+      words.insert(words.end(), others.begin(), others.end());
     }
     at += zeros + others.size();
   }
