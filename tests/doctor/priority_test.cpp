@@ -103,3 +103,25 @@ TEST_CASE("A cut that needs a surface, and one that grazes, are refused with the
   check_contains(refusal(bare), {"faces", "cut", "no surface"});
   CHECK(contains(refusal(plate_and_rod("priority = 1001\n", "")), "a priority beyond 1000"));
 }
+
+TEST_CASE("Coaxial cylinders cut each other whatever their numbers of sides") {
+  const double pi = 3.14159265358979;
+  for (const auto& [outer, inner] : {std::pair{64, 64}, {64, 48}, {48, 64}, {72, 64}, {32, 64}}) {
+    CAPTURE(outer);
+    CAPTURE(inner);
+    const std::string glue =
+        "[[part]]\nname = \"glue\"\ncylinder = { radius = \"0.75 mm\", height = \"30 mm\", segments = " +
+        std::to_string(outer) + " }\nmedium = \"n15\"\nsurface = \"flat\"\n";
+    const std::string clad =
+        "[[part]]\nname = \"clad\"\ncylinder = { radius = \"0.5 mm\", height = \"60 mm\", segments = " +
+        std::to_string(inner) +
+        " }\ntranslate = [\"0 mm\", \"0 mm\", \"-15 mm\"]\nmedium = \"lso\"\nsurface = "
+        "\"flat\"\npriority = 3\n";
+    const Scene scene = SceneBuilder().build(scene_spec(lit_scene(glue + clad, "clad", 10))).scene;
+    const auto area = [pi](int sides, double radius) {
+      return 0.5 * sides * radius * radius * std::sin(2.0 * pi / sides);
+    };
+    CHECK(scene.parts[PartId(0)].volume_mm3 ==
+          doctest::Approx(30.0 * (area(outer, 0.75) - area(inner, 0.5))).epsilon(1e-6));
+  }
+}

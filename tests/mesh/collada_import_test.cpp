@@ -107,3 +107,24 @@ TEST_CASE("COLLADA's own unit is used, and another one given is an error") {
                 {"unit", "\"none\" metres"});
   check_refused(mesh_file("bad.dae", collada_text(R"(<unit meter="-1"/>)")), 0.0, "above 0");
 }
+
+TEST_CASE(
+    "COLLADA: nodes placed by <lookat>, numbers with a plus, blanks in the unit, and materials elsewhere are "
+    "read") {
+  std::string text = collada_text("<unit meter=\" +0.001 \" name=\"millimeter\"/>");
+  const auto change = [&text](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  // From (5, 0, 0) towards x: the node's -z is x, its y is z, so its x is -y.
+  change("<translate>10 0 0</translate>", "<lookat>+5 0 0  6 0 0  0 0 1</lookat>");
+  change("<instance_geometry url=\"#g\"/>",
+         "<instance_geometry url=\"#g\"><bind_material><technique_common><instance_material symbol=\"m\" "
+         "target=\"library.dae#paint\"/></technique_common></bind_material></instance_geometry>");
+  change("<triangles count", "<triangles material=\"m\" count");
+  const MeshImport read = import_mesh(mesh_file("lookat.dae", text), 0.0);
+  check_box(read, 1.0);
+  const auto bounds = diagnose(read.mesh).bounds;
+  CHECK((bounds.min() - Vec3(2, -1, 0)).norm() < 1e-9);
+  CHECK((bounds.max() - Vec3(5, 0, 2)).norm() < 1e-9);
+  CHECK(read.mesh.groups == std::vector<std::string>{"crystal:paint"});
+}

@@ -51,14 +51,21 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
         hint, {{at.x(), at.y(), at.z()}});
   };
   const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
-  if (!cut) return refuse("the result would not be a proper solid", "move one of them a little");
+  const std::string other_sides = fmt::format(
+      "their triangles cross at angles too small for this tolerance: give one of the round parts other "
+      "sides, as "
+      "segments = 48 in place of 64 or a tessellation deviation smaller by a fifth, or move one of them by "
+      "{:.3g} mm "
+      "or more",
+      4.0 * tolerance_mm);
+  if (!cut) return refuse("the result would not be a proper solid", other_sides);
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");
   if (part.surface.empty() && part.needs_surface)
     return refuse("the faces made by the cut have no surface", "give the part a surface = \"...\"");
   const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
   const auto unsound = mesh::mesh_problems(diagnosis, part.name);
-  if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, "move one of them a little");
+  if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, other_sides);
 
   std::vector<std::uint32_t> face_of;
   const std::uint32_t face = cut_face(part, by);

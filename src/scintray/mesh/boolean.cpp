@@ -12,6 +12,8 @@
 #include <tuple>
 
 #include "scintray/mesh/detail/cgal_surface.hpp"
+#include "scintray/mesh/detail/edges.hpp"
+#include "scintray/mesh/diagnosis.hpp"
 
 namespace scintray::mesh {
 namespace {
@@ -67,6 +69,32 @@ BooleanResult numbered(TriMesh mesh, const TriMesh& first, double clean_mm) {
   return result;
 }
 
+/// True when every edge has two triangles, which agree, and none is flatter than `length_mm`.
+bool is_sound(const TriMesh& mesh, double length_mm) {
+  bool closed = true;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    closed = closed && !is_degenerate(mesh, t, length_mm);
+  const auto uses = sorted_edge_uses(mesh);
+  for_each_edge(uses, [&closed](const EdgeUse* from, const EdgeUse* to) {
+    closed = closed && to - from == 2 && from[0].forward != from[1].forward;
+  });
+  return closed;
+}
+
+/// As numbered(), with the cleaning length for which the mesh stays closed. Where the sides of tessellated
+/// coaxial or tangent solids cross at small angles, slivers lie in rows, and welding at one length folds some
+/// of them onto others; a somewhat larger one takes whole rows. `wanted` is only changed by as much as is
+/// needed.
+BooleanResult cleaned(const TriMesh& mesh, const TriMesh& first, double wanted_mm) {
+  BooleanResult result = numbered(mesh, first, wanted_mm);
+  if (is_sound(result.mesh, wanted_mm)) return result;
+  for (const double factor : {1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0}) {
+    BooleanResult other = numbered(mesh, first, factor * wanted_mm);
+    if (is_sound(other.mesh, wanted_mm)) return other;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second, BooleanOperation operation,
@@ -94,7 +122,7 @@ std::optional<BooleanResult> boolean(const TriMesh& first, const TriMesh& second
     return std::nullopt;
   }
 
-  return numbered(mesh_of(out, numbers[&out]), first, clean_mm);
+  return cleaned(mesh_of(out, numbers[&out]), first, clean_mm);
 }
 
 std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second, double clean_mm) {
@@ -111,7 +139,7 @@ std::optional<BooleanResult> imprint(const TriMesh& first, const TriMesh& second
   } catch (const pmp::Corefinement::Self_intersection_exception&) {
     return std::nullopt;
   }
-  return numbered(mesh_of(a, numbers[&a]), first, clean_mm);
+  return cleaned(mesh_of(a, numbers[&a]), first, clean_mm);
 }
 
 }  // namespace scintray::mesh

@@ -131,7 +131,15 @@ class DegeneratePass {
     const std::uint32_t low = std::min(a, b), high = std::max(a, b);
     auto use = std::lower_bound(uses.begin(), uses.end(), std::pair(low, high),
                                 [](const EdgeUse& u, const auto& e) { return std::pair(u.low, u.high) < e; });
-    for (; use != uses.end() && use->low == low && use->high == high; ++use) {
+    // The neighbour across the edge runs along it the other way. Where welding has brought four triangles
+    // together at an edge, another one would belong to another sheet, and cutting it would open both.
+    const auto last =
+        std::find_if(use, uses.end(), [&](const EdgeUse& u) { return u.low != low || u.high != high; });
+    const auto opposite = [&](const EdgeUse& u) {
+      return u.triangle != t && u.forward != (a < b) && !has_equal_corners(mesh_.triangles[u.triangle]);
+    };
+    if (const auto found = std::find_if(use, last, opposite); found != last) use = found;
+    for (; use != last; ++use) {
       const std::size_t other = use->triangle;
       if (other == t || has_equal_corners(mesh_.triangles[other])) continue;
       if (gone_[other] || cut_at_[other] != kNone) return;  // removed in the next pass

@@ -20,14 +20,14 @@ constexpr std::size_t kMostColladaTriangles = 20'000'000, kMostColladaNodes = 1'
 
 /// Transform of a node: its elements, which apply in order, and the count of numbers of each.
 struct Transform {
-  enum class Kind { translate, rotate, scale, matrix, not_read };
+  enum class Kind { translate, rotate, scale, matrix, look_at, not_read };
   Kind kind;
   std::size_t numbers;
 };
 constexpr core::Word<Transform> kTransforms[] = {
     {"translate", {Transform::Kind::translate, 3}}, {"rotate", {Transform::Kind::rotate, 4}},
     {"scale", {Transform::Kind::scale, 3}},         {"matrix", {Transform::Kind::matrix, 16}},
-    {"lookat", {Transform::Kind::not_read, 9}},     {"skew", {Transform::Kind::not_read, 7}}};
+    {"lookat", {Transform::Kind::look_at, 9}},      {"skew", {Transform::Kind::not_read, 7}}};
 
 /// Elements of a node that may hold meshes.
 enum class Child { node, instance_node, instance_geometry, instance_controller };
@@ -115,8 +115,12 @@ class ColladaReader {
     return found->second;
   }
 
-  /// NaN when the text is not one number.
+  /// NaN when the text is not one number, between blanks and with either sign.
   static double one_number(std::string_view text) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+    text = text.substr(0, text.find_last_not_of(kSpace) + 1);
+    if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() ? value : std::nan("");
@@ -151,6 +155,7 @@ class ColladaReader {
   std::vector<std::size_t> indices(Node node) const {
     std::vector<std::size_t> values;
     for_each_word(node, [&](std::string_view word) {
+      if (word.starts_with('+')) word.remove_prefix(1);
       std::uint32_t value = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || end != word.data() + word.size())
@@ -195,6 +200,20 @@ class ColladaReader {
           Eigen::Affine3d step_matrix = Eigen::Affine3d::Identity();
           step_matrix.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(v.data());
           transform = transform * step_matrix;
+          break;
+        }
+        case Transform::Kind::look_at: {  // from v[0..2] towards v[3..5], which is along -z, and v[6..8]
+                                          // upwards
+          const core::Vec3 eye(v[0], v[1], v[2]), interest(v[3], v[4], v[5]), up(v[6], v[7], v[8]);
+          const core::Vec3 back = eye - interest, side = up.cross(back);
+          if (!(back.norm() > 0.0) || !(side.norm() > 0.0))
+            reject("a <lookat> looks at itself, or along its up axis");
+          Eigen::Affine3d look = Eigen::Affine3d::Identity();
+          look.linear().col(0) = side.normalized();
+          look.linear().col(2) = back.normalized();
+          look.linear().col(1) = look.linear().col(2).cross(look.linear().col(0));
+          look.translation() = eye;
+          transform = transform * look;
           break;
         }
         case Transform::Kind::not_read:
@@ -273,8 +292,14 @@ class ColladaReader {
     const std::string symbol = primitive.attribute("material").value();
     if (symbol.empty()) return {};
     for (const Node bound : instance.child("bind_material").child("technique_common").children())
-      if (symbol == bound.attribute("symbol").value() && bound.attribute("target"))
-        return name_of(referred(bound, "target"));
+      if (symbol == bound.attribute("symbol").value() && bound.attribute("target")) {
+        // Materials may stand in another file, which is not read: their name is all that counts here.
+        const std::string target = bound.attribute("target").value();
+        const std::string id = target.substr(target.find('#') + 1);
+        const auto found = by_id_.find(id);
+        if (target.starts_with("#") && found != by_id_.end()) return name_of(found->second);
+        return id.empty() ? symbol : id;
+      }
     return symbol;
   }
 
