@@ -287,3 +287,24 @@ TEST_CASE("Gaps of one pattern are one line: a builder's own are a note, others 
   // Each gap of its own when asked.
   check_contains(run_program({"check", "scene.toml", "--all"}, folder).output, {"warning 3:"});
 }
+
+TEST_CASE("Parts of a medium without composition are named by patterns that vacuum takes") {
+  const auto folder = scratch_folder("check_matter");
+  const std::string scene =
+      "ambient = \"air\"\n"
+      "[[array]]\nname = \"crystal\"\ncount = [4, 4]\ngap = \"0.1 mm\"\n"
+      "[array.element]\nbox = [\"3 mm\", \"3 mm\", \"9 mm\"]\nmedium = \"LYSO\"\nsurface = \"polished\"\n"
+      "[array.septa]\nreflector = \"ESR\"\nthickness = \"0.065 mm\"\n"
+      "[source]\ntype = \"gammas\"\nemission = \"gamma\"\nenergy = \"511 keV\"\nevents = 10\n"
+      "position = [\"-9 mm\", \"0 mm\", \"4 mm\"]\ndirection = [1, 0, 0]\n";
+  write(folder / "scene.toml", scene);
+  const Ended ended = run_program({"check", "scene.toml"}, folder);
+  CAPTURE(ended.output);
+  CHECK(ended.exit_code == 1);
+  check_contains(ended.output, {"12 parts \"crystal_septum_x[*]\"", "3 parts \"crystal_septum_y[*]\""});
+  const std::string vacuum = "vacuum = [\"crystal_septum_x[*]\", \"crystal_septum_y[*]\"]";
+  check_contains(ended.output, vacuum);
+  CHECK_FALSE(contains(ended.output, "[0"));
+  write(folder / "scene.toml", scene + vacuum + "\n");  // the hint as it is
+  CHECK(run_program({"check", "scene.toml"}, folder).exit_code == 0);
+}

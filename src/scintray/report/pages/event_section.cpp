@@ -192,14 +192,16 @@ std::string parts_table(const PointAnalysis& point, const PartNames& names) {
   for (std::size_t i = 0; i < analysis.parts.size(); ++i) {
     const analysis::PartLight& part = analysis.parts[i];
     const bool peak = part.peak.has_numbers();
-    const std::string no_peak = cell("none: " + part.peak.reason, "td", "why");
+    const std::string no_peak =
+        "<td class=\"why\" colspan=\"2\">" + escape_html("none: " + part.peak.reason) + "</td>";
     const std::string name =
         names.contains(part.part) ? names[part.part] : "part " + std::to_string(part.part.index());
     rows += "<tr>" + number_cell(std::to_string(i + 1)) + cell(name, "th") +
-            number_cell(grouped(part.pulses)) + number_cell(with_error(part.mean_light)) +
+            number_cell(grouped(part.pulses)) +
+            number_cell(part.pulses > 1 ? with_error(part.mean_light) : compact(part.mean_light.value)) +
             (peak ? number_cell(with_error(part.peak.fit.position)) +
                         number_cell(percent_with_error(part.peak.fit.relative_fwhm))
-                  : no_peak + no_peak) +
+                  : no_peak) +
             (analysis.flood ? number_cell(grouped(assigned[i])) : "") + "<td>" + small_spectrum(part) +
             "</td></tr>\n";
   }

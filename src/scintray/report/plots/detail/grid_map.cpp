@@ -175,9 +175,12 @@ std::string grid_map_style() {
          ".grid-map .border { fill: none; stroke: #fff; stroke-opacity: .75; stroke-width: 1; }\n"
          ".grid-map .mark-text { fill: #fff; stroke: #000; stroke-width: .18em; paint-order: stroke; "
          "text-anchor: middle; font-weight: 600; }\n"
-         ".scale .shades { display: flex; flex-direction: column; align-items: center; }\n"
          ".scale { display: flex; gap: .5rem; align-items: center; font-size: .85rem; color: var(--soft); }\n"
-         ".scale i { width: 10rem; height: .7rem; border-radius: 2px; }\n";
+         ".scale i { width: 10rem; height: .7rem; border-radius: 2px; }\n"
+         // The scale of goniometers on the same page is laid out otherwise.
+         ".grid-map + .scale { flex-wrap: wrap; white-space: normal; margin: 0; }\n"
+         ".scale .shades { display: flex; flex-direction: column; align-items: center; }\n"
+         ".scale .shades i { flex: none; }\n";
 }
 
 }  // namespace scintray::report
