@@ -169,7 +169,7 @@ class ClearanceCheck {
   }
 
  private:
-  struct Region {
+  struct RegionContent {
     std::set<core::PartId> round;        ///< bodies cut out of it
     std::vector<std::size_t> triangles;  ///< of other parts' facets
   };
@@ -224,7 +224,7 @@ class ClearanceCheck {
                        [&](const mesh::SupportSurface& s) { return s.distance(point) <= margin; });
   }
 
-  void compare(core::PartId region, const Region& content, core::PartId part) {
+  void compare(core::PartId region, const RegionContent& content, core::PartId part) {
     const Samples& own = samples(part);
     if (region.has_value() && bodies_[region].convex) {
       for (const core::Vec3& point : own.points)
@@ -278,7 +278,7 @@ class ClearanceCheck {
   PartBodies& bodies_;
   double tolerance_;
   bool changed_ = false;
-  std::map<core::PartId, Region> regions_;
+  std::map<core::PartId, RegionContent> regions_;
   std::map<core::PartId, Samples> samples_;
 };
 
