@@ -99,7 +99,7 @@ TEST_CASE("values outside their range") {
                 "cylinder = { radius = \"1 mm\", height = \"2 mm\", segments = @@1000000 }",
                 "1000000 segments", "10000");
   check_mistake("box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
-                "sphere = { radius = \"1 mm\", subdivisions = @@1000 }", "1000 subdivisions", {"1", "150"});
+                "sphere = { radius = \"1 mm\", subdivisions = @@1000 }", "1000 subdivisions", {"1", "250"});
   check_mistake(
       "box = [\"2 mm\", \"2 mm\", \"20 mm\"]",
       "winston = { exit_radius = \"1 mm\", acceptance = \"30 deg\", segments = 10000, rings = @@1000 }",

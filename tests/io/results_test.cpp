@@ -265,8 +265,17 @@ TEST_CASE("A result with impossible numbers is refused with what is wrong") {
   check_contains(refused([](PointResult& p) { p.interactions.sum = NAN; }), "interactions_per_photon");
   check_contains(refused([](PointResult& p) { p.detected_path_mm.sum *= 1e9; }), "detected_path");
   check_contains(refused([](PointResult& p) { p.wall_seconds = -1.0; }), "wall_seconds");
-  check_contains(refused([](PointResult& p) { p.tallies[0].sum_of_squares[3] = INFINITY; }),
-                 "sum of squares");
+  const auto endless = [](PointResult& p) {
+    TallyResult tally;
+    tally.name = "seen";
+    tally.type = "count";
+    tally.score = "photons";
+    tally.unit = "1";
+    tally.sum = {1.0};
+    tally.sum_of_squares = {INFINITY};
+    p.tallies.push_back(tally);
+  };
+  check_contains(refused(endless), "sum of squares");
   CHECK(refused([](PointResult&) {}).empty());
 }
 

@@ -11,10 +11,13 @@ from support import Case, crystal, detector, main
 class Numbers(Case):
     def test_fates_have_binomial_errors_and_sum_to_one(self):
         point = crystal(5000).run()[0]
-        self.assertEqual(sum(point.fate_count), 5000)
+        self.assertEqual(point.photons, 5000)
+        self.assertEqual(int(point.fate_count.sum()), point.photons_traced)
         self.assertAlmostEqual(sum(share.value for share in point.fates.values()), 1.0, 12)
         p = point.detected.value
-        self.assertAlmostEqual(point.detected.error, np.sqrt(p * (1 - p) / 5000), 12)
+        b = point.birth_efficiency
+        self.assertAlmostEqual(p, b * point.fate_count[0] / point.photons_traced, 12)
+        self.assertAlmostEqual(point.detected.error, b * np.sqrt(p / b * (1 - p / b) / point.photons_traced), 12)
         self.assertEqual(point.absorbed_in_medium['LSO'], point.fate_count[point.fate_names.index('absorbed_in_medium')])
         self.assertEqual(point.sensor_faces['detected'].sum(), point.fate_count[0])
         self.assertEqual(point.detected_time_ns.count, point.fate_count[0])

@@ -178,7 +178,7 @@ class Control(Case):
         self.assertFalse(results.complete)
         self.assertIn('stopped', results.partial_reason)
         self.assertGreater(results[0].photons, 0)
-        self.assertEqual(results[0].fate_count.sum(), results[0].photons)
+        self.assertEqual(results[0].fate_count.sum(), results[0].photons_traced)
 
     def test_an_error_of_progress_ends_the_run(self):
         def progress(done, of, thing):

@@ -88,7 +88,7 @@ TEST_CASE("The curves and surfaces that the paper's acceptance criteria name exi
   points.points.resize(file.points());
   for (std::size_t i = 0; i < file.points(); ++i) points.points[i].parameters = file.parameters(i);
   const SceneSpec spec = file.spec(0);
-  CHECK(spec.criteria.size() == 25);
+  CHECK(spec.criteria.size() == 27);
   CHECK_NOTHROW(report::check_curves(points, spec.analysis.reference, spec.criteria));
   CHECK_NOTHROW(report::check_surface_criteria(spec.goniometers, spec.criteria));
 }

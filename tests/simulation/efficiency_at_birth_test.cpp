@@ -135,6 +135,7 @@ TEST_CASE(
   const std::string count = "[[tally]]\ntype = \"count\"\nname = \"seen\"\nat = \"";
   CHECK(birth_efficiency(kCrystal + kPhotons) < 1.0);
   CHECK(birth_efficiency(kCrystal + kPhotons + count + "detected\"\nfate = \"detected\"\n") < 1.0);
+  CHECK(birth_efficiency(kCrystal + kPhotons + count + "detected\"\n") < 1.0);
   CHECK(birth_efficiency(kCrystal + kPhotons + count + "escaped\"\n") == 1.0);
   CHECK(birth_efficiency(kCrystal + kPhotons + "[run]\nphoton_history = true\n") == 1.0);
   std::string ideal = kCrystal + kPhotons;

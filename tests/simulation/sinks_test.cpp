@@ -156,7 +156,11 @@ TEST_CASE("A result states the effects that it does not include, of its media, s
   CHECK_FALSE(contains(photons, "resolution"));  // there are no events
 
   const std::string events = names(traced(kCrystal + kEvents));
-  check_contains(events, "intrinsic resolution|LSO|R\n");
+  check_contains(events, "non-proportionality|LSO|R\n");
+  CHECK_FALSE(contains(events, "intrinsic resolution"));
+  std::string iodide = kCrystal + kEvents;
+  iodide.replace(iodide.find("\"LSO\""), 5, "\"NaI_Tl\"");
+  check_contains(names(traced(iodide)), "intrinsic resolution|NaI_Tl|R\n");
   check_contains(events, "|RT\n");
   check_contains(events, "electronics and response of the sensors");
   CHECK_FALSE(contains(events, "electronic noise"));

@@ -42,7 +42,7 @@ TEST_CASE(
     const Trace one = workload.trace(work, 1);
     CHECK((workload.has_events() ? one.events : one.photons) == work);
     CHECK(one.lost == 0);
-    CHECK(one.segments >= one.photons);
+    CHECK(one.segments > 0);
     CHECK(workload.trace(work, 2).segments == one.segments);
 
     constexpr std::size_t kRays = 500;

@@ -126,6 +126,13 @@ struct PublishedMap {
   std::uint64_t rays = 3000;  ///< per side and incidence angle
 };
 
+/// For files that state metres of height over micrometres of width, which are refused without.
+ReadOptions heights_in_um() {
+  ReadOptions options;
+  options.height_unit_um = 1.0;
+  return options;
+}
+
 ReadOptions without_units(double width_um) {
   ReadOptions options;
   options.width_um = width_um;
@@ -149,8 +156,8 @@ TEST_CASE("no ray on any published map is unclassified: side and direction agree
                                        {"x3p-2.x3p", {}},
                                        {"sample-land.x3p", {}, true},
                                        {"sdf-1.sdf", {}},
-                                       {"gwyddion-export-english.txt", {}, false, kFewRays},
-                                       {"gwyddion-export-german.txt", {}, false, kFewRays},
+                                       {"gwyddion-export-english.txt", heights_in_um(), false, kFewRays},
+                                       {"gwyddion-export-german.txt", heights_in_um(), false, kFewRays},
                                        {"xyz-1.txt", without_units(4.0)},
                                        {"gwyfile-test.gwy", without_units(128.0)},
                                        {"10x10-one_channel_without_name.ibw", without_units(10.0)}};

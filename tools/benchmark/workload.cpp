@@ -94,7 +94,7 @@ Trace Workload::trace(std::uint64_t work, int threads) const {
   trace.wall_s = clock_seconds(CLOCK_MONOTONIC) - start;
   trace.cpu_s = clock_seconds(clock) - cpu_start;
   trace.segments = result.segments;
-  trace.photons = result.photons;
+  trace.photons = result.emitted;
   trace.events = result.energy.events;
   trace.lost = result.lost;
   return trace;

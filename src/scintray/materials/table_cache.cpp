@@ -138,6 +138,7 @@ void TableCache::keep(const CacheEntry& entry, const optics::SurfaceTable& table
   const std::filesystem::path path = folder_.file_of(entry.key);
   std::error_code ignored;
   try {
+    if (!is_whole(path)) std::filesystem::remove(path, ignored);  // whatever it is: its name is the cache's
     core::h5::File file = core::h5::File::create(path);
     optics::write_table(file.root(), table);
     core::h5::Group group = file.root().create_group(kGroup);

@@ -239,11 +239,11 @@ SphereSpec read_sphere(const config::TomlTable& part) {
   sphere.where = table.where();
   sphere.radius_mm = positive_length(table, "radius", "sphere");
   const std::int64_t subdivisions = table.integer("subdivisions", sphere.subdivisions);
-  constexpr std::int64_t kMostSubdivisions = 150;
+  constexpr std::int64_t kMostSubdivisions = 250;
   table.expect("subdivisions", subdivisions >= 1 && subdivisions <= kMostSubdivisions,
                "a sphere of " + std::to_string(subdivisions) + " subdivisions",
                "give 1 (an icosahedron) to " + std::to_string(kMostSubdivisions) +
-                   " (450,000 triangles); 16 is the default");
+                   " (1,250,000 triangles); 16 is the default");
   sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, kMostSubdivisions));
   return sphere;
 }

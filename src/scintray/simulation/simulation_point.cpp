@@ -50,9 +50,10 @@ std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const 
 /// True when nothing is recorded of photons that are not detected but their fates.
 bool only_detected_count(const tally::TallyPlan& plan) {
   constexpr std::uint32_t kDetected = 1u << static_cast<unsigned>(core::StepEvent::detected);
-  return !plan.history &&
-         std::all_of(plan.counts.begin(), plan.counts.end(),
-                     [](const tally::CountRequest& count) { return count.fates == kDetected; });
+  if (plan.history) return false;
+  for (std::size_t i = 0; i < plan.counts.size(); ++i)
+    if (plan.counts[i].fates != kDetected && plan.events_of[i] != kDetected) return false;
+  return true;
 }
 
 RunSettings settings_of(const scene_file::SceneSpec& spec, const scene::Scene& scene,

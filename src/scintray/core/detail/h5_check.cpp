@@ -298,6 +298,7 @@ Seal seal_of(const std::filesystem::path& path) {
   file.seekg(static_cast<std::streamoff>(size - kSealBytes));
   file.read(end.data(), static_cast<std::streamsize>(end.size()));
   if (!file || !end.starts_with(kSealMark)) return Seal::none;
+  if (end.back() != '\n') return Seal::broken;
   file.seekg(0);
   const std::string digest = digest_of(file, size - kSealBytes);
   return digest == std::string_view(end).substr(kSealMark.size(), kDigestDigits) ? Seal::intact

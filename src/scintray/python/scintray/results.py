@@ -95,8 +95,9 @@ class Point:
     def __init__(self, entry: Dict[str, Any], header: Dict[str, Any]) -> None:
         self.parameters: Dict[str, str] = dict(zip(header["sweep_keys"], entry["parameters"]))
         self.fate_names: List[str] = header["fates"]
-        for name in ("photons", "photons_requested", "photons_traced", "birth_efficiency", "complete", "fate_count", "detected_path_histogram", "scatterings",
-                     "segments", "wall_seconds", "cut_bias_bound", "energy", "sensor_faces"):
+        for name in ("photons", "photons_requested", "photons_traced", "birth_efficiency", "complete", "fate_count",
+                     "detected_path_histogram", "scatterings", "segments", "wall_seconds", "cut_bias_bound", "energy",
+                     "sensor_faces"):
             setattr(self, name, entry[name])
         if self.energy["events_requested"]:
             self.energy["detected_per_event"] = Moments(self.energy["detected_per_event"])
