@@ -58,7 +58,7 @@ TEST_CASE("A point or a number that a result lacks is none, and equal seeds and 
   short_one.run.points.resize(1);
   short_one.run.partial_reason = "interrupted";
   const std::vector<NamedResult> results{named("a", 1, 0.45), named("c", 3, 0.45), short_one};
-  const ComparedNumber& lacking = detected(compare_results(results), "polished, 6 mm");
+  const ComparedNumber lacking = detected(compare_results(results), "polished, 6 mm");
   CHECK(lacking.values[1]);
   CHECK_FALSE(lacking.values[2]);
   CHECK_FALSE(lacking.sigmas[2]);
