@@ -224,9 +224,23 @@ TEST_CASE("whether a value is an array") {
   CHECK_FALSE(reading.table.is_array("c"));
 }
 
-TEST_CASE("places in a line that holds a whole file count characters, not bytes") {
+TEST_CASE("a long list on one line is refused where reading it would take minutes") {
+  std::string list, lines;
+  for (int i = 0; i < 16'000; ++i) list += "{ name = \"a\", at = 1 }, ";
+  for (int i = 0; i < 16'000; ++i) lines += "{ name = \"a\", at = 1 },\n";
+  const MarkedText one("a = 1\n@@rows = [" + list + "]\n");
+  const auto problems = problems_of([&] { Reading reading(one.text); });
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].where.line == 2);
+  CHECK(contains(problems[0].hint, "several lines"));
+  const MarkedText many("a = 1\nrows = [@@" + lines + "]\n");
+  Reading reading(many.text);
+  CHECK(reading.table.node()->find("rows")->items.size() == 16'000);
+}
+
+TEST_CASE("places in a long line count characters, not bytes") {
   std::string list;
-  const int values = 40'000;
+  const int values = 2'000;
   for (int i = 0; i < values; ++i) list += "{ name = \"µm\", at = 1 }, ";
   const MarkedText input("rows = [" + list + "{ name = @@7 }]\n");
   Reading reading(input.text);

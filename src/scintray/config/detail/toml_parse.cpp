@@ -92,6 +92,23 @@ void refuse_deep_nesting(const TextPlaces& places) {
   }
 }
 
+/// Throws InputError for lines in which the parser would take minutes: for each value it copies the line.
+void refuse_long_lines(const TextPlaces& places) {
+  constexpr double kMostBytesCopied = 4e9;
+  const std::string& text = places.text();
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const auto values = std::count(text.begin() + static_cast<std::ptrdiff_t>(start),
+                                   text.begin() + static_cast<std::ptrdiff_t>(end), ',');
+    if (static_cast<double>(values) * static_cast<double>(end - start) > kMostBytesCopied)
+      throw core::InputError({places.at(start),
+                              "a line of " + std::to_string(end - start) + " characters with " +
+                                  std::to_string(values) + " commas, which would take minutes to read",
+                              "write the list over several lines, an element on each"});
+    start = end + 1;
+  }
+}
+
 bool is_bare(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
@@ -231,6 +248,7 @@ TomlNodePtr parse_toml(const std::string& text, const std::string& file) {
     throw core::InputError(
         {places.at(zero), "a zero byte: this is not a text file", "give a TOML file (UTF-8 text)"});
   refuse_deep_nesting(places);
+  refuse_long_lines(places);
   toml::value document;
   try {
     std::istringstream stream(body);
