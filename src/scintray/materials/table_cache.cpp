@@ -28,7 +28,7 @@ std::string environment(const char* name) {
 }
 
 /// True when the bytes of a file are those that were written. A file of an earlier ScintRay has no such seal
-/// and is made again.
+/// and its table is built again.
 bool is_whole(const std::filesystem::path& path) { return core::h5::seal_of(path) == core::h5::Seal::intact; }
 
 /// A text of the group; empty when it is missing.

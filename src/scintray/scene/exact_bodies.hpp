@@ -104,7 +104,7 @@ struct BodyHit {
 /// region, where this is one of them, and bodies cut out of it. A region's boundary has its other triangles
 /// first.
 ///
-/// A body that is the intersection of the insides of its surfaces is met by a ray from outside where the ray
+/// A body that is the intersection of the insides of its surfaces is hit by a ray from outside where the ray
 /// has entered all of these, and left where it leaves the first of them. Which it is, is known from the
 /// region that the photon is in, so that no distance is compared with a tolerance.
 struct ExactBodies {
