@@ -291,18 +291,31 @@ InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Phot
   }
 }
 
+/// Medium and angle in which light reaches a sensor.
+struct Arrival {
+  double index = 1.0;   ///< refractive index
+  double cosine = 1.0;  ///< of the angle to the normal
+};
+
+/// The end of a photon at the sensor of an interface: converted or not.
+void reach_sensor(const scene::Scene& scene, const scene::Interface& interface, const source::Photon& photon,
+                  const Arrival& arrival, Step& result) {
+  const core::SensorId id = result.from_back ? interface.front_sensor : interface.back_sensor;
+  const double sine = std::sqrt(std::max(0.0, 1.0 - arrival.cosine * arrival.cosine));
+  const double probability =
+      scene.sensors[id].conversion_probability(photon.wavelength_nm, arrival.index * sine);
+  result.event =
+      photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
+  result.sensor_part = result.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+}
+
 /// Light absorbed by a surface at an interface: converted by a sensor that converts such light, or lost.
 void absorb_at_surface(const scene::Scene& scene, const scene::Interface& interface,
                        const source::Photon& photon, Step& result) {
   result.event = core::StepEvent::absorbed_at_surface;
   const core::SensorId id = result.from_back ? interface.front_sensor : interface.back_sensor;
   if (!id.has_value() || !scene.sensors[id].converts_absorbed()) return;
-  const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_before * result.cos_before));
-  const double probability =
-      scene.sensors[id].conversion_probability(photon.wavelength_nm, photon.optics.index * sine);
-  result.event =
-      photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
-  result.sensor_part = result.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+  reach_sensor(scene, interface, photon, {photon.optics.index, result.cos_before}, result);
 }
 
 /// True when light that enters a region through an interface reaches the sensor there, rather than passing
@@ -364,17 +377,11 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     return result;
   }
 
-  const core::SensorId sensor = link.from_back ? interface.front_sensor : interface.back_sensor;
   photon.region = next;
   photon.on_triangle = scene::kNoTriangle;
   photon.optics = optics.at(next_medium, photon.wavelength_nm);
   if (reaches_sensor(scene, interface, link.from_back)) {
-    const double sine = std::sqrt(std::max(0.0, 1.0 - result.cos_after * result.cos_after));
-    const double probability =
-        scene.sensors[sensor].conversion_probability(photon.wavelength_nm, there * sine);
-    result.event =
-        photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
-    result.sensor_part = link.from_back ? interface.front_sensor_part : interface.back_sensor_part;
+    reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
   } else if (next_opaque) {
     result.event = core::StepEvent::absorbed_in_medium;
     result.medium = next_medium;
