@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -13,6 +14,7 @@
 #include "scintray/report/text/sweep_view.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "support/made_up_result.hpp"
+#include "support/page_scripts.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
@@ -47,7 +49,7 @@ std::string markup_fault(const std::string& page) {
         tag.substr(tag[0] == '/' ? 1 : 0, tag.find_first_of(" ") - (tag[0] == '/' ? 1 : 0));
     if (tag[0] != '/') {
       open.push_back(name);
-      if (name == "style") i = page.find("</style>", i) - 1;
+      if (name == "style" || name == "script") i = page.find("</" + name + ">", i) - 1;
     } else if (open.empty() || open.back() != name) {
       return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
     } else {
@@ -68,10 +70,52 @@ TEST_CASE("The page is well formed and loads nothing") {
     run.points.resize(static_cast<std::size_t>(points));
     const std::string page = html_report(run);
     CHECK(markup_fault(page) == "");
-    for (const char* outside :
-         {"<script", "http:", "https:", "src=", "url(", "@import", "<link", "nan", "inf\""})
-      CHECK_FALSE(contains(page, outside));
+    const PageScripts scripts = scripts_of(page);
+    for (const char* outside : {"http:", "https:", "src=", "url(", "@import", "<link", "nan", "inf\""})
+      CHECK_FALSE(contains(scripts.page, outside));
+    for (const std::string& code : scripts.code)
+      for (const char* outside : {"fetch(", "XMLHttpRequest", "import(", "WebSocket"})
+        CHECK_FALSE(contains(code, outside));
   }
+}
+
+TEST_CASE("A page allows its own script and no other, and every plot has its numbers") {
+  RunResult run = test::made_up_run();
+  run.points.resize(5);
+  const std::string page = html_report(run);
+  const PageScripts scripts = scripts_of(page);
+  const std::string policy = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; ";
+  check_contains(page, policy);
+  CHECK(page.find(policy) < page.find("<style"));
+  CHECK_FALSE(contains(page.substr(page.find(policy), 400), "script-src 'unsafe-inline'"));
+  std::size_t hashes = 0, plots = 0;
+  for (std::size_t at = page.find("'sha256-"); at != std::string::npos; at = page.find("'sha256-", at + 1))
+    ++hashes;
+  CHECK(hashes == scripts.code.size());
+  for (std::size_t at = page.find("<svg class=\"plot\""); at != std::string::npos;
+       at = page.find("<svg class=\"plot\"", at + 1))
+    ++plots;
+  CHECK(plots > 2);
+  CHECK(scripts.data.size() == plots);
+  for (const std::string& data : scripts.data) CHECK(nlohmann::json::parse(data).contains("series"));
+  const nlohmann::json sweep = nlohmann::json::parse(scripts.data.front());
+  CHECK(sweep["series"][0]["y"][2].get<double>() ==
+        doctest::Approx(run.points[2].fraction(Fate::detected).value).epsilon(1e-6));
+}
+
+TEST_CASE("Data of a plot hold what a script element may not") {
+  report::Plot plot;
+  plot.title = "</script><b>\"\\";
+  plot.series = {{"<!--", {0, 1}, {std::nan(""), 2.5e-7}, {}, false}};
+  const PageScripts scripts = scripts_of(report::chart(plot));
+  REQUIRE(scripts.data.size() == 1);
+  const nlohmann::json data = nlohmann::json::parse(scripts.data[0]);
+  CHECK(data["title"] == plot.title);
+  CHECK(data["series"][0]["n"] == "<!--");
+  CHECK(data["series"][0]["y"][0].is_null());
+  CHECK(data["series"][0]["y"][1] == 2.5e-7);
+  CHECK(data["xr"].size() == 2);
+  CHECK(markup_fault(report::chart(plot)) == "");
 }
 
 TEST_CASE("Text from scenes is escaped everywhere") {
@@ -277,6 +321,7 @@ TEST_CASE("A page has its landmarks and a list of contents, and the keyboard rea
 
 TEST_CASE("A long table is folded") {
   RunResult run = test::made_up_run();
+  run.points.resize(5);
   const PointResult point = run.points.front();
   check_contains(html_report(run), "<td class=\"n\">");
   CHECK_FALSE(contains(html_report(run), "<summary>Table of "));
@@ -292,5 +337,7 @@ TEST_CASE("A page of photons on a block of sensors says why it has no flood map"
   CHECK_FALSE(contains(html_report(run), "No flood map"));  // one sensor
   for (PointResult& point : run.points)
     for (int i = 0; i < 2; ++i) point.sensor_faces.push_back(point.sensor_faces.front());
-  check_contains(html_report(run), {"No flood map", "photons, not events", "gamma_events"});
+  const std::string page = html_report(run);
+  check_contains(page, {"No flood map", "photons, not events", "gamma_events"});
+  CHECK(page.find("No flood map") > page.find("Where every photon ended"));  // the answer is first
 }

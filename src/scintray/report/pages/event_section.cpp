@@ -35,8 +35,8 @@ std::string with_omissions(const std::string& text, const PointAnalysis& point, 
 std::string difference_figure(const analysis::Spread& differences, const PointAnalysis& point,
                               const std::string& title) {
   const bool drawn = !differences.fitted.counts.empty();
-  return event_figure(drawn ? svg_plot(difference_plot(differences, "time difference")) : "", point.label,
-                      title, with_omissions(spread_text(differences), point, Figure::timing));
+  return event_figure(drawn ? chart(difference_plot(differences, "time difference")) : "", point.label, title,
+                      with_omissions(spread_text(differences), point, Figure::timing));
 }
 
 std::string layers_table(const analysis::Confusion& confusion) {
@@ -57,11 +57,11 @@ std::string figures(const PointAnalysis& point) {
   const analysis::EventAnalysis& analysis = point.analysis;
   std::string out;
   if (analysis.spectrum)
-    out += event_figure(svg_plot(spectrum_plot(analysis)), point.label, "energy spectrum",
+    out += event_figure(chart(spectrum_plot(analysis)), point.label, "energy spectrum",
                         with_omissions(peak_text(analysis), point, Figure::resolution));
   if (analysis.light_against_depth)
-    out += event_figure(svg_plot(depth_plot(*analysis.light_against_depth)), point.label,
-                        "light against depth", depth_text(*analysis.light_against_depth));
+    out += event_figure(chart(depth_plot(*analysis.light_against_depth)), point.label, "light against depth",
+                        depth_text(*analysis.light_against_depth));
   if (analysis.flood)
     out += event_figure(
         grid_map(flood_picture(analysis)), point.label, "flood map",
@@ -70,7 +70,7 @@ std::string figures(const PointAnalysis& point) {
   else if (const std::string reason = analysis::reason_left_out(analysis, "flood map"); !reason.empty())
     out += event_figure("", point.label, "no flood map", reason);
   if (analysis.doi && !analysis.doi->slices.empty())
-    out += event_figure(svg_plot(doi_plot(*analysis.doi)), point.label, "depth of interaction",
+    out += event_figure(chart(doi_plot(*analysis.doi)), point.label, "depth of interaction",
                         doi_text(*analysis.doi));
   if (analysis.pair_difference_ns)
     out += difference_figure(*analysis.pair_difference_ns, point, "coincidence of two such detectors");
@@ -79,15 +79,15 @@ std::string figures(const PointAnalysis& point) {
   if (analysis.end_difference_ns)
     out += difference_figure(*analysis.end_difference_ns, point, "one end minus the other");
   if (analysis.timing_against_depth)
-    out += event_figure(svg_plot(timing_depth_plot(*analysis.timing_against_depth)), point.label,
+    out += event_figure(chart(timing_depth_plot(*analysis.timing_against_depth)), point.label,
                         "timing against depth", timing_depth_text(*analysis.timing_against_depth));
   if (analysis.orders)
     out += event_figure(
-        svg_plot(order_plot(*analysis.orders, analysis.orders_bound)), point.label,
+        chart(order_plot(*analysis.orders, analysis.orders_bound)), point.label,
         "coincidence of two such detectors by order of photons",
         with_omissions(order_text(*analysis.orders, analysis.orders_bound), point, Figure::timing));
   if (!analysis.orders_against_depth.empty())
-    out += event_figure(svg_plot(order_depth_plot(analysis)), point.label,
+    out += event_figure(chart(order_depth_plot(analysis)), point.label,
                         "coincidence by order of photons against depth", order_depth_text(analysis));
   if (analysis.layers_by_ratio)
     out += event_figure(layers_table(analysis.layers_by_ratio->confusion), point.label,
@@ -162,7 +162,7 @@ std::string curve_over_points(const std::vector<PointAnalysis>& points) {
   if (!alike || !are_apart(depths, spread)) return "";
   const analysis::DepthCurve curve =
       analysis::depth_curve(curve_points, *std::min_element(depths.begin(), depths.end()));
-  return event_figure(svg_plot(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
+  return event_figure(chart(depth_plot(curve)), "all points", "light against depth", depth_text(curve));
 }
 
 /// Timing by order of photons of all points, where several have it and few enough to be distinguishable.
@@ -176,7 +176,7 @@ std::string orders_over_points(const std::vector<PointAnalysis>& points) {
     text += (text.empty() ? "" : "; ") + label +
             ": best n = " + std::to_string(orders.single[orders.best_single].n) + ", " +
             picoseconds(orders.single[orders.best_single].ctr_fwhm_ns);
-  return event_figure(svg_plot(orders_plot(with_orders)), "all points",
+  return event_figure(chart(orders_plot(with_orders)), "all points",
                       "coincidence of two such detectors by the n-th photon", text);
 }
 

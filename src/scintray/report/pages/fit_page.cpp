@@ -72,7 +72,7 @@ std::string curve_figure(const analysis::FitRecord& record) {
   plot.series = {measured, fitted, start};
   return "<figure><figcaption>Measured and simulated <span>one standard error" +
          std::string(record.spec.free_scale ? "; each simulated curve at the scale that fits it best" : "") +
-         "</span></figcaption>\n" + svg_plot(plot) + "</figure>\n";
+         "</span></figcaption>\n" + chart(plot) + "</figure>\n";
 }
 
 std::string residual_figure(const analysis::FitRecord& record) {
@@ -100,7 +100,7 @@ std::string residual_figure(const analysis::FitRecord& record) {
   plot.series = {series, zero};
   return "<figure><figcaption>Residuals <span>in errors of measurement and simulation "
          "together</span></figcaption>\n" +
-         svg_plot(plot) + "</figure>\n";
+         chart(plot) + "</figure>\n";
 }
 
 /// Begins with a capital letter.

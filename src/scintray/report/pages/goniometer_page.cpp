@@ -81,7 +81,7 @@ std::string reading_section(const analysis::SampleSurface& sample, const analysi
     out += fmt::format(
         "<figure><figcaption>In-plane profile <span>within {} of the plane of incidence, bins of 1 "
         "deg</span></figcaption>\n{}</figure>\n",
-        angle_text(s.profile_half_width_rad), svg_plot(plot));
+        angle_text(s.profile_half_width_rad), chart(plot));
   }
   if (overlay) out += "<p class=\"note\">" + escape_html(overlay_text(*overlay)) + "</p>\n";
   out += "<div class=\"pair\">\n";

@@ -56,7 +56,7 @@ figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0;
   vertical-align: -1px; }
 details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
-@media (max-width: 40rem) { .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
+@media (max-width: 40rem) { table.pairs th { white-space: normal; } .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
   .headline b { font-size: 1.6rem; } }
 @media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
   .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
@@ -76,21 +76,8 @@ std::string partial_banner(const tally::RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
-/// For a block of sensors that photons, not events, were shot into: why there is no flood map.
-std::string no_events(const tally::RunResult& run) {
-  constexpr std::size_t kBlock = 4;
-  const bool block = std::any_of(run.points.begin(), run.points.end(), [](const tally::PointResult& point) {
-    return point.energy.events_requested == 0 && point.sensor_faces.size() >= kBlock;
-  });
-  if (!block) return "";
-  return section(
-      "Events",
-      "<p>No flood map, spectrum or timing: the source emits photons, not events. An event source, as type = "
-      "&quot;gamma_events&quot; in [source], has them (docs/gamma_sources.md).</p>\n");
-}
-
 std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
-  if (analyses.points.empty()) return no_events(run);
+  if (analyses.points.empty()) return "";
   std::vector<PointAnalysis> points;
   for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
     points.push_back({point_label(run.points[i]), analyses.points[i], run.points[i].omitted});
@@ -119,7 +106,7 @@ std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
   page += condition_section(run);
-  page += "<section>\n<h2>Scene</h2>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"scene file\">" +
+  page += "<section>\n<h2>Scene</h2>\n<pre tabindex=\"0\" role=\"group\" aria-label=\"scene file\">" +
           escape_html(run.header.scene_text) + "</pre>\n</section>\n";
   return html_frame(title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
                     kReportStyle + grid_map_style() + hemisphere_map_style(), page);

@@ -1,5 +1,5 @@
 #pragma once
-/// A run as one self-contained HTML page: no scripts, nothing loaded from elsewhere.
+/// A run as one self-contained HTML page: nothing loaded from elsewhere.
 
 #include <filesystem>
 #include <string>

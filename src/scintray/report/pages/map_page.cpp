@@ -72,7 +72,7 @@ std::string profiles(const topography::HeightMap& before, const topography::Heig
     if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return !std::isnan(y); }))
       plot.series.push_back(std::move(series));
   }
-  return plot.series.empty() ? "" : "<figure>" + svg_plot(plot) + "</figure>\n";
+  return plot.series.empty() ? "" : "<figure>" + chart(plot) + "</figure>\n";
 }
 
 std::string number_table(const topography::HeightMap& before, const topography::HeightMap& after) {

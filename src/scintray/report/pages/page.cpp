@@ -3,6 +3,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
+#include "scintray/report/pages/detail/page_script.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 
@@ -25,7 +26,8 @@ figcaption span { color: var(--soft); font-weight: 400; }
 .scroll { overflow-x: auto; } .scroll:focus-visible, pre:focus-visible { outline: 2px solid var(--c0); }
 .contents ol { columns: 16rem; margin: .75rem 0 0; padding-left: 1.4rem; font-size: .9rem; } .contents a { color: inherit; }
 @media (max-width: 40rem) { body { padding: 1.25rem 1rem 3rem; } h1 { font-size: 1.4rem; }
-  .contents ol { columns: auto; } }
+  .contents ol { columns: auto; }
+  .canvas svg.plot { min-width: 30rem; } .canvas svg.plot[data-wide] { min-width: 42rem; } }
 @media print { .contents { display: none; } }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
 th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
@@ -63,12 +65,15 @@ std::string with_contents(const std::string& body) {
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
                        const std::string& body) {
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
+  page += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + content_policy() + "\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
           escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
-          "</style>\n</head>\n<body>\n";
+          std::string(page_script_style()) + "</style>\n</head>\n<body>\n";
   page += "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) +
           "</p>\n</header>\n";
-  return page + "<main>\n" + with_contents(body) + "</main>\n</body>\n</html>\n";
+  page += "<main>\n" + with_contents(body) + "</main>\n";
+  if (!page_script().empty()) page += "<script>" + std::string(page_script()) + "</script>\n";
+  return page + "</body>\n</html>\n";
 }
 
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,

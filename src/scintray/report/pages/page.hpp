@@ -1,5 +1,6 @@
 #pragma once
-/// The frame of the self-contained HTML pages: light and dark, no scripts, nothing loaded from elsewhere.
+/// The frame of the self-contained HTML pages: light and dark, nothing loaded from elsewhere. Their script
+/// (pages/detail/page_script.hpp) adds to what they show without it; no other may run.
 
 #include <filesystem>
 #include <string>

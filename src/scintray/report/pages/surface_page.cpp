@@ -25,7 +25,7 @@ constexpr double kPlotWidth = 460.0, kPlotHeight = 320.0;
 std::string small(Plot plot) {
   plot.width = kPlotWidth;
   plot.height = kPlotHeight;
-  return "<figure>" + svg_plot(plot) + "</figure>\n";
+  return "<figure>" + chart(plot) + "</figure>\n";
 }
 
 std::string incidence(const SurfaceReadings& readings, const std::string& name) {

@@ -20,6 +20,8 @@ constexpr int kColours = 7;
 constexpr double kLegendRow = 22.0;
 constexpr double kMarker = 4.5;
 constexpr double kTopAxisHeight = 46.0;
+/// Width from which on a plot scrolls sideways on a phone, so that its text can be read.
+constexpr double kWide = 600.0;
 
 double text_width(const std::string& words, double letter) {
   return letter * static_cast<double>(display_width(words));
@@ -108,14 +110,17 @@ class Drawing {
   }
 
   std::string svg() const {
-    std::string out = "<svg class=\"plot\" viewBox=\"0 0 " + number(plot_.width) + " " +
-                      number(plot_.height) + "\" role=\"img\" aria-label=\"" + escape_html(plot_.title) +
-                      "\">\n<title>" + escape_html(plot_.title) + "</title>\n";
-    out += axes();
+    std::string out = "<svg class=\"plot\"" + std::string(plot_.width > kWide ? " data-wide=\"\"" : "") +
+                      " viewBox=\"0 0 " + number(plot_.width) + " " + number(plot_.height) +
+                      "\" role=\"img\" aria-label=\"" + escape_html(plot_.title) + "\">\n<title>" +
+                      escape_html(plot_.title) + "</title>\n";
+    out += "<g class=\"axes\">\n" + axes() + "</g>\n<g class=\"curves\">\n";
     for (std::size_t i = 0; i < plot_.series.size(); ++i) out += series(i);
-    out += direct_labels_ ? labels_at_ends() : legend();
+    out += "</g>\n" + (direct_labels_ ? labels_at_ends() : legend());
     return out + "</svg>\n";
   }
+
+  PlotFrame frame() const { return {left_, top_, right_, bottom_, x_.low, x_.high, y_.low, y_.high}; }
 
  private:
   void check() const {
@@ -357,43 +362,6 @@ std::vector<double> nice_ticks(double low, double high, int count) {
 
 std::string svg_plot(const Plot& plot) { return Drawing(plot).svg(); }
 
-std::string svg_file(const Plot& plot) {
-  std::string drawing = svg_plot(plot);
-  const std::string opening = "<svg class=\"plot\"";
-  drawing.replace(0, opening.size(), "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\"");
-  const std::string colours =
-      ":root { --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }\n"
-      "@media (prefers-color-scheme: dark) {\n"
-      ":root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }\n";
-  const std::size_t inside = drawing.find(">\n") + 2;
-  drawing.insert(inside,
-                 "<style>" + colours + svg_plot_style() + "svg.plot { background: var(--paper); }</style>\n");
-  return drawing;
-}
-
-std::string svg_plot_style() {
-  return R"css(
-:root { --c0:#0072b2; --c1:#d55e00; --c2:#009e73; --c3:#b35a8c; --c4:#b8860b; --c5:#3a9bd6; --c6:#555555; }
-@media (prefers-color-scheme: dark) {
-:root { --c0:#56b4e9; --c1:#f0894a; --c2:#2fc79c; --c3:#e096bf; --c4:#e6b822; --c5:#9ad0f2; --c6:#bbbbbb; } }
-/* Colours of names: 4.5 to 1 against the page. */
-:root { --t0:#0072b2; --t1:#a84a00; --t2:#00704f; --t3:#9a4476; --t4:#7d5b00; --t5:#1c6ea4; --t6:#555555; }
-@media (prefers-color-scheme: dark) {
-:root { --t0:#56b4e9; --t1:#f0894a; --t2:#2fc79c; --t3:#e096bf; --t4:#e6b822; --t5:#9ad0f2; --t6:#bbbbbb; } }
-.c0 { --t: var(--t0); } .c1 { --t: var(--t1); } .c2 { --t: var(--t2); } .c3 { --t: var(--t3); }
-.c4 { --t: var(--t4); } .c5 { --t: var(--t5); } .c6 { --t: var(--t6); }
-.c0 { --c: var(--c0); } .c1 { --c: var(--c1); } .c2 { --c: var(--c2); } .c3 { --c: var(--c3); }
-.c4 { --c: var(--c4); } .c5 { --c: var(--c5); } .c6 { --c: var(--c6); }
-svg.plot { width: 100%; height: auto; display: block; font: 14px system-ui, sans-serif; }
-svg.plot .grid { stroke: var(--rule); stroke-width: 1; }
-svg.plot .axis { stroke: var(--soft); stroke-width: 1.2; }
-svg.plot text { fill: var(--ink); } svg.plot text.tick { fill: var(--soft); font-variant-numeric: tabular-nums; }
-svg.plot .middle { text-anchor: middle; } svg.plot .end { text-anchor: end; }
-svg.plot text.name { fill: var(--t); font-weight: 600; }
-svg.plot .curve { fill: none; stroke: var(--c); stroke-width: 2; stroke-linejoin: round; }
-svg.plot .dashed { stroke-dasharray: 7 5; }
-svg.plot .mark { fill: var(--c); } svg.plot .error { stroke: var(--c); stroke-width: 1.4; }
-)css";
-}
+PlotFrame plot_frame(const Plot& plot) { return Drawing(plot).frame(); }
 
 }  // namespace scintray::report

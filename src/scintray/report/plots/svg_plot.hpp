@@ -42,6 +42,31 @@ struct Plot {
 /// differ or nothing is finite.
 std::string svg_plot(const Plot& plot);
 
+/// Where a plot is drawn: its area in user units, y downwards, and the data at its borders.
+struct PlotFrame {
+  double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+  double x_low = 0.0, x_high = 0.0;
+  double y_low = 0.0, y_high = 0.0;  ///< log10 of the data when the axis is logarithmic
+};
+
+/// The frame of the plot of svg_plot(). Throws std::invalid_argument as that does.
+PlotFrame plot_frame(const Plot& plot);
+
+/// The plot with its numbers for the script of pages, which adds values under the pointer, zoom, a
+/// logarithmic axis and files to save. Without the script it is the drawing alone.
+std::string chart(const Plot& plot);
+
+/// A drawing in an area that scrolls on narrow screens, with `json` for the script of pages.
+/// @param kind  of the data: "plot", "grid", "polar"; @param name  for screen readers
+std::string chart_box(const std::string& kind, const std::string& name, const std::string& drawing,
+                      const std::string& json);
+
+/// Numbers as a JSON array, to `digits` significant digits; what is not finite is null.
+std::string json_numbers(const std::vector<double>& numbers, int digits = 7);
+
+/// A text as a JSON string.
+std::string json_text(const std::string& text);
+
 /// The plot as a separate SVG file, with its style and a background, light or dark as the viewer's.
 std::string svg_file(const Plot& plot);
 

@@ -11,15 +11,10 @@
 #include <string_view>
 
 #include "scintray/core/error.hpp"
+#include "scintray/report/detail/embedded_file.hpp"
 #include "scintray/report/plots/png_image.hpp"
 #include "scintray/report/plots/scene_picture.hpp"
 #include "scintray/report/text/format.hpp"
-
-// A file as an array of the program: between NAME and NAME_end.
-#define SCINTRAY_EMBED(name, path)                                                                    \
-  __asm__(".pushsection .rodata\n.global " #name "\n" #name ":\n.incbin \"" path "\"\n.global " #name \
-          "_end\n" #name "_end:\n.byte 0\n.popsection\n");                                            \
-  extern "C" const char name[], name##_end[]
 
 SCINTRAY_EMBED(scintray_view_page, SCINTRAY_VIEW_FOLDER "/view_page.html");
 SCINTRAY_EMBED(scintray_view_style, SCINTRAY_VIEW_FOLDER "/view_page.css");

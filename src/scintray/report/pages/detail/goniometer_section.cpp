@@ -31,7 +31,7 @@ PlotSeries series_of(const analysis::SurfaceAnalysis& analysis, const std::vecto
 
 std::string figure(Plot plot, const std::string& caption) {
   plot.height = kPlotHeight;
-  return "<figure>" + svg_plot(plot) + "<figcaption>" + escape_html(caption) + "</figcaption></figure>\n";
+  return "<figure>" + chart(plot) + "<figcaption>" + escape_html(caption) + "</figcaption></figure>\n";
 }
 
 using Analyses = std::vector<const analysis::SurfaceAnalysis*>;

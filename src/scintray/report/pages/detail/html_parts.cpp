@@ -12,13 +12,13 @@ std::string cell(const std::string& text, const char* tag, const char* kind) {
 std::string number_cell(const std::string& text) { return cell(text, "td", "n"); }
 
 std::string scroll_area(const std::string& name) {
-  return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" + escape_html(name) + "\">";
+  return "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"" + escape_html(name) + "\">";
 }
 
 namespace {
 
 /// Rows above which a table is folded.
-constexpr std::size_t kLongTable = 32;
+constexpr std::size_t kLongTable = 16;
 
 std::size_t rows_in(const std::string& rows) {
   std::size_t count = 0;

@@ -188,7 +188,7 @@ std::string angle_figures(const tally::PointResult& point) {
     };
     add("inside", tally.inside);
     add("outside", tally.outside);
-    figures += "<figure>" + svg_plot(plot) + "<figcaption>" + escape_html(plot.title) +
+    figures += "<figure>" + chart(plot) + "<figcaption>" + escape_html(plot.title) +
                (tally.detected_only ? " (last crossing of each detected photon)" : " (every crossing)") +
                ". Half of the light is within " + half_angles(tally) +
                " of the normal.</figcaption></figure>\n";
@@ -227,7 +227,7 @@ std::string sweep_section(const tally::RunResult& run, const SweepView& view) {
     rows += "</tr>\n";
   }
   return section("Light output",
-                 "<figure>" + svg_plot(plot) +
+                 "<figure>" + chart(plot) +
                      "<figcaption>Fraction of photons detected. Bars show one standard error; where "
                      "none is visible it is smaller than the mark.</figcaption></figure>\n" +
                      table(head, rows));
@@ -250,9 +250,41 @@ std::string fate_section(const tally::RunResult& run) {
                      escape_html(omission_sentence(omitted_anywhere(run), Figure::fraction)) + "</p>\n");
 }
 
+namespace {
+
+/// Sensors of a point from which on it is a block of sensors.
+constexpr std::size_t kBlock = 4;
+
+/// For a block of sensors that photons, not events, were shot into: why there is no flood map.
+std::string no_events(const tally::RunResult& run) {
+  const bool block = std::any_of(run.points.begin(), run.points.end(), [](const tally::PointResult& point) {
+    return point.energy.events_requested == 0 && point.sensor_faces.size() >= kBlock;
+  });
+  if (!block) return "";
+  return "<p>No flood map, spectrum or timing: the source emits photons, not events. An event source, as "
+         "type = "
+         "&quot;gamma_events&quot; in [source], has them (docs/gamma_sources.md).</p>\n";
+}
+
+/// How the detected light of a point is divided among its sensors.
+std::string sensor_spread(const tally::PointResult& point) {
+  if (point.sensor_faces.size() < kBlock) return "";
+  std::vector<std::uint64_t> detected;
+  for (const tally::SensorFaceCount& count : point.sensor_faces) detected.push_back(count.detected);
+  std::sort(detected.begin(), detected.end());
+  const std::uint64_t sum = total(detected);
+  return "<p>" + escape_html(point_label(point)) + ": " + grouped(sum) + " photons detected by " +
+         grouped(detected.size()) + " faces of sensors; a face has " + grouped(detected.front()) + " to " +
+         grouped(detected.back()) + ", on average " +
+         compact(static_cast<double>(sum) / static_cast<double>(detected.size()), 4) + ".</p>\n";
+}
+
+}  // namespace
+
 std::string sensor_section(const tally::RunResult& run) {
-  std::string rows;
-  for (const tally::PointResult& point : run.points)
+  std::string rows, spreads;
+  for (const tally::PointResult& point : run.points) {
+    if (run.points.size() <= kFewPoints) spreads += sensor_spread(point);
     for (const tally::SensorFaceCount& count : point.sensor_faces)
       rows +=
           "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
@@ -260,9 +292,12 @@ std::string sensor_section(const tally::RunResult& run) {
           number_cell(percent_with_error(point.detected_fraction(count.detected))) +
           number_cell(percent_with_error(point.not_detected_fraction(count.not_detected, count.detected))) +
           "</tr>\n";
+  }
   if (rows.empty()) return "";
-  return section("Sensors, face by face",
-                 table({"point", "sensor", "face", "detected", "of all photons", "not detected"}, rows, 3));
+  return section(
+      "Sensors, face by face",
+      spreads + table({"point", "sensor", "face", "detected", "of all photons", "not detected"}, rows, 3) +
+          no_events(run));
 }
 
 std::string angle_section(const tally::RunResult& run) {
@@ -314,7 +349,7 @@ std::string path_section(const tally::RunResult& run) {
                              true});
       beyond += histogram.back();
     }
-    figures += "<figure>" + svg_plot(plot) + "<figcaption>Path length of detected photons" +
+    figures += "<figure>" + chart(plot) + "<figcaption>Path length of detected photons" +
                (plot.series.size() == 1 ? ": " + escape_html(plot.series[0].label) : "") + "; " +
                grouped(beyond) + " travelled 500 mm or more</figcaption></figure>\n";
   }

@@ -194,7 +194,7 @@ std::string histogram(const tally::TallyResult& tally, const tally::PointResult&
   plot.width = 560.0;
   plot.height = 300.0;
   plot.series.push_back({"", edges_of(tally.axes[0]), tally.sum, {}, true});
-  return svg_plot(plot);
+  return chart(plot);
 }
 
 bool is_empty(const tally::TallyResult& tally) {

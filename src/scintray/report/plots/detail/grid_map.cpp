@@ -80,6 +80,20 @@ std::string mark_texts(const GridMap& map, double width, double height) {
   return out;
 }
 
+std::string json_texts(const std::vector<std::string>& texts) {
+  std::string json = "[";
+  for (const std::string& text : texts) json += (json.size() > 1 ? "," : "") + json_text(text);
+  return json + "]";
+}
+
+/// The data of both pictures, without the closing brace.
+std::string common_json(const GridMap& map) {
+  return "{\"title\":" + json_text(map.alternative) + ",\"value\":" + json_text(map.value_label) +
+         fmt::format(",\"rows\":{},\"columns\":{},\"log\":{},\"unit\":{:.6g},\"values\":", map.rows,
+                     map.columns, map.logarithmic, map.unit) +
+         json_numbers(map.values, 6);
+}
+
 std::string image(const std::string& data, double x, double y, double width, double height) {
   return fmt::format(
       "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\" "
@@ -113,8 +127,8 @@ std::string grid_map(const GridMap& map) {
       png_data(pixels, static_cast<std::uint32_t>(map.columns), static_cast<std::uint32_t>(map.rows));
 
   std::string out = opening(kLeft + width + kMargin, kMargin + height + kBelow, map.alternative);
-  out += image(data, kLeft, kMargin, width, height) + line_path(map, width, height) +
-         mark_texts(map, width, height);
+  out += "<g class=\"cells\">\n" + image(data, kLeft, kMargin, width, height) +
+         line_path(map, width, height) + mark_texts(map, width, height) + "</g>\n<g class=\"axes\">\n";
   for (const double tick : nice_ticks(map.x_low, map.x_high, 5)) {
     if (tick < map.x_low || tick > map.x_high) continue;
     out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
@@ -125,12 +139,18 @@ std::string grid_map(const GridMap& map) {
     out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
                        kLeft - 6.0, kMargin + height * (map.y_high - tick) / high + 4.0, compact(tick));
   }
+  out += "</g>\n";
   out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
                      kLeft + 0.5 * width, kMargin + height + 36.0, escape_html(map.x_label));
   out += fmt::format(
       "<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n</svg>\n",
       kMargin + 0.5 * height, escape_html(map.y_label));
-  return out + scale(map);
+  const std::string json = common_json(map) + ",\"x\":" + json_numbers({map.x_low, map.x_high}, 12) +
+                           ",\"y\":" + json_numbers({map.y_low, map.y_high}, 12) +
+                           ",\"area\":" + json_numbers({kLeft, kMargin, kLeft + width, kMargin + height}) +
+                           ",\"labels\":[" + json_text(map.x_label) + "," + json_text(map.y_label) +
+                           "],\"names\":[" + json_texts(map.x_names) + "," + json_texts(map.y_names) + "]}";
+  return chart_box("grid", map.alternative, out + scale(map), json);
 }
 
 std::string polar_map(const GridMap& map) {
@@ -164,7 +184,20 @@ std::string polar_map(const GridMap& map) {
   for (const int degrees : {30, 60, 90})
     out += fmt::format("<circle class=\"ring\" cx=\"{0}\" cy=\"{0}\" r=\"{1:.1f}\"/>\n", kMiddle,
                        0.5 * kSide * degrees / 90.0);
-  return out + "</svg>\n" + scale(map);
+  std::vector<double> edges, cells(map.rows, static_cast<double>(map.columns));
+  for (std::size_t row = 0; row <= map.rows; ++row)
+    edges.push_back(std::asin(std::sqrt(static_cast<double>(row) / static_cast<double>(map.rows))) /
+                    core::kDegree);
+  const std::string json =
+      common_json(map) + polar_json({edges, cells, -180.0, kMiddle, 0.5 * kSide, kPolarPixels}) + "}";
+  return chart_box("polar", map.alternative, out + "</svg>\n" + scale(map), json);
+}
+
+std::string polar_json(const PolarCells& cells) {
+  return ",\"edges\":" + json_numbers(cells.edges_deg) + ",\"cells\":" + json_numbers(cells.count) +
+         fmt::format(",\"start\":{},\"middle\":{:g},\"radius\":{:g},\"pixels\":{}",
+                     cells.start_deg ? compact(*cells.start_deg) : "null", cells.middle, cells.radius,
+                     cells.pixels);
 }
 
 std::string grid_map_style() {

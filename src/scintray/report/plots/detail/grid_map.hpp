@@ -2,6 +2,8 @@
 /// Pictures of a quantity over two axes.
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,8 @@ struct GridMap {
     double x = 0.0, y = 0.0;
     std::string text;
   };
-  std::vector<Mark> marks;  ///< texts centred at places of the map
+  std::vector<Mark> marks;                    ///< texts centred at places of the map
+  std::vector<std::string> x_names, y_names;  ///< of the columns and rows, where they have names
 };
 
 /// Colours (viridis) from 0 to the largest value, axes with ticks, lines, marks, and the scale below. Cells
@@ -35,6 +38,18 @@ std::string grid_map(const GridMap& map);
 /// @param values  rows of equal steps in the squared sine of the polar angle, columns of azimuth from
 ///                -180 to 180 deg
 std::string polar_map(const GridMap& map);
+
+/// Cells of a hemisphere and its picture, for the script of pages.
+struct PolarCells {
+  std::vector<double> edges_deg;      ///< polar angles between the rings of cells, from 0
+  std::vector<double> count;          ///< cells of each ring, of equal azimuth
+  std::optional<double> start_deg;    ///< azimuth at which first cells begin; else their middles are at 0
+  double middle = 0.0, radius = 0.0;  ///< of the circle at 90 deg, in units of the drawing
+  std::uint32_t pixels = 0;           ///< of its picture, a side
+};
+
+/// Them as members of a JSON object, after a comma.
+std::string polar_json(const PolarCells& cells);
 
 /// CSS of both pictures.
 std::string grid_map_style();

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/report/plots/detail/grid_map.hpp"
 #include "scintray/report/plots/png_image.hpp"
+#include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 
 namespace scintray::report {
@@ -68,6 +70,25 @@ std::string cross(double polar_rad) {
       kMiddle - r, x + r, kMiddle + r, x - r, kMiddle + r, x + r, kMiddle - r);
 }
 
+/// The cells of the hemisphere grid, for the script of pages.
+PolarCells grid_cells() {
+  const analysis::HemisphereGrid& grid = analysis::hemisphere_grid();
+  PolarCells cells;
+  cells.edges_deg.push_back(0.0);
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const double high_deg = grid.cell(k).polar_high / core::kDegree;
+    if (cells.edges_deg.back() != high_deg) {
+      cells.edges_deg.push_back(high_deg);
+      cells.count.push_back(0.0);
+    }
+    cells.count.back() += 1.0;
+  }
+  cells.middle = kMiddle;
+  cells.radius = kRadius;
+  cells.pixels = kPixels;
+  return cells;
+}
+
 }  // namespace
 
 std::string hemisphere_map(const analysis::DirectionCounts& counts, std::uint64_t rays, double mark_rad,
@@ -86,10 +107,14 @@ std::string hemisphere_map(const analysis::DirectionCounts& counts, std::uint64_
   out += circles();
   if (mark_rad >= 0.0) out += cross(mark_rad);
   out += "</svg>\n";
-  return out + fmt::format(
-                   "<div class=\"scale\"><span>{:.3g}</span><i style=\"background:{}\"></i><span>{:.3g} per "
-                   "sr</span></div>\n",
-                   largest * std::pow(10.0, -kDecades), viridis_gradient(), largest);
+  out += fmt::format(
+      "<div class=\"scale\"><span>{:.3g}</span><i style=\"background:{}\"></i><span>{:.3g} per "
+      "sr</span></div>\n",
+      largest * std::pow(10.0, -kDecades), viridis_gradient(), largest);
+  const std::string json =
+      fmt::format("{{\"title\":{},\"value\":\"per sr\",\"decades\":{},\"values\":{}{}}}",
+                  json_text(alternative), kDecades, json_numbers(density, 6), polar_json(grid_cells()));
+  return chart_box("polar", alternative, out, json);
 }
 
 std::string hemisphere_map_style() {

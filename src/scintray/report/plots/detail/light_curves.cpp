@@ -101,7 +101,7 @@ std::string figures(const SweepView& view, const std::vector<analysis::EventAnal
     plot.series = std::move(curves);
     const std::string unit =
         reference.empty() ? "" : ", in units of " + reference.name + " at its first point";
-    out += "<figure>" + svg_plot(plot) + "<figcaption>" +
+    out += "<figure>" + chart(plot) + "<figcaption>" +
            escape_html((group.empty() ? "" : group + ": ") + what + unit) +
            ". Bars show one standard error.</figcaption></figure>\n";
   }
