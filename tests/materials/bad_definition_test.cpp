@@ -138,7 +138,9 @@ TEST_CASE("wavelength shifting is complete, absorbs, and re-emits no more than i
   const std::string yield = "quantum_yield = { value = 0.9 }\n";
   CHECK(database_with(DefinitionKind::medium, "mine", start + absorption + yield + emission + decay)
             .medium("mine")
-            .shifter->quantum_yield()(500.0) == 0.9);
+            .shifter->fluorophores()
+            .front()
+            .quantum_yield(500.0) == 0.9);
   const auto missing = medium_problems(start);
   CHECK(missing.size() == 4);
   for (const char* key : {"has no \"absorption\"", "has no \"quantum_yield\"", "has no \"emission\"",

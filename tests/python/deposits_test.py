@@ -46,6 +46,15 @@ class Arrays(Case):
         self.assertEqual({memory.parts[i] for i in np.unique(photons['part'])}, {'pmt', 'far'})
         np.testing.assert_allclose(np.linalg.norm(photons['direction'], axis=1), 1.0, rtol=1e-5)
 
+    def test_steps_bring_their_displacement_and_their_numbers_of_photons(self):
+        event, position, energy, time = (column[:2] for column in some_hits(10, 3))
+        deposits = scintray.Deposits([0, 1], position, energy, time, displacement=[[0, 0, 0.01], [0.01, 0, 0]],
+                                     charge=[-1, 1], scintillation_photons=[300, 500], decay=[10, 20])
+        np.testing.assert_array_equal(hits_scene().run(deposits=deposits).events().emitted, [300, 500])
+        self.refused(lambda: scintray.Deposits([0], [[0, 0, 1]], [10], gamma=[2]), 'is not a column of steps')
+        self.refused(lambda: hits_scene().run(deposits=scintray.Deposits([0], [[0, 0, 1]], [10], beta=[0.9])),
+                     'neither a charge nor a particle')
+
     def test_batches_through_one_simulation_are_those_of_simulations_of_their_own(self):
         with hits_scene().simulation() as simulation:
             for seed in (1, 2):

@@ -27,8 +27,9 @@ inline tally::PointResult made_up_point(std::vector<std::string> parameters, dou
   const std::uint64_t absorbed = point.count(core::Fate::absorbed_at_surface);
   point.absorbed_at_surface = {absorbed - absorbed / 9, absorbed / 9};
   const auto energy = static_cast<double>(share(0.02));
-  point.shifted_in_medium = {{}, {share(0.03), share(0.02), 3.1 * energy, 2.4 * energy, 31.0}, {}};
-  point.shifted_at_surface = {{}, {share(0.01), share(0.004), 0.5 * energy, 0.4 * energy, 1.5}};
+  point.shifted_in_medium = {
+      {}, {share(0.03), share(0.02), share(0.005), 3.1 * energy, 2.4 * energy, 31.0}, {}};
+  point.shifted_at_surface = {{}, {share(0.01), share(0.004), 0, 0.5 * energy, 0.4 * energy, 1.5}};
   point.sensor_faces = {
       {core::PartId(1), core::FaceId(2), detected - detected / 40, point.count(core::Fate::not_detected)},
       {core::PartId(1), core::FaceId(1), detected / 40, 0}};

@@ -89,6 +89,28 @@ TEST_CASE("Films: none at all is Fresnel's face, amplitudes and total reflection
     }
 }
 
+TEST_CASE("Total reflection: a Fresnel rhomb of two reflections retards by a quarter of a wave") {
+  // tan(delta / 2) = cos sqrt(sin^2 - (1 / n)^2) / sin^2 between p and s (M. Born and E. Wolf, section 1.5.4,
+  // cited from memory, whose glass of n = 1.51 makes 45 deg at 48 deg 37' and at 54 deg 37').
+  constexpr double kGlass = 1.51;
+  const auto retardation = [](double angle) {
+    const FilmResponse response = film_response(std::cos(angle), kGlass, {}, 1.0, 500.0);
+    CHECK(std::abs(response.r_s) == doctest::Approx(1.0));
+    CHECK(std::abs(response.r_p) == doctest::Approx(1.0));
+    // Reflected p is counted with the sign that makes both equal at normal incidence, or opposite.
+    const double phase = std::arg(response.r_p / response.r_s);
+    return std::abs(std::remainder(phase, kPi));
+  };
+  for (double degrees = 42.0; degrees < 89.0; degrees += 2.0) {
+    const double sine = std::sin(degrees * kDegree), cosine = std::cos(degrees * kDegree);
+    const double half = std::atan(cosine * std::sqrt(sine * sine - 1.0 / (kGlass * kGlass)) / (sine * sine));
+    CAPTURE(degrees);
+    CHECK(retardation(degrees * kDegree) == doctest::Approx(2.0 * half).epsilon(1e-9));
+  }
+  for (const double degrees : {48.0 + 37.0 / 60.0, 54.0 + 37.0 / 60.0})
+    CHECK(retardation(degrees * kDegree) / kDegree == doctest::Approx(45.0).epsilon(2e-3));
+}
+
 TEST_CASE(
     "Films: a quarter wave of index n1 reflects ((n0 n2 - n1^2) / (n0 n2 + n1^2))^2, nothing at the "
     "geometric mean") {

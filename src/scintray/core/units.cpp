@@ -34,6 +34,8 @@ const std::vector<Unit>& table_of(Dimension dimension) {
   static const std::vector<Unit> density{{"g/cm3", 1.0}, {"kg/m3", 1e-3}};
   static const std::vector<Unit> yield{
       {"1/keV", 1.0}, {"1/MeV", 1e-3}, {"photons/keV", 1.0}, {"photons/MeV", 1e-3}};
+  static const std::vector<Unit> saturation{
+      {"mm/keV", 1.0}, {"mm/MeV", 1e-3}, {"cm/MeV", 1e-2}, {"um/keV", 1e-3}};
   static const std::vector<Unit> none{{"%", 0.01}};
   switch (dimension) {
     case Dimension::length:
@@ -54,6 +56,8 @@ const std::vector<Unit>& table_of(Dimension dimension) {
       return density;
     case Dimension::photons_per_energy:
       return yield;
+    case Dimension::length_per_energy:
+      return saturation;
     case Dimension::dimensionless:
       return none;
   }
@@ -106,7 +110,8 @@ std::string meant_unit(std::string_view unit, Dimension dimension) {
 std::optional<Dimension> dimension_of(std::string_view unit) {
   for (const Dimension dimension :
        {Dimension::length, Dimension::time, Dimension::angle, Dimension::energy, Dimension::inverse_length,
-        Dimension::frequency, Dimension::density, Dimension::photons_per_energy, Dimension::dimensionless})
+        Dimension::frequency, Dimension::density, Dimension::photons_per_energy, Dimension::length_per_energy,
+        Dimension::dimensionless})
     if (is_unit_of(unit, dimension)) return dimension;
   return std::nullopt;
 }
@@ -153,6 +158,8 @@ std::string dimension_name(Dimension dimension) {
       return "density";
     case Dimension::photons_per_energy:
       return "light yield";
+    case Dimension::length_per_energy:
+      return "length per energy";
     case Dimension::dimensionless:
       return "plain number";
   }

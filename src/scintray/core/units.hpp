@@ -20,6 +20,7 @@ enum class Dimension {
   energy,              ///< keV
   density,             ///< g/cm3
   photons_per_energy,  ///< photons/keV
+  length_per_energy,   ///< mm/keV
   dimensionless,       ///< 1; "97 %" is accepted
 };
 

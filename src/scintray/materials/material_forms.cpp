@@ -11,8 +11,6 @@ namespace scintray::materials {
 
 namespace {
 
-constexpr double kFractionTolerance = 1e-6;
-
 constexpr core::Word<optics::ScatteringKind> kScatteringKinds[] = {
     {"rayleigh", optics::ScatteringKind::rayleigh}, {"isotropic", optics::ScatteringKind::isotropic}};
 
@@ -131,99 +129,14 @@ constexpr core::Word<CurveReader> kExtinctionForms[] = {{"length", read_extincti
                                                         {"coefficient", read_extinction_coefficient},
                                                         {"none", read_no_extinction}};
 
-/// A coefficient per mm from `length`, `coefficient`, or `none = true`.
+}  // namespace
+
 core::Curve read_extinction(const config::TomlTable& block) {
   const core::Word<CurveReader>* form = block.one_of(kExtinctionForms, true);
   return form ? form->value(block) : core::Curve::constant(0.0);
 }
 
-core::Curve read_emission(const config::TomlTable& block) {
-  const core::Curve spectrum = block.curve("spectrum", core::Dimension::dimensionless);
-  block.expect("spectrum", spectrum.x().front() > 0.0,
-               "an emission spectrum needs wavelengths, but this is one value",
-               "write { wavelength = [...], wavelength_unit = \"nm\", value = [...] }");
-  block.expect("spectrum", spectrum.min_y() >= 0.0, "an emission spectrum cannot be negative");
-  block.expect("spectrum", spectrum.max_y() > 0.0, "this emission spectrum is zero everywhere");
-  return spectrum;
-}
-
-std::vector<optics::DecayComponent> read_decay(const config::TomlTable& table, SourceRule rule,
-                                               std::vector<std::string>& sources) {
-  std::vector<optics::DecayComponent> components;
-  double sum = 0.0;
-  const std::vector<config::TomlTable> blocks = table.tables("decay");
-  for (const config::TomlTable& block : blocks) {
-    read_source(block, rule, sources);
-    optics::DecayComponent component;
-    component.decay_ns = block.quantity("time", core::Dimension::time);
-    component.rise_ns = block.quantity("rise", core::Dimension::time);
-    component.fraction = block.quantity("fraction", core::Dimension::dimensionless);
-    block.expect("time", component.decay_ns > 0.0, "a decay time must be positive");
-    block.expect("rise", component.rise_ns >= 0.0, "a rise time cannot be negative");
-    block.expect("fraction", component.fraction > 0.0 && component.fraction <= 1.0,
-                 "a fraction lies above 0 and up to 1");
-    sum += component.fraction;
-    components.push_back(component);
-  }
-  if (!components.empty() && std::abs(sum - 1.0) > kFractionTolerance)
-    table.report("decay",
-                 "the fractions of the decay components sum to " + std::to_string(sum) + ", not to 1",
-                 "give shares of all the light");
-  return components;
-}
-
-void read_scintillation(const config::TomlTable& table, SourceRule rule, optics::Medium& medium) {
-  const bool any = table.has("yield") || table.has("emission") || table.has("decay");
-  if (!any) {
-    refuse_light_response(table);
-    return;
-  }
-  for (const char* key : {"yield", "emission", "decay"})
-    if (!table.has(key))
-      table.report(key, std::string("a medium that scintillates needs \"") + key + "\" too",
-                   "give [yield], [emission] and [[decay]], or none of them");
-  if (const std::optional<config::TomlTable> block = table.optional_table("yield")) {
-    read_source(*block, rule, medium.sources);
-    medium.yield_per_keV = block->quantity("value", core::Dimension::photons_per_energy);
-    block->expect("value", medium.yield_per_keV > 0.0, "a light yield must be positive",
-                  "a medium that does not scintillate has no [yield], [emission] and [[decay]]");
-  }
-  if (const std::optional<config::TomlTable> block = table.optional_table("emission")) {
-    read_source(*block, rule, medium.sources);
-    medium.emission = read_emission(*block);
-  }
-  medium.decay = read_decay(table, rule, medium.sources);
-  read_light_response(table, rule, medium);
-}
-
-/// [wavelength_shifting], in which every block states its own source.
-std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::TomlTable& table, SourceRule rule,
-                                                              std::vector<std::string>& sources) {
-  const std::size_t problems = table.problem_count();
-  const auto block = [&](const char* key) {
-    const config::TomlTable found = table.table(key);
-    if (table.has(key)) read_source(found, rule, sources);
-    return found;
-  };
-  const config::TomlTable absorption = block("absorption");
-  const core::Curve absorption_per_mm = table.has("absorption") ? read_extinction(absorption) : core::Curve();
-  absorption.expect("none", false, "a wavelength shifter that absorbs nothing shifts nothing",
-                    "give a length or a coefficient, or leave [wavelength_shifting] out");
-  const config::TomlTable yield = block("quantum_yield");
-  core::Curve quantum_yield;
-  if (table.has("quantum_yield")) {
-    quantum_yield = yield.curve("value", core::Dimension::dimensionless);
-    expect_share(yield, "value", quantum_yield, "a quantum yield");
-  }
-  const config::TomlTable emission = block("emission");
-  const core::Curve spectrum = table.has("emission") ? read_emission(emission) : core::Curve();
-  const std::vector<optics::DecayComponent> decay = read_decay(table, rule, sources);
-  if (!table.has("decay"))
-    table.report("decay", "a wavelength shifter does not say when it gives light back",
-                 "add [[" + table.path() + ".decay]] with time, rise and fraction");
-  if (table.problem_count() > problems) return nullptr;
-  return std::make_shared<const optics::WavelengthShifter>(absorption_per_mm, quantum_yield, spectrum, decay);
-}
+namespace {
 
 double read_mean_cosine(const config::TomlTable& block, const std::string& key,
                         std::optional<double> fallback) {
@@ -345,8 +258,7 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
                    "add [density] with its value, as \"7.4 g/cm3\", and source");
   }
   read_scintillation(table, rule, medium);
-  if (const std::optional<config::TomlTable> shifting = table.optional_table("wavelength_shifting"))
-    medium.shifter = read_shifter(*shifting, rule, medium.sources);
+  medium.shifter = read_shifter(table, rule, medium.sources);
   return medium;
 }
 

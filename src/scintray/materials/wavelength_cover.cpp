@@ -23,9 +23,11 @@ void check_cover_of_shifter(core::Problems& problems, const core::FileLocation& 
                             const std::string& whose) {
   if (!shifter) return;
   const std::string hint = "extend the table, with zeros where nothing is absorbed or given back";
-  check_cover(problems, where, {shifter->absorption_per_mm(), whose, "a shifter's absorption", hint}, low_nm,
-              high_nm);
-  check_cover(problems, where, {shifter->quantum_yield(), whose, "quantum yields", hint}, low_nm, high_nm);
+  for (const optics::Fluorophore& fluorophore : shifter->fluorophores()) {
+    check_cover(problems, where, {fluorophore.absorption_per_mm, whose, "a shifter's absorption", hint},
+                low_nm, high_nm);
+    check_cover(problems, where, {fluorophore.quantum_yield, whose, "quantum yields", hint}, low_nm, high_nm);
+  }
 }
 
 }  // namespace

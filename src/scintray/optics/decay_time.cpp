@@ -9,6 +9,7 @@ double sample_decay(const std::vector<DecayComponent>& components, core::Rng& rn
   double u = rng.uniform();
   for (const DecayComponent& component : components) {
     if (u < component.fraction || &component == &components.back()) {
+      if (component.profile == TimeProfile::delta) return component.decay_ns;
       double time = component.decay_ns * core::sample_exponential(rng);
       if (component.rise_ns > 0.0) time += component.rise_ns * core::sample_exponential(rng);
       return time;

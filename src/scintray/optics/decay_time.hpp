@@ -7,11 +7,18 @@
 
 namespace scintray::optics {
 
-/// One exponential component of scintillation or fluorescence light.
+/// Distribution of the time of emission after an excitation.
+enum class TimeProfile {
+  exponential,  ///< about the decay time, after a rise
+  delta         ///< the decay time itself: every photon is delayed alike, as by Geant4's profile "delta"
+};
+
+/// One component of scintillation or fluorescence light.
 struct DecayComponent {
   double decay_ns = 0.0;
   double rise_ns = 0.0;   ///< 0: instantaneous rise
   double fraction = 1.0;  ///< share of the light; the sum over a medium's components is 1
+  TimeProfile profile = TimeProfile::exponential;
 };
 
 /// Time from excitation to emission (ns), drawn at random: the rise and the decay are two exponential steps,

@@ -24,6 +24,18 @@ struct ParticleScattering {
   double forward_share = 1.0;                ///< of the scattered light, the forward lobe's
 };
 
+/// Kinds of particles whose scintillation light may differ, those of Geant4's G4Scintillation.
+enum class Particle { electron, proton, deuteron, triton, alpha, ion };
+
+/// Scintillation light of one kind of particle.
+struct ParticleLight {
+  Particle particle = Particle::electron;
+  /// Mean number of photons of a particle that stops, against its kinetic energy (keV).
+  core::Curve photons;
+  std::optional<core::Curve> emission{};  ///< relative photon number per nm; nothing: as of all particles
+  std::vector<DecayComponent> decay;      ///< empty: as of all particles
+};
+
 /// Optical properties of a medium at one wavelength, as transport uses them.
 struct MediumOptics {
   double index = 1.0;              ///< refractive index n
@@ -52,7 +64,11 @@ struct Medium {
   double intrinsic_fwhm = 0.0;  ///< spread of the light beyond counting statistics, full width at half
                                 ///< maximum over mean, at `intrinsic_keV`; 0: none
   double intrinsic_keV = 0.0;
-  core::Curve emission;  ///< relative photon number per nm against wavelength (nm)
+  /// kB of J. B. Birks 1951, Proc. Phys. Soc. A 64 874: the light per path is proportional to
+  /// (dE/dx) / (1 + kB dE/dx). 0: proportional to the energy.
+  double birks_mm_per_keV = 0.0;
+  std::vector<ParticleLight> by_particle;  ///< of these kinds, in place of yield and relative yield
+  core::Curve emission;                    ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
   double density_g_per_cm3 = 0.0;    ///< 0 when not given
   Composition composition;           ///< empty when not given; requires the density

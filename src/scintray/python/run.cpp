@@ -1,8 +1,11 @@
 /// Scenes and runs.
 
 #include <chrono>
+#include <map>
+#include <string>
 
 #include "scintray/config/toml_reader.hpp"
+#include "scintray/core/words.hpp"
 #include "scintray/python/detail/bindings.hpp"
 
 namespace scintray::python {
@@ -211,8 +214,9 @@ using Column = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 std::vector<double> values_of(const Column& column) { return {column.data(), column.data() + column.size()}; }
 
+/// @param steps  columns of steps by their names
 HitsPtr hits_of(const Column& event, const Column& position_mm, const Column& energy_keV,
-                const Column& time_ns) {
+                const Column& time_ns, const std::map<std::string, Column>& steps) {
   auto hits = std::make_shared<scene_file::HitColumns>();
   hits->event = values_of(event);
   for (py::ssize_t i = 0; i < position_mm.shape(0); ++i) {
@@ -222,6 +226,12 @@ HitsPtr hits_of(const Column& event, const Column& position_mm, const Column& en
   }
   hits->energy_keV = values_of(energy_keV);
   hits->time_ns = values_of(time_ns);
+  for (const auto& [name, column] : steps) {
+    const auto known = core::find_word(scene_file::kStepColumns, name);
+    if (!known)
+      throw core::unknown_name({}, "column of steps", name, core::word_list(scene_file::kStepColumns));
+    hits->steps[static_cast<std::size_t>(*known)] = values_of(column);
+  }
   return hits;
 }
 
@@ -246,8 +256,11 @@ void add_run(py::module_& module) {
       .def("parameters", &Session::parameters)
       .def("check", &Session::check)
       .def("parts", &Session::parts)
-      .def("set_hits", [](Session& session, const Column& event, const Column& position, const Column& energy,
-                          const Column& time) { session.set_hits(hits_of(event, position, energy, time)); })
+      .def("set_hits",
+           [](Session& session, const Column& event, const Column& position, const Column& energy,
+              const Column& time, const std::map<std::string, Column>& steps) {
+             session.set_hits(hits_of(event, position, energy, time, steps));
+           })
       .def("run", &Session::run);
 }
 

@@ -158,8 +158,13 @@ HitsSpec read_hits(const config::TomlTable& table) {
          {std::pair{"event", &hits.event}, std::pair{"x", &hits.x}, std::pair{"y", &hits.y},
           std::pair{"z", &hits.z}, std::pair{"energy", &hits.energy}, std::pair{"time", &hits.time}})
       *name = columns->string(key, *name);
+    for (const auto& [key, column] : kStepColumns)
+      hits.steps[static_cast<std::size_t>(column)] = columns->string(key, "");
     columns->expect("time", hits.time_ns.has_value(), "a column of times without their unit",
                     "add time_unit, as \"ns\"");
+    for (const char* key : {"decay", "rise"})
+      columns->expect(key, hits.time_ns.has_value(), "a column of times without their unit",
+                      "add time_unit, as \"ns\"");
   }
   return hits;
 }

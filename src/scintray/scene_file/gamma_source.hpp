@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,12 +87,45 @@ struct EmitterSpec {
   std::vector<MatterSpec> matter;  ///< the last one for a part applies
 };
 
+/// Columns of hits that are steps of particles, all optional.
+enum class StepColumn {
+  dx,  ///< with dy and dz the displacement from the start of the step to its end, mm
+  dy,
+  dz,
+  beta,                   ///< velocity over that of light in vacuum at the start of the step
+  beta_end,               ///< at its end; not given: as at its start
+  charge,                 ///< of the particle, in elementary charges; not given: that of `particle`
+  particle,               ///< code of the Particle Data Group
+  kinetic,                ///< kinetic energy at the start of the step, keV
+  scintillation_photons,  ///< number of photons, sampled by the other program
+  cherenkov_photons,      ///< the same of Cherenkov photons
+  decay,                  ///< decay time of the scintillation, ns; not given: as of the medium
+  rise                    ///< rise time, ns
+};
+inline constexpr core::Word<StepColumn> kStepColumns[] = {
+    {"dx", StepColumn::dx},
+    {"dy", StepColumn::dy},
+    {"dz", StepColumn::dz},
+    {"beta", StepColumn::beta},
+    {"beta_end", StepColumn::beta_end},
+    {"charge", StepColumn::charge},
+    {"particle", StepColumn::particle},
+    {"kinetic", StepColumn::kinetic},
+    {"scintillation_photons", StepColumn::scintillation_photons},
+    {"cherenkov_photons", StepColumn::cherenkov_photons},
+    {"decay", StepColumn::decay},
+    {"rise", StepColumn::rise}};
+/// One of each column, by StepColumn.
+template <typename T>
+using PerStepColumn = std::array<T, std::size(kStepColumns)>;
+
 /// Deposits in memory, one row each: columns of equal length, in the order of another program.
 struct HitColumns {
   std::vector<double> event;  ///< whole numbers from 0 on
   std::vector<double> x_mm, y_mm, z_mm;
   std::vector<double> energy_keV;
-  std::vector<double> time_ns;  ///< empty: no times
+  std::vector<double> time_ns;                 ///< empty: no times
+  PerStepColumn<std::vector<double>> steps{};  ///< empty where not given
 };
 
 /// type = "hits": deposits of another program, from a file or in memory.
@@ -103,9 +137,10 @@ struct HitsSpec {
   core::FileLocation where;
   std::string group;  ///< of an HDF5 file, with the columns; empty: its root
   std::string event = "event", x = "x", y = "y", z = "z", energy = "energy", time = "time";  ///< columns
-  double length_mm = 1.0;         ///< the file's unit of length
-  double energy_keV = 1.0;        ///< the file's unit of energy
-  std::optional<double> time_ns;  ///< the file's unit of time; nothing: the file has no times
+  PerStepColumn<std::string> steps{};  ///< names of the file's columns of steps; empty: the file has none
+  double length_mm = 1.0;              ///< the file's unit of length
+  double energy_keV = 1.0;             ///< the file's unit of energy
+  std::optional<double> time_ns;       ///< the file's unit of time; nothing: the file has no times
 };
 
 struct GammaSpec {

@@ -27,6 +27,8 @@ const char* TallyVariable::unit() const {
       return "g/cm3";
     case core::Dimension::photons_per_energy:
       return "photons/keV";
+    case core::Dimension::length_per_energy:
+      return "mm/keV";
     case core::Dimension::dimensionless:
       return "1";
   }

@@ -127,6 +127,15 @@ void append(ResponseGrid& grid, const CellResponse& response) {
     grid.delays_ns.insert(grid.delays_ns.end(), delays.begin(), delays.end());
 }
 
+/// A map holds the response to one photon, which is then one photon at most at a sensor.
+void refuse_multiplication(const scene::Scene& scene) {
+  if (multiplies_light(scene))
+    throw core::InputError({{},
+                            "a wavelength shifter may re-emit several photons for one, and a response map "
+                            "counts one photon at most for each",
+                            "trace the scene without a map, or state statistics = \"single\""});
+}
+
 void refuse_too_large(const std::vector<ResponseGrid>& grids, std::size_t channels,
                       const ResponseSettings& settings) {
   double cells = 0.0;
@@ -183,6 +192,7 @@ ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core
   const tally::ReadoutChannels channels(scene);
   if (channels.list.empty())
     throw core::InputError({{}, "the scene has no sensor", "assign a sensor to a part or a face"});
+  refuse_multiplication(scene);
   ResponseMap map;
   for (const tally::ReadoutChannel& channel : channels.list) map.channels.push_back(channel.name);
   map.seed = run.seed;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <vector>
 
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_tally.hpp"
@@ -19,12 +21,15 @@ struct Block {
       : photons(scene, plan), events(scene, plan) {}
   tally::BlockTally photons;
   tally::EventTally events;
-  std::uint64_t emitted = 0;  ///< photons
-  std::uint64_t traced = 0;   ///< of them, those that were traced
+  std::uint64_t emitted = 0;     ///< photons
+  std::uint64_t traced = 0;      ///< of them, those that were traced
+  std::uint64_t additional = 0;  ///< re-emitted beyond one photon for each absorbed; all are traced
 };
 
 /// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
 constexpr std::size_t kMostTogether = 8192;
+/// Photons re-emitted in addition to one photon, above which the multiplication is taken as endless.
+constexpr std::uint64_t kMostAdditional = 1'000'000;
 
 /// True when light may be re-emitted at another wavelength.
 bool shifts_light(const scene::Scene& scene) {
@@ -149,11 +154,32 @@ class BlockTracer {
     photons.clear();
   }
 
+  /// Traces a photon, then those that wavelength shifters re-emitted in addition to it, with its stream.
   void trace_photon(const source::EventLight& light, const Address& address,
                     const transport::PropagationLimits& limits, Block& block) const {
     core::Rng rng = photon_stream(settings_, address.event, address.photon);
     source::Photon photon = source_.emit(scene_, light, address.photon, rng);
     photon.conversion_draw = address.conversion_draw;
+    follow(photon, address, rng, limits, block);
+    std::vector<source::Photon> waiting = block.photons.records().take_additional();
+    for (std::uint64_t additional = 0; !waiting.empty(); ++additional) {
+      if (additional == kMostAdditional)
+        throw core::InputError(core::Problem{{},
+                                             "one photon was re-emitted as more than " +
+                                                 std::to_string(kMostAdditional) + " by wavelength shifters",
+                                             "a quantum yield above 1 in a medium that absorbs its own "
+                                             "emission multiplies light without end"});
+      photon = waiting.back();
+      waiting.pop_back();
+      ++block.additional;
+      follow(photon, address, rng, limits, block);
+      for (const source::Photon& more : block.photons.records().take_additional()) waiting.push_back(more);
+    }
+  }
+
+  /// Traces one photon to its end.
+  void follow(source::Photon& photon, const Address& address, core::Rng& rng,
+              const transport::PropagationLimits& limits, Block& block) const {
     tally::BlockTally& tally = block.photons;
     tally.start(photon, address.event, address.photon);
     for (;;) {
@@ -196,8 +222,8 @@ class RangeCollector {
     if (present_.count() == 0) sums_ = empty_();
     block.photons.add_to(sums_);
     block.events.add_to(sums_.energy);
-    sums_.counts.emitted += block.emitted;
-    traced_ += block.traced;
+    sums_.counts.emitted += block.emitted + block.additional;
+    traced_ += block.traced + block.additional;
     ++present_.last;
     if (hooks_.detected && !block.photons.photons().empty()) hooks_.detected(block.photons.photons());
     if (hooks_.histories && block.photons.histories()) hooks_.histories(*block.photons.histories());
@@ -228,7 +254,14 @@ class RangeCollector {
 
 }  // namespace
 
+bool multiplies_light(const scene::Scene& scene) {
+  return std::any_of(scene.media.begin(), scene.media.end(), [](const scene::SceneMedium& medium) {
+    return medium.medium().shifter && medium.medium().shifter->multiplies();
+  });
+}
+
 double efficiency_bound(const scene::Scene& scene) {
+  if (multiplies_light(scene)) return 1.0;
   double bound = 0.0;
   for (const detector::Sensor& sensor : scene.sensors)
     bound = std::max(bound, sensor.conversion_bound(scene.low_nm, scene.high_nm));

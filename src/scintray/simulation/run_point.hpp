@@ -49,8 +49,12 @@ core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
 /// The random stream of the noise of a sensor and its electronics in an event.
 core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::uint32_t channel);
 
+/// True when a wavelength shifter of a medium may re-emit several photons for one.
+bool multiplies_light(const scene::Scene& scene);
+
 /// An upper bound of the efficiency of every sensor of a scene for its light; 1 where that is 0 or there is
-/// no sensor.
+/// no sensor, and where light multiplies: a photon that no sensor would convert may then be re-emitted as
+/// one that is converted.
 double efficiency_bound(const scene::Scene& scene);
 
 /// The conversion draws of a run's photons. Each depends on seed, point, event and photon number alone, so

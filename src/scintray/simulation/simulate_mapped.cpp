@@ -35,6 +35,25 @@ void require_energy(const scene_file::SceneSpec& spec) {
          "remove cherenkov, or trace the scene with `scintray run`"});
 }
 
+/// A map has the light of the medium, evenly from points: not that of particles, nor along steps.
+void refuse_particles(const scene_file::SceneSpec& spec, const scene::Scene& scene) {
+  const auto* hits = std::get_if<scene_file::HitsSpec>(&spec.energy_source->kind);
+  const auto any = [](const auto& columns) {
+    return std::any_of(columns.begin(), columns.end(), [](const auto& column) { return !column.empty(); });
+  };
+  if (hits && (any(hits->steps) || (hits->columns && any(hits->columns->steps))))
+    throw core::InputError(
+        {spec.energy_source->where,
+         "a response map is of light from points, and these deposits are steps of particles",
+         "trace the scene with `scintray run`, or leave the columns of steps out"});
+  for (const scene::SceneMedium& medium : scene.media)
+    if (!medium.medium().by_particle.empty())
+      throw core::InputError({spec.energy_source->where,
+                              "the light of medium \"" + medium.medium().name +
+                                  "\" depends on the particle, which a response map does not hold",
+                              "trace the scene with `scintray run`"});
+}
+
 /// Assigns to the grids of a map their regions in a scene.
 void bind_grids(ResponseMap& map, const scene::Scene& scene, const std::string& where) {
   const auto changed = [&](const std::string& what) {
@@ -122,6 +141,7 @@ tally::RunResult simulate_mapped(const scene_file::SceneFile& file, const std::f
   simulation.spec(0);  // errors of the options come first
   ResponseFile response = read_response(map_file);
   require_same_scene(file, response);
+  refuse_particles(simulation.spec(0), simulation.point(0)->scene());
   bind_grids(response.map, simulation.point(0)->scene(), map_file.string());
   RunOutline outline = simulation.outline();
   std::string& note = outline.header.note;

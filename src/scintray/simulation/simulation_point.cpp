@@ -22,6 +22,19 @@ bool any_shifts(const scene::Scene& scene) {
                      [](const optics::Surface& surface) { return surface.shifts(); });
 }
 
+/// True when the time of emission depends on the particle, or comes with each deposit.
+bool decay_by_deposit(const scene::Scene& scene, const scene_file::GammaSpec& source) {
+  constexpr auto kDecay = static_cast<std::size_t>(scene_file::StepColumn::decay);
+  const auto* hits = std::get_if<scene_file::HitsSpec>(&source.kind);
+  if (hits && (!hits->steps[kDecay].empty() || (hits->columns && !hits->columns->steps[kDecay].empty())))
+    return true;
+  return std::any_of(scene.media.begin(), scene.media.end(), [](const scene::SceneMedium& medium) {
+    const std::vector<optics::ParticleLight>& lights = medium.medium().by_particle;
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const optics::ParticleLight& light) { return !light.decay.empty(); });
+  });
+}
+
 /// Emission and time spread of the sensors, where all light of events has the same: one decay in all media
 /// that scintillate, sensors of one time spread behind a readout, no Cherenkov light and no wavelength
 /// shifter. Empty otherwise.
@@ -30,6 +43,7 @@ std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const 
                                                const tally::TallyPlan& plan) {
   if (!source.has_energy() || spec.energy_source->cherenkov || plan.readout.empty() || any_shifts(scene))
     return std::nullopt;
+  if (decay_by_deposit(scene, *spec.energy_source)) return std::nullopt;
   const std::vector<core::RegionId> regions = source.regions();
   if (regions.empty()) return std::nullopt;
   const auto decay_in = [&](core::RegionId region) -> const std::vector<optics::DecayComponent>& {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,25 @@
 
 namespace scintray::source {
 
-/// An energy deposit at one point, by one electron as far as sources know its electrons.
+/// The step of a particle along which energy was deposited.
+struct ParticleStep {
+  core::Vec3 displacement = core::Vec3::Zero();  ///< from the deposit's position to the step's end, mm
+  double beta = 0.0, beta_end = 0.0;             ///< velocity over c at start and end; 0: not known
+  double charge = 0.0;                           ///< elementary charges; 0: neutral, or not known
+  optics::Particle particle = optics::Particle::electron;
+  std::optional<double> kinetic_keV{};  ///< at the start
+  /// Numbers of photons that another program sampled; nothing: sampled here.
+  std::optional<std::uint64_t> scintillation{}, cherenkov{};
+  double decay_ns = 0.0, rise_ns = 0.0;  ///< of the scintillation; decay 0: as of the medium
+};
+
+/// An energy deposit at one point, by one electron as far as sources know its electrons, or along a step.
 struct Deposit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   core::RegionId region = {};                ///< that contains the position
   double energy_keV = 0.0;
   double time_ns = 0.0;  ///< since the start of the event
+  std::optional<ParticleStep> step{};
 };
 
 /// Energy deposits of one event: of a decay, of a pair of gammas, or of one event of a list of hits.
@@ -39,6 +53,8 @@ class EventSource {
   /// @param number  0 to events() - 1
   /// @param rng     the event's own stream
   virtual Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const = 0;
+  /// True when deposits are steps of particles with their directions.
+  virtual bool has_steps() const { return false; }
 };
 
 /// Event source of a specification in a built scene. Throws InputError with every contradiction: a region

@@ -2,11 +2,13 @@
 /// Records of a photon, beside its state, that only some scenes require.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "scintray/core/ids.hpp"
 #include "scintray/optics/reflection_log.hpp"
 #include "scintray/optics/wavelength_shifter.hpp"
+#include "scintray/source/light_source.hpp"
 
 namespace scintray::source {
 
@@ -36,6 +38,11 @@ class PhotonRecords {
   optics::ShiftCount& shifts_of(core::MediumId medium) { return shifts_of(medium, {}); }
   optics::ShiftCount& shifts_of(core::SurfaceId surface) { return shifts_of({}, surface); }
 
+  /// Adds a photon that a wavelength shifter re-emits in addition to the present one.
+  void add_photon(const Photon& additional) { additional_.push_back(additional); }
+  /// The photons re-emitted in addition so far, which are no longer held here.
+  std::vector<Photon> take_additional() { return std::exchange(additional_, {}); }
+
   const optics::ReflectionLog& reflections() const { return reflections_; }
   /// Log of reflections; null when they are not recorded.
   optics::ReflectionLog* reflection_log() { return records_reflections_ ? &reflections_ : nullptr; }
@@ -48,6 +55,7 @@ class PhotonRecords {
   }
 
   std::vector<PhotonShifts> shifts_;
+  std::vector<Photon> additional_;
   optics::ReflectionLog reflections_;
   bool records_reflections_;
 };

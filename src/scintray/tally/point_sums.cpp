@@ -64,6 +64,7 @@ core::Moments MomentSums::value() const { return {count, sum.value(), sum_of_squ
 void ShiftSums::add(const optics::ShiftCount& block) {
   absorbed += block.absorbed;
   emitted += block.emitted;
+  additional += block.additional;
   before_eV.add(block.before_eV);
   after_eV.add(block.after_eV);
   kept_eV.add(block.kept_eV);
@@ -72,6 +73,7 @@ void ShiftSums::add(const optics::ShiftCount& block) {
 ShiftSums& ShiftSums::operator+=(const ShiftSums& other) {
   absorbed += other.absorbed;
   emitted += other.emitted;
+  additional += other.additional;
   before_eV.merge(other.before_eV);
   after_eV.merge(other.after_eV);
   kept_eV.merge(other.kept_eV);
@@ -79,7 +81,7 @@ ShiftSums& ShiftSums::operator+=(const ShiftSums& other) {
 }
 
 optics::ShiftCount ShiftSums::value() const {
-  return {absorbed, emitted, before_eV.value(), after_eV.value(), kept_eV.value()};
+  return {absorbed, emitted, additional, before_eV.value(), after_eV.value(), kept_eV.value()};
 }
 
 void EnergySums::add(const EnergyBalance& block) {

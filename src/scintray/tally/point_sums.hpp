@@ -30,7 +30,7 @@ struct MomentSums {
 
 /// Sums of optics::ShiftCount.
 struct ShiftSums {
-  std::uint64_t absorbed = 0, emitted = 0;
+  std::uint64_t absorbed = 0, emitted = 0, additional = 0;
   core::ExactSum before_eV, after_eV, kept_eV;
 
   void add(const optics::ShiftCount& block);

@@ -101,6 +101,8 @@ std::string usual_unit(core::Dimension dimension) {
       return "g/cm3";
     case core::Dimension::photons_per_energy:
       return "photons/MeV";
+    case core::Dimension::length_per_energy:
+      return "mm/MeV";
     case core::Dimension::dimensionless:
       return "";
   }

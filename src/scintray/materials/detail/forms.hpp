@@ -2,6 +2,7 @@
 /// Common parts of the forms of material, sensor and surface files (docs/materials.md).
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,22 @@ namespace scintray::materials {
 void read_light_response(const config::TomlTable& table, SourceRule rule, optics::Medium& medium);
 /// Reports these tables in a medium that does not scintillate.
 void refuse_light_response(const config::TomlTable& table);
+
+/// Reads how a medium scintillates: the optional [yield], [emission] and [[decay]], which come together, with
+/// what read_light_response reads.
+void read_scintillation(const config::TomlTable& table, SourceRule rule, optics::Medium& medium);
+/// An emission spectrum, relative photon number per nm against wavelength (nm), from `spectrum`.
+core::Curve read_emission(const config::TomlTable& block);
+/// The components of `decay`, whose fractions must sum to 1; empty when absent.
+std::vector<optics::DecayComponent> read_decay(const config::TomlTable& table, SourceRule rule,
+                                               std::vector<std::string>& sources);
+/// A coefficient per mm against wavelength (nm) from `length`, `coefficient`, or `none = true`.
+core::Curve read_extinction(const config::TomlTable& block);
+/// The wavelength shifters of a medium, [wavelength_shifting] or several [[wavelength_shifting]], in which
+/// every block states its own source. Null when there are none, or a problem.
+std::shared_ptr<const optics::WavelengthShifter> read_shifter(const config::TomlTable& medium,
+                                                              SourceRule rule,
+                                                              std::vector<std::string>& sources);
 
 /// Largest refractive index that is accepted.
 inline constexpr double kGreatestIndex = 5.0;

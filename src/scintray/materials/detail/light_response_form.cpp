@@ -36,7 +36,7 @@ void read_light_response(const config::TomlTable& table, SourceRule rule, optics
 }
 
 void refuse_light_response(const config::TomlTable& table) {
-  for (const char* key : {"non_proportionality", "intrinsic_resolution"})
+  for (const char* key : {"non_proportionality", "intrinsic_resolution", "birks", "particle_light"})
     if (table.has(key)) {
       table.take(key);
       table.report(key, std::string("\"") + key + "\" in a medium that does not scintillate",

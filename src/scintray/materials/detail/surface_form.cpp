@@ -205,6 +205,11 @@ void check_stack(const config::TomlTable& table, const SurfaceSpec& surface) {
         "gap", "a reflector is given without the gap that separates it from the face",
         "give gap = \"air\", the medium of a glue, or an index; paint on the face is model = \"painted\"");
   const bool thick = table.has("gap_thickness");
+  if (surface.gap_shifter && surface.gap_shifter->multiplies())
+    table.report("gap",
+                 "the gap's medium \"" + surface.gap +
+                     "\" may re-emit several photons for one, which the layers of a surface cannot",
+                 "make the coating a part of its own, or state statistics = \"single\" in it");
   if (surface.gap_shifter && !thick)
     table.report("gap",
                  "the gap's medium \"" + surface.gap +

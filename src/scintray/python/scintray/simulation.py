@@ -30,6 +30,10 @@ def _factor(units: Dict[str, float], unit: str, what: str) -> float:
     return units[unit]
 
 
+_STEP_COLUMNS = ("beta", "beta_end", "charge", "particle", "kinetic", "scintillation_photons", "cherenkov_photons",
+                 "decay", "rise")
+
+
 class Deposits:
     """Energy deposits of another program: one row each, rows of one event number are one event.
 
@@ -39,12 +43,16 @@ class Deposits:
     position : (n, 3) in ``length_unit``, in the coordinates of the scene
     energy : (n,) in ``energy_unit``, from 0
     time : (n,) in ``time_unit``; counted from the first deposit of each event; None: all at once
+    displacement : (n, 3) in ``length_unit``, to the end of a particle's step; None: deposits are points
+    steps : further columns of steps, (n,) each: ``beta``, ``beta_end`` (velocities over that of light), ``charge``,
+        ``particle`` (codes of the Particle Data Group), ``kinetic`` (energy at the start, in ``energy_unit``),
+        ``scintillation_photons``, ``cherenkov_photons``, ``decay``, ``rise`` (in ``time_unit``); docs/gamma_sources.md
 
     Raises InputError for other shapes, numbers that are not finite, negative energies, and unknown units.
     """
 
-    def __init__(self, event: Any, position: Any, energy: Any, time: Any = None, *, length_unit: str = "mm",
-                 energy_unit: str = "keV", time_unit: str = "ns") -> None:
+    def __init__(self, event: Any, position: Any, energy: Any, time: Any = None, *, displacement: Any = None,
+                 length_unit: str = "mm", energy_unit: str = "keV", time_unit: str = "ns", **steps: Any) -> None:
         self.event = numbers(event, "event", (-1,))
         rows = len(self.event)
         if rows == 0:
@@ -55,6 +63,18 @@ class Deposits:
             * _factor(_ENERGIES_KEV, energy_unit, "energy")
         factor = _factor(_TIMES_NS, time_unit, "time")
         self.time_ns = np.zeros(0) if time is None else numbers(time, "time", (rows,), time_unit) * factor
+        factors = {"kinetic": (energy_unit, _ENERGIES_KEV[energy_unit]), "decay": (time_unit, factor),
+                   "rise": (time_unit, factor)}
+        self.steps: Dict[str, Any] = {}
+        for name, column in steps.items():
+            if name not in _STEP_COLUMNS:
+                raise InputError(f"{name!r} is not a column of steps", "it is one of " + ", ".join(_STEP_COLUMNS))
+            unit, scale = factors.get(name, ("1", 1.0))
+            self.steps[name] = numbers(column, name, (rows,), unit) * scale
+        if displacement is not None:
+            moved = numbers(displacement, "displacement", (rows, 3), length_unit) * _LENGTHS_MM[length_unit]
+            for axis, name in enumerate(("dx", "dy", "dz")):
+                self.steps[name] = np.ascontiguousarray(moved[:, axis])
         wrong = np.flatnonzero((self.event < 0) | (self.event != np.floor(self.event)))
         if len(wrong):
             raise InputError(f"event[{wrong[0]}] is {self.event[wrong[0]]}; expected a whole number from 0 on",
@@ -206,7 +226,7 @@ class Simulation:
                 raise InputError(f"deposits is of the type {type(deposits).__name__}",
                                  "give Deposits(event, position, energy, time)")
             self._guard(lambda: core.set_hits(deposits.event, deposits.position_mm, deposits.energy_keV,
-                                              deposits.time_ns))
+                                              deposits.time_ns, deposits.steps))
         path = None if output is None else os.fspath(output)
         data, raised = self._guard(lambda: watched(progress, lambda call: core.run(call, path)))
         results = Results(data)

@@ -135,6 +135,7 @@ template <typename Visit>
 void for_each_shift_column(Visit&& visit) {
   visit("shifter_absorbed", &optics::ShiftCount::absorbed);
   visit("shifter_emitted", &optics::ShiftCount::emitted);
+  visit("shifter_additional", &optics::ShiftCount::additional);
   visit("energy_before", &optics::ShiftCount::before_eV);
   visit("energy_after", &optics::ShiftCount::after_eV);
   visit("energy_kept", &optics::ShiftCount::kept_eV);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
@@ -240,6 +241,7 @@ class PointReader {
     if (!group_.has(name)) return counts;
     const core::h5::Group group = group_.open_group(name);
     format::for_each_shift_column([&](const char* field, auto member) {
+      if (!group.has(field) && std::string_view(field) == "shifter_additional") return;  // an older file
       const auto values = group.read<std::decay_t<decltype(optics::ShiftCount{}.*member)>>(field);
       require(values.size() == size, name + " has " + std::to_string(values.size()) + " rows in " + field);
       for (std::size_t i = 0; i < size; ++i) counts[i].*member = values[i];

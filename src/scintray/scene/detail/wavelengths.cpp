@@ -39,7 +39,12 @@ WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector
       const optics::Medium& medium = database.medium(part.medium.name, part.medium.where);
       const bool emits = medium.emission.max_y() > 0.0 && !medium.emission.is_constant();
       if (emits) {
-        const WavelengthRange range = range_of(medium.emission);
+        WavelengthRange range = range_of(medium.emission);
+        for (const optics::ParticleLight& light : medium.by_particle) {
+          if (!light.emission) continue;
+          range.low_nm = std::min(range.low_nm, range_of(*light.emission).low_nm);
+          range.high_nm = std::max(range.high_nm, range_of(*light.emission).high_nm);
+        }
         if (!found) found = range;
         found->low_nm = std::min(found->low_nm, range.low_nm);
         found->high_nm = std::max(found->high_nm, range.high_nm);
@@ -52,6 +57,12 @@ WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector
     } catch (const core::InputError&) {
       // reported where the part is added
     }
+  }
+  // Steps of particles emit Cherenkov light in media that do not scintillate, too.
+  if (!found && spec.energy_source && spec.energy_source->cherenkov_nm &&
+      std::holds_alternative<scene_file::HitsSpec>(spec.energy_source->kind)) {
+    const auto [low, high] = *spec.energy_source->cherenkov_nm;
+    return {low, high, 0.5 * (low + high)};
   }
   if (!found && spec.energy_source && problems.empty())
     problems.add(spec.energy_source->where, "no part scintillates, so energy makes no light",
@@ -90,16 +101,26 @@ double end_of(const core::Curve& emission) {
   return emission.x()[last];
 }
 
-double longest_of(const materials::SurfaceSpec& surface) {
-  double longest = surface.gap_shifter ? end_of(surface.gap_shifter->emission()) : 0.0;
-  for (const materials::ShareSpec& part : surface.mixture)
-    longest = std::max(longest, longest_of(*part.surface));
-  return longest;
+/// Extends a range by that of the light that a shifter re-emits; beyond the source's shortest wavelength only
+/// by fluorophores whose emission does not depend on what they absorbed.
+void extend(WavelengthRange& range, const optics::WavelengthShifter* shifter) {
+  if (!shifter) return;
+  for (const optics::Fluorophore& fluorophore : shifter->fluorophores()) {
+    range.high_nm = std::max(range.high_nm, end_of(fluorophore.emission));
+    if (fluorophore.rule == optics::ShiftRule::kasha)
+      range.low_nm = std::min(range.low_nm, fluorophore.emission.x().front());
+  }
 }
 
-/// Longest wavelength (nm) re-emitted by a wavelength shifter of the scene; 0 without a shifter.
-double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
-                          const materials::MaterialDatabase& database) {
+void extend(WavelengthRange& range, const materials::SurfaceSpec& surface) {
+  extend(range, surface.gap_shifter.get());
+  for (const materials::ShareSpec& part : surface.mixture) extend(range, *part.surface);
+}
+
+/// Extends a range by the light that the wavelength shifters of the scene re-emit.
+void extend_by_shifters(WavelengthRange& range, const scene_file::SceneSpec& spec,
+                        const std::vector<contact::PlacedMesh>& placed,
+                        const materials::MaterialDatabase& database) {
   std::set<std::string> media{spec.ambient.name}, surfaces;
   for (const contact::PlacedMesh& part : placed) {
     if (!part.medium.empty() && part.medium.name != scene_file::kOpaqueMedium) media.insert(part.medium.name);
@@ -110,21 +131,15 @@ double longest_shifted_nm(const scene_file::SceneSpec& spec, const std::vector<c
     surfaces.insert({contact.surface.name, contact.leaving[0].name, contact.leaving[1].name});
   surfaces.erase("");
 
-  double longest = 0.0;
-  const auto look_up = [&](const auto& of_definition) {
+  const auto look_up = [&](const auto& extend_by_definition) {
     try {
-      longest = std::max(longest, of_definition());
+      extend_by_definition();
     } catch (const core::InputError&) {
       // reported where the part is added
     }
   };
-  for (const std::string& name : media)
-    look_up([&] {
-      const optics::Medium& medium = database.medium(name);
-      return medium.shifter ? end_of(medium.shifter->emission()) : 0.0;
-    });
-  for (const std::string& name : surfaces) look_up([&] { return longest_of(database.surface(name)); });
-  return longest;
+  for (const std::string& name : media) look_up([&] { extend(range, database.medium(name).shifter.get()); });
+  for (const std::string& name : surfaces) look_up([&] { extend(range, database.surface(name)); });
 }
 
 }  // namespace
@@ -133,7 +148,7 @@ WavelengthRange find_wavelengths(const scene_file::SceneSpec& spec,
                                  const std::vector<contact::PlacedMesh>& placed,
                                  const materials::MaterialDatabase& database, core::Problems& problems) {
   WavelengthRange range = wavelengths_of_source(spec, placed, database, problems);
-  range.high_nm = std::max(range.high_nm, longest_shifted_nm(spec, placed, database));
+  extend_by_shifters(range, spec, placed, database);
   return range;
 }
 

@@ -25,7 +25,7 @@ enum class Record : std::uint8_t {
 
 /// First bytes of a file, and the version of its layout after them.
 inline constexpr std::string_view kMagic = "ScintRay block ranges\n";
-inline constexpr std::uint32_t kRangesVersion = 1;
+inline constexpr std::uint32_t kRangesVersion = 2;
 /// Of a record: its kind and the number of its bytes before them, their CRC-32 and those of both after.
 inline constexpr std::size_t kRecordHead = 1 + sizeof(std::uint64_t), kRecordTail = sizeof(std::uint32_t);
 
@@ -131,7 +131,7 @@ void exchange(A& a, tally::MomentSums& v) {
 }
 template <typename A>
 void exchange(A& a, tally::ShiftSums& v) {
-  pass(a, v.absorbed, v.emitted, v.before_eV, v.after_eV, v.kept_eV);
+  pass(a, v.absorbed, v.emitted, v.additional, v.before_eV, v.after_eV, v.kept_eV);
 }
 template <typename A>
 void exchange(A& a, tally::EnergySums& v) {

@@ -54,13 +54,7 @@ struct Slowing {
 
 }  // namespace
 
-CherenkovEmitter::CherenkovEmitter(const optics::Medium& medium, double low_nm, double high_nm) {
-  if (medium.composition.empty())
-    throw core::InputError(
-        {{},
-         "medium \"" + medium.name +
-             "\" does not say what it is made of, so the path of electrons in it is not known",
-         "add [composition] and [density] to its definition"});
+void check_cherenkov_range(const optics::Medium& medium, double low_nm, double high_nm) {
   if (!(low_nm > 0.0 && high_nm > low_nm))
     throw core::InputError({{},
                             fmt::format("Cherenkov light from {:g} to {:g} nm is asked for", low_nm, high_nm),
@@ -72,6 +66,16 @@ CherenkovEmitter::CherenkovEmitter(const optics::Medium& medium, double low_nm, 
                      "light from {:g} to {:g} nm is asked for",
                      medium.name, medium.index.x().front(), medium.index.x().back(), low_nm, high_nm),
          "extend its index table, or ask for fewer wavelengths"});
+}
+
+CherenkovEmitter::CherenkovEmitter(const optics::Medium& medium, double low_nm, double high_nm) {
+  if (medium.composition.empty())
+    throw core::InputError(
+        {{},
+         "medium \"" + medium.name +
+             "\" does not say what it is made of, so the path of electrons in it is not known",
+         "add [composition] and [density] to its definition"});
+  check_cherenkov_range(medium, low_nm, high_nm);
 
   const auto steps = static_cast<std::size_t>(std::ceil((high_nm - low_nm) / kWavelengthStep_nm));
   std::vector<double> wavelengths_nm, indices;

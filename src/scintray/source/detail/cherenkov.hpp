@@ -7,6 +7,7 @@
 #include "scintray/core/curve.hpp"
 #include "scintray/optics/composition.hpp"
 #include "scintray/optics/medium.hpp"
+#include "scintray/source/event.hpp"
 
 namespace scintray::source {
 
@@ -44,6 +45,10 @@ class ElectronStopping {
   // Sternheimer and Peierls' constants: delta = 2 ln(10) x + c + a (x1 - x)^3 between x0 and x1.
   double c_ = 0.0, a_ = 0.0, x0_ = 0.0, x1_ = 0.0;
 };
+
+/// Throws InputError (without a place) for an index that does not cover the wavelengths of Cherenkov light,
+/// and for wavelengths that are not 0 < low < high.
+void check_cherenkov_range(const optics::Medium& medium, double low_nm, double high_nm);
 
 /// Number and spectrum of the Cherenkov photons of an electron that slows down to rest.
 ///
@@ -83,6 +88,36 @@ class CherenkovEmitter {
   double threshold_keV_ = 0.0;
   std::vector<double> energies_keV_, photons_;              ///< from the threshold on
   std::vector<std::optional<core::CurveSampler>> spectra_;  ///< nothing where there are no photons
+};
+
+/// Cherenkov photons of a charged particle along a straight step in a medium.
+///
+/// Frank and Tamm's formula as of CherenkovEmitter, times the square of the charge; directions on the cone of
+/// cosine 1 / (beta n) about the step, polarised in the plane of the two (J. V. Jelley 1958, Cerenkov
+/// radiation, cited as in Geant4's G4Cerenkov, whose steps these are). The velocity changes linearly along
+/// the step. Immutable.
+class CherenkovTrack {
+ public:
+  /// Photons of low_nm to high_nm only. Throws InputError as CherenkovEmitter does, but needs no composition.
+  CherenkovTrack(const optics::Medium& medium, double low_nm, double high_nm);
+
+  /// Mean number of photons per mm of a particle of charge 1 with a velocity beta (over that in vacuum).
+  double per_mm(double beta) const;
+  /// Mean number of photons of a step.
+  double mean_photons(const ParticleStep& step) const;
+
+  /// A photon of a step: where along it (0 start, 1 end), its wavelength, direction and polarisation.
+  struct Emission {
+    double along = 0.0, wavelength_nm = 0.0;
+    core::Vec3 direction = core::Vec3::UnitZ(), polarisation = core::Vec3::UnitX();
+  };
+  /// Draws a photon. Throws InputError for a step that is slower than light in the medium all along.
+  Emission sample(const ParticleStep& step, core::Rng& rng) const;
+
+ private:
+  core::Curve index_;
+  double low_nm_, high_nm_, greatest_index_;
+  core::Curve per_mm_;  ///< against beta
 };
 
 }  // namespace scintray::source

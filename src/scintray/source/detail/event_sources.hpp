@@ -80,6 +80,7 @@ struct Hit {
   double energy_keV = 0.0;
   double time_ns = 0.0;   ///< as in the file; 0 when it has no times
   std::uint64_t row = 0;  ///< line of a CSV file; else place in the columns, from 0
+  std::optional<ParticleStep> step{};
 };
 
 /// Hits of the columns named by the specification, or of those in memory, in their order. Throws InputError
@@ -103,10 +104,13 @@ class HitsEventSource : public EventSource {
  public:
   /// @param most  largest number of events; 0 for all
   /// Throws InputError as read_hits does, and when no hit lies in a part that scintillates.
-  HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most, const scene::Scene& scene);
+  /// @param cherenkov  steps emit Cherenkov light, also in media that do not scintillate
+  HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most, const scene::Scene& scene,
+                  bool cherenkov = false);
 
   std::uint64_t events() const override { return events_.size(); }
   Event make(const scene::Scene& scene, std::uint64_t number, core::Rng& rng) const override;
+  bool has_steps() const override { return has_steps_; }
 
   const HitsReport& report() const { return report_; }
   /// The report as warnings; empty without any.
@@ -118,6 +122,7 @@ class HitsEventSource : public EventSource {
 
   std::vector<Event> events_;
   HitsReport report_;
+  bool cherenkov_ = false, has_steps_ = false;
 };
 
 }  // namespace scintray::source

@@ -27,8 +27,10 @@ std::string first_of(const std::vector<std::string>& words, std::uint64_t all) {
 }  // namespace
 
 HitsEventSource::HitsEventSource(const scene_file::HitsSpec& spec, std::uint64_t most,
-                                 const scene::Scene& scene) {
+                                 const scene::Scene& scene, bool cherenkov)
+    : cherenkov_(cherenkov) {
   std::vector<Hit> hits = read_hits(spec);
+  has_steps_ = std::any_of(hits.begin(), hits.end(), [](const Hit& hit) { return hit.step.has_value(); });
   report_.rows = hits.size();
   count_out_of_order(hits);
   std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.event < b.event; });
@@ -66,14 +68,22 @@ void HitsEventSource::count_out_of_order(const std::vector<Hit>& hits) {
 }
 
 void HitsEventSource::add(const Hit& hit, const scene::Scene& scene) {
-  const core::RegionId region = scene.locate(hit.position);
+  // A step starts and ends at faces; its middle lies in the region.
+  const core::Vec3 inside = hit.step ? core::Vec3(hit.position + 0.5 * hit.step->displacement) : hit.position;
+  const core::RegionId region = scene.locate(inside);
   Event& event = events_.back();
-  if (region == scene::kAmbientRegion) {
+  const bool radiates = cherenkov_ && hit.step && region != scene::kAmbientRegion &&
+                        !scene.optics.is_opaque(scene.regions[region].medium);
+  if (radiates && !scintillates(scene, region)) {
+    // It may emit Cherenkov light, but no energy of it is a scintillator's.
+    event.non_scintillating_keV += hit.energy_keV;
+    event.deposits.push_back({hit.position, region, 0.0, hit.time_ns, hit.step});
+  } else if (region == scene::kAmbientRegion) {
     ++report_.outside;
     name_first(report_.first_outside, hit);
     event.non_scintillating_keV += hit.energy_keV;
   } else {
-    leave_energy(scene, {hit.position, region, hit.energy_keV, hit.time_ns}, event);
+    leave_energy(scene, {hit.position, region, hit.energy_keV, hit.time_ns, hit.step}, event);
   }
 }
 

@@ -23,7 +23,7 @@ void require_scintillators(const scene::Scene& scene, const std::vector<core::Re
 }
 
 void leave_energy(const scene::Scene& scene, const Deposit& deposit, Event& event) {
-  if (deposit.energy_keV <= 0.0) return;
+  if (deposit.energy_keV <= 0.0 && !deposit.step) return;
   if (scintillates(scene, deposit.region))
     event.deposits.push_back(deposit);
   else

@@ -1,5 +1,7 @@
 #include "scintray/source/detail/scintillation_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,42 @@
 
 namespace scintray::source {
 
+namespace {
+
+/// Photons about a mean, with the spread of an electron of as much light.
+std::uint64_t sample_about(const optics::Medium& medium, double mean, core::Rng& rng) {
+  if (medium.intrinsic_fwhm > 0.0)
+    mean += medium.intrinsic_fwhm / core::kFwhmPerSigma *
+            std::sqrt(medium.yield_per_keV * medium.intrinsic_keV * mean) * core::sample_normal(rng);
+  return core::sample_poisson(mean, rng);
+}
+
+/// Time (ns) that a particle takes to a place along its step; 0 where its velocity is not known.
+double time_along(const ParticleStep& step, double along) {
+  const double beta = step.beta + 0.5 * along * (step.beta_end - step.beta);
+  return beta > 0.0 ? along * step.displacement.norm() / (beta * core::kSpeedOfLight_mm_per_ns) : 0.0;
+}
+
+/// Number of the light of the deposit's kind of particle in a medium; nothing where it is as of all
+/// particles.
+std::optional<std::size_t> light_of(const optics::Medium& medium, const Deposit& deposit) {
+  const optics::Particle kind = deposit.step ? deposit.step->particle : optics::Particle::electron;
+  for (std::size_t i = 0; i < medium.by_particle.size(); ++i)
+    if (medium.by_particle[i].particle == kind) return i;
+  return std::nullopt;
+}
+
+/// Time of emission after a deposit: by its step, its kind of particle, or the medium.
+double sample_decay_of(const optics::Medium& medium, const Deposit& deposit, core::Rng& rng) {
+  if (deposit.step && deposit.step->decay_ns > 0.0)
+    return optics::sample_decay({{deposit.step->decay_ns, deposit.step->rise_ns, 1.0}}, rng);
+  const std::optional<std::size_t> light = light_of(medium, deposit);
+  const bool own = light && !medium.by_particle[*light].decay.empty();
+  return optics::sample_decay(own ? medium.by_particle[*light].decay : medium.decay, rng);
+}
+
+}  // namespace
+
 std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_keV, core::Rng& rng) {
   double mean = medium.yield_per_keV * medium.relative_yield(energy_keV) * energy_keV;
   if (medium.intrinsic_fwhm > 0.0)
@@ -20,23 +58,105 @@ std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_k
   return core::sample_poisson(mean, rng);
 }
 
+core::Curve birks_response(const optics::Medium& medium) {
+  constexpr double kLowest_keV = 10.0, kStep = 1.02;
+  if (medium.composition.empty())
+    throw core::InputError(
+        {{},
+         "medium \"" + medium.name +
+             "\" has a Birks constant, but its composition is not known, so neither is the "
+             "energy that electrons lose per path",
+         "add [composition] and [density] to its definition, or give deposits as steps with "
+         "their displacement (dx, dy, dz)"});
+  const ElectronStopping stopping(medium.composition, medium.density_g_per_cm3);
+  const auto seen = [&](double energy_keV) {
+    return 1.0 / (1.0 + medium.birks_mm_per_keV * stopping.keV_per_mm(std::max(energy_keV, kLowest_keV)));
+  };
+  std::vector<double> energies{0.0, kLowest_keV}, visible{0.0, kLowest_keV * seen(kLowest_keV)};
+  while (energies.back() < CherenkovEmitter::kGreatestEnergy_keV) {
+    const double low = energies.back(), high = low * kStep;
+    visible.push_back(visible.back() +
+                      (high - low) / 6.0 * (seen(low) + 4.0 * seen(0.5 * (low + high)) + seen(high)));
+    energies.push_back(high);
+  }
+  return {std::move(energies), std::move(visible)};
+}
+
+double mean_scintillation(const optics::Medium& medium, const Deposit& deposit, const core::Curve& birks) {
+  if (const std::optional<std::size_t> number = light_of(medium, deposit)) {
+    const optics::ParticleLight& light = medium.by_particle[*number];
+    const double from_keV =
+        deposit.step ? deposit.step->kinetic_keV.value_or(deposit.energy_keV) : deposit.energy_keV;
+    if (from_keV > light.photons.x().back())
+      throw core::InputError(
+          {{},
+           fmt::format("a particle of {:g} keV in medium \"{}\", whose light is given up to "
+                       "{:g} keV",
+                       from_keV, medium.name, light.photons.x().back()),
+           "extend photons in its [[particle_light]]"});
+    return light.photons(from_keV) - light.photons(std::max(0.0, from_keV - deposit.energy_keV));
+  }
+  if (medium.birks_mm_per_keV > 0.0) {
+    const double length_mm = deposit.step ? deposit.step->displacement.norm() : 0.0;
+    const double seen_keV =
+        length_mm > 0.0
+            ? deposit.energy_keV / (1.0 + medium.birks_mm_per_keV * deposit.energy_keV / length_mm)
+            : birks(deposit.energy_keV);
+    return medium.yield_per_keV * seen_keV;
+  }
+  return medium.yield_per_keV * medium.relative_yield(deposit.energy_keV) * deposit.energy_keV;
+}
+
 ScintillationSource::ScintillationSource(std::unique_ptr<EventSource> events, const scene::Scene& scene,
                                          const LightOptions& options)
     : events_(std::move(events)), unpolarised_(options.unpolarised) {
   for (const scene::SceneMedium& medium : scene.media)
     emission_.push_back(medium.medium().yield_per_keV > 0.0 ? core::CurveSampler(medium.medium().emission)
                                                             : core::CurveSampler());
+  for (const core::MediumId id : scene.media.ids()) {
+    particle_emission_.emplace_back();
+    for (const optics::ParticleLight& light : scene.media[id].medium().by_particle)
+      particle_emission_.back().push_back(light.emission ? core::CurveSampler(*light.emission)
+                                                         : emission_[id]);
+  }
   for (const core::RegionId region : scene.regions.ids())
     if (scintillates(scene, region)) regions_.push_back(region);
+  for (const scene::SceneMedium& medium : scene.media)
+    birks_.push_back(medium.medium().birks_mm_per_keV > 0.0 && !events_->has_steps()
+                         ? birks_response(medium.medium())
+                         : core::Curve());
   if (!options.cherenkov) return;
-  const auto [low_nm, high_nm] = options.cherenkov_nm.value_or(std::array{scene.low_nm, scene.high_nm});
+  const auto range_nm = options.cherenkov_nm.value_or(std::array{scene.low_nm, scene.high_nm});
+  if (events_->has_steps()) {
+    add_steps(scene, range_nm);
+    return;
+  }
+  const auto [low_nm, high_nm] = range_nm;
   for (const scene::SceneMedium& medium : scene.media) {
     cherenkov_.emplace_back();
     if (medium.medium().yield_per_keV > 0.0) cherenkov_.back().emplace(medium.medium(), low_nm, high_nm);
   }
 }
 
+void ScintillationSource::add_steps(const scene::Scene& scene, const std::array<double, 2>& range_nm) {
+  for (const scene::SceneMedium& medium : scene.media) {
+    tracks_.emplace_back();
+    if (!medium.is_opaque()) tracks_.back().emplace(medium.medium(), range_nm[0], range_nm[1]);
+  }
+  regions_.clear();
+  for (const core::RegionId region : scene.regions.ids())
+    if (!scene.media[scene.regions[region].medium].is_opaque()) regions_.push_back(region);
+}
+
 std::vector<core::RegionId> ScintillationSource::regions() const { return regions_; }
+
+std::uint64_t ScintillationSource::scintillation_photons(const optics::Medium& medium, core::MediumId at,
+                                                         const Deposit& deposit, core::Rng& rng) const {
+  if (deposit.step && deposit.step->scintillation) return *deposit.step->scintillation;
+  if (medium.by_particle.empty() && medium.birks_mm_per_keV == 0.0)
+    return sample_photon_number(medium, deposit.energy_keV, rng);
+  return sample_about(medium, mean_scintillation(medium, deposit, birks_[at]), rng);
+}
 
 void ScintillationSource::begin(const scene::Scene& scene, std::uint64_t event, core::Rng& rng,
                                 EventLight& light) const {
@@ -45,12 +165,33 @@ void ScintillationSource::begin(const scene::Scene& scene, std::uint64_t event, 
   light.deposits.clear();
   for (const Deposit& deposit : light.event.deposits) {
     const core::MediumId at = scene.regions[deposit.region].medium;
-    light.photons += sample_photon_number(scene.media[at].medium(), deposit.energy_keV, rng);
+    light.photons += scintillation_photons(scene.media[at].medium(), at, deposit, rng);
     light.deposits.push_back({light.photons, light.photons});
-    if (cherenkov_.empty()) continue;
-    light.photons += core::sample_poisson(cherenkov_[at]->mean_photons(deposit.energy_keV), rng);
+    if (!cherenkov_.empty())
+      light.photons += core::sample_poisson(cherenkov_[at]->mean_photons(deposit.energy_keV), rng);
+    else if (!tracks_.empty() && deposit.step)
+      light.photons += deposit.step->cherenkov
+                           ? *deposit.step->cherenkov
+                           : core::sample_poisson(tracks_[at]->mean_photons(*deposit.step), rng);
     light.deposits.back().all = light.photons;
   }
+}
+
+const core::CurveSampler& ScintillationSource::spectrum_of(const scene::Scene& scene, core::MediumId medium,
+                                                           const Deposit& deposit) const {
+  const std::optional<std::size_t> light = light_of(scene.media[medium].medium(), deposit);
+  return light ? particle_emission_[medium][*light] : emission_[medium];
+}
+
+void ScintillationSource::emit_cherenkov(const Deposit& deposit, core::MediumId medium, Photon& photon,
+                                         core::Rng& rng) const {
+  const ParticleStep& step = *deposit.step;
+  const CherenkovTrack::Emission emission = tracks_[medium]->sample(step, rng);
+  photon.position = deposit.position + emission.along * step.displacement;
+  photon.ray.direction = emission.direction;
+  photon.ray.polarisation = unpolarised_ ? core::Vec3(core::Vec3::Zero()) : emission.polarisation;
+  photon.wavelength_nm = emission.wavelength_nm;
+  photon.time_ns = deposit.time_ns + time_along(step, emission.along);
 }
 
 Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& light, std::uint64_t number,
@@ -62,15 +203,23 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
   const bool prompt = number >= from->scintillation;
   const core::MediumId medium = scene.regions[deposit.region].medium;
   Photon photon;
-  photon.position = deposit.position;
   photon.region = deposit.region;
-  photon.ray.direction = core::sample_isotropic(rng);
-  photon.ray.polarisation =
-      unpolarised_ ? core::Vec3(core::Vec3::Zero()) : core::sample_polarisation(photon.ray.direction, rng);
-  photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
-                                : emission_[medium].sample(rng.uniform());
-  photon.time_ns =
-      deposit.time_ns + (prompt ? 0.0 : optics::sample_decay(scene.media[medium].medium().decay, rng));
+  if (prompt && deposit.step) {
+    emit_cherenkov(deposit, medium, photon, rng);
+  } else {
+    // A charged particle emits evenly along its step, a neutral one deposits at its end.
+    const double along = !deposit.step ? 0.0 : deposit.step->charge == 0.0 ? 1.0 : rng.uniform();
+    photon.position = deposit.position;
+    if (deposit.step) photon.position = deposit.position + along * deposit.step->displacement;
+    photon.ray.direction = core::sample_isotropic(rng);
+    photon.ray.polarisation =
+        unpolarised_ ? core::Vec3(core::Vec3::Zero()) : core::sample_polarisation(photon.ray.direction, rng);
+    photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
+                                  : spectrum_of(scene, medium, deposit).sample(rng.uniform());
+    photon.time_ns =
+        deposit.time_ns + (prompt ? 0.0 : sample_decay_of(scene.media[medium].medium(), deposit, rng));
+    if (deposit.step) photon.time_ns += time_along(*deposit.step, along);
+  }
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   photon.optical_depth = core::sample_exponential(rng);
   return photon;

@@ -40,10 +40,23 @@ class ScintillationSource : public LightSource {
   std::vector<core::RegionId> regions() const override;
 
  private:
+  void add_steps(const scene::Scene& scene, const std::array<double, 2>& range_nm);
+  std::uint64_t scintillation_photons(const optics::Medium& medium, core::MediumId at, const Deposit& deposit,
+                                      core::Rng& rng) const;
+  const core::CurveSampler& spectrum_of(const scene::Scene& scene, core::MediumId medium,
+                                        const Deposit& deposit) const;
+  void emit_cherenkov(const Deposit& deposit, core::MediumId medium, Photon& photon, core::Rng& rng) const;
+
   std::unique_ptr<EventSource> events_;
   core::IdVector<core::MediumId, core::CurveSampler> emission_;
+  core::IdVector<core::MediumId, std::vector<core::CurveSampler>>
+      particle_emission_;                                                      ///< as Medium::by_particle
   core::IdVector<core::MediumId, std::optional<CherenkovEmitter>> cherenkov_;  ///< empty without that light
-  std::vector<core::RegionId> regions_;                                        ///< that scintillate
+  /// Of steps of particles; empty without that light or without steps.
+  core::IdVector<core::MediumId, std::optional<CherenkovTrack>> tracks_;
+  core::IdVector<core::MediumId, core::Curve>
+      birks_;                            ///< energy seen of electrons that stop, keV against keV
+  std::vector<core::RegionId> regions_;  ///< that scintillate
   bool unpolarised_;
 };
 
@@ -54,5 +67,18 @@ class ScintillationSource : public LightSource {
 /// square root of the energy.
 /// @return 0 where the Gaussian is below zero
 std::uint64_t sample_photon_number(const optics::Medium& medium, double energy_keV, core::Rng& rng);
+
+/// Energy (keV) that by Birks' law is seen of an electron that stops, the integral of dE / (1 + kB dE/dx)
+/// with ElectronStopping, tabulated against its energy (keV) up to CherenkovEmitter::kGreatestEnergy_keV.
+/// Below 10 keV the stopping power is taken as that at 10 keV, the end of its formula: less than it is.
+/// @throws InputError (without a place) for a medium without composition
+core::Curve birks_response(const optics::Medium& medium);
+
+/// Mean number of scintillation photons of a deposit: by the light of its kind of particle, L(T) - L(T - E)
+/// where the kinetic energy T is known and L(E) where it is not; else by Birks' law, E / (1 + kB E / length)
+/// of a step with a length; else by yield and relative yield.
+/// @param birks  birks_response of the medium, for deposits without a step; unused where it has no Birks
+/// constant Throws InputError for an energy beyond the table of the particle's light.
+double mean_scintillation(const optics::Medium& medium, const Deposit& deposit, const core::Curve& birks);
 
 }  // namespace scintray::source

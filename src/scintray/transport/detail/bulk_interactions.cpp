@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
@@ -54,12 +55,26 @@ bool shift_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon&
   if (rng.uniform() * photon.optics.absorption_per_mm >= shifting_per_mm) return false;
   optics::ShiftCount not_recorded;
   optics::ShiftCount& count = records ? records->shifts_of(id) : not_recorded;
-  const auto back = scene.media[id].medium().shifter->absorb(photon.wavelength_nm, rng, count);
+  const optics::WavelengthShifter& shifter = *scene.media[id].medium().shifter;
+  std::vector<optics::ShiftedLight> more;
+  const auto back = shifter.absorb(photon.wavelength_nm, rng, count, &more);
   if (!back) return false;
-  photon.wavelength_nm = back->wavelength_nm;
-  photon.time_ns += back->delay_ns;
-  photon.optics = scene.optics.at(id, photon.wavelength_nm);
-  optics::scatter_isotropic(photon.ray, rng);
+  const auto re_emit = [&](source::Photon& again, const optics::ShiftedLight& light) {
+    again.wavelength_nm = light.wavelength_nm;
+    again.time_ns += light.delay_ns;
+    again.optics = scene.optics.at(id, again.wavelength_nm);
+    optics::scatter_isotropic(again.ray, rng);
+  };
+  // The random numbers are drawn with and without records, so that a photon is replayed alike.
+  for (const optics::ShiftedLight& light : more) {
+    source::Photon additional = photon;
+    re_emit(additional, light);
+    additional.optical_depth = core::sample_exponential(rng);
+    additional.conversion_draw = rng.uniform();
+    additional.interactions = additional.scatterings = 0;
+    if (records) records->add_photon(additional);
+  }
+  re_emit(photon, *back);
   return true;
 }
 

@@ -15,22 +15,6 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-double integral(const EnergyTable& table) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < table.value.size(); ++i)
-    sum += 0.5 * (table.value[i] + table.value[i + 1]) * (table.energy_eV[i + 1] - table.energy_eV[i]);
-  return sum;
-}
-
-/// A spectrum per energy as one per wavelength, at the same energies with added points.
-EnergyTable per_wavelength(const EnergyTable& spectrum) {
-  EnergyTable result;
-  result.energy_eV = refined(spectrum.energy_eV);
-  for (const double energy : result.energy_eV)
-    result.value.push_back(std::max(0.0, interpolated(spectrum, energy)) * energy * energy / core::kHc_eV_nm);
-  return result;
-}
-
 class MaterialImporter {
  public:
   explicit MaterialImporter(const OpticalTables& tables)
@@ -111,70 +95,105 @@ class MaterialImporter {
     return ", group = " + curve(group, "");
   }
 
-  /// Absorption, and the wavelength shifter beside it. A shifter without a spectrum absorbs for good.
+  /// The names of the properties of one of Geant4's two wavelength shifters.
+  struct ShifterNames {
+    std::string length, component, time, photons;
+  };
+  static ShifterNames shifter_names(const std::string& number) {
+    return {"WLSABSLENGTH" + number, "WLSCOMPONENT" + number, "WLSTIMECONSTANT" + number,
+            "WLSMEANNUMBERPHOTONS" + number};
+  }
+
+  /// Absorption, and the wavelength shifters beside it. A shifter without a spectrum absorbs for good.
   std::string absorption(Node material, ImportedMedium& medium) const {
-    const EnergyTable plain = table(material, "ABSLENGTH"), shifting = table(material, "WLSABSLENGTH");
-    const EnergyTable spectrum = table(material, "WLSCOMPONENT");
-    const bool shifts = !shifting.empty() && spectrum.value.size() > 1 && integral(spectrum) > 0.0;
-    if (!shifts && !shifting.empty()) {
-      medium.notes.push_back(
-          "its WLSABSLENGTH has no WLSCOMPONENT: as in Geant4 the light is absorbed and not re-emitted");
-      return "absorption = { coefficient = " + curve(both(plain, shifting), "1/mm") + " }\n";
+    const EnergyTable plain = table(material, "ABSLENGTH");
+    std::vector<EnergyTable> for_good;
+    if (!plain.empty()) for_good.push_back(plain);
+    std::string shifters;
+    for (const char* number : {"", "2"}) {
+      const ShifterNames names = shifter_names(number);
+      const EnergyTable lengths = table(material, names.length), spectrum = table(material, names.component);
+      if (!lengths.empty() && spectrum.value.size() > 1 && integral(spectrum) > 0.0) {
+        shifters += (shifters.empty() ? "" : ", ") + shifter(material, names, medium);
+      } else if (!lengths.empty()) {
+        medium.notes.push_back("its " + names.length + " has no " + names.component +
+                               ": as in Geant4 the light is absorbed and not re-emitted");
+        for_good.push_back(lengths);
+      } else if (!spectrum.empty()) {
+        medium.notes.push_back("its " + names.component + " has no " + names.length +
+                               ": as in Geant4 nothing is shifted");
+      }
     }
-    if (!spectrum.empty() && shifting.empty())
-      medium.notes.push_back("its WLSCOMPONENT has no WLSABSLENGTH: as in Geant4 nothing is shifted");
-    const std::string own = plain.empty()
-                                ? "absorption = { none = true }\n"
-                                : "absorption = { length = " + curve(positive(plain), "mm") + " }\n";
-    return shifts ? own + shifter(material, positive(shifting), spectrum, medium) : own;
+    const std::string own = for_good.empty() ? "absorption = { none = true }\n"
+                            : for_good.size() == 1 && !plain.empty()
+                                ? "absorption = { length = " + curve(positive(plain), "mm") + " }\n"
+                                : "absorption = { coefficient = " + curve(sum_of(for_good), "1/mm") + " }\n";
+    return shifters.empty() ? own : own + "wavelength_shifting = [" + shifters + "]\n";
   }
 
-  /// Lengths, none below a thousandth of a nanometre: Geant4 takes 0 as absorbed at once.
-  static EnergyTable positive(EnergyTable lengths) {
-    for (double& length : lengths.value) length = std::max(length, 1e-9);
-    return lengths;
+  /// Lengths, none below a thousandth of a nanometre: Geant4 takes 0 as absorbed at once. It interpolates
+  /// lengths, a curve here their inverses: where neighbours differ by a factor, points are added so that two
+  /// of them differ by 25 % at most, between which the inverses agree within 0.7 %.
+  static EnergyTable positive(const EnergyTable& lengths) {
+    constexpr double kRatio = 1.25, kShortest_mm = 1e-9, kClosest = 1e-7;
+    EnergyTable fine;
+    const auto add = [&](double energy_eV, double length_mm) {
+      fine.energy_eV.push_back(energy_eV);
+      fine.value.push_back(length_mm);
+    };
+    for (std::size_t i = 0; i < lengths.value.size(); ++i) {
+      const double length = std::max(lengths.value[i], kShortest_mm);
+      if (i > 0) {
+        const double low_eV = lengths.energy_eV[i - 1], before = fine.value.back();
+        const double span_eV = lengths.energy_eV[i] - low_eV;
+        const double pieces = std::ceil(std::abs(std::log(length / before)) / std::log(kRatio));
+        for (double piece = 1.0; piece < pieces; ++piece) {
+          const double between = before * std::pow(length / before, piece / pieces);
+          const double energy_eV = low_eV + span_eV * (between - before) / (length - before);
+          if (energy_eV > fine.energy_eV.back() * (1.0 + kClosest) &&
+              energy_eV * (1.0 + kClosest) < lengths.energy_eV[i])
+            add(energy_eV, between);
+        }
+      }
+      add(lengths.energy_eV[i], length);
+    }
+    return fine;
   }
 
-  /// Sum of the coefficients of two absorptions, of which the first may be none.
-  static EnergyTable both(const EnergyTable& one, const EnergyTable& other) {
+  /// Sum of the coefficients of several absorptions.
+  static EnergyTable sum_of(const std::vector<EnergyTable>& all) {
     EnergyTable sum;
-    std::set<double> energies(one.energy_eV.begin(), one.energy_eV.end());
-    energies.insert(other.energy_eV.begin(), other.energy_eV.end());
+    std::set<double> energies;
+    for (const EnergyTable& lengths : all)
+      energies.insert(lengths.energy_eV.begin(), lengths.energy_eV.end());
     sum.energy_eV = refined({energies.begin(), energies.end()});
     for (const double energy : sum.energy_eV) {
       double coefficient = 0.0;
-      for (const EnergyTable* lengths : {&one, &other})
-        if (!lengths->empty()) coefficient += 1.0 / std::max(1e-9, value_at(*lengths, energy));
+      for (const EnergyTable& lengths : all) coefficient += 1.0 / std::max(1e-9, value_at(lengths, energy));
       sum.value.push_back(coefficient);
     }
     return sum;
   }
 
-  std::string shifter(Node material, const EnergyTable& lengths, const EnergyTable& spectrum,
-                      ImportedMedium& medium) const {
-    const double photons = constant(material, {"WLSMEANNUMBERPHOTONS"}).value_or(1.0);
-    const double time_ns = constant(material, {"WLSTIMECONSTANT"}).value_or(0.0);
-    if (photons > 1.0)
-      medium.notes.push_back(fmt::format(
-          "WLSMEANNUMBERPHOTONS of {:g}: one photon at most is re-emitted here, in Geant4 {:g} on average",
-          photons, photons));
-    else if (photons < 1.0)
-      medium.notes.push_back(
-          fmt::format("WLSMEANNUMBERPHOTONS of {:g}: re-emitted with this probability; in Geant4 the number "
-                      "is Poisson's, "
-                      "of the same mean",
-                      photons));
+  /// One element of wavelength_shifting. Geant4 re-emits exactly one photon without a mean number, and a
+  /// Poisson number with one (G4OpWLS::PostStepDoIt); its time profile is set in macros, by default "delta".
+  std::string shifter(Node material, const ShifterNames& names, ImportedMedium& medium) const {
+    const std::optional<double> photons = constant(material, {names.photons});
+    const double time_ns = constant(material, {names.time}).value_or(0.0);
+    if (photons && *photons < 0.0)
+      file_.reject(material, "a " + names.photons + " below 0", "give a mean number of photons");
     if (time_ns > 0.0)
-      medium.notes.push_back(
-          "WLSTIMECONSTANT: an exponential decay here, as Geant4's time profile \"exponential\"; its "
-          "default, "
-          "\"delta\", delays all light by the same time");
+      medium.notes.push_back(names.time +
+                             ": every photon is delayed by it, Geant4's default; where a macro sets "
+                             "setTimeProfile exponential, remove profile = \"delta\" from its decay");
     constexpr double kAtOnce_ns = 1e-6;
-    return "wavelength_shifting = { absorption = { length = " + curve(lengths, "mm") +
-           " }, quantum_yield = { value = " + fmt::format("{:.9g}", std::clamp(photons, 0.0, 1.0)) +
-           " }, emission = { spectrum = " + curve_toml(per_wavelength(spectrum), "", 0.0, 0.0) +
+    return "{ absorption = { length = " + curve(positive(table(material, names.length)), "mm") +
+           " }, quantum_yield = { value = " +
+           (photons ? fmt::format("{:.9g}, statistics = \"poisson\"", *photons) : "1") +
+           " }, emission = { spectrum = " +
+           curve_toml(per_wavelength(table(material, names.component)), "", 0.0, 0.0) +
            " }, decay = [{ time = \"" + fmt::format("{:.9g}", std::max(time_ns, kAtOnce_ns)) +
-           " ns\", rise = \"0 ns\", fraction = 1 }] }\n";
+           " ns\", rise = \"0 ns\", fraction = 1, profile = \"delta\" }] }";
   }
 
   void add_particles(Node material, ImportedMedium& medium) const {
@@ -297,7 +316,10 @@ class MaterialImporter {
   }
 
   void add_scintillation(Node material, ImportedMedium& medium) const {
-    const std::optional<double> yield = constant(material, {"SCINTILLATIONYIELD"});
+    std::optional<double> yield = constant(material, {"SCINTILLATIONYIELD"});
+    const std::string by_particle = particle_light(tables_, material);
+    if (const EnergyTable light = table(material, "ELECTRONSCINTILLATIONYIELD"); !yield && !light.empty())
+      yield = 1e6 * (light.value.back() - light.value.front()) / light.energy_eV.back();
     if (!yield || *yield <= 0.0) return;
     std::vector<Component> parts = components(material);
     double shares = 0.0;
@@ -312,8 +334,10 @@ class MaterialImporter {
     }
     EnergyTable emission;
     std::set<double> energies;
-    for (const Component& part : parts)
+    for (Component& part : parts) {
+      part.spectrum = as_sampled(part.spectrum);
       energies.insert(part.spectrum.energy_eV.begin(), part.spectrum.energy_eV.end());
+    }
     for (const double energy : refined({energies.begin(), energies.end()})) {
       double density = 0.0;
       for (const Component& part : parts)
@@ -330,6 +354,9 @@ class MaterialImporter {
           fmt::format("{}{{ time = \"{:.9g} ns\", rise = \"{:.9g} ns\", fraction = {:.12g} }}",
                       i == 0 ? "" : ", ", parts[i].decay_ns, parts[i].rise_ns, parts[i].share / shares);
     medium.toml += "]\n";
+    if (by_particle.empty()) return;
+    medium.toml += "particle_light = [" + by_particle + "]\n";
+    medium.notes.push_back("its light by particle, which Geant4 uses after setByParticleType true alone");
   }
 
   void note_others(Node material, ImportedMedium& medium) const {
@@ -346,6 +373,10 @@ class MaterialImporter {
                                                "WLSCOMPONENT",
                                                "WLSTIMECONSTANT",
                                                "WLSMEANNUMBERPHOTONS",
+                                               "WLSABSLENGTH2",
+                                               "WLSCOMPONENT2",
+                                               "WLSTIMECONSTANT2",
+                                               "WLSMEANNUMBERPHOTONS2",
                                                "MIEHG",
                                                "MIEHG_FORWARD",
                                                "MIEHG_BACKWARD",
@@ -353,7 +384,7 @@ class MaterialImporter {
     std::string others;
     for (const Node child : material.children("property")) {
       const std::string name = child.attribute("name").value();
-      const bool scintillation = name.starts_with("SCINTILLATION");
+      const bool scintillation = name.find("SCINTILLATION") != std::string::npos;
       if (!scintillation && !carried.contains(name)) others += (others.empty() ? "" : ", ") + name;
     }
     if (!others.empty()) medium.notes.push_back("properties that have no counterpart here: " + others);

@@ -20,6 +20,16 @@ struct EnergyTable {
 /// The value at an energy (eV) of a table that is not empty; 0 beyond its ends.
 double interpolated(const EnergyTable& table, double energy_eV);
 
+/// Integral over energy.
+double integral(const EnergyTable& table);
+
+/// The spectrum that Geant4 samples from a table per energy: it interpolates the table's integral (G4OpWLS,
+/// G4Scintillation: BuildPhysicsTable), so that between two points all energies are equally likely.
+EnergyTable as_sampled(const EnergyTable& table);
+
+/// The spectrum that Geant4 samples from a table per energy, as one per wavelength, with added points.
+EnergyTable per_wavelength(const EnergyTable& table);
+
 /// Energies (eV) of a table, upwards, with added points. Geant4 interpolates linearly over energy, a curve
 /// here over wavelength. Halfway between two points the energy is their arithmetic mean for one and the
 /// harmonic mean for the other: between energies 2 % apart the values differ by 0.5 % of their step.
@@ -74,13 +84,20 @@ struct ImportedMedium {
 /// from RAYLEIGH (none where they are left out), particles from MIEHG, group index from a GROUPVEL that
 /// follows RINDEX (else Geant4 computes it), scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3
 /// and their constants, or their names before Geant4 11, wavelength shifting from WLSABSLENGTH, WLSCOMPONENT,
-/// WLSTIMECONSTANT and WLSMEANNUMBERPHOTONS. Spectra: Geant4 samples components per energy, S(E); here one
-/// spectrum per wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c).
+/// WLSTIMECONSTANT and WLSMEANNUMBERPHOTONS, and the same with a 2. Spectra: Geant4 samples components per
+/// energy, S(E); here one spectrum per wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2
+/// / (h c). Between two points of a spectrum S is their mean, as Geant4 samples it.
 std::vector<ImportedMedium> import_materials(const OpticalTables& tables);
 
 /// { wavelength = [...], ... } of a table, or its one number when it has one value only; extended at constant
 /// value to the two wavelengths when they lie beyond it (0: no extension).
 std::string curve_toml(const EnergyTable& table, const std::string& unit, double low_nm, double high_nm);
+
+/// The elements of `particle_light` of a material with ELECTRONSCINTILLATIONYIELD, PROTON..., DEUTERON...,
+/// TRITON..., ALPHA... or IONSCINTILLATIONYIELD, separated by commas; empty without any. Spectra and times
+/// are those of the material's components, weighted by the particle's own yields as G4Scintillation does by
+/// particle type.
+std::string particle_light(const OpticalTables& tables, Node material);
 
 struct ImportedSurface {
   std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be carried over

@@ -26,6 +26,11 @@ std::string toml_array(const std::vector<double>& values) {
   return "[" + core::list_of(values, ", ", [](double value) { return fmt::format("{:.9g}", value); }) + "]";
 }
 
+/// True for a property over the energy of a particle rather than of a photon.
+bool is_of_particles(const std::string& name) {
+  return name.ends_with("SCINTILLATIONYIELD") && name != "SCINTILLATIONYIELD";
+}
+
 }  // namespace
 
 double interpolated(const EnergyTable& table, double energy_eV) {
@@ -55,13 +60,48 @@ double value_at(const EnergyTable& table, double energy_eV) {
   return interpolated(table, energy_eV);
 }
 
+double integral(const EnergyTable& table) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < table.value.size(); ++i)
+    sum += 0.5 * (table.value[i] + table.value[i + 1]) * (table.energy_eV[i + 1] - table.energy_eV[i]);
+  return sum;
+}
+
+EnergyTable as_sampled(const EnergyTable& table) {
+  constexpr double kEdge = 1e-7;  ///< of a step between two intervals, relative to its energy
+  EnergyTable steps;
+  const auto add = [&](double energy_eV, double value) {
+    steps.energy_eV.push_back(energy_eV);
+    steps.value.push_back(value);
+  };
+  for (std::size_t i = 0; i + 1 < table.value.size(); ++i) {
+    const double mean = std::max(0.0, 0.5 * (table.value[i] + table.value[i + 1]));
+    const bool first = i == 0, last = i + 2 == table.value.size();
+    const bool same = !first && mean == steps.value.back();
+    if (!same) add(table.energy_eV[i] * (first ? 1.0 : 1.0 + kEdge), mean);
+    if (same) steps.energy_eV.pop_back(), steps.value.pop_back();
+    add(table.energy_eV[i + 1] * (last ? 1.0 : 1.0 - kEdge), mean);
+  }
+  return steps;
+}
+
+EnergyTable per_wavelength(const EnergyTable& table) {
+  const EnergyTable spectrum = as_sampled(table);
+  EnergyTable result;
+  result.energy_eV = refined(spectrum.energy_eV);
+  for (const double energy : result.energy_eV)
+    result.value.push_back(interpolated(spectrum, energy) * energy * energy / core::kHc_eV_nm);
+  return result;
+}
+
 OpticalTables::OpticalTables(const GdmlFile& file, const Definitions& definitions)
     : file_(file), definitions_(definitions) {
   for (const char* section : {"materials", "solids"})
     definitions_.for_each_child(file_.section(section), [&](Node owner) {
       for (const Node child : owner.children("property")) {
-        const EnergyTable table = property(owner, child.attribute("name").value());
-        if (table.value.size() < 2) continue;
+        const std::string name = child.attribute("name").value();
+        const EnergyTable table = property(owner, name);
+        if (table.value.size() < 2 || is_of_particles(name)) continue;
         const double low = core::kHc_eV_nm / table.energy_eV.back(),
                      high = core::kHc_eV_nm / table.energy_eV.front();
         low_nm_ = low_nm_ == 0.0 ? low : std::min(low_nm_, low);
@@ -82,7 +122,7 @@ EnergyTable OpticalTables::property(Node owner, const std::string& name) const {
   std::vector<std::pair<double, double>> rows;
   for (std::size_t i = 0; i < matrix->values.size(); i += matrix->columns) {
     const double energy = matrix->values[i] * kMeV_eV;
-    if (!(energy > 0.0))
+    if (!(energy > 0.0) && !(energy == 0.0 && is_of_particles(name)))
       file_.reject(node, name + ": \"" + reference + "\" has an energy that is not above 0",
                    "give photon energies, as 3.1*eV; the first column holds them");
     rows.emplace_back(energy, matrix->values[i + 1]);
