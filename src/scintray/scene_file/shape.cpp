@@ -42,7 +42,8 @@ mesh::Tessellation read_tessellation(const config::TomlTable& part) {
   return tessellation;
 }
 
-/// mesh = "FILE" of a [[part]], with the keys that belong to it: unit, scale, body, tessellation.
+/// mesh = "FILE" of a [[part]], with the keys that belong to it: unit, scale, body,
+/// tessellation, curved.
 MeshFileSpec read_mesh(const config::TomlTable& table) {
   MeshFileSpec mesh;
   mesh.where = table.where("mesh");
@@ -70,6 +71,10 @@ MeshFileSpec read_mesh(const config::TomlTable& table) {
   table.expect("tessellation", cad,
                "a tessellation of \"" + mesh.path.filename().string() + "\", which holds triangles already",
                "remove tessellation: it is for STEP files");
+  table.expect("curved", !cad,
+               "curved of \"" + mesh.path.filename().string() + "\", a STEP file, whose faces are known",
+               "remove curved: [run] curved chooses between exact faces and facets");
+  mesh.curved = table.choice("curved", kRoundFacesOfFile, RoundFacesOfFile::facets);
   return mesh;
 }
 
@@ -287,7 +292,7 @@ constexpr core::Word<ShapeReader> kShapes[] = {
 
 ShapeSpec read_shape(const config::TomlTable& part) {
   const core::Word<ShapeReader>* kind = part.one_of(kShapes, true);
-  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
+  for (const char* key : {"unit", "scale", "body", "tessellation", "curved"}) part.has(key);
   ShapeSpec shape = kind ? kind->value(part) : BoxSpec{};
   read_chamfer(part, shape);
   return shape;

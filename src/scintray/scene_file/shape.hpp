@@ -25,6 +25,14 @@ struct BoxSpec {
   bool operator==(const BoxSpec&) const = default;
 };
 
+/// Round faces of a mesh file of triangles.
+enum class RoundFacesOfFile {
+  facets,     ///< are the triangles
+  recognize,  ///< are the surface on which all corners lie within the contact tolerance, where there is one
+};
+inline constexpr core::Word<RoundFacesOfFile> kRoundFacesOfFile[] = {
+    {"facets", RoundFacesOfFile::facets}, {"recognize", RoundFacesOfFile::recognize}};
+
 /// A mesh file, CAD or triangles.
 struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
@@ -32,6 +40,7 @@ struct MeshFileSpec {
   double scale = 1.0;
   std::string body;                 ///< name or number of the one body of the file; empty: all together
   mesh::Tessellation tessellation;  ///< of a CAD file's curved faces
+  RoundFacesOfFile curved = RoundFacesOfFile::facets;
   core::FileLocation where;
   bool operator==(const MeshFileSpec&) const = default;
 };
