@@ -1,6 +1,7 @@
 #pragma once
 /// Shapes of parts in a scene file. Lengths mm, angles rad.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -97,8 +98,23 @@ struct SphereSpec {
   bool operator==(const SphereSpec&) const = default;
 };
 
+/// Lens about the z axis, its lower vertex at the origin.
+struct LensSpec {
+  mesh::LensShape shape;
+  core::FileLocation where;
+  bool operator==(const LensSpec&) const = default;
+};
+
+/// Body of revolution about the z axis.
+struct RevolvedSpec {
+  std::vector<std::array<double, 2>> profile;  ///< corners (r, z), mm
+  int segments = 64;                           ///< flat sides
+  core::FileLocation where;
+  bool operator==(const RevolvedSpec&) const = default;
+};
+
 using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec,
-                               SphereSpec, ConeSpec>;
+                               SphereSpec, ConeSpec, LensSpec, RevolvedSpec>;
 
 /// Place of a shape in the file.
 core::FileLocation shape_location(const ShapeSpec& shape);
