@@ -47,10 +47,12 @@ double traced_crossing(const BuiltScene& built, const SceneSpec& spec, double he
   for (std::uint64_t i = 0; i < 200; ++i) {
     Rng rng(5, StreamKind::photon, i);
     Photon photon = source.emit(built.scene, rng);
-    photon.ray.origin = Vec3(height, 0.0, -10.0);
+    photon.position = Vec3(height, 0.0, -10.0);
     photon.ray.direction = Vec3::UnitZ();
     photon.ray.polarisation = Vec3::UnitY();
     photon.region = kAmbientRegion;
+    photon.optics = built.scene.optics.at(built.scene.regions[kAmbientRegion].medium, photon.wavelength_nm);
+    photon.on_triangle = kNoTriangle;
     bool through = true;
     for (int crossings = 0; crossings < 2 && through; ++crossings) {
       const Step taken = step(built.scene, photon, rng);
@@ -58,7 +60,7 @@ double traced_crossing(const BuiltScene& built, const SceneSpec& spec, double he
     }
     if (!through || photon.region != kAmbientRegion) continue;
     const double slope = photon.ray.direction.x() / photon.ray.direction.z();
-    return photon.ray.origin.z() - photon.ray.origin.x() / slope;
+    return photon.position.z() - photon.position.x() / slope;
   }
   return NAN;
 }
