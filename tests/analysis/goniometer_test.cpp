@@ -4,7 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include "scintray/core/error.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -27,7 +27,7 @@ GoniometerSettings at(double degrees, std::uint64_t rays = 200'000) {
 
 Surface rough_with_reflector() {
   Surface surface;
-  UnifiedSurface facets;
+  FacetSurface facets;
   facets.sigma_alpha_rad = 12.0 * kDegree;
   facets.lobe = 0.8;
   surface.microsurface = facets;

@@ -4,9 +4,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/optics/facets.hpp"
 #include "scintray/optics/height_field.hpp"
 #include "scintray/optics/table.hpp"
-#include "scintray/optics/unified.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -113,7 +113,7 @@ TEST_CASE("presets have the source of their definition as well") {
 TEST_CASE("visible slopes: none on a flat face, of a table as of its map, not available without facets") {
   CHECK(mean_visible_slope(Surface{}, Side::inside, 0.5).value == 0.0);
   Surface facets;
-  facets.microsurface = UnifiedSurface{};
+  facets.microsurface = FacetSurface{};
   CHECK_THROWS_AS(mean_visible_slope(facets, Side::inside, 0.5), InputError);
 
   TableNode low, high;

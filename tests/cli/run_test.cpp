@@ -147,7 +147,7 @@ TEST_CASE("replay follows a photon to its end") {
   const Ended ended = run_program({"replay", "scene.toml", "--event", "0", "--photon", "3"}, folder);
   CAPTURE(ended.output);
   CHECK(ended.exit_code == cli::kSuccess);
-  CHECK(contains(ended.output, "DETECTED"));
+  CHECK(contains(ended.output, "detected by"));
 }
 
 TEST_CASE("reweight prints light under other optics and writes a table, and refuses what it cannot do") {
@@ -196,7 +196,7 @@ TEST_CASE("replay prints the start of a photon, and takes the results file of a 
   };
   const std::string from_result = replay({"replay", "scene.h5"});
   check_contains(from_result, {"     0 ", "emitted in crystal", "420.00 nm"});
-  check_contains(from_result, {"DETECTED"});
+  check_contains(from_result, {"detected by"});
   CHECK(from_result == replay({"replay", "scene.toml", "--seed", "5"}));
   CHECK(from_result != replay({"replay", "scene.toml"}));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scintray/core/error.hpp"
+#include "scintray/optics/facets.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/readout.hpp"
 #include "scintray/simulation/results_file.hpp"
@@ -98,6 +99,25 @@ TEST_CASE("The electronics of the run reproduce its own signals, others make the
     CHECK(short_gate[i].channels[0].charge < 0.6F * before[i].channels[0].charge);
     CHECK(short_gate[i].channels[0].charge > 0.1F * before[i].channels[0].charge);
   }
+}
+
+TEST_CASE("Electronics are rerun in a scene that names a surface model from outside") {
+  SimulationOptions options;
+  options.models.surfaces.add({.word = "outside", .table = "", .read = [](const config::TomlTable&) {
+                                 return materials::FixedMicrosurface(optics::FacetSurface());
+                               }});
+  const auto folder = scratch_folder("read_out_model");
+  const std::string scene =
+      kSmallCrystal + kElectronics + "[run]\nphoton_list = true\n[surfaces.own]\nmodel = \"outside\"\n";
+  {
+    ResultsFile results(folder / "run.h5");
+    Simulation(SceneFile::from_text(scene, (folder / "scene.toml").string()), options).run_all(results);
+  }
+  const RunResult run = read_results(folder / "run.h5");
+  const auto readout = readout_of_text(kElectronics, "same.toml");
+  CHECK_THROWS_AS(rerun_readout(folder / "run.h5", run, readout, folder / "without.h5"), InputError);
+  rerun_readout(folder / "run.h5", run, readout, folder / "again.h5", options);
+  CHECK(read_events(folder / "again.h5", 0, 100).size() == read_events(folder / "run.h5", 0, 100).size());
 }
 
 TEST_CASE("What cannot be read out again is refused with the reason") {

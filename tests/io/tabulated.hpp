@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "scintray/core/vec.hpp"
+#include "scintray/optics/facets.hpp"
 #include "scintray/optics/table.hpp"
-#include "scintray/optics/unified.hpp"
 
 namespace scintray::test {
 
 inline constexpr optics::IndexPair kLsoToAir{1.82, 1.0};
 
-inline optics::TableNode tabulated_node(const optics::UnifiedSurface& surface, optics::Side side,
+inline optics::TableNode tabulated_node(const optics::FacetSurface& surface, optics::Side side,
                                         double incidence_rad) {
   constexpr std::uint64_t kRays = 20000;
   optics::TableNode node;
@@ -40,7 +40,7 @@ inline optics::TableNode tabulated_node(const optics::UnifiedSurface& surface, o
 
 /// Facets tilted by `sigma_alpha_rad`, in steps of 3 deg of incidence, LSO to air.
 inline optics::SurfaceTable tabulated(double sigma_alpha_rad) {
-  optics::UnifiedSurface surface;
+  optics::FacetSurface surface;
   surface.sigma_alpha_rad = sigma_alpha_rad;
   std::vector<optics::TableNode> nodes[2];
   for (const optics::Side side : {optics::Side::inside, optics::Side::outside})

@@ -12,7 +12,7 @@
 #include "scintray/detector/microcells.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/database.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 #include "support/shared.hpp"
 
 namespace scintray {

@@ -57,7 +57,7 @@ TEST_CASE("a metal has a complex index, or facets, or neither") {
 }
 
 TEST_CASE("GLISUR's polish is a share, and its facets are weighted as the file states") {
-  const auto smeared = microsurface_of<UnifiedSurface>(
+  const auto smeared = microsurface_of<FacetSurface>(
       own_surface("model = \"glisur\"\nglisur = { polish = \"80 %\", facets = \"geant4\" }\n"));
   CHECK(smeared.smear == doctest::Approx(0.2));
   CHECK(smeared.lobe == 1.0);

@@ -41,7 +41,7 @@ TEST_CASE("every shipped surface loads, or names the keys that the user has to s
 TEST_CASE("Geant4's six finishes mean what they mean there") {
   CHECK(holds_microsurface<SmoothSurface>(shipped_database().surface("geant4_polished")));
 
-  const auto ground = microsurface_of<UnifiedSurface>(with_base("geant4_ground", kGround));
+  const auto ground = microsurface_of<FacetSurface>(with_base("geant4_ground", kGround));
   CHECK(ground.sigma_alpha_rad == doctest::Approx(0.314));
   CHECK(ground.definition == SigmaAlphaDefinition::solid_angle);
   CHECK(ground.sampling == FacetSampling::geant4);
@@ -56,7 +56,7 @@ TEST_CASE("Geant4's six finishes mean what they mean there") {
   for (const auto& [name, share] :
        {std::pair{"geant4_polishedbackpainted", 1.0}, std::pair{"geant4_groundbackpainted", 0.0}}) {
     const SurfaceSpec surface = with_base(name, "gap = 1.0\nreflectance = 0.97\n" + kGround);
-    CHECK(holds_microsurface<UnifiedSurface>(surface));
+    CHECK(holds_microsurface<FacetSurface>(surface));
     CHECK(surface.reflector->specular_share == share);
     CHECK(surface.gap_index(420.0) == 1.0);
   }
@@ -77,7 +77,7 @@ TEST_CASE("DETECT's five finishes exist") {
   const MaterialDatabase& database = shipped_database();
   CHECK(holds_microsurface<SmoothSurface>(database.surface("detect_polish")));
   CHECK(holds_microsurface<SmoothSurface>(database.surface("detect_detect")));
-  const auto ground = microsurface_of<UnifiedSurface>(database.surface("detect_ground"));
+  const auto ground = microsurface_of<FacetSurface>(database.surface("detect_ground"));
   CHECK(ground.lobe + ground.spike + ground.backscatter == 0.0);  // Lambertian only
   CHECK(with_base("detect_paint", "reflectance = 0.98\n").reflector->specular_share == 0.0);
   CHECK(with_base("detect_metal", "reflector = \"PTFE\"\n").reflector->specular_share == 1.0);
@@ -88,9 +88,8 @@ TEST_CASE("the paper's surfaces are the paper's") {
   const MaterialDatabase& database = shipped_database();
   for (const auto& [name, degrees] :
        {std::pair{"roncali2013_unified_rough", 18.0}, std::pair{"roncali2013_unified_polished", 1.2}}) {
-    const auto by_solid_angle = microsurface_of<UnifiedSurface>(database.surface(name));
-    const auto by_polar_angle =
-        microsurface_of<UnifiedSurface>(database.surface(std::string(name) + "_polar"));
+    const auto by_solid_angle = microsurface_of<FacetSurface>(database.surface(name));
+    const auto by_polar_angle = microsurface_of<FacetSurface>(database.surface(std::string(name) + "_polar"));
     CHECK(by_solid_angle.sigma_alpha_rad == doctest::Approx(degrees * kDegree));
     CHECK(by_polar_angle.sigma_alpha_rad == by_solid_angle.sigma_alpha_rad);
     CHECK(by_solid_angle.lobe == 1.0);

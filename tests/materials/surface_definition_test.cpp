@@ -31,7 +31,7 @@ spike = 0.2
 
 TEST_CASE("a UNIFIED surface is read with its unit and its definition") {
   const SurfaceSpec surface = surface_of(kUnified);
-  const auto unified = microsurface_of<UnifiedSurface>(surface);
+  const auto unified = microsurface_of<FacetSurface>(surface);
   CHECK(unified.sigma_alpha_rad == doctest::Approx(18.0 * kDegree));
   CHECK(unified.definition == SigmaAlphaDefinition::polar_angle);
   CHECK(unified.sampling == FacetSampling::projected_area);
@@ -168,7 +168,7 @@ TEST_CASE("tables of another model are refused, not ignored") {
 TEST_CASE("a base has the keys that the derived surface does not set") {
   const SurfaceSpec surface =
       surface_of("base = \"roncali2013_unified_rough\"\n[unified]\nsigma_alpha = \"5 deg\"\n");
-  const auto unified = microsurface_of<UnifiedSurface>(surface);
+  const auto unified = microsurface_of<FacetSurface>(surface);
   CHECK(unified.sigma_alpha_rad == doctest::Approx(5.0 * kDegree));
   CHECK(unified.lobe == 1.0);
   CHECK(surface.name == "mine");

@@ -11,7 +11,7 @@
 #include "scintray/core/version.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/surface_spec.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -201,7 +201,7 @@ TEST_CASE("every layer of a stack is in its key; names are not") {
 
 TEST_CASE("a stack of unknown content has no key") {
   SurfaceSpec outside = wrapped();
-  outside.microsurface = FixedMicrosurface(UnifiedSurface());
+  outside.microsurface = FixedMicrosurface(FacetSurface());
   CHECK_FALSE(stack_key(outside).has_value());
   SurfaceSpec mixed;
   mixed.mixture = {{1.0, std::make_shared<const SurfaceSpec>(outside)}};

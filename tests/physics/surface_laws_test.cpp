@@ -5,8 +5,8 @@
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/coherent_layers.hpp"
+#include "scintray/optics/facets.hpp"
 #include "scintray/optics/surface.hpp"
-#include "scintray/optics/unified.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
@@ -28,16 +28,16 @@ Surface with(Microsurface microsurface) {
   return surface;
 }
 
-UnifiedSurface unified(double sigma_deg, FacetSampling sampling, double lobe) {
-  UnifiedSurface surface;
+FacetSurface unified(double sigma_deg, FacetSampling sampling, double lobe) {
+  FacetSurface surface;
   surface.sigma_alpha_rad = sigma_deg * kDegree;
   surface.sampling = sampling;
   surface.lobe = lobe;
   return surface;
 }
 
-UnifiedSurface glisur(double polish) {
-  UnifiedSurface surface;
+FacetSurface glisur(double polish) {
+  FacetSurface surface;
   surface.smear = 1.0 - polish;
   surface.sampling = FacetSampling::geant4;
   return surface;

@@ -6,7 +6,7 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
@@ -18,7 +18,7 @@ namespace {
 
 /// Mean visible facet angle at normal incidence, from the direction of mirror reflections at a facet that
 /// reflects all light (a huge index step makes the reflectance nearly 1 there).
-Estimate mean_facet_angle(const UnifiedSurface& surface) {
+Estimate mean_facet_angle(const FacetSurface& surface) {
   Moments angle;
   for (std::uint64_t i = 0; i < 300'000; ++i) {
     Rng rng(1, StreamKind::other, i);
@@ -51,7 +51,7 @@ double mean_below_45(Density density) {
 TEST_CASE("The two definitions of sigma_alpha have their own mean facet angles") {
   // Over all angles the means for 18 deg are 22.2 deg and 14.4 deg; single reflections show facets
   // below 45 deg, for which 12 deg leaves nearly all.
-  UnifiedSurface surface;
+  FacetSurface surface;
   surface.sampling = FacetSampling::geant4;
   surface.sigma_alpha_rad = 9.0 * kDegree;
   const double sigma = surface.sigma_alpha_rad;
@@ -68,7 +68,7 @@ TEST_CASE("The two definitions of sigma_alpha have their own mean facet angles")
 }
 
 TEST_CASE("Without roughness UNIFIED is the smooth surface") {
-  UnifiedSurface surface;
+  FacetSurface surface;
   surface.sigma_alpha_rad = 0.0;
   constexpr std::uint64_t kRays = 100'000;
   std::uint64_t reflected = 0;
@@ -86,7 +86,7 @@ TEST_CASE("Without roughness UNIFIED is the smooth surface") {
 }
 
 TEST_CASE("Spike, lobe, backscatter and Lambertian shares are those of the settings") {
-  UnifiedSurface surface;
+  FacetSurface surface;
   surface.sigma_alpha_rad = 5.0 * kDegree;
   surface.spike = 0.3;
   surface.lobe = 0.2;
@@ -176,7 +176,7 @@ TEST_CASE("Law of UNIFIED's shares: reflectance and directions are those of an i
   for (const std::array<double, 3>& shares :
        {std::array{0.2, 0.3, 0.1}, std::array{0.0, 1.0, 0.0}, std::array{0.1, 0.0, 0.6}}) {
     CAPTURE(shares[0]);
-    UnifiedSurface surface;
+    FacetSurface surface;
     surface.sigma_alpha_rad = 12.0 * kDegree;
     surface.sampling = FacetSampling::geant4;
     surface.spike = shares[0];
@@ -220,7 +220,7 @@ TEST_CASE("Law of UNIFIED's shares: reflectance and directions are those of an i
 }
 
 TEST_CASE("Facets by projected area tilt towards the light more than facets of equal weight") {
-  UnifiedSurface surface;
+  FacetSurface surface;
   surface.sigma_alpha_rad = 10.0 * kDegree;
   const double angle = 80.0 * kDegree;
   const auto mean_exit = [&](FacetSampling sampling) {

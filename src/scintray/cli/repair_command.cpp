@@ -5,6 +5,7 @@
 #include "scintray/cli/repair.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 
 namespace scintray::cli {
 

@@ -8,6 +8,7 @@
 #include "scintray/mesh/export/gltf_writer.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 
 namespace scintray::cli {
 

@@ -12,6 +12,7 @@
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/mesh/repair/repair.hpp"
 
 namespace scintray::cli {
 

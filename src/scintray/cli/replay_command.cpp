@@ -7,8 +7,8 @@
 #include <memory>
 #include <string_view>
 
-#include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
+#include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
@@ -20,37 +20,6 @@ struct ReplayOptions {
   std::uint64_t event = 0, photon = 0, point = 0;
   std::optional<std::uint64_t> seed;
 };
-
-std::string describe(const scene::Scene& scene, const transport::Step& step) {
-  switch (step.event) {
-    case core::StepEvent::scattered:
-      return "scattered in the bulk";
-    case core::StepEvent::re_emitted:
-      return "shifted to another wavelength";
-    case core::StepEvent::reflected:
-      return "reflected at " + scene.region_names[scene.interfaces[step.interface].back] + " | " +
-             scene.region_names[scene.interfaces[step.interface].front];
-    case core::StepEvent::transmitted: {
-      const scene::Interface& i = scene.interfaces[step.interface];
-      return "into " + scene.region_names[step.from_back ? i.front : i.back];
-    }
-    case core::StepEvent::detected:
-      return "DETECTED by " + scene.parts[step.sensor_part].name;
-    case core::StepEvent::not_detected:
-      return "NOT DETECTED by " + scene.parts[step.sensor_part].name;
-    case core::StepEvent::absorbed_in_medium:
-      return "ABSORBED in " + scene.media[step.medium].medium().name;
-    case core::StepEvent::absorbed_at_surface:
-      return "ABSORBED at " + scene.surfaces[step.surface].name;
-    case core::StepEvent::escaped:
-      return "ESCAPED";
-    case core::StepEvent::emitted:
-    case core::StepEvent::cut_interactions:
-    case core::StepEvent::cut_time:
-      break;  // no steps
-  }
-  throw core::InternalError("unknown step");
-}
 
 /// True for a file that begins as HDF5 files do.
 bool is_hdf5(const std::filesystem::path& path) {
@@ -91,7 +60,7 @@ void replay_photon(const ReplayOptions& options) {
   std::uint64_t number = 0;
   point->replay(options.event, options.photon,
                 [&](const source::Photon& photon, const transport::Step& step) {
-                  print_row(++number, photon, describe(point->scene(), step));
+                  print_row(++number, photon, simulation::step_text(point->scene(), step));
                 });
 }
 

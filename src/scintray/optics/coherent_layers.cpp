@@ -166,8 +166,8 @@ SurfaceOutcome MetalSurface::scatter(Ray& ray, Side side, const IndexPair& index
   const core::Vec3 against = side == Side::inside ? core::Vec3(-interaction.normal) : interaction.normal;
   const double nm = interaction.wavelength_nm, n1 = index.on(side);
   core::Rng& rng = interaction.rng;
-  const UnifiedSurface::Lobe lobe = facets.sample_lobe(rng);
-  const bool at_facets = lobe == UnifiedSurface::Lobe::facet;
+  const FacetSurface::Lobe lobe = facets.sample_lobe(rng);
+  const bool at_facets = lobe == FacetSurface::Lobe::facet;
   for (;;) {
     const core::Vec3 facet =
         at_facets ? facets.sample_facet(ray.direction, core::Frame::about(against), rng) : against;
@@ -182,7 +182,7 @@ SurfaceOutcome MetalSurface::scatter(Ray& ray, Side side, const IndexPair& index
     } else {
       reflect(ray, facet);
     }
-    UnifiedSurface::apply_lobe(lobe, ray, before, against, rng);
+    FacetSurface::apply_lobe(lobe, ray, before, against, rng);
     if (ray.direction.dot(against) > 0.0) return outcome_on(side);
   }
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 
 namespace scintray::optics {
 
@@ -72,13 +72,13 @@ struct MetalIndex {
 };
 
 /// A face of metal, which transmits nothing: the reflectance follows from the complex index of the metal and
-/// the index of the medium of incidence, or is 1 without an index. `facets` gives its roughness: the widths
-/// and lobes of UNIFIED or GLISUR; the lobe is chosen once, and light that a facet reflects into the surface
+/// the index of the medium of incidence, or is 1 without an index. `facets` gives its roughness: widths
+/// and lobes; the lobe is chosen once, and light that a facet reflects into the surface
 /// interacts with another facet (the loop of Geant4's boundary process).
 class MetalSurface : public MicrosurfaceModel {
  public:
   std::optional<MetalIndex> metal;
-  UnifiedSurface facets;
+  FacetSurface facets;
 
   bool opaque() const override { return true; }
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,

@@ -6,6 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/optics/reciprocal_kernel.hpp"
 #include "scintray/optics/table.hpp"
 #include "scintray/optics/table_group.hpp"
 

@@ -7,6 +7,7 @@
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/byte_archive.hpp"
 #include "scintray/simulation/detail/range_records.hpp"
 
 namespace scintray::simulation {

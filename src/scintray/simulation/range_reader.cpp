@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/byte_archive.hpp"
 #include "scintray/simulation/detail/range_records.hpp"
 #include "scintray/simulation/range_file.hpp"
 

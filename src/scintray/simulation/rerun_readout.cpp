@@ -110,7 +110,8 @@ class PointElectronics {
 }  // namespace
 
 void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
-                   const detector::ReadoutSpec& readout, const std::filesystem::path& output) {
+                   const detector::ReadoutSpec& readout, const std::filesystem::path& output,
+                   SimulationOptions options, const scene_file::TallyVariables& variables) {
   const results::ResultsStatus status = results::read_results_status(path);
   if (status.listed_events == 0)
     throw not_to_read_out(path, "this result has no events to read out",
@@ -122,15 +123,15 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
   if (std::filesystem::equivalent(path, output, ignored))
     throw not_to_read_out(output, "the new result would replace its own source", "name another file");
   const scene_file::SceneFile file =
-      scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file);
+      scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file, variables);
   tally::RunHeader header = run.header;
   header.note += (header.note.empty() ? "" : "\n") + std::string("electronics applied again by ") +
                  readout.where.file + " from the photons of " + path.filename().string();
   results::ResultsWriter writer(output, header, false);
   RunningAnalysis analysis(header);
-  SimulationOptions options;
   options.seed = run.header.seed;
-  options.change = [&](scene_file::SceneSpec& spec) {
+  options.change = [&, own = options.change](scene_file::SceneSpec& spec) {
+    if (own) own(spec);
     spec.readout = readout;
     spec.run.photon_list = spec.run.photon_history = false;
   };

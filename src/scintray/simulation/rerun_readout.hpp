@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "scintray/detector/readout_spec.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
+#include "scintray/simulation/simulation_options.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::simulation {
@@ -12,11 +14,18 @@ namespace scintray::simulation {
 /// electronics for the same detected photons. The list of photons is not copied. With the electronics of the
 /// run the numbers are its own, except for the rounding of recorded times and positions to single precision:
 /// random streams are those of the run. Sensors are those of the scene.
-/// @param run      of the same file; its scene is built again, so files that it names must be where they were
-/// @param readout  checked by the reader of [readout]
+/// @param run        of the same file; its scene is built again, so files that it names must be where they
+/// were
+/// @param readout    checked by the reader of [readout]
+/// @param options    of the simulation that builds the scene, with the models that it may name; the seed is
+/// that
+///                   of the run
+/// @param variables  that its tallies may name
 /// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
 ///         those of the result, and for electronics that do not suit a sensor
 void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
-                   const detector::ReadoutSpec& readout, const std::filesystem::path& output);
+                   const detector::ReadoutSpec& readout, const std::filesystem::path& output,
+                   SimulationOptions options = {},
+                   const scene_file::TallyVariables& variables = scene_file::TallyVariables::built_in());
 
 }  // namespace scintray::simulation

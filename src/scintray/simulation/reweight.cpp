@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scintray/analysis/ratio.hpp"
+#include "scintray/analysis/reweight.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
 

@@ -1,3 +1,4 @@
+#include "scintray/analysis/reweight.hpp"
 #include "scintray/simulation/reweight.hpp"
 
 #include <fmt/format.h>

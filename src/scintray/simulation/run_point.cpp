@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_tally.hpp"
 #include "scintray/transport/batch.hpp"
 #include "scintray/transport/in_order.hpp"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "scintray/core/version.hpp"
+#include "scintray/simulation/run_names.hpp"
 
 namespace scintray::simulation {
 

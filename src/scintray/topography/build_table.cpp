@@ -11,6 +11,7 @@
 
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/version.hpp"
+#include "scintray/optics/reciprocal_kernel.hpp"
 
 namespace scintray::topography {
 

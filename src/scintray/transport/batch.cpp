@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scintray/core/error.hpp"
+#include "scintray/scene/boundary.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/lane_width.hpp"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
+#include "scintray/scene/boundary.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/step.hpp"
 

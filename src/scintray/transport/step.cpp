@@ -98,65 +98,6 @@ Propagation propagate(const scene::Scene& scene, source::Photon& photon, const P
   return propagation;
 }
 
-/// Rayleigh scattering with the dipole pattern about the polarisation; for unpolarised light with 3/4
-/// (1 + cos^2) (Born & Wolf, section 14.5.2).
-void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
-  const bool polarised = !ray.polarisation.isZero(0.0);
-  for (;;) {
-    const core::Vec3 direction = core::sample_isotropic(rng);
-    const double along = direction.dot((polarised ? ray.polarisation : ray.direction).vec());
-    const double weight = polarised ? 1.0 - along * along : 0.5 * (1.0 + along * along);
-    if (rng.uniform() >= weight) continue;
-    if (polarised) ray.polarisation = (ray.polarisation - along * direction).normalized();
-    ray.direction = direction;
-    return;
-  }
-}
-
-/// A lobe of Henyey and Greenstein about the direction of the ray. The cosine is the inverse of the
-/// cumulative distribution of their phase function (equation of docs/surfaces.md). A polarised ray keeps the
-/// part of its polarisation across the new direction.
-void scatter_henyey_greenstein(optics::Ray& ray, double g, bool forward, core::Rng& rng) {
-  const double u = rng.uniform();
-  const double ratio = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
-  const double cosine = std::abs(g) < 1e-6 ? 2.0 * u - 1.0 : (1.0 + g * g - ratio * ratio) / (2.0 * g);
-  const core::Vec3 axis = forward ? ray.direction.vec() : core::Vec3(-ray.direction.vec());
-  ray.direction = core::turned(axis, std::clamp(cosine, -1.0, 1.0), core::kTwoPi * rng.uniform());
-  if (ray.polarisation.isZero(0.0)) return;
-  const core::Vec3 across =
-      ray.polarisation - ray.polarisation.dot(ray.direction.vec()) * ray.direction.vec();
-  ray.polarisation =
-      across.norm() > 1e-9 ? core::Vec3(across.normalized()) : core::sample_polarisation(ray.direction, rng);
-}
-
-/// Scattering in a medium with particles; false where it is the medium's own. Out of line as shift_in_bulk.
-[[gnu::noinline, gnu::cold]] bool scatter_at_particles(const scene::Scene& scene, core::MediumId id,
-                                                       source::Photon& photon, core::Rng& rng) {
-  const optics::ParticleScattering& particles = *scene.media[id].medium().particles;
-  if (rng.uniform() * photon.optics.scattering_per_mm >= particles.per_mm(photon.wavelength_nm)) return false;
-  const bool forward = rng.uniform() < particles.forward_share;
-  scatter_henyey_greenstein(photon.ray, forward ? particles.forward_g : particles.backward_g, forward, rng);
-  return true;
-}
-
-/// Absorption in a medium with a wavelength shifter: true when the photon is re-emitted. Out of line, since
-/// few scenes have one: inlined, it made every other step 3 % slower.
-[[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
-                                                source::Photon& photon, core::Rng& rng,
-                                                source::PhotonRecords* records) {
-  const double shifting_per_mm = scene.optics.shifting_at(id, photon.wavelength_nm);
-  if (rng.uniform() * photon.optics.absorption_per_mm >= shifting_per_mm) return false;
-  optics::ShiftCount not_recorded;
-  optics::ShiftCount& count = records ? records->shifts_of(id) : not_recorded;
-  const auto back = scene.media[id].medium().shifter->absorb(photon.wavelength_nm, rng, count);
-  if (!back) return false;
-  photon.wavelength_nm = back->wavelength_nm;
-  photon.time_ns += back->delay_ns;
-  photon.optics = scene.optics.at(id, photon.wavelength_nm);
-  optics::scatter_isotropic(photon.ray, rng);
-  return true;
-}
-
 Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon& photon, core::Rng& rng,
                       source::PhotonRecords* records) {
   const scene::MediumRecord& medium = scene.optics.media[id];

@@ -6,7 +6,7 @@
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 
 namespace scintray::materials {
 
@@ -20,8 +20,11 @@ double read_share(const config::TomlTable& table, const std::string& key, std::o
 /// facets = "projected_area" or "geant4".
 optics::FacetSampling read_facet_sampling(const config::TomlTable& table);
 
-/// The keys of [unified]: widths of the facets' angles and shares of the lobes.
-optics::UnifiedSurface read_unified_facets(const config::TomlTable& table);
+/// The keys `sigma_alpha`, `definition`, `facets`, `lobe`, `spike` and `backscatter` of a table: width of the
+/// facets' angles and shares of the lobes.
+optics::FacetSurface read_facets(const config::TomlTable& table);
+/// These values, for the key of a table of the surface.
+std::string text_of(const optics::FacetSurface& facets);
 
 /// [tracing] of a surface: settings of its table; nothing for rays traced on the spot.
 std::optional<TracingSpec> read_tracing(const config::TomlTable& surface);

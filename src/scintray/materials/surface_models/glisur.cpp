@@ -9,7 +9,7 @@ SurfaceModel glisur_model() {
   const auto read = [](const config::TomlTable& surface) {
     const config::TomlTable table = surface.table("glisur");
     const double polish = read_share(table, "polish", std::nullopt);
-    optics::UnifiedSurface facets;
+    optics::FacetSurface facets;
     facets.sampling = read_facet_sampling(table);
     facets.smear = 1.0 - polish;
     return FixedMicrosurface(facets,

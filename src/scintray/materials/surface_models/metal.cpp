@@ -16,16 +16,16 @@ core::Curve read_part(const config::TomlTable& table, const std::string& key) {
   return curve;
 }
 
-/// `sigma_alpha` or `polish`, with the lobes of UNIFIED; a smooth face without either.
-optics::UnifiedSurface read_facets(const config::TomlTable& table) {
-  optics::UnifiedSurface facets;
+/// `sigma_alpha` with the shares of the lobes, or `polish`; a smooth face without either.
+optics::FacetSurface read_roughness(const config::TomlTable& table) {
+  optics::FacetSurface facets;
   const bool rough = table.has("sigma_alpha"), smeared = table.has("polish");
   if (!rough && !smeared) {
     for (const char* key : {"definition", "facets", "lobe", "spike", "backscatter"}) table.has(key);
     return facets;
   }
   if (rough) {
-    facets = read_unified_facets(table);
+    facets = read_facets(table);
   } else {
     facets.sampling = read_facet_sampling(table);
   }
@@ -42,7 +42,7 @@ SurfaceModel metal_model() {
     optics::MetalSurface metal;
     if (table.has("n") || table.has("k"))
       metal.metal = optics::MetalIndex{read_part(table, "n"), read_part(table, "k")};
-    metal.facets = read_facets(table);
+    metal.facets = read_roughness(table);
     std::vector<WavelengthTable> curves;
     if (metal.metal)
       curves = {{metal.metal->n, "real parts of its index", table.where("n")},

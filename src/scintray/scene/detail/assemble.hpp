@@ -20,6 +20,9 @@ struct AssemblyFace {
   core::SensorId sensor;  ///< light that leaves the part here is detected
 };
 
+/// Name of a surface for messages and results; the empty name is the smooth surface.
+inline std::string name_or_smooth(const std::string& surface) { return surface.empty() ? "smooth" : surface; }
+
 struct AssemblyPart {
   contact::PlacedPart geometry;
   core::MediumId medium;

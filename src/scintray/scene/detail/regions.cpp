@@ -1,3 +1,4 @@
+#include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
 
 #include <algorithm>

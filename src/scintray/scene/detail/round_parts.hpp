@@ -1,12 +1,19 @@
 #pragma once
-/// Parts as convex bodies with exact round faces, and the regions between them.
+/// Parts as convex bodies with exact round faces, the regions between them, and the description of both.
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "scintray/scene/detail/assemble.hpp"
+#include "scintray/scene/exact_bodies.hpp"
 
 namespace scintray::scene {
+
+using Corners = std::array<core::Vec3, 3>;
+
+/// Normal of a triangle times twice its area, mm2.
+inline core::Vec3 doubled_area(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
 /// A plane in world coordinates.
 struct WorldPlane {
@@ -61,6 +68,15 @@ bool needs_exact_bodies(const PartBodies& bodies, core::PartId of,
 /// @param triangles  those that are on none of the bodies first
 ExactBodies exact_bodies_of(const PartBodies& bodies, core::PartId of, const RegionFrame& frame,
                             const std::vector<RegionTriangle>& triangles);
+
+/// Sets scene.parts and scene.faces, as their triangles are.
+void describe_parts(const Assembly& assembly, Scene& scene);
+
+/// Adds to the description what is known of round faces, and to areas and volumes what the exact ones enclose
+/// beyond their triangles; `interface_of[i]` is the interface of triangles[i].
+void describe_curves(const Assembly& assembly, const PartBodies& bodies,
+                     const std::vector<contact::InterfaceTriangle>& triangles,
+                     const std::vector<core::InterfaceId>& interface_of, Scene& scene);
 
 /// Sets scene.regions from interface triangles; `interface_of[i]` is the interface of triangles[i]. Regions
 /// whose boundaries are equal in their parts' own frames, and lead to the same pattern of interfaces, share

@@ -1,5 +1,6 @@
 #include "scintray/source/detail/event_sources.hpp"
 
+#include "scintray/source/detail/gamma/transport.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 
 namespace scintray::source {

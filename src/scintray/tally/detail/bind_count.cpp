@@ -3,6 +3,7 @@
 
 #include "scintray/core/face_axes.hpp"
 #include "scintray/core/pattern.hpp"
+#include "scintray/scene_file/tally_axis.hpp"
 #include "scintray/tally/tally_plan.hpp"
 
 namespace scintray::tally {

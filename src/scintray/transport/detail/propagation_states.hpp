@@ -2,6 +2,7 @@
 /// States of a photon that propagates through a region, for each kind of ray query.
 
 #include "scintray/core/lanes.hpp"
+#include "scintray/scene/accelerator.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {

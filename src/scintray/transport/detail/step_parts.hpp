@@ -1,5 +1,6 @@
 #pragma once
-/// The two parts of a step: propagation to its end, and the event there.
+/// The parts of a step: propagation to its end, and the event there, with what a photon may undergo in the
+/// bulk of a medium.
 
 #include "scintray/transport/step.hpp"
 
@@ -32,5 +33,20 @@ inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, co
 /// The event at the end of a propagation, which completes the step.
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records);
+
+/// Rayleigh scattering with the dipole pattern about the polarisation; for unpolarised light with 3/4
+/// (1 + cos^2) (Born & Wolf, section 14.5.2).
+void scatter_rayleigh(optics::Ray& ray, core::Rng& rng);
+
+/// Scattering in a medium with particles; false where it is the medium's own. Out of line, as
+/// shift_in_bulk.
+[[gnu::noinline, gnu::cold]] bool scatter_at_particles(const scene::Scene& scene, core::MediumId id,
+                                                       source::Photon& photon, core::Rng& rng);
+
+/// Absorption in a medium with a wavelength shifter: true when the photon is re-emitted. Out of line, since
+/// few scenes have one: inlined, it made every other step 3 % slower.
+[[gnu::noinline, gnu::cold]] bool shift_in_bulk(const scene::Scene& scene, core::MediumId id,
+                                                source::Photon& photon, core::Rng& rng,
+                                                source::PhotonRecords* records);
 
 }  // namespace scintray::transport

@@ -5,6 +5,8 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
+#include "scintray/source/detail/gamma/decay.hpp"
+#include "scintray/source/detail/gamma/transport.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 
 namespace scintray::source {

@@ -6,6 +6,7 @@
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/text.hpp"
+#include "scintray/scene/accelerator.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 
 namespace scintray::source {

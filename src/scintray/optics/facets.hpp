@@ -1,10 +1,10 @@
 #pragma once
-/// The UNIFIED facet model, and GLISUR's facets.
+/// Facets at angles to the mean normal of a surface, and the lobes of what they reflect.
 ///
-/// Source: A. Levin and C. Moisan 1996, "A more physical approach to model the surface treatment of
+/// Sources: A. Levin and C. Moisan 1996, "A more physical approach to model the surface treatment of
 /// scintillation counters and its implementation into DETECT", IEEE NSS; S. K. Nayar et al. 1991,
-/// IEEE PAMI 13(7), for the lobes. GLISUR: GEANT3's surface model as Geant4's boundary process has it (Book
-/// For Application Developers, section "Boundary Process").
+/// IEEE PAMI 13(7), for the facets of sigma_alpha and the lobes. Facets of a smeared normal: GEANT3's surface
+/// model as Geant4's boundary process has it (Book For Application Developers, section "Boundary Process").
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +28,9 @@ enum class FacetSampling {
   geant4,          ///< any facet turned towards the light, with equal weight
 };
 
-/// Facets whose angles to the mean normal are normally distributed. Defined in this header, so that the
-/// sampling of facets can be inlined into the loop that scatters many photons.
-class UnifiedSurface : public MicrosurfaceModel {
+/// Facets whose angles to the mean normal are normally distributed, or those of a smeared normal. Defined in
+/// this header, so that the sampling of facets can be inlined into the loop that scatters many photons.
+class FacetSurface : public MicrosurfaceModel {
  public:
   double sigma_alpha_rad = 0.0;
   SigmaAlphaDefinition definition = SigmaAlphaDefinition::solid_angle;
@@ -39,8 +39,8 @@ class UnifiedSurface : public MicrosurfaceModel {
   double spike = 0.0;
   double lobe = 1.0;
   double backscatter = 0.0;
-  /// GLISUR: facet normals are the mean normal plus a point of the ball of this radius, uniform over its
-  /// volume (1 less GLISUR's polish); 0: facets by sigma_alpha.
+  /// Smeared normal: facet normals are the mean normal plus a point of the ball of this radius, uniform over
+  /// its volume (1 less a polish); 0: facets by sigma_alpha.
   double smear = 0.0;
 
   enum class Lobe { spike, facet, backscatter, lambertian };
@@ -51,8 +51,8 @@ class UnifiedSurface : public MicrosurfaceModel {
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
 
-  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`; of a GLISUR facet
-  /// also beyond.
+  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`; of a smeared
+  /// facet also beyond.
   core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
   Lobe sample_lobe(core::Rng& rng) const;
   /// Replaces a specular reflection at a facet by the chosen lobe. `before` is the incident ray.
@@ -70,7 +70,7 @@ class UnifiedSurface : public MicrosurfaceModel {
   core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
-inline double UnifiedSurface::sample_facet_angle(core::Rng& rng) const {
+inline double FacetSurface::sample_facet_angle(core::Rng& rng) const {
   const double sigma = sigma_alpha_rad;
   for (;;) {
     if (definition == SigmaAlphaDefinition::polar_angle) {
@@ -84,7 +84,7 @@ inline double UnifiedSurface::sample_facet_angle(core::Rng& rng) const {
   }
 }
 
-inline double UnifiedSurface::greatest_facing(double cos_incidence) const {
+inline double FacetSurface::greatest_facing(double cos_incidence) const {
   const double widest = kWidestFacet_sigma * sigma_alpha_rad;
   if (widest >= 0.5 * core::kPi) return 1.0;
   const core::SineCosine of_widest = core::sincos(widest);
@@ -94,8 +94,8 @@ inline double UnifiedSurface::greatest_facing(double cos_incidence) const {
   return cosine * of_widest.cosine + std::sqrt(1.0 - cosine * cosine) * of_widest.sine;
 }
 
-inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
-                                               core::Rng& rng) const {
+inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
+                                             core::Rng& rng) const {
   if (smear > 0.0) [[unlikely]]
     return sample_smeared_facet(k, frame.z, rng);
   if (sigma_alpha_rad == 0.0) return frame.z;
@@ -115,8 +115,8 @@ inline core::Vec3 UnifiedSurface::sample_facet(const core::Vec3& k, const core::
   }
 }
 
-inline core::Vec3 UnifiedSurface::sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean,
-                                                       core::Rng& rng) const {
+inline core::Vec3 FacetSurface::sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean,
+                                                     core::Rng& rng) const {
   for (;;) {
     const core::Vec3 point(2.0 * rng.uniform() - 1.0, 2.0 * rng.uniform() - 1.0, 2.0 * rng.uniform() - 1.0);
     if (point.squaredNorm() > 1.0) continue;
@@ -131,7 +131,7 @@ inline core::Vec3 UnifiedSurface::sample_smeared_facet(const core::Vec3& k, cons
   }
 }
 
-inline UnifiedSurface::Lobe UnifiedSurface::sample_lobe(core::Rng& rng) const {
+inline FacetSurface::Lobe FacetSurface::sample_lobe(core::Rng& rng) const {
   if (lobe == 1.0) return Lobe::facet;
   const double u = rng.uniform();
   if (u < spike) return Lobe::spike;
@@ -140,8 +140,8 @@ inline UnifiedSurface::Lobe UnifiedSurface::sample_lobe(core::Rng& rng) const {
   return Lobe::lambertian;
 }
 
-inline void UnifiedSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against,
-                                       core::Rng& rng) {
+inline void FacetSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against,
+                                     core::Rng& rng) {
   switch (chosen) {
     case Lobe::facet:
       return;
@@ -159,8 +159,8 @@ inline void UnifiedSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before,
   }
 }
 
-inline Side UnifiedSurface::scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index,
-                                    core::Rng& rng) const {
+inline Side FacetSurface::scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index,
+                                  core::Rng& rng) const {
   for (;;) {
     const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
     const core::Vec3 facet = sample_facet(ray.direction, core::Frame::about(against), rng);
@@ -174,8 +174,8 @@ inline Side UnifiedSurface::scatter(Ray& ray, Side side, const core::Vec3& norma
   }
 }
 
-inline SurfaceOutcome UnifiedSurface::scatter(Ray& ray, Side side, const IndexPair& index,
-                                              SurfaceInteraction& interaction) const {
+inline SurfaceOutcome FacetSurface::scatter(Ray& ray, Side side, const IndexPair& index,
+                                            SurfaceInteraction& interaction) const {
   return outcome_on(scatter(ray, side, interaction.normal, index, interaction.rng));
 }
 
