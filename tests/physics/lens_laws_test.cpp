@@ -114,7 +114,7 @@ TEST_CASE("Law: lenses and a ball focus where rays through their spheres by Snel
   CHECK(crossing(near) - 2.0 == doctest::Approx(kIndex * 4.0 / (4.0 * (kIndex - 1.0))).epsilon(1e-6));
 }
 
-TEST_CASE("Law: volume of lenses and of bodies of revolution, exact for any number of segments") {
+TEST_CASE("Law: volume of bodies of revolution, exact; of lenses, to the square of their facets' angle") {
   const auto cap = [](double radius, double height) {  // of a ball, by the height of the cap
     return kPi * height * height * (3.0 * radius - height) / 3.0;
   };
@@ -143,7 +143,11 @@ TEST_CASE("Law: volume of lenses and of bodies of revolution, exact for any numb
           "\nmedium = \"n15\"\nsurface = \"flat\"\n[source]\ntype = \"photons\"\nwavelength = \"420 nm\"\n"
           "region = { part = \"body\" }\nphotons = 1\n"));
       CHECK(built.scene.parts.front().curved);
-      CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-6));
+      // Parts of a ball end on a circle, which patches above triangles leave by an error of second order
+      // (docs/curved_faces.md).
+      const double angle = kTwoPi / segments;
+      const double error = shape.starts_with("lens") ? 0.05 * angle * angle : 1e-9;
+      CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(error));
     }
   }
 }

@@ -12,9 +12,9 @@ namespace scintray::mesh {
 namespace {
 
 /// Angle between facets beyond which their edge is one of the body, with room for rounding of 12 sides.
-constexpr double kSharpest = 30.001 * core::kDegree;
+constexpr double kSharpestEdge = 30.001 * core::kDegree;
 /// Angle below which facets lie in one plane.
-constexpr double kFlattest = 1e-4;
+constexpr double kFlattestEdge = 1e-4;
 /// Largest angle between a facet and the surface at its middle.
 constexpr double kMostTilted = 20.0 * core::kDegree;
 constexpr std::size_t kFewestCorners = 6;
@@ -28,11 +28,9 @@ constexpr double kLeastBend = 20.0;
 /// Steps of the Gauss-Newton method, which converges within a few where the surface fits.
 constexpr int kSteps = 12;
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoNeighbour = 0xffffffffu;
 
-double angle_between(const core::Vec3& a, const core::Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
+double angle_of(const core::Vec3& a, const core::Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// Cylinder or cone by its axis, and the radius along it: radius + slope z.
 struct Wall {
@@ -86,11 +84,11 @@ class Recognizer {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) sides[{mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]}] = t;
-    neighbours_.assign(mesh_.triangles.size(), {kNone, kNone, kNone});
+    neighbours_.assign(mesh_.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto across = sides.find({mesh_.triangles[t][(k + 1) % 3], mesh_.triangles[t][k]});
-        if (across != sides.end() && angle_between(normals_[t], normals_[across->second]) <= kSharpest)
+        if (across != sides.end() && angle_of(normals_[t], normals_[across->second]) <= kSharpestEdge)
           neighbours_[t][k] = across->second;
       }
   }
@@ -98,8 +96,8 @@ class Recognizer {
   /// Whether a facet meets a neighbour of its smooth face at an angle.
   bool bends(std::size_t t) const {
     return std::any_of(neighbours_[t].begin(), neighbours_[t].end(), [&](std::uint32_t other) {
-      return other != kNone && mesh_.support[other] == kNoSupport &&
-             angle_between(normals_[t], normals_[other]) > kFlattest;
+      return other != kNoNeighbour && mesh_.support[other] == kNoSupport &&
+             angle_of(normals_[t], normals_[other]) > kFlattestEdge;
     });
   }
 
@@ -124,7 +122,7 @@ class Recognizer {
     visited_[start] = visit_;
     for (std::size_t i = 0; i < result.size() && result.size() < most; ++i)
       for (const std::uint32_t next : neighbours_[result[i]]) {
-        if (next == kNone || visited_[next] == visit_ || mesh_.support[next] != kNoSupport) continue;
+        if (next == kNoNeighbour || visited_[next] == visit_ || mesh_.support[next] != kNoSupport) continue;
         visited_[next] = visit_;
         if (admit(next)) result.push_back(next);
       }
@@ -181,7 +179,7 @@ class Recognizer {
     std::vector<core::Vec3> directions;
     for (const std::uint32_t t : triangles) {
       const bool known = std::any_of(directions.begin(), directions.end(), [&](const core::Vec3& d) {
-        return angle_between(d, normals_[t]) <= kFlattest;
+        return angle_of(d, normals_[t]) <= kFlattestEdge;
       });
       if (!known) directions.push_back(normals_[t]);
       if (directions.size() >= kFewestDirections) return true;
