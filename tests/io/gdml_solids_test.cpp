@@ -119,3 +119,23 @@ TEST_CASE("GDML: booleans turn and move their solids as Geant4 does") {
 <subtraction name="it"><first ref="u"/><second ref="a"/><firstposition z="1"/></subtraction>)") ==
         doctest::Approx(88.0 - 64.0 + 12.0));
 }
+
+TEST_CASE("GDML: round solids are known as round, prisms of many sides are not") {
+  const auto is_round = [](const std::string& text) {
+    const gdml::GdmlFile file(gdml_solid(text).text(), "test.gdml");
+    const gdml::Definitions definitions(file);
+    gdml::Solids solids(file, definitions, {});
+    return solids.is_round("it", {});
+  };
+  CHECK(is_round(R"(<tube name="it" rmax="5" z="10" deltaphi="360" aunit="deg"/>)"));
+  CHECK(is_round(R"(<orb name="it" r="5"/>)"));
+  CHECK(is_round(R"(<cone name="it" rmax1="3" rmax2="0" z="4" deltaphi="twopi"/>)"));
+  CHECK_FALSE(is_round(R"(<box name="it" lunit="cm" x="1" y="2" z="3"/>)"));
+  CHECK_FALSE(is_round(R"(<ellipsoid name="it" ax="1" by="2" cz="3"/>)"));
+  const std::string prism =
+      R"(numsides="24" deltaphi="360" aunit="deg"><zplane z="0" rmin="0" rmax="5"/><zplane z="6" rmin="0" rmax="5"/></polyhedra>)";
+  CHECK_FALSE(is_round(R"(<polyhedra name="it" )" + prism));
+  CHECK_FALSE(is_round(R"(<polyhedra name="p" )" + prism +
+                       R"(<tube name="t" rmax="2" z="4" deltaphi="360" aunit="deg"/><union name="it">)"
+                       R"(<first ref="p"/><second ref="t"/><position z="6"/></union>)"));
+}

@@ -4,9 +4,12 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/transport/step.hpp"
 #include "support/photon_source.hpp"
+#include "support/shared.hpp"
 #include "support/step_shapes.hpp"
 
 using namespace scintray;
@@ -164,6 +167,39 @@ sensor = "perfect"
               "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
               "scattering = { none = true }\n");
     CAPTURE(sides);
+    check_fraction(traced.result, Fate::detected, expected.detected);
+    check_fraction(traced.result, Fate::escaped, expected.escaped);
+    check_fraction(traced.result, Fate::absorbed_in_medium, expected.absorbed);
+  }
+}
+
+TEST_CASE("Law: the rod as a file of triangles, in which its wall is recognized") {
+  const RodShares expected = rod_shares(kLso, 1.5, 20.0, 300.0, 1.5);
+  const auto folder = scratch_folder("recognized_rod");
+  for (const auto& [sides, single] : {std::pair{16, true}, std::pair{72, false}}) {
+    const std::filesystem::path file = folder / fmt::format("rod{}.{}", sides, single ? "stl" : "ply");
+    const mesh::TriMesh rod = mesh::make_cylinder(1.5, 20.0, sides);
+    single ? mesh::write_stl(file, rod) : mesh::write_ply(file, rod);
+    const Traced traced =
+        trace(kVacuum +
+              fmt::format(R"([[part]]
+name = "rod"
+mesh = "{}"
+unit = "mm"
+curved = "recognize"
+medium = "lso_300"
+surface = "flat"
+[[part]]
+name = "sensor"
+cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = 40 }}
+place = {{ touch = "rod", side = "-z" }}
+sensor = "perfect"
+)",
+                          file.string()) +
+              source_in("rod", 200'000) +
+              "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
+              "scattering = { none = true }\n");
+    CAPTURE(file);
     check_fraction(traced.result, Fate::detected, expected.detected);
     check_fraction(traced.result, Fate::escaped, expected.escaped);
     check_fraction(traced.result, Fate::absorbed_in_medium, expected.absorbed);

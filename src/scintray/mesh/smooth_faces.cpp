@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <compare>
 
 namespace scintray::mesh {
 
@@ -12,6 +12,12 @@ namespace {
 constexpr double kSharpest = 30.0 * core::kDegree;
 /// Angle below which triangles lie in one plane but for rounding.
 constexpr double kFlattest = 1e-5;
+
+/// A side of a triangle, between the corners `low` and `high`.
+struct Side {
+  std::uint32_t low, high, triangle;
+  auto operator<=>(const Side&) const = default;
+};
 
 double angle_between(const core::Vec3& a, const core::Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -23,14 +29,19 @@ std::vector<FacetDeviation> smooth_face_deviations(const TriMesh& mesh,
                                                    const std::vector<std::uint32_t>& face_of,
                                                    std::size_t faces) {
   std::vector<FacetDeviation> largest(faces);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> known;  // directed sides
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) known[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
-  for (const auto& [side, t] : known) {
-    const auto [a, b] = side;
-    const auto across = known.find({b, a});
-    if (a > b || across == known.end()) continue;
-    const std::size_t other = across->second;
+  // A sorted list: maps take seconds for parts of a million triangles.
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), t});
+    }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const auto [a, b, t] = sides[i];
+    const std::uint32_t other = sides[i + 1].triangle;
+    if (sides[i + 1].low != a || sides[i + 1].high != b) continue;
     if (face_of[t] != face_of[other] || mesh.support_of(t) != kNoSupport ||
         mesh.support_of(other) != kNoSupport)
       continue;

@@ -8,6 +8,7 @@
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
+#include "scintray/mesh/recognize.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/scene_file/placement.hpp"
 
@@ -197,8 +198,20 @@ class PartPlacer {
     result.notes = std::move(shape.notes);
     if (mesh::orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
     result.mesh = std::move(shape.mesh);
+    const auto* file = std::get_if<scene_file::MeshFileSpec>(&part.shape);
+    if (file && file->curved == scene_file::RoundFacesOfFile::recognize) recognize(result);
     rotate(result, part.placement);
     return result;
+  }
+
+  void recognize(contact::PlacedMesh& part) const {
+    const std::vector<mesh::RecognizedFace> found =
+        mesh::recognize_round_faces(part.mesh, spec_.run.contact_tolerance_mm);
+    for (const mesh::RecognizedFace& face : found) part.notes.push_back(mesh::describe(part.mesh, face));
+    if (found.empty())
+      part.notes.push_back(
+          "no sphere, cylinder or cone recognized: corners are farther than the contact tolerance "
+          "from one, or neighbouring facets have angles above 30 degrees");
   }
 
   static void rotate(contact::PlacedMesh& part, const scene_file::PlacementSpec& placement) {

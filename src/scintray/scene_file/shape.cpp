@@ -42,7 +42,8 @@ mesh::Tessellation read_tessellation(const config::TomlTable& part) {
   return tessellation;
 }
 
-/// mesh = "FILE" of a [[part]], with the keys that belong to it: unit, scale, body, tessellation.
+/// mesh = "FILE" of a [[part]], with the keys that belong to it: unit, scale, body,
+/// tessellation, curved.
 MeshFileSpec read_mesh(const config::TomlTable& table) {
   MeshFileSpec mesh;
   mesh.where = table.where("mesh");
@@ -70,6 +71,10 @@ MeshFileSpec read_mesh(const config::TomlTable& table) {
   table.expect("tessellation", cad,
                "a tessellation of \"" + mesh.path.filename().string() + "\", which holds triangles already",
                "remove tessellation: it is for STEP files");
+  table.expect("curved", !cad,
+               "curved of \"" + mesh.path.filename().string() + "\", a STEP file, whose faces are known",
+               "remove curved: [run] curved chooses between exact faces and facets");
+  mesh.curved = table.choice("curved", kRoundFacesOfFile, RoundFacesOfFile::facets);
   return mesh;
 }
 
@@ -248,6 +253,46 @@ SphereSpec read_sphere(const config::TomlTable& part) {
   return sphere;
 }
 
+LensSpec read_lens(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("lens");
+  LensSpec lens;
+  lens.where = table.where();
+  lens.shape.diameter = positive_length(table, "diameter", "lens");
+  lens.shape.thickness = positive_length(table, "thickness", "lens");
+  for (const auto& [key, radius] : {std::pair{"bottom_radius", &mesh::LensShape::bottom_radius},
+                                    {"top_radius", &mesh::LensShape::top_radius}}) {
+    const std::optional<double> value = table.optional_quantity(key, core::Dimension::length);
+    lens.shape.*radius = value.value_or(0.0);
+    table.expect(
+        key, !value || std::abs(*value) >= 0.5 * lens.shape.diameter,
+        std::string(key) + ", a radius of curvature, is below half the diameter of the lens",
+        "give half the diameter or more: above 0 convex, below 0 concave; leave it out for a flat face");
+  }
+  lens.shape.segments = number_of_pieces(table, "segments", lens.shape.segments, 3, "lens");
+  return lens;
+}
+
+RevolvedSpec read_revolved(const config::TomlTable& part) {
+  const config::TomlTable table = part.table("revolved");
+  RevolvedSpec body;
+  body.where = table.where();
+  const std::vector<double> r = table.quantities("r", core::Dimension::length),
+                            z = table.quantities("z", core::Dimension::length);
+  if (table.good("r") && table.good("z")) {
+    table.expect(
+        "z", r.size() == z.size(),
+        "a profile of " + std::to_string(r.size()) + " radii and " + std::to_string(z.size()) + " heights",
+        "give one z for each r: the corners of the profile in order");
+    table.expect("r", r.size() >= 3, "a profile of fewer than 3 corners",
+                 "give the corners of half of the body's section, as r = [\"0 mm\", \"2 mm\", \"0 mm\"]");
+    table.expect("r", std::all_of(r.begin(), r.end(), [](double value) { return value >= 0.0; }),
+                 "a negative distance from the axis", "give radii of 0 and above");
+    for (std::size_t i = 0; i < std::min(r.size(), z.size()); ++i) body.profile.push_back({r[i], z[i]});
+  }
+  body.segments = number_of_pieces(table, "segments", body.segments, 3, "body of revolution");
+  return body;
+}
+
 /// Bevels the edges of the shapes that have such edges.
 void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
   auto* box = std::get_if<BoxSpec>(&shape);
@@ -281,13 +326,14 @@ constexpr core::Word<ShapeReader> kShapes[] = {
     {"mesh", shape_of<read_mesh>},         {"box", shape_of<read_box>},
     {"cylinder", shape_of<read_cylinder>}, {"prism", shape_of<read_prism>},
     {"tapered", shape_of<read_tapered>},   {"winston", shape_of<read_winston>},
-    {"sphere", shape_of<read_sphere>},     {"cone", shape_of<read_cone>}};
+    {"sphere", shape_of<read_sphere>},     {"cone", shape_of<read_cone>},
+    {"lens", shape_of<read_lens>},         {"revolved", shape_of<read_revolved>}};
 
 }  // namespace
 
 ShapeSpec read_shape(const config::TomlTable& part) {
   const core::Word<ShapeReader>* kind = part.one_of(kShapes, true);
-  for (const char* key : {"unit", "scale", "body", "tessellation"}) part.has(key);
+  for (const char* key : {"unit", "scale", "body", "tessellation", "curved"}) part.has(key);
   ShapeSpec shape = kind ? kind->value(part) : BoxSpec{};
   read_chamfer(part, shape);
   return shape;

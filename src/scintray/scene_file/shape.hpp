@@ -1,6 +1,7 @@
 #pragma once
 /// Shapes of parts in a scene file. Lengths mm, angles rad.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,14 @@ struct BoxSpec {
   bool operator==(const BoxSpec&) const = default;
 };
 
+/// Round faces of a mesh file of triangles.
+enum class RoundFacesOfFile {
+  facets,     ///< are the triangles
+  recognize,  ///< are the surface on which all corners lie within the contact tolerance, where there is one
+};
+inline constexpr core::Word<RoundFacesOfFile> kRoundFacesOfFile[] = {
+    {"facets", RoundFacesOfFile::facets}, {"recognize", RoundFacesOfFile::recognize}};
+
 /// A mesh file, CAD or triangles.
 struct MeshFileSpec {
   std::filesystem::path path;     ///< absolute, or relative to the working folder; it exists
@@ -32,6 +41,7 @@ struct MeshFileSpec {
   double scale = 1.0;
   std::string body;                 ///< name or number of the one body of the file; empty: all together
   mesh::Tessellation tessellation;  ///< of a CAD file's curved faces
+  RoundFacesOfFile curved = RoundFacesOfFile::facets;
   core::FileLocation where;
   bool operator==(const MeshFileSpec&) const = default;
 };
@@ -88,8 +98,23 @@ struct SphereSpec {
   bool operator==(const SphereSpec&) const = default;
 };
 
+/// Lens about the z axis, its lower vertex at the origin.
+struct LensSpec {
+  mesh::LensShape shape;
+  core::FileLocation where;
+  bool operator==(const LensSpec&) const = default;
+};
+
+/// Body of revolution about the z axis.
+struct RevolvedSpec {
+  std::vector<std::array<double, 2>> profile;  ///< corners (r, z), mm
+  int segments = 64;                           ///< flat sides
+  core::FileLocation where;
+  bool operator==(const RevolvedSpec&) const = default;
+};
+
 using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec,
-                               SphereSpec, ConeSpec>;
+                               SphereSpec, ConeSpec, LensSpec, RevolvedSpec>;
 
 /// Place of a shape in the file.
 core::FileLocation shape_location(const ShapeSpec& shape);

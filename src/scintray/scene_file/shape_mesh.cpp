@@ -36,6 +36,10 @@ struct MeshMaker {
   ShapeMesh operator()(const SphereSpec& s) const {
     return {mesh::make_sphere(s.radius_mm, s.subdivisions), {}};
   }
+  ShapeMesh operator()(const LensSpec& l) const { return {mesh::make_lens(l.shape), {}}; }
+  ShapeMesh operator()(const RevolvedSpec& r) const {
+    return {mesh::make_revolved(r.profile, r.segments), {}};
+  }
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scintray/detector/microcells.hpp"
+#include "scintray/mesh/smooth_faces.hpp"
 #include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::simulation {
@@ -85,6 +88,35 @@ void add_electronics(const std::optional<detector::ReadoutSpec>& readout,
     effects.push_back(effect("electronic noise", "", Figures::both, "[readout] noise"));
 }
 
+/// Round faces whose triangles are traced: how many, and how far the steepest is from its surface.
+void add_facets(const scene::BuiltScene& built, std::vector<OmittedEffect>& effects) {
+  std::size_t known = 0, unknown = 0;
+  double known_rad = 0.0, unknown_rad = 0.0;
+  for (const scene::FaceInfo& face : built.scene.faces) {
+    if (face.curve.empty() || face.exact) continue;
+    ++known;
+    known_rad = std::max(known_rad, face.deviation.angle_rad);
+  }
+  for (const contact::PlacedMesh& part : built.placed)
+    for (const mesh::FacetDeviation& face :
+         mesh::smooth_face_deviations(part.mesh, part.face_of, part.faces.size())) {
+      if (!(face.angle_rad > 0.0)) continue;
+      ++unknown;
+      unknown_rad = std::max(unknown_rad, face.angle_rad);
+    }
+  const auto faces = [](std::size_t count, double angle_rad) {
+    return fmt::format("{} face{}, facets up to {:.2g} deg from it", count, count == 1 ? "" : "s",
+                       angle_rad / core::kDegree);
+  };
+  if (known > 0)
+    effects.push_back(effect("the true surface of round faces", faces(known, known_rad), Figures::fraction,
+                             "scintray check lists them with the reason why facets stay"));
+  if (unknown > 0)
+    effects.push_back(
+        effect("the true surface of smooth faces of meshes", faces(unknown, unknown_rad), Figures::fraction,
+               "curved = \"recognize\" of a mesh of triangles, where they are spheres, cylinders or cones"));
+}
+
 }  // namespace
 
 std::vector<tally::OmittedEffect> SimulationPoint::omitted() const {
@@ -106,6 +138,7 @@ std::vector<tally::OmittedEffect> SimulationPoint::omitted() const {
       for (const core::SensorId sensor : sensors) add_response(scene().sensors[sensor], effects);
   }
   for (const core::SensorId sensor : sensors) add_detection(scene().sensors[sensor], effects);
+  add_facets(*built_, effects);
   return effects;
 }
 

@@ -127,7 +127,8 @@ class SceneMaker {
     }
     const std::filesystem::path path = options_.mesh_folder / (name + ".ply");
     draft_.meshes.emplace(path, std::move(own));
-    return "mesh = " + toml_string(path.generic_string()) + "\nunit = \"mm\"\n";
+    return "mesh = " + toml_string(path.generic_string()) + "\nunit = \"mm\"\n" +
+           (solids_.is_round(placed.solid, placed.element) ? "curved = \"recognize\"\n" : "");
   }
 
   std::string part(std::size_t i) {

@@ -3,6 +3,7 @@
 /// in mm, each standing on z = 0 about the z axis unless stated otherwise.
 
 #include <array>
+#include <vector>
 
 #include "scintray/mesh/trimesh.hpp"
 
@@ -33,6 +34,34 @@ struct Rectangle {
 /// Sides whose edges at both ends are parallel are flat; they always are, since both are axis-aligned.
 /// @throws InputError for sizes or a height that are not positive.
 TriMesh make_tapered(const Rectangle& bottom, const Rectangle& top, double height);
+
+/// A lens about the z axis, its lower vertex at the origin.
+struct LensShape {
+  double diameter = 0.0;
+  double thickness = 0.0;  ///< between the vertices, on the axis
+  /// Radii of curvature of the lower and the upper face: above 0 convex, below 0 concave, 0 flat.
+  double bottom_radius = 0.0, top_radius = 0.0;
+  int segments = 64;  ///< flat sides of a full circle, about the axis and along the faces
+  bool operator==(const LensShape&) const = default;
+};
+
+/// Depth of a spherical face at the distance `height` from its axis, R - sqrt(R^2 - h^2), with the sign of R;
+/// 0 for R = 0, a flat face. |R| is not below the height.
+double sagitta(double radius, double height);
+
+/// The lens, corners on its true faces, with their spheres and the cylinder of its edge as support surfaces.
+/// Groups "-z" (lower face), "+z", and "side" where there is an edge.
+/// @throws InputError for lengths that are not positive, radii of less than half the diameter, an edge of
+///         negative height, faces that cross, or fewer than 3 segments.
+TriMesh make_lens(const LensShape& shape);
+
+/// The body between the z axis and a profile: straight lines from corner to corner of (r, z). A corner with
+/// r = 0 is on the axis; the profile begins and ends there, or is closed. Walls are cylinders and cones, and
+/// have them as support surfaces; walls across the axis are flat. Groups "side0", "side1"... by the side from
+/// the corner of this number to the next.
+/// @throws InputError for fewer than 2 corners off the axis, negative radii, a profile that crosses itself,
+///         or fewer than 3 segments.
+TriMesh make_revolved(const std::vector<std::array<double, 2>>& profile, int segments);
 
 /// A compound parabolic concentrator: its exit stands on z = 0, its entrance faces +z.
 struct WinstonShape {

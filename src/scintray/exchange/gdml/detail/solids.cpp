@@ -7,6 +7,7 @@
 #include "scintray/exchange/gdml/detail/solid_reader.hpp"
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/mesh/recognize.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::exchange::gdml {
@@ -17,6 +18,12 @@ constexpr core::Word<mesh::BooleanOperation> kBooleans[] = {
     {"union", mesh::BooleanOperation::unite},
     {"subtraction", mesh::BooleanOperation::subtract},
     {"intersection", mesh::BooleanOperation::intersect}};
+
+/// Solids whose sides are flat however many they are.
+constexpr core::Word<bool> kFlatSided[] = {
+    {"polyhedra", true}, {"genericPolyhedra", true}, {"xtru", true}, {"tessellated", true}};
+/// Distance within which corners are on a round face: the contact tolerance of a scene without its own.
+constexpr double kCornersOnSurface_mm = 1e-4;
 
 /// The mesh of a solid that is not a boolean; empty for an unsupported kind. Dimensions are defined in the
 /// GDML User's Guide (CERN), chapter "Solids".
@@ -88,6 +95,25 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
   }
   in_the_making_.pop_back();
   return made_.emplace(name, std::move(mesh)).first->second;
+}
+
+bool Solids::is_round(const std::string& name, Node where) {
+  const auto [known, is_new] = round_.try_emplace(name, false);
+  if (!is_new) return known->second;
+  mesh::TriMesh copy = mesh(name, where);
+  const auto& [solid, variables] = find(name, where);
+  const LoopScope scope(definitions_, variables);
+  known->second = !has_flat_sides(solid) && !mesh::recognize_round_faces(copy, kCornersOnSurface_mm).empty();
+  return known->second;
+}
+
+bool Solids::has_flat_sides(Node solid) const {
+  if (core::find_word(kFlatSided, solid.name())) return true;
+  for (const char* tag : {"first", "second"})
+    if (const Node operand = solid.child(tag))
+      if (has_flat_sides(element(definitions_.name(file_.required(operand, "ref"), operand), operand)))
+        return true;
+  return false;
 }
 
 mesh::TriMesh Solids::make(Node solid) {

@@ -28,6 +28,10 @@ class Solids {
   /// supported, has impossible dimensions, or is a boolean of itself.
   const mesh::TriMesh& mesh(const std::string& name, Node where);
 
+  /// Whether the mesh of a solid has spheres, cylinders or cones that can be recognized in it. Solids whose
+  /// flat sides are meant, polyhedra and the like, and booleans with one of these are not searched.
+  bool is_round(const std::string& name, Node where);
+
   /// The <opticalsurface> of this name, an element of <solids>; empty when there is none.
   Node optical_surface(const std::string& name) const;
   /// The element of a solid; throws when there is none of this name.
@@ -37,12 +41,14 @@ class Solids {
   const LoopedNode& find(const std::string& name, Node where) const;
   mesh::TriMesh make(Node solid);
   mesh::TriMesh make_boolean(Node solid);
+  bool has_flat_sides(Node solid) const;
 
   const GdmlFile& file_;
   const Definitions& definitions_;
   mesh::Tessellation tessellation_;
   std::map<std::string, LoopedNode> solids_, surfaces_;
   std::map<std::string, mesh::TriMesh> made_;
+  std::map<std::string, bool> round_;
   std::vector<std::string> in_the_making_;
 };
 

@@ -1,0 +1,377 @@
+#include "scintray/mesh/recognize.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+namespace scintray::mesh {
+
+namespace {
+
+/// Angle between facets beyond which their edge is one of the body, with room for rounding of 12 sides.
+constexpr double kSharpestEdge = 30.001 * core::kDegree;
+/// Angle below which facets lie in one plane.
+constexpr double kFlattestEdge = 1e-4;
+/// Largest angle between a facet and the surface at its middle.
+constexpr double kMostTilted = 20.0 * core::kDegree;
+constexpr std::size_t kFewestCorners = 6;
+constexpr int kFewestDirections = 3;
+/// Sizes of the neighbourhoods to which a first surface is fitted, in triangles.
+constexpr std::array<std::size_t, 3> kSeeds = {12, 48, 200};
+/// Starts without a result after which the search of a mesh ends: its faces have other forms.
+constexpr int kMostFailures = 200;
+/// Least thickness of a round face, in tolerances.
+constexpr double kLeastBend = 20.0;
+/// Steps of the Gauss-Newton method, which converges within a few where the surface fits.
+constexpr int kSteps = 12;
+
+constexpr std::uint32_t kNoNeighbour = 0xffffffffu;
+
+double angle_of(const core::Vec3& a, const core::Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// Cylinder or cone by its axis, and the radius along it: radius + slope z.
+struct Wall {
+  core::Vec3 origin, axis;
+  double radius, slope;
+};
+
+class Recognizer {
+ public:
+  Recognizer(TriMesh& mesh, double tolerance_mm) : mesh_(mesh), tolerance_(tolerance_mm) {
+    const std::size_t count = mesh_.triangles.size();
+    mesh_.support.resize(count, kNoSupport);
+    for (std::size_t t = 0; t < count; ++t) {
+      const core::Vec3 area = mesh_.area_vector(t);
+      areas_.push_back(area.norm());
+      normals_.push_back(areas_.back() > 0.0 ? core::Vec3(area / areas_.back()) : core::Vec3::Zero());
+    }
+    find_neighbours();
+  }
+
+  std::vector<RecognizedFace> run() {
+    std::vector<RecognizedFace> found;
+    int failures = 0;
+    for (std::size_t t = 0; t < mesh_.triangles.size() && failures < kMostFailures; ++t) {
+      if (mesh_.support[t] != kNoSupport || !bends(t)) continue;
+      const Candidate best = best_from(t);
+      if (best.triangles.empty()) {
+        ++failures;
+        continue;
+      }
+      RecognizedFace face;
+      face.support = mesh_.support_index(best.surface);
+      face.triangles = best.triangles.size();
+      for (const std::uint32_t i : best.triangles) {
+        mesh_.support[i] = face.support;
+        face.corner_distance_mm = std::max(face.corner_distance_mm, farthest(best.surface, i));
+      }
+      found.push_back(face);
+    }
+    if (mesh_.supports.empty()) mesh_.support.clear();
+    return found;
+  }
+
+ private:
+  struct Candidate {
+    SupportSurface surface;
+    std::vector<std::uint32_t> triangles;
+  };
+
+  void find_neighbours() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) sides[{mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]}] = t;
+    neighbours_.assign(mesh_.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto across = sides.find({mesh_.triangles[t][(k + 1) % 3], mesh_.triangles[t][k]});
+        if (across != sides.end() && angle_of(normals_[t], normals_[across->second]) <= kSharpestEdge)
+          neighbours_[t][k] = across->second;
+      }
+  }
+
+  /// Whether a facet meets a neighbour of its smooth face at an angle.
+  bool bends(std::size_t t) const {
+    return std::any_of(neighbours_[t].begin(), neighbours_[t].end(), [&](std::uint32_t other) {
+      return other != kNoNeighbour && mesh_.support[other] == kNoSupport &&
+             angle_of(normals_[t], normals_[other]) > kFlattestEdge;
+    });
+  }
+
+  double farthest(const SupportSurface& surface, std::uint32_t t) const {
+    double largest = 0.0;
+    for (const std::uint32_t v : mesh_.triangles[t])
+      largest = std::max(largest, std::abs(surface.distance(mesh_.vertices[v])));
+    return largest;
+  }
+
+  bool lies_on(const SupportSurface& surface, std::uint32_t t) const {
+    const core::Vec3 normal = surface.normal(centre_of(mesh_, t));
+    return farthest(surface, t) <= tolerance_ && std::abs(normals_[t].dot(normal)) >= std::cos(kMostTilted);
+  }
+
+  /// Free triangles of the smooth face around one, nearest first, as long as `admit` accepts them.
+  template <class Admit>
+  std::vector<std::uint32_t> around(std::uint32_t start, std::size_t most, const Admit& admit) {
+    ++visit_;
+    visited_.resize(mesh_.triangles.size(), 0);
+    std::vector<std::uint32_t> result{start};
+    visited_[start] = visit_;
+    for (std::size_t i = 0; i < result.size() && result.size() < most; ++i)
+      for (const std::uint32_t next : neighbours_[result[i]]) {
+        if (next == kNoNeighbour || visited_[next] == visit_ || mesh_.support[next] != kNoSupport) continue;
+        visited_[next] = visit_;
+        if (admit(next)) result.push_back(next);
+      }
+    return result;
+  }
+
+  std::vector<core::Vec3> corners_of(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<std::uint32_t> ids;
+    for (const std::uint32_t t : triangles)
+      ids.insert(ids.end(), mesh_.triangles[t].begin(), mesh_.triangles[t].end());
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<core::Vec3> points;
+    for (const std::uint32_t v : ids) points.push_back(mesh_.vertices[v]);
+    return points;
+  }
+
+  Candidate best_from(std::size_t seed) {
+    Candidate best;
+    const auto start = static_cast<std::uint32_t>(seed);
+    const auto any = [](std::uint32_t) { return true; };
+    std::size_t before = 0;
+    for (const std::size_t most : {kSeeds[0], kSeeds[1], kSeeds[2], mesh_.triangles.size()}) {
+      const std::vector<std::uint32_t> near = around(start, most, any);
+      if (near.size() == before) break;
+      before = near.size();
+      for (const bool round : {true, false}) {
+        const std::optional<Candidate> grown = grow(start, near, round);
+        if (grown && grown->triangles.size() > best.triangles.size()) best = *grown;
+      }
+    }
+    return best;
+  }
+
+  /// The surface fitted to some triangles, and the part of the smooth face that lies on it.
+  std::optional<Candidate> grow(std::uint32_t start, const std::vector<std::uint32_t>& near, bool sphere) {
+    std::optional<SupportSurface> surface = fit(near, sphere);
+    if (!surface) return std::nullopt;
+    Candidate result;
+    for (int round = 0; round < 2; ++round) {
+      if (!lies_on(*surface, start)) return std::nullopt;
+      result.surface = *surface;
+      result.triangles =
+          around(start, mesh_.triangles.size(), [&](std::uint32_t t) { return lies_on(result.surface, t); });
+      surface = fit(result.triangles, sphere);
+      if (!surface) return std::nullopt;
+    }
+    if (!is_determined(result.triangles)) return std::nullopt;
+    return result;
+  }
+
+  bool is_determined(const std::vector<std::uint32_t>& triangles) const {
+    if (corners_of(triangles).size() < kFewestCorners) return false;
+    std::vector<core::Vec3> directions;
+    for (const std::uint32_t t : triangles) {
+      const bool known = std::any_of(directions.begin(), directions.end(), [&](const core::Vec3& d) {
+        return angle_of(d, normals_[t]) <= kFlattestEdge;
+      });
+      if (!known) directions.push_back(normals_[t]);
+      if (directions.size() >= kFewestDirections) return true;
+    }
+    return false;
+  }
+
+  std::optional<SupportSurface> fit(const std::vector<std::uint32_t>& triangles, bool sphere) const {
+    const std::vector<core::Vec3> points = corners_of(triangles);
+    if (points.size() < kFewestCorners) return std::nullopt;
+    if (sphere) return fit_sphere(points);
+    const std::optional<SupportSurface> cylinder = fit_wall(triangles, points, false);
+    return cylinder ? cylinder : fit_wall(triangles, points, true);
+  }
+
+  static core::Vec3 mean_of(const std::vector<core::Vec3>& points) {
+    core::Vec3 sum = core::Vec3::Zero();
+    for (const core::Vec3& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+  }
+
+  /// |p - c|^2 = r^2 is linear in c and r^2 - |c|^2.
+  std::optional<SupportSurface> fit_sphere(const std::vector<core::Vec3>& points) const {
+    const core::Vec3 mean = mean_of(points);
+    Eigen::MatrixXd left(static_cast<Eigen::Index>(points.size()), 4);
+    Eigen::VectorXd right(left.rows());
+    for (Eigen::Index i = 0; i < left.rows(); ++i) {
+      const core::Vec3 p = points[static_cast<std::size_t>(i)] - mean;
+      left.row(i) << 2.0 * p.transpose(), 1.0;
+      right[i] = p.squaredNorm();
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(left);
+    if (solver.rank() < 4) return std::nullopt;
+    const Eigen::VectorXd solution = solver.solve(right);
+    const core::Vec3 centre = solution.head<3>();
+    const double radius2 = solution[3] + centre.squaredNorm();
+    if (!(radius2 > 0.0)) return std::nullopt;
+    const SupportSurface result = SupportSurface::sphere(mean + centre, std::sqrt(radius2));
+    return fits(result, points, tolerance_) ? std::optional(result) : std::nullopt;
+  }
+
+  /// Axis to which all facets have one angle (cone) or a right angle (cylinder).
+  core::Vec3 axis_of(const std::vector<std::uint32_t>& triangles, bool cone) const {
+    core::Vec3 mean = core::Vec3::Zero();
+    double area = 0.0;
+    for (const std::uint32_t t : triangles) {
+      mean += areas_[t] * normals_[t];
+      area += areas_[t];
+    }
+    mean = cone ? core::Vec3(mean / area) : core::Vec3::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const std::uint32_t t : triangles) {
+      const core::Vec3 d = normals_[t] - mean;
+      covariance += areas_[t] * d * d.transpose();
+    }
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  }
+
+  std::optional<SupportSurface> fit_wall(const std::vector<std::uint32_t>& triangles,
+                                         const std::vector<core::Vec3>& points, bool cone) const {
+    const core::Vec3 mean = mean_of(points);
+    std::optional<Wall> wall = first_wall(points, mean, axis_of(triangles, cone), cone);
+    // The axis of facets whose corners are on the surface is exact, and poorly known from few rings of
+    // corners: it is turned only where it does not fit.
+    for (int step = 0; wall && step < kSteps; ++step) wall = improved(points, *wall, {cone, false});
+    if (!wall) return std::nullopt;
+    if (const std::optional<SupportSurface> exact = surface_of(*wall, points, 0.1 * tolerance_)) return exact;
+    for (int step = 0; wall && step < kSteps; ++step) wall = improved(points, *wall, {cone, true});
+    return wall ? surface_of(*wall, points, tolerance_) : std::nullopt;
+  }
+
+  std::optional<SupportSurface> surface_of(const Wall& wall, const std::vector<core::Vec3>& points,
+                                           double tolerance_mm) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const core::Vec3& p : points) {
+      const double z = wall.axis.dot(p - wall.origin);
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+    SupportSurface result = SupportSurface::cylinder(wall.origin, wall.axis, wall.radius);
+    if (wall.slope != 0.0) {
+      // From the wider end, where the radius is above zero.
+      const double at = wall.slope > 0.0 ? high : low, to = wall.slope > 0.0 ? low : high;
+      const double radius = wall.radius + wall.slope * at;
+      const double end = std::max(0.0, wall.radius + wall.slope * to);
+      if (!(radius > 0.0) || end == radius) return std::nullopt;
+      const double length = (end - radius) / wall.slope;
+      result = SupportSurface::cone(wall.origin + at * wall.axis, wall.axis, radius, end, length);
+    }
+    return fits(result, points, tolerance_mm) ? std::optional(result) : std::nullopt;
+  }
+
+  /// |p|^2 = 2 p . c + a + b z + g z^2 across the axis is linear, with radius^2 = a + |c|^2 and
+  /// b = 2 radius slope.
+  static std::optional<Wall> first_wall(const std::vector<core::Vec3>& points, const core::Vec3& mean,
+                                        const core::Vec3& axis, bool cone) {
+    const core::Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
+    Eigen::MatrixXd left(static_cast<Eigen::Index>(points.size()), cone ? 5 : 3);
+    Eigen::VectorXd right(left.rows());
+    for (Eigen::Index i = 0; i < left.rows(); ++i) {
+      const core::Vec3 p = points[static_cast<std::size_t>(i)] - mean;
+      const double px = x.dot(p), py = y.dot(p), z = axis.dot(p);
+      left(i, 0) = 2.0 * px;
+      left(i, 1) = 2.0 * py;
+      left(i, 2) = 1.0;
+      if (cone) {
+        left(i, 3) = z;
+        left(i, 4) = z * z;
+      }
+      right[i] = px * px + py * py;
+    }
+    // Of two rings z and z^2 are not independent: the least solution does as a start.
+    const Eigen::VectorXd s = left.completeOrthogonalDecomposition().solve(right);
+    const double radius2 = s[2] + s[0] * s[0] + s[1] * s[1];
+    if (!(radius2 > 0.0) || !std::isfinite(radius2)) return std::nullopt;
+    const double radius = std::sqrt(radius2);
+    return Wall{mean + s[0] * x + s[1] * y, axis, radius, cone ? s[3] / (2.0 * radius) : 0.0};
+  }
+
+  /// What the Gauss-Newton method may change.
+  struct Free {
+    bool slope, axis;
+  };
+
+  /// One step of the Gauss-Newton method on the distances across the axis.
+  static std::optional<Wall> improved(const std::vector<core::Vec3>& points, const Wall& wall, Free free) {
+    const core::Vec3 x = wall.axis.unitOrthogonal(), y = wall.axis.cross(x);
+    Eigen::MatrixXd slopes(static_cast<Eigen::Index>(points.size()), 6);
+    Eigen::VectorXd off(slopes.rows());
+    for (Eigen::Index i = 0; i < slopes.rows(); ++i) {
+      const core::Vec3 p = points[static_cast<std::size_t>(i)] - wall.origin;
+      const double px = x.dot(p), py = y.dot(p), z = wall.axis.dot(p), rho = std::hypot(px, py);
+      // The tip of a cone has no direction across the axis.
+      const double cosine = rho > 0.0 ? px / rho : 0.0, sine = rho > 0.0 ? py / rho : 0.0;
+      off[i] = rho - wall.radius - wall.slope * z;
+      // The axis turned by small angles towards x and y takes z from the distance, and adds to z. Of what is
+      // not free, no change is the least solution.
+      const double turn = free.axis ? 1.0 : 0.0;
+      slopes.row(i) << -cosine, -sine, -turn * (z * cosine + wall.slope * px),
+          -turn * (z * sine + wall.slope * py), -1.0, free.slope ? -z : 0.0;
+    }
+    const Eigen::VectorXd change = slopes.completeOrthogonalDecomposition().solve(-off);
+    if (!change.allFinite()) return std::nullopt;
+    Wall next = wall;
+    next.origin += change[0] * x + change[1] * y;
+    next.axis = (wall.axis + change[2] * x + change[3] * y).normalized();
+    next.radius += change[4];
+    next.slope += change[5];
+    return next.radius > 0.0 ? std::optional(next) : std::nullopt;
+  }
+
+  /// Whether the points lie on the surface, and bend by more than they may be off it, as those of a plane do
+  /// not, which is a sphere of any large radius.
+  bool fits(const SupportSurface& surface, const std::vector<core::Vec3>& points, double tolerance_mm) const {
+    for (const core::Vec3& p : points)
+      if (!(std::abs(surface.distance(p)) <= tolerance_mm)) return false;
+    const core::Vec3 mean = mean_of(points);
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const core::Vec3& p : points) covariance += (p - mean) * (p - mean).transpose();
+    const core::Vec3 thin = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+    double low = 0.0, high = 0.0;
+    for (const core::Vec3& p : points) {
+      low = std::min(low, thin.dot(p - mean));
+      high = std::max(high, thin.dot(p - mean));
+    }
+    return high - low >= kLeastBend * tolerance_;
+  }
+
+  TriMesh& mesh_;
+  double tolerance_;
+  std::vector<double> areas_;
+  std::vector<core::Vec3> normals_;
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< across the three sides, in one smooth face
+  std::vector<std::uint32_t> visited_;
+  std::uint32_t visit_ = 0;
+};
+
+}  // namespace
+
+std::vector<RecognizedFace> recognize_round_faces(TriMesh& mesh, double tolerance_mm) {
+  return Recognizer(mesh, tolerance_mm).run();
+}
+
+std::string describe(const TriMesh& mesh, const RecognizedFace& face) {
+  const SupportSurface& surface = mesh.supports[face.support];
+  const bool cone = surface.axial < 0.0;
+  char text[160];
+  std::snprintf(text, sizeof text, "%s of %s %.6g %s recognized in %zu triangles, corners within %.2g um",
+                surface.name(), cone ? "half-angle" : "radius",
+                cone ? std::atan(std::sqrt(-surface.axial)) / core::kDegree : std::sqrt(surface.radius2),
+                cone ? "deg" : "mm", face.triangles, 1e3 * face.corner_distance_mm);
+  return text;
+}
+
+}  // namespace scintray::mesh
