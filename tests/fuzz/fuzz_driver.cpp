@@ -1,6 +1,7 @@
-/// fuzz_driver [TARGET [N [SEED]]]: N damaged files at the reader TARGET, by number from SEED; without arguments the
-/// names of all readers. They are read by child processes, with 10 s for each and 1 GB for all that one holds. What ends a
-/// child is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was any.
+/// fuzz_driver [TARGET [N [SEED]]]: N damaged files at the reader TARGET, by number from SEED; without
+/// arguments the names of all readers. They are read by child processes, with 10 s for each and 1 GB for all
+/// that one holds. What ends a child is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was
+/// any.
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -8,12 +9,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -47,11 +50,11 @@ std::string input(const std::vector<std::string>& seeds, std::uint64_t seed, std
 
 /// Reads the files from `first` to `last` and states in `at` which is being read.
 [[noreturn]] void read_all(const Entry& entry, const std::vector<std::string>& seeds, std::uint64_t seed,
-                           std::uint64_t last, volatile std::uint64_t* at) {
+                           std::uint64_t last, std::atomic<std::uint64_t>& at) {
   const rlimit limit{kBytes, kBytes};
   setrlimit(RLIMIT_DATA, &limit);
-  for (; *at < last; *at = *at + 1) {
-    const std::string content = input(seeds, seed, *at);
+  for (; at < last; ++at) {
+    const std::string content = input(seeds, seed, at);
     alarm(kSeconds);
     try {
       entry.run(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
@@ -64,13 +67,15 @@ std::string input(const std::vector<std::string>& seeds, std::uint64_t seed, std
   _exit(0);
 }
 
-int fuzz(const Entry& entry, std::uint64_t count, std::uint64_t seed) {
+int fuzz_reader(const Entry& entry, std::uint64_t count, std::uint64_t seed) {
   const std::vector<std::string> seeds = entry.seeds();
-  auto* at = static_cast<volatile std::uint64_t*>(
-      mmap(nullptr, sizeof(std::uint64_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  void* shared = mmap(nullptr, sizeof(std::atomic<std::uint64_t>), PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) return 2;
+  std::atomic<std::uint64_t>& at = *new (shared) std::atomic<std::uint64_t>(0);
   int found = 0;
-  for (*at = 0; *at < count;) {
-    const std::uint64_t last = std::min(count, *at + kPerChild);
+  while (at < count) {
+    const std::uint64_t last = std::min<std::uint64_t>(count, at + kPerChild);
     const pid_t child = fork();
     if (child < 0) return 2;
     if (child == 0) read_all(entry, seeds, seed, last, at);
@@ -78,14 +83,17 @@ int fuzz(const Entry& entry, std::uint64_t count, std::uint64_t seed) {
     waitpid(child, &status, 0);
     if (status == 0) continue;
     ++found;
-    const std::uint64_t number = *at;
+    const std::uint64_t number = at;
     const std::string name =
         std::string("fuzz-") + entry.name + "-" + std::to_string(seed) + "-" + std::to_string(number);
     std::ofstream(name, std::ios::binary) << input(seeds, seed, number);
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     std::printf("%s: %s (%s)\n", name.c_str(),
-                signal == SIGALRM ? "took over 10 s" : signal ? strsignal(signal) : "no input error", entry.name);
-    *at = number + 1;
+                signal == SIGALRM ? "took over 10 s"
+                : signal          ? strsignal(signal)
+                                  : "no input error",
+                entry.name);
+    at = number + 1;
   }
   std::printf("%-20s %10llu inputs from seed %llu, %d found\n", entry.name,
               static_cast<unsigned long long>(count), static_cast<unsigned long long>(seed), found);
@@ -99,8 +107,8 @@ int main(int count, char** words) {
     if (count < 2)
       std::puts(entry.name);
     else if (std::strcmp(entry.name, words[1]) == 0)
-      return fuzz(entry, count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000,
-                  count > 3 ? std::strtoull(words[3], nullptr, 10) : 1);
+      return fuzz_reader(entry, count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000,
+                         count > 3 ? std::strtoull(words[3], nullptr, 10) : 1);
   }
   return count < 2 ? 0 : 2;
 }

@@ -22,7 +22,7 @@ TEST_CASE("own files: the seeds are sound") {
 
 TEST_CASE("own files: damaged ones are read or end in an input error") {
   // Every HDF5 file without a seal is first read by a process of its own.
-  constexpr int kTextTrials = 2000, kFileTrials = 200;
+  constexpr int kTextTrials = 2000, kFileTrials = 60;
   std::uint64_t stream = 0;
   for (const Entry& entry : own_entries()) {
     CAPTURE(entry.name);
