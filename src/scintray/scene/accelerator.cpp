@@ -95,7 +95,10 @@ RTCRayHit make_ray(const core::Vec3& origin, const core::Vec3& direction, double
 std::shared_ptr<RTCDeviceTy> embree_device() {
   static const std::shared_ptr<RTCDeviceTy> device = [] {
     const RTCDevice started = rtcNewDevice(kDevice);
-    if (!started) throw core::SystemError("Embree could not start on this machine");
+    if (!started)
+      throw core::SystemError(rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY
+                                  ? "out of memory while Embree, the library of ray queries, was started"
+                                  : "Embree, the library of ray queries, cannot be started on this machine");
     return std::shared_ptr<RTCDeviceTy>(started, rtcReleaseDevice);
   }();
   return device;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
 #include "scintray/core/version.hpp"
@@ -28,6 +29,14 @@ std::uint64_t work_of(const RunOutline& run, std::size_t point, const Shard& sha
   const double share = static_cast<double>(blocks_of_point(blocks_of(shard, run), run, point).count()) /
                        static_cast<double>(outline.blocks);
   return static_cast<std::uint64_t>(share * static_cast<double>(outline.work));
+}
+
+core::SystemError out_of_memory(const std::string& during, std::size_t point, std::size_t points) {
+  return core::SystemError(
+      fmt::format("out of memory while {}, point {} of {}\n  hint: fewer threads (--threads), or parts of "
+                  "the run one after "
+                  "the other (--shard), take less",
+                  during, point + 1, points));
 }
 
 /// Keeps the ranges that were finished before an error, if there is a way to.
@@ -171,7 +180,11 @@ void Simulation::build(const SimulationHooks& hooks) {
   notes_.clear();
   for (std::size_t i = 0; i < points(); ++i) {
     if (stopped(hooks)) throw core::Cancelled("while the scene was built, before any photon was traced");
-    add_to_outline(*point(i));
+    try {
+      add_to_outline(*point(i));
+    } catch (const std::bad_alloc&) {
+      throw out_of_memory("the scene was built", i, points());
+    }
   }
   tally::RunHeader& header = outline_.header;
   header.version = core::version();
@@ -342,6 +355,9 @@ tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& ho
       release(ended);
       if (!result.points.back().complete) break;
     }
+  } catch (const std::bad_alloc&) {
+    seal_what_there_is(hooks);
+    throw out_of_memory("photons were traced and their results written", ended, points());
   } catch (...) {
     seal_what_there_is(hooks);
     throw;
