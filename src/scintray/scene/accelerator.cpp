@@ -131,7 +131,10 @@ struct Accelerator::EmbreeScene {
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-      throw core::SystemError("Embree could not build its hierarchy (error " + std::to_string(error) + ")");
+      throw core::SystemError(error == RTC_ERROR_OUT_OF_MEMORY
+                                  ? "out of memory while Embree built its hierarchy of triangles"
+                                  : "Embree could not build its hierarchy (error " + std::to_string(error) +
+                                        ")");
   }
   ~EmbreeScene() {
     if (scene) rtcReleaseScene(scene);
