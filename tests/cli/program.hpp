@@ -31,11 +31,11 @@ class Program {
  public:
   /// `file_limit_bytes` above 0 makes every file that grows past it fail as on a full disk.
   Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-          rlim_t file_limit_bytes = 0)
+          rlim_t file_limit_bytes = 0, const std::vector<std::string>& launcher = {})
       : log_(folder / "output.txt") {
     child_ = fork();
     REQUIRE(child_ >= 0);
-    if (child_ == 0) start(arguments, folder, file_limit_bytes);
+    if (child_ == 0) start(arguments, folder, file_limit_bytes, launcher);
   }
 
   void signal(int number) const { kill(child_, number); }
@@ -56,7 +56,7 @@ class Program {
 
  private:
   [[noreturn]] void start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                          rlim_t file_limit_bytes) const {
+                          rlim_t file_limit_bytes, const std::vector<std::string>& launcher) const {
     const int log = open(log_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
@@ -68,10 +68,12 @@ class Program {
       setrlimit(RLIMIT_FSIZE, &limit);
     }
     const std::string program = program_file().string();
-    std::vector<char*> words{const_cast<char*>(program.c_str())};
+    std::vector<char*> words;
+    for (const std::string& word : launcher) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(const_cast<char*>(program.c_str()));
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
-    execv(program.c_str(), words.data());
+    execv(words.front(), words.data());
     _exit(121);
   }
 

@@ -1,14 +1,10 @@
 #include "geometry_entries.hpp"
 
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "io/gdml_texts.hpp"
 #include "require.hpp"
 #include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/import.hpp"
+#include "scratch_file.hpp"
 #include "support/zipped.hpp"
 #ifdef SCINTRAY_TESTS_STEP
 #include "support/step_shapes.hpp"
@@ -27,27 +23,6 @@ void require_whole(const mesh::TriMesh& mesh) {
       require(vertex < mesh.vertices.size(), "a vertex out of range");
   for (const core::Vec3& vertex : mesh.vertices) require(vertex.allFinite(), "a vertex that is not finite");
 }
-
-/// A file of the bytes, as long as it lives: assimp reads files.
-class ScratchFile {
- public:
-  ScratchFile(const std::uint8_t* data, std::size_t size, const char* ending)
-      : path_(std::filesystem::temp_directory_path() /
-              ("scintray_fuzz_" + std::to_string(getpid()) + ending)) {
-    std::ofstream(path_, std::ios::binary)
-        .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 bool run_mesh(const std::uint8_t* data, std::size_t size, const char* ending) {
   const ScratchFile file(data, size, ending);

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/cli/mpi_ranks.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/version.hpp"
 
@@ -99,6 +100,16 @@ std::string unknown_word(const CLI::App& app) {
          (option ? "options" : "commands") + "\n";
 }
 
+/// Throws CLI::ValidationError for a command that mpirun has started several times, but for those that
+/// compute together.
+void require_one_process(const CLI::App& app) {
+  const int processes = launched_processes();
+  if (processes > 1 && !app.got_subcommand("run"))
+    throw CLI::ValidationError(
+        "mpirun", "of all commands `scintray run` alone runs in several processes, and " +
+                      std::to_string(processes) + " were started; run this command without mpirun");
+}
+
 #define SCINTRAY_ENTRY(name) add_##name##_command,
 constexpr AddCommand kCommands[] = {SCINTRAY_COMMANDS(SCINTRAY_ENTRY)};
 constexpr AddCommand kMapCommands[] = {SCINTRAY_MAP_COMMANDS(SCINTRAY_ENTRY)};
@@ -124,6 +135,7 @@ int run_program(std::span<const AddCommand> available, int argc, const char* con
   app.require_subcommand(1);
   for (const AddCommand add : available) add(app);
   app.failure_message(CLI::FailureMessage::help);
+  app.parse_complete_callback([&app] { require_one_process(app); });
   try {
     return run_guarded([&] { app.parse(argc, argv); }, err);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 #include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/mpi_ranks.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/scene_notes.hpp"
@@ -36,6 +37,7 @@ struct RunOptions {
   simulation::Shard shard;        ///< of that text
   std::string interval = "60 s";  ///< between checkpoints
   bool resume = false, restart = false, no_checkpoints = false;
+  std::unique_ptr<simulation::Ranks> ranks;  ///< processes of mpirun; null: this one alone
 };
 
 /// Path of the output without -o: the results as the scene has it, else the scene's name in the working
@@ -130,6 +132,7 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
   simulation::Checkpoints checkpoints(checkpoint_settings(options, output));
   simulation::SimulationHooks hooks = simulation_hooks(line);
   if (!options.no_checkpoints) hooks.checkpoints = &checkpoints;
+  hooks.ranks = options.ranks.get();
   simulation.build(hooks);
   InterruptGuard::keeps_results(true);
   try {
@@ -167,6 +170,28 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const tally::RunResult result = trace(options, simulation, results, output, line);
   show_results(output, result, {!options.quiet, !options.no_report});
   if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
+}
+
+/// Traces what rank 0 hands out. Nothing is printed or written here: rank 0 does.
+void serve_scene(const RunOptions& options, const std::filesystem::path& scene) {
+  InterruptGuard::keeps_results(false);
+  ProgressLine line(false);
+  simulation::Simulation simulation(scene_file::SceneFile::load(scene), simulation_options(options, line));
+  simulation::SimulationHooks hooks;
+  hooks.stop = &InterruptGuard::requested();
+  simulation.build(hooks);
+  InterruptGuard::keeps_results(true);
+  simulation.serve(*options.ranks, hooks);
+}
+
+/// A run by the processes of mpirun. @throws CLI::ValidationError for several scenes
+void run_on_ranks(const RunOptions& options) {
+  simulation::run_part(*options.ranks, [&] {
+    if (options.scenes.size() > 1)
+      throw CLI::ValidationError("SCENE", "several processes run one scene; run the scenes one at a time");
+    if (options.ranks->rank() == 0) return run_scene(options, options.scenes.front());
+    serve_scene(options, options.scenes.front());
+  });
 }
 
 /// Throws CLI::ValidationError when two scenes would write to one results file.
@@ -217,13 +242,16 @@ void add_run_command(CLI::App& app) {
       "Examples:\n"
       "  scintray run quickstart.toml\n"
       "  scintray run scanner.toml --resume            after Ctrl-C, a crash or a full disk\n"
-      "  scintray run scanner.toml --shard 17/400      one of 400 jobs; then: scintray merge *.shard");
+      "  scintray run scanner.toml --shard 17/400      one of 400 jobs; then: scintray merge *.shard\n"
+      "  mpirun scintray run scanner.toml              all processes compute, and the first writes");
   command->callback([options] {
     if (!options->shard_text.empty()) options->shard = shard_of(options->shard_text);
     interval_of(options->interval);
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
     const InterruptGuard guard;
+    options->ranks = mpi_ranks();
+    if (options->ranks) return run_on_ranks(*options);
     if (options->scenes.size() > 1) require_own_outputs(*options);
     for (const auto& scene : options->scenes) run_scene(*options, scene);
   });

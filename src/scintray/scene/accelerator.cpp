@@ -90,7 +90,10 @@ RTCRayHit make_ray(const core::Vec3& origin, const core::Vec3& direction, double
 std::shared_ptr<RTCDeviceTy> embree_device() {
   static const std::shared_ptr<RTCDeviceTy> device = [] {
     const RTCDevice started = rtcNewDevice(kDevice);
-    if (!started) throw core::SystemError("Embree could not start on this machine");
+    if (!started)
+      throw core::SystemError(rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY
+                                  ? "out of memory while Embree, the library of ray queries, was started"
+                                  : "Embree, the library of ray queries, cannot be started on this machine");
     return std::shared_ptr<RTCDeviceTy>(started, rtcReleaseDevice);
   }();
   return device;
@@ -123,7 +126,10 @@ struct Accelerator::EmbreeScene {
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-      throw core::SystemError("Embree could not build its hierarchy (error " + std::to_string(error) + ")");
+      throw core::SystemError(error == RTC_ERROR_OUT_OF_MEMORY
+                                  ? "out of memory while Embree built its hierarchy of triangles"
+                                  : "Embree could not build its hierarchy (error " + std::to_string(error) +
+                                        ")");
   }
   ~EmbreeScene() {
     if (scene) rtcReleaseScene(scene);

@@ -6,20 +6,14 @@
 
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/text.hpp"
-#include "scintray/core/zlib_stream.hpp"
-#include "scintray/simulation/detail/byte_archive.hpp"
-#include "scintray/simulation/detail/range_records.hpp"
+#include "scintray/simulation/detail/range_stream.hpp"
 
 namespace scintray::simulation {
 
 using detail::encoded;
-using detail::Encoder;
 using detail::Record;
 
 namespace {
-
-/// Bytes of rows that are held before they are written as a record.
-constexpr std::size_t kRowBytes = 1 << 20;
 
 std::uint64_t blocks_of_run(const RunOutline& run) {
   std::uint64_t blocks = 0;
@@ -88,32 +82,11 @@ std::string difference(const RunOutline& of, const RunOutline& from) {
 }
 
 struct RangeFile::State {
+  explicit State(const std::filesystem::path& path)
+      : file(path, core::Container::plain), records([this](std::string_view bytes) { file.write(bytes); }) {}
+
   core::OutputFile file;
-  Encoder photons, histories, events;  ///< rows of the present range that wait to be written
-  bool has_subjects = false;           ///< of the present range
-  std::string readout;                 ///< record of the present point; empty for a source of photons
-  bool has_readout = false;            ///< in the present range
-
-  void write(Record record, std::string_view bytes) {
-    const std::string head = encoded(record_number(record), static_cast<std::uint64_t>(bytes.size()));
-    file.write(head);
-    file.write(bytes);
-    file.write(encoded(core::crc32(bytes, core::crc32(head))));
-  }
-
-  void write_rows(Record record, Encoder& rows, std::size_t least) {
-    if (rows.bytes.size() <= least) return;
-    write(record, rows.bytes);
-    rows.bytes.clear();
-  }
-
-  /// Writes the readout of the events of the present range, once.
-  void write_readout() {
-    if (!has_readout && !readout.empty()) write(Record::readout, readout);
-    has_readout = true;
-  }
-
-  static std::uint8_t record_number(Record record) { return static_cast<std::uint8_t>(record); }
+  detail::RangeWriter records;
 };
 
 RangeFile::RangeFile(std::filesystem::path path, const Shard& shard)
@@ -122,53 +95,36 @@ RangeFile::RangeFile(std::filesystem::path path, const Shard& shard)
 RangeFile::~RangeFile() = default;
 
 void RangeFile::begin(const RunOutline& run) {
-  state_.reset(new State{core::OutputFile(path_, core::Container::plain), {}, {}, {}, false, {}, false});
+  state_ = std::make_unique<State>(path_);
   state_->file.write(detail::kMagic);
   state_->file.write(encoded(detail::kRangesVersion));
-  state_->write(Record::outline, encoded(shard_, run));
+  state_->records.write(Record::outline, encoded(shard_, run));
 }
 
 void RangeFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
-  state_->write(Record::surfaces, encoded(analyses));
+  state_->records.surfaces(analyses);
 }
 
 void RangeFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                              const std::optional<detector::ReadoutSpec>& readout) {
-  state_->readout = encoded(static_cast<std::uint64_t>(point), channels, readout);
+  state_->records.begin_events(point, channels, readout);
 }
 
 void RangeFile::photons(const std::vector<tally::DetectedPhoton>& photons) {
-  for (tally::DetectedPhoton photon : photons) pass(state_->photons, photon);
-  state_->write_rows(Record::photons, state_->photons, kRowBytes);
+  state_->records.photons(photons);
 }
 
 void RangeFile::histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& of_point) {
-  if (!state_->has_subjects) state_->write(Record::subjects, encoded(of_point));
-  state_->has_subjects = true;
-  tally::PhotonHistories rows = histories;
-  pass(state_->histories, rows);
-  state_->write_rows(Record::histories, state_->histories, kRowBytes);
+  state_->records.histories(histories, of_point);
 }
 
-void RangeFile::events(const std::vector<tally::EventRecord>& events) {
-  state_->write_readout();
-  for (tally::EventRecord event : events) pass(state_->events, event);
-  state_->write_rows(Record::events, state_->events, kRowBytes);
-}
+void RangeFile::events(const std::vector<tally::EventRecord>& events) { state_->records.events(events); }
 
-void RangeFile::range(const PointRange& of, const tally::PointSums& sums) {
-  if (of.histories && !state_->has_subjects) state_->write(Record::subjects, encoded(*of.histories));
-  state_->write_readout();
-  state_->has_subjects = state_->has_readout = false;
-  state_->write_rows(Record::photons, state_->photons, 0);
-  state_->write_rows(Record::histories, state_->histories, 0);
-  state_->write_rows(Record::events, state_->events, 0);
-  state_->write(Record::range, encoded(static_cast<std::uint64_t>(of.point), of.blocks, of.facts, sums));
-}
+void RangeFile::range(const PointRange& of, const tally::PointSums& sums) { state_->records.range(of, sums); }
 
 void RangeFile::commit(bool complete, const std::string&) {
   if (complete) {
-    state_->write(Record::end, {});
+    state_->records.write(Record::end, {});
     state_->file.commit();
   }
   state_.reset();

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
 #include "scintray/core/version.hpp"
+#include "scintray/simulation/detail/passing_on.hpp"
+#include "scintray/simulation/detail/rank_scheduler.hpp"
 #include "scintray/simulation/run_names.hpp"
 
 namespace scintray::simulation {
@@ -27,6 +30,22 @@ std::uint64_t work_of(const RunOutline& run, std::size_t point, const Shard& sha
   const double share = static_cast<double>(blocks_of_point(blocks_of(shard, run), run, point).count()) /
                        static_cast<double>(outline.blocks);
   return static_cast<std::uint64_t>(share * static_cast<double>(outline.work));
+}
+
+core::SystemError out_of_memory(const std::string& during, std::size_t point, std::size_t points) {
+  return core::SystemError(
+      fmt::format("out of memory while {}, point {} of {}\n  hint: fewer threads (--threads), or parts of "
+                  "the run one after "
+                  "the other (--shard), take less",
+                  during, point + 1, points));
+}
+
+/// Keeps the ranges that were finished before an error, if there is a way to.
+void seal_what_there_is(const SimulationHooks& hooks) {
+  try {
+    if (hooks.checkpoints) hooks.checkpoints->seal();
+  } catch (const core::Error&) {  // as on the full disk that was the error
+  }
 }
 
 }  // namespace
@@ -162,7 +181,11 @@ void Simulation::build(const SimulationHooks& hooks) {
   notes_.clear();
   for (std::size_t i = 0; i < points(); ++i) {
     if (stopped(hooks)) throw core::Cancelled("while the scene was built, before any photon was traced");
-    add_to_outline(*point(i));
+    try {
+      add_to_outline(*point(i));
+    } catch (const std::bad_alloc&) {
+      throw out_of_memory("the scene was built", i, points());
+    }
   }
   tally::RunHeader& header = outline_.header;
   header.version = core::version();
@@ -233,12 +256,10 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
   build(hooks);
   const std::shared_ptr<const SimulationPoint> traced = point(number);
   const Renumbering renumbering(traced->scene(), names_);
-  const tally::HistorySubjects* subjects =
-      traced->plan().history ? &traced->plan().history->subjects() : nullptr;
-  const PointRange of_point{number, {}, traced->facts(), subjects};
+  const tally::HistorySubjects* subjects = detail::subjects_of(*traced);
   PointSink receiver(sink);
 
-  RunHooks run;
+  RunHooks run = detail::passing_on(*traced, renumbering, number, receiver);
   run.stop = hooks.stop;
   if (hooks.progress)
     run.progress = [&, start = start_of(number, shard)](std::uint64_t done) {
@@ -246,56 +267,53 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
       progress.done += done;
       hooks.progress(progress);
     };
-  if (traced->spec().run.photon_list)
-    run.detected = [&](const std::vector<tally::DetectedPhoton>& photons) {
-      receiver.photons(renumbering.applied(photons));
-    };
-  if (subjects)
-    run.histories = [&](const tally::PhotonHistories& histories) {
-      receiver.histories(histories, *subjects);
-    };
-  run.range = [&](const tally::BlockRange& blocks, tally::PointSums sums) {
-    PointRange range = of_point;
-    range.blocks = blocks;
-    receiver.range(range, renumbering.applied(std::move(sums)));
-  };
-  if (traced->source().has_energy()) {
-    const std::vector<tally::ReadoutChannel> channels = renumbering.applied(traced->plan().channels.list);
-    sink.begin_events(number, channels, traced->spec().readout);
-    if (hooks.checkpoints) hooks.checkpoints->begin_events(number, channels, traced->spec().readout);
-    run.events = [&](const std::vector<tally::EventRecord>& events) {
-      receiver.events(renumbering.applied(events));
-    };
-  }
+  detail::begin_events(*traced, renumbering, number, sink);
+  if (hooks.checkpoints) detail::begin_events(*traced, renumbering, number, *hooks.checkpoints);
   const bool complete = tracer(*traced, receiver, run);
   if (!receiver.total)
     receiver.total = renumbering.applied(tally::empty_sums(traced->scene(), traced->plan()));
   tally::PointResult result = finished_point(*receiver.total, outline_, number, complete);
-  static_cast<tally::PointFacts&>(result) = of_point.facts;
+  static_cast<tally::PointFacts&>(result) = traced->facts();
   sink.point(result, subjects);
   return result;
 }
 
+tally::BlockRange Simulation::blocks_left(std::size_t number, const SimulationHooks& hooks,
+                                          const Shard& shard) const {
+  tally::BlockRange blocks = blocks_of_point(blocks_of(shard, outline_), outline_, number);
+  if (hooks.checkpoints) blocks.first = hooks.checkpoints->next_block(number, blocks.first);
+  return blocks;
+}
+
 tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
-                                          const Shard& shard) {
+                                          const Shard& shard, detail::RankScheduler* ranks) {
+  const auto work_in = [this](const tally::PointSums& sums) {
+    return outline_.has_energy ? sums.energy.events : sums.counts.emitted;
+  };
   const auto tracer = [&](const SimulationPoint& ready, PointSink& receiver, RunHooks& run) {
-    tally::BlockRange blocks = blocks_of_point(blocks_of(shard, outline_), outline_, number);
-    const std::uint64_t last = blocks.last;
+    const tally::BlockRange blocks = blocks_left(number, hooks, shard);
+    const auto seal_when_due = [&] {
+      if (hooks.checkpoints && hooks.checkpoints->due()) hooks.checkpoints->seal();
+    };
     if (hooks.checkpoints) {
       hooks.checkpoints->replay(number, receiver);
-      blocks.first = hooks.checkpoints->next_block(number, blocks.first);
       receiver.also = hooks.checkpoints;
       run.range_ends = [&](const tally::BlockRange&) { return hooks.checkpoints->due(); };
       run.range = [&, pass_on = run.range](const tally::BlockRange& range, tally::PointSums sums) {
         pass_on(range, std::move(sums));
-        if (hooks.checkpoints->due()) hooks.checkpoints->seal();
+        seal_when_due();
       };
-      if (run.progress && receiver.total)
-        run.progress = [show = run.progress, before = outline_.has_energy ? receiver.total->energy.events
-                                                                          : receiver.total->counts.emitted](
-                           std::uint64_t done) { show(before + done); };
     }
-    return ready.trace(blocks, run).last == last;
+    std::uint64_t done = receiver.total ? work_in(*receiver.total) : 0;
+    if (ranks)
+      return ranks->collect(number, receiver, hooks.stop, [&](const RangeReader::Content& range) {
+        seal_when_due();
+        done += work_in(range.sums);
+        if (run.progress) run.progress(done);
+      });
+    if (run.progress && done > 0)
+      run.progress = [show = run.progress, done](std::uint64_t more) { show(done + more); };
+    return ready.trace(blocks, run).last == blocks.last;
   };
   return trace(number, tracer, sink, hooks, shard);
 }
@@ -325,16 +343,25 @@ tally::PointResult Simulation::run(std::size_t point, const MappedResponse& resp
 tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& hooks, const Shard& shard) {
   build(hooks);
   if (hooks.checkpoints) hooks.checkpoints->open(outline_, shard);
+  const std::unique_ptr<detail::RankScheduler> ranks = scheduler(hooks, shard);
   begin(sink, hooks, shard);
   const tally::BlockRange blocks = blocks_of(shard, outline_);
   tally::RunResult result;
   result.header = header();
   std::size_t ended = 0;
-  for (; ended < points() && !stopped(hooks); ++ended) {
-    if (shard.of > 1 && blocks_of_point(blocks, outline_, ended).count() == 0) continue;
-    result.points.push_back(run_blocks(ended, sink, hooks, shard));
-    release(ended);
-    if (!result.points.back().complete) break;
+  try {
+    for (; ended < points() && !stopped(hooks); ++ended) {
+      if (shard.of > 1 && blocks_of_point(blocks, outline_, ended).count() == 0) continue;
+      result.points.push_back(run_blocks(ended, sink, hooks, shard, ranks.get()));
+      release(ended);
+      if (!result.points.back().complete) break;
+    }
+  } catch (const std::bad_alloc&) {
+    seal_what_there_is(hooks);
+    throw out_of_memory("photons were traced and their results written", ended, points());
+  } catch (...) {
+    seal_what_there_is(hooks);
+    throw;
   }
   const bool complete = ended == points();
   if (!complete) result.partial_reason = kStopped;

@@ -25,6 +25,13 @@
 namespace scintray::simulation {
 
 class PointSink;
+class Ranks;
+
+namespace detail {
+class RankScheduler;
+struct RankJob;
+struct RankResult;
+}  // namespace detail
 
 /// RunResult::partial_reason of a run that SimulationHooks::stop ended.
 inline constexpr const char* kStopped = "stopped by the user";
@@ -42,6 +49,9 @@ struct SimulationHooks {
   const std::atomic<bool>* stop = nullptr;
   /// Keeps finished blocks of run_all(), and has those of an earlier run; null: none are kept.
   Checkpoints* checkpoints = nullptr;
+  /// Processes that compute run_all() together, of which this is rank 0 and the others are in serve(); null:
+  /// this one alone.
+  Ranks* ranks = nullptr;
 };
 
 /// Simulation of a scene with its sweep. Each point is built once (within
@@ -99,6 +109,9 @@ class Simulation {
   /// complete, and the sink is to be a RangeFile.
   tally::RunResult run_all(ResultSink& sink, const SimulationHooks& hooks = {}, const Shard& shard = {});
   tally::RunResult run_all(const SimulationHooks& hooks = {});
+  /// Traces what rank 0, which is in run_all(), hands out to this process, until it ends the run. To be
+  /// called within run_part(), as run_all() with ranks is.
+  void serve(Ranks& ranks, const SimulationHooks& hooks = {});
 
   /// Replays one photon of run(); `visit` is called for every step. Returns the photon as it ended.
   /// @throws InputError when there is no such photon
@@ -126,8 +139,16 @@ class Simulation {
                            const SimulationHooks& hooks, const Shard& shard);
   /// Result of the blocks of a point that belong to a shard; those among the checkpoints are taken from
   /// there.
+  /// @param ranks  that trace the others; null: this process alone does
   tally::PointResult run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
-                                const Shard& shard);
+                                const Shard& shard, detail::RankScheduler* ranks = nullptr);
+  /// Blocks of a point that belong to a shard and are not among the checkpoints.
+  tally::BlockRange blocks_left(std::size_t number, const SimulationHooks& hooks, const Shard& shard) const;
+  /// What hands the blocks of a run out to ranks; null for one process.
+  std::unique_ptr<detail::RankScheduler> scheduler(const SimulationHooks& hooks, const Shard& shard);
+  /// What traces jobs of a point; it may be called on another thread.
+  std::function<detail::RankResult(const detail::RankJob&, const std::atomic<bool>&)> job_tracer(
+      std::size_t number);
   SimulationProgress start_of(std::size_t number, const Shard& shard) const;
 
   std::optional<scene_file::SceneFile> file_;

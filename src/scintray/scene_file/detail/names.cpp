@@ -63,6 +63,10 @@ void expect_plain_name(const config::TomlTable& table, const std::string& key, c
 std::uint64_t positive_count(const config::TomlTable& table, const std::string& key, std::int64_t value) {
   table.expect(key, value > 0, "\"" + key + "\" is " + std::to_string(value) + ", but at least 1 is expected",
                "give a positive integer");
+  constexpr std::int64_t kMost = 1'000'000'000'000'000;
+  table.expect(key, value <= kMost,
+               "\"" + key + "\" is " + std::to_string(value) + ", but at most 1e15 is expected",
+               "no run of more would end");
   return value > 0 ? static_cast<std::uint64_t>(value) : 1;
 }
 

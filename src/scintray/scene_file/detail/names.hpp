@@ -28,7 +28,7 @@ void expect_part(const config::TomlTable& table, const std::string& key, const c
 void expect_parts(const config::TomlTable& table, const std::string& key, const config::NameRef& pattern,
                   const std::vector<std::string>& parts);
 
-/// The value of an integer key; a value below 1 is reported and replaced by 1.
+/// The value of an integer key, from 1 to 1e15; another is reported, and a value below 1 replaced by 1.
 std::uint64_t positive_count(const config::TomlTable& table, const std::string& key, std::int64_t value);
 
 }  // namespace scintray::scene_file

@@ -1,0 +1,185 @@
+#include "own_entries.hpp"
+
+#include <iterator>
+
+#include "require.hpp"
+#include "scintray/core/error.hpp"
+#include "scintray/results/results.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/range_file.hpp"
+#include "scintray/simulation/response.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
+#include "scratch_file.hpp"
+
+namespace scintray::fuzz {
+
+namespace {
+
+const char* const kScene = R"(
+title = "A crystal"
+ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO"
+surface = "polished"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "R6231"
+)";
+const char* const kPhotons = R"(
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "emission"
+time = "decay"
+photons = 60
+photons_per_event = 20
+[run]
+photon_list = true
+photon_history = true
+[[tally]]
+type = "count"
+name = "path"
+at = "detected"
+score = "path"
+axes = [{ variable = "time", from = "0 ns", to = "200 ns", bins = 20 }]
+)";
+const char* const kEvents = R"(
+[source]
+type = "gamma_events"
+events = 3
+region = { part = "crystal" }
+energy = "5 keV"
+[readout]
+period = "0.5 ns"
+before = "5 ns"
+window = "20 ns"
+shaping = { order = 1, time_constant = "5 ns" }
+threshold = 1
+pulses = true
+photon_order = [1, 3]
+)";
+
+std::vector<std::string> scene_seeds() {
+  return {std::string(kScene) + kPhotons, std::string(kScene) + kEvents,
+          std::string(kScene) + kPhotons + "[[sweep]]\nkey = \"source.photons\"\nvalues = [60, 70]\n"};
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What `write` puts at a path, without the seal of HDF5 files.
+template <typename Write>
+std::string written(const char* ending, const Write& write) {
+  const ScratchFile file(nullptr, 0, ending);
+  std::filesystem::remove(file.path());  // results are not written over what is none
+  write(file.path());
+  const std::string bytes = content_of(file.path());
+  return bytes.substr(0, bytes.rfind("\nScintRay seal"));
+}
+
+/// Files of the two scenes, written by a sink.
+template <typename Sink>
+std::vector<std::string> files_of(const char* ending) {
+  std::vector<std::string> files;
+  for (const char* source : {kPhotons, kEvents})
+    files.push_back(written(ending, [&](const std::filesystem::path& path) {
+      Sink sink(path);
+      simulation::Simulation(scene_file::SceneFile::from_text(std::string(kScene) + source, "scene.toml"))
+          .run_all(sink);
+    }));
+  return files;
+}
+
+std::vector<std::string> range_seeds() { return files_of<simulation::RangeFile>(".shard"); }
+std::vector<std::string> results_seeds() { return files_of<simulation::ResultsFile>(".h5"); }
+
+std::vector<std::string> response_seeds() {
+  simulation::ResponseFile file;
+  file.version = "1.2.3";
+  file.scene_file = "scene.toml";
+  file.scene_text = kScene;
+  file.map.channels = {"pmt", "other"};
+  file.map.photons_per_cell = 50;
+  file.map.delays_kept = 3;
+  simulation::ResponseGrid grid;
+  grid.part = "crystal";
+  grid.low = core::Vec3(-1, -1, 0);
+  grid.pitch = core::Vec3(2, 1, 4);
+  grid.cells = {1, 2, 1};
+  grid.photons = {50, 0};
+  grid.detected = {20, 2, 0, 0};
+  grid.delays_ns = {0.1f, 0.2f, 0.3f, 1.5f, 2.5f};
+  file.map.grids = {grid};
+  return {written(".h5", [&](const std::filesystem::path& path) { write_response(path, file); })};
+}
+
+/// Reads, and checks that what is refused is so with words.
+template <typename Read>
+bool read_or_input_error(const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const core::InputError& error) {
+    require(!error.problems().empty() && !error.problems().front().what.empty(), "an error without words");
+    return false;
+  } catch (const core::SystemError&) {  // as HDF5 cannot read what is there
+    return false;
+  }
+}
+
+bool run_scene(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  return read_or_input_error([&] { scene_file::SceneFile::from_text(text, "fuzz"); });
+}
+
+bool run_ranges(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".shard");
+  return read_or_input_error([&] {
+    simulation::MemorySink memory;
+    simulation::merge_ranges({file.path()}, memory, true);
+  });
+}
+
+bool run_results(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".h5");
+  std::size_t points = 0;
+  const bool read = read_or_input_error([&] { points = results::read_results(file.path()).points.size(); });
+  read_or_input_error([&] { results::read_photons(file.path(), 0, 1000); });
+  read_or_input_error([&] { results::read_surfaces(file.path()); });
+  for (std::size_t point = 0; point < points; ++point)
+    read_or_input_error([&] { results::read_channels(file.path(), point); });
+  read_or_input_error([&] { results::read_photon_order(file.path()); });
+  read_or_input_error([&] { results::read_events(file.path(), 0, 1000); });
+  return read;
+}
+
+bool run_response(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".h5");
+  return read_or_input_error([&] { simulation::read_response(file.path()); });
+}
+
+/// Sums of tallies are stored sparsely: a few bytes are a tally of as many bins as may be.
+constexpr std::size_t kPerByte = 4096, kAlways = std::size_t{1} << 30;
+
+constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerByte, kAlways},
+                                 {"ranges", run_ranges, range_seeds, kPerByte, kAlways},
+                                 {"results", run_results, results_seeds, kPerByte, kAlways},
+                                 {"response", run_response, response_seeds, kPerByte, kAlways}};
+
+}  // namespace
+
+std::span<const Entry> own_entries() { return kOwnEntries; }
+
+}  // namespace scintray::fuzz

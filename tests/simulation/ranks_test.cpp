@@ -1,0 +1,187 @@
+// A run by several ranks: the same results, the errors of each, and what a stop leaves.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "scenes.hpp"
+#include "scintray/core/cancelled.hpp"
+#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/ranks.hpp"
+#include "scintray/simulation/simulation.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::simulation;
+using namespace scintray::test;
+
+namespace {
+
+/// Messages between threads that stand for processes.
+class Exchange {
+ public:
+  explicit Exchange(int size) : boxes_(static_cast<std::size_t>(size)) {}
+  int size() const { return static_cast<int>(boxes_.size()); }
+
+  void put(int to, Ranks::Message message) {
+    const std::lock_guard lock(mutex_);
+    boxes_[static_cast<std::size_t>(to)].push_back(std::move(message));
+  }
+  std::optional<Ranks::Message> take(int of) {
+    const std::lock_guard lock(mutex_);
+    auto& box = boxes_[static_cast<std::size_t>(of)];
+    if (box.empty()) return std::nullopt;
+    Ranks::Message message = std::move(box.front());
+    box.pop_front();
+    return message;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::deque<Ranks::Message>> boxes_;
+};
+
+class ThreadRanks : public Ranks {
+ public:
+  ThreadRanks(Exchange& exchange, int rank) : exchange_(exchange), rank_(rank) {}
+  int rank() const override { return rank_; }
+  int size() const override { return exchange_.size(); }
+  void send(int to, std::string bytes) override { exchange_.put(to, {rank_, std::move(bytes)}); }
+  std::optional<Message> receive() override { return exchange_.take(rank_); }
+  void close() override { closed = true; }
+
+  bool closed = false;
+
+ private:
+  Exchange& exchange_;
+  int rank_;
+};
+
+/// The simulation of each rank: the same, unless a test makes one differ.
+using MakeSimulation = std::function<Simulation(int rank)>;
+
+/// Runs all ranks, each in a thread; an exception of rank 0 is thrown here.
+void run_ranks(int count, const MakeSimulation& make, ResultSink& sink, SimulationHooks hooks = {}) {
+  Exchange exchange(count);
+  std::vector<std::thread> others;
+  std::atomic<int> closed{0};
+  for (int rank = 1; rank < count; ++rank)
+    others.emplace_back([&, rank] {
+      ThreadRanks ranks(exchange, rank);
+      run_part(ranks, [&] { make(rank).serve(ranks); });
+      closed += ranks.closed ? 1 : 0;
+    });
+  ThreadRanks ranks(exchange, 0);
+  hooks.ranks = &ranks;
+  std::exception_ptr failure;
+  try {
+    run_part(ranks, [&] { make(0).run_all(sink, hooks); });
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  for (std::thread& other : others) other.join();
+  CHECK(closed == count - 1);
+  CHECK(ranks.closed);
+  if (failure) std::rethrow_exception(failure);
+}
+
+Simulation simulation_of(const std::string& scene, std::uint64_t photons = 0) {
+  SimulationOptions options;
+  options.threads = 2;
+  if (photons > 0) options.photons = photons;
+  return Simulation(scene_of(scene), options);
+}
+
+void check_same(const MemorySink& a, const MemorySink& b) {
+  REQUIRE(a.result.points.size() == b.result.points.size());
+  REQUIRE(a.photon_list.size() == b.photon_list.size());
+  for (std::size_t i = 0; i < a.photon_list.size(); ++i) {
+    CHECK(a.photon_list[i].photon == b.photon_list[i].photon);
+    CHECK(a.photon_list[i].time_ns == b.photon_list[i].time_ns);
+  }
+  for (std::size_t i = 0; i < a.result.points.size(); ++i) {
+    const tally::PointResult &x = a.result.points[i], &y = b.result.points[i];
+    CHECK(x.fates == y.fates);
+    CHECK(x.complete == y.complete);
+    CHECK(x.photons_requested == y.photons_requested);
+    CHECK(x.detected_time_ns.sum == y.detected_time_ns.sum);
+    CHECK(x.detected_time_ns.sum_of_squares == y.detected_time_ns.sum_of_squares);
+    CHECK(x.energy.events == y.energy.events);
+    CHECK(x.energy.deposited == y.energy.deposited);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("1, 2, 3 and 5 ranks make the results of one process, of photons and of events") {
+  const std::string rows = "[run]\nphoton_list = true\n";
+  for (const std::string& scene : {kCrystal + kPhotons + rows + kSurfaceSweep, kCrystal + kEvents}) {
+    const bool photons = scene.find("photon_list") != std::string::npos;
+    MemorySink alone;
+    simulation_of(scene, photons ? 30'500 : 0).run_all(alone);
+    for (const int count : {1, 2, 3, 5}) {
+      CAPTURE(count);
+      MemorySink together;
+      run_ranks(
+          count, [&](int) { return simulation_of(scene, photons ? 30'500 : 0); }, together);
+      CHECK(together.result.complete());
+      check_same(alone, together);
+    }
+  }
+}
+
+TEST_CASE("The error of a rank is that of the run, with the number of the rank") {
+  const std::string scene = kCrystal + kPhotons;
+  MemorySink nothing;
+  const auto message_of = [&](const MakeSimulation& make) -> std::string {
+    try {
+      run_ranks(3, make, nothing);
+    } catch (const InputError& error) {
+      return error.problems().front().what;
+    } catch (const SystemError& error) {
+      return std::string("system: ") + error.what();
+    }
+    return "";
+  };
+  CHECK(contains(
+      message_of([&](int rank) { return simulation_of(rank == 2 ? scene + "[run]\nx = 1\n" : scene); }),
+      "rank 2: "));
+  CHECK(contains(message_of([&](int rank) { return simulation_of(scene, rank == 1 ? 210'000 : 200'000); }),
+                 "rank 1 would compute another run: there are 210000 photons"));
+  CHECK(message_of([&](int rank) -> Simulation {
+          if (rank == 1) throw SystemError("the disk is gone");
+          return simulation_of(scene);
+        }) == "system: rank 1: the disk is gone");
+  // The error of rank 0 is its own.
+  CHECK(contains(message_of([&](int) { return simulation_of(scene + "[run]\nx = 1\n"); }), "x"));
+}
+
+TEST_CASE("A stop ends all ranks, and the run is resumed by ranks to the same results") {
+  const std::string scene = kCrystal + kPhotons + "[run]\nphoton_list = true\n";
+  const auto make = [&](int) { return simulation_of(scene, 200'000); };
+  const CheckpointSettings settings{scratch_folder("ranks_stop") / "checkpoints",
+                                    std::chrono::milliseconds(0), Resume::resume};
+  MemorySink part, rest, alone;
+  {
+    Checkpoints checkpoints(settings);
+    std::atomic<bool> stop{false};
+    SimulationHooks hooks;
+    hooks.checkpoints = &checkpoints;
+    hooks.stop = &stop;
+    hooks.progress = [&](const SimulationProgress& progress) { stop = stop || progress.done > 20'000; };
+    run_ranks(3, make, part, hooks);
+  }
+  CHECK_FALSE(part.result.complete());
+  CHECK(part.result.partial_reason == kStopped);
+  CHECK(part.result.points.at(0).emitted > 20'000);
+  CHECK(part.result.points.at(0).emitted < 200'000);
+  Checkpoints checkpoints(settings);
+  SimulationHooks hooks;
+  hooks.checkpoints = &checkpoints;
+  run_ranks(2, make, rest, hooks);
+  make(0).run_all(alone);
+  check_same(alone, rest);
+}
