@@ -266,6 +266,9 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
   put(group, "resolved_misses", point.resolved_misses);
   put(group, "lost", point.lost);
   put(group, "wall_seconds", point.wall_seconds);
+}
+
+void put_point_facts(core::h5::Group& group, const tally::PointResult& point) {
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
   if (point.light_timing) put_light_timing(group, *point.light_timing);
   if (point.omitted) put_omitted(group, *point.omitted);

@@ -23,6 +23,10 @@ struct PointNames {
 /// Writes the parameters, counts and sums of a point.
 void put_point(core::h5::Group& group, const tally::PointResult& point, const PointNames& names);
 
+/// Writes what some points have: the energy of their events, the timing of their light, and the effects that
+/// their numbers omit.
+void put_point_facts(core::h5::Group& group, const tally::PointResult& point);
+
 /// Writes the group analysis of a point.
 void put_event_analysis(core::h5::Group& point, const analysis::EventAnalysis& analysis,
                         const core::IdVector<core::PartId, std::string>& parts);

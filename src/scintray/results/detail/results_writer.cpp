@@ -218,6 +218,7 @@ void ResultsWriter::add_point(const tally::PointResult& point, const tally::Hist
   core::h5::Group group = state_->points.create_group(format::numbered(number));
   format::put_point(group, point, state_->names);
   if (state_->histories && history) state_->histories->describe_point(group, *history);
+  format::put_point_facts(group, point);
   if (analysis) format::put_event_analysis(group, *analysis, state_->names.parts);
   if (const auto channels = state_->channels.find(number); channels != state_->channels.end()) {
     format::put_channels(group, channels->second);
