@@ -18,6 +18,7 @@ namespace scintray::cli {
   ADD(check)                   \
   ADD(view)                    \
   ADD(import)                  \
+  ADD(export)                  \
   ADD(repair)                  \
   ADD(report)                  \
   ADD(analyze)                 \
