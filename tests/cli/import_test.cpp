@@ -63,6 +63,16 @@ TEST_CASE("import makes a part of each body, and check names what is left to fil
   check_contains(checked, 1, "has no \"ambient\"");
 }
 
+TEST_CASE("export writes a scene as GDML that import reads, and refuses other endings") {
+  const auto folder = scratch_folder("cli_export");
+  write(folder / "d.gdml", gdml_solid(R"(<box name="it" x="1" y="1" z="1"/>)").text());
+  REQUIRE(run_program({"import", "d.gdml", "-o", "one.toml"}, folder).exit_code == 0);
+  check_contains(run_program({"export", "one.toml", "-o", "one.gdml"}, folder), 0, "wrote one.gdml");
+  check_contains(run_program({"import", "one.gdml", "-o", "two.toml"}, folder), 0, "wrote two.toml");
+  check_contains(run_program({"check", "two.toml"}, folder), 0, "no errors");
+  check_contains(run_program({"export", "one.toml", "-o", "one.step"}, folder), 1, {"one.step", ".gdml"});
+}
+
 TEST_CASE("import explains options that do not fit") {
   const auto folder = scratch_folder("cli_import_options");
   write(folder / "two.obj", kTwoBodies);
@@ -78,7 +88,9 @@ TEST_CASE("import explains options that do not fit") {
                  {"0.1", "90 deg"});
   write(folder / "Surfaces.xml", "<surfaces/>");
   check_contains(run_program({"import", "Surfaces.xml", "-o", "x"}, folder), 1,
-                 {"[surfaces.NAME]", "docs/surfaces.md"});
+                 {"Surfaces.xml", "no entries", "<surface name="});
+  write(folder / "Materials.db", "[Elements]\n");
+  check_contains(run_program({"import", "Materials.db", "-o", "x"}, folder), 1, {"Materials.db", ".mac"});
   check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "mesh file not found");
   CHECK_FALSE(std::filesystem::exists(folder / "x"));
 }

@@ -123,6 +123,38 @@ TEST_CASE("GDML: nested and repeated volumes, assemblies, replicas, loops and mi
   CHECK(built(scene).parts.size() == spec.parts.size());
 }
 
+TEST_CASE("GDML: replicas about z and divisions of a box lie where Geant4 has them") {
+  GdmlText text;
+  text.solids = R"(<box name="slab" x="12" y="3" z="3"/><box name="piece" x="3" y="3" z="3"/>
+<tube name="ring" rmin="5" rmax="8" z="3" deltaphi="360" aunit="deg"/>
+<tube name="sector" rmin="5" rmax="8" z="3" startphi="-45" deltaphi="90" aunit="deg"/>)";
+  text.structure = gdml_volume("piece_v", "piece") + gdml_volume("sector_v", "sector") +
+                   gdml_volume("slab_v", "slab", "Vacuum",
+                               R"(<divisionvol axis="kXAxis" number="3" width="3" offset="3" unit="mm">
+<volumeref ref="piece_v"/></divisionvol>)") +
+                   gdml_volume("ring_v", "ring", "Vacuum",
+                               R"(<replicavol number="4"><volumeref ref="sector_v"/><replicate_along_axis>
+<direction phi="1"/><width value="90" unit="deg"/><offset value="0" unit="deg"/></replicate_along_axis></replicavol>)");
+  text.daughters = gdml_placed("s", "slab_v") + gdml_placed("r", "ring_v", R"(<position z="20"/>)");
+  const SceneSpec spec = written(draft(text));
+  REQUIRE(spec.parts.size() == 2 + 3 + 4);
+  const auto part = [&](const char* name) {
+    return *std::find_if(spec.parts.begin(), spec.parts.end(),
+                         [&](const PartSpec& known) { return known.name.name == name; });
+  };
+  CHECK(part("piece_v_0").placement.translate.isApprox(Vec3(-1.5, 0, 0)));
+  CHECK(part("piece_v_2").placement.translate.isApprox(Vec3(4.5, 0, 0)));
+  const RotationSpec& turn = part("sector_v_1").placement.rotate.at(0);
+  CHECK(turn.axis.z() * turn.angle_rad == doctest::Approx(135.0 * kDegree));
+  CHECK(built(draft(text)).parts.size() == 9);
+  std::string wrong = text.structure;
+  text.structure.replace(text.structure.find("width=\"3\""), 9, "width=\"2\"");
+  check_contains(complaint(text), {"2.000000 mm wide", "3.000000 mm", "give the solid that length"});
+  text.structure = wrong;
+  text.structure.replace(text.structure.find("kXAxis"), 6, "kPhi");
+  check_contains(complaint(text), {"divisions other than along kXAxis"});
+}
+
 TEST_CASE(
     "GDML: materials become media; energies become wavelengths, per-energy spectra per-wavelength ones") {
   GdmlText text = gdml_solid(R"(<box name="it" x="10" y="2" z="2"/>)");

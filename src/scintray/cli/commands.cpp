@@ -19,6 +19,7 @@ namespace scintray::cli {
   ADD(check)                   \
   ADD(view)                    \
   ADD(import)                  \
+  ADD(export)                  \
   ADD(repair)                  \
   ADD(report)                  \
   ADD(analyze)                 \

@@ -46,42 +46,52 @@ mesh::Tessellation tessellation_of(const SceneImportArguments& arguments) {
   return tessellation;
 }
 
-/// Refuses files of Geant4 and GATE that hold no geometry.
+/// Refuses files that hold neither geometry nor definitions of a kind that is read.
 void refuse_other_files(const std::filesystem::path& file) {
   const std::string extension = mesh::lower_extension(file);
-  if (extension != ".xml" && extension != ".mac" && extension != ".db" && extension != ".toml") return;
-  throw core::InputError(core::Problem{
-      {file.string()},
-      extension == ".toml" ? "this is a scene already" : "this file holds no geometry that can be imported",
-      extension == ".toml"
-          ? "inspect it with: scintray check " + file.string()
-          : "geometry is imported from GDML, STEP and mesh files. Surfaces and materials of Geant4 and GATE "
-            "(Surfaces.xml, Materials.xml, GateMaterials.db) are written in the scene: [surfaces.NAME] with "
-            "base = "
-            "\"geant4_ground\" or another finish (docs/surfaces.md), [media.NAME] (docs/materials.md)"});
+  if (extension == ".toml")
+    throw core::InputError(core::Problem{
+        {file.string()}, "this is a scene already", "inspect it with: scintray check " + file.string()});
+  if (extension == ".db")
+    throw core::InputError(
+        core::Problem{{file.string()},
+                      "a material database of GATE holds densities and compositions alone",
+                      "import the macro (.mac) that names it, with Materials.xml beside it"});
+}
+
+/// A draft of a file of Geant4 or GATE.
+exchange::SceneDraft draft_of_detector(const SceneImportArguments& arguments,
+                                       const std::filesystem::path& scene) {
+  if (!arguments.unit.empty())
+    throw core::InputError(core::Problem{
+        {}, "--unit with a GDML file or a file of GATE", "remove it: its solids state their units"});
+  const exchange::gdml::GdmlImport options{.tessellation = tessellation_of(arguments),
+                                           .media = pairs("--medium", arguments.media),
+                                           .surfaces = pairs("--surface", arguments.surfaces),
+                                           .skip_unsupported = arguments.skip_unsupported,
+                                           .mesh_folder = scene.stem().string() + "_meshes",
+                                           .notes = {}};
+  const std::string extension = mesh::lower_extension(arguments.file);
+  if (extension == ".mac") return exchange::gate::draft_of_gate(arguments.file, options);
+  if (extension == ".xml") return exchange::gate::definitions_of_gate(arguments.file, options);
+  return exchange::gdml::draft_of_gdml(mesh::read_mesh_file(arguments.file), arguments.file.string(),
+                                       options);
 }
 
 exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::filesystem::path& scene) {
   refuse_other_files(arguments.file);
-  const mesh::Tessellation tessellation = tessellation_of(arguments);
-  if (mesh::lower_extension(arguments.file) == ".gdml") {
-    if (!arguments.unit.empty())
-      throw core::InputError(
-          core::Problem{{}, "--unit with a GDML file", "remove it: its solids state their units"});
-    const exchange::gdml::GdmlImport options{tessellation, pairs("--medium", arguments.media),
-                                             pairs("--surface", arguments.surfaces),
-                                             arguments.skip_unsupported, scene.stem().string() + "_meshes"};
-    return exchange::gdml::draft_of_gdml(mesh::read_mesh_file(arguments.file), arguments.file.string(),
-                                         options);
-  }
+  const std::string extension = mesh::lower_extension(arguments.file);
+  if (extension == ".gdml" || extension == ".mac" || extension == ".xml")
+    return draft_of_detector(arguments, scene);
   if (!arguments.media.empty() || !arguments.surfaces.empty() || arguments.skip_unsupported)
-    throw core::InputError(core::Problem{{},
-                                         "--medium, --surface and --skip-unsupported are for GDML files",
-                                         "fill in the media and surfaces in the scene that is written"});
+    throw core::InputError(
+        core::Problem{{},
+                      "--medium, --surface and --skip-unsupported are for GDML files and macros of GATE",
+                      "fill in the media and surfaces in the scene that is written"});
   const auto folder = std::filesystem::absolute(scene).parent_path();
-  return exchange::draft_of_model(
-      arguments.file,
-      {arguments.unit, tessellation, std::filesystem::absolute(arguments.file).lexically_relative(folder)});
+  return exchange::draft_of_model(arguments.file,
+                                  {arguments.unit, tessellation_of(arguments),
+                                   std::filesystem::absolute(arguments.file).lexically_relative(folder)});
 }
 
 void import_scene(const SceneImportArguments& arguments) {
@@ -92,7 +102,9 @@ void import_scene(const SceneImportArguments& arguments) {
   std::cout << "wrote " << scene.string();
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
   std::cout << "\n";
-  if (draft.toml.find("\n[[part]]") == std::string::npos && !draft.toml.starts_with("[[part]]"))
+  const bool definitions_only = draft.toml.find("\n[source]") == std::string::npos && !draft.missing.empty();
+  if (!definitions_only && draft.toml.find("\n[[part]]") == std::string::npos &&
+      !draft.toml.starts_with("[[part]]"))
     std::cout
         << "the scene has no parts: no volume of the file is bounded by a surface that light reaches, as "
            "materials without RINDEX are opaque; give transparent ones a medium with "
@@ -107,8 +119,11 @@ void import_scene(const SceneImportArguments& arguments) {
 void add_import_command(CLI::App& app) {
   auto arguments = std::make_shared<SceneImportArguments>();
   CLI::App* command = app.add_subcommand(
-      "import", "Write a scene from a GDML file, or from the bodies of a CAD or mesh file");
-  command->add_option("FILE", arguments->file, "GDML, STEP, glTF, 3MF, COLLADA, OBJ, STL, PLY or OFF file")
+      "import", "Write a scene from a GDML file, a macro of GATE, or the bodies of a CAD or mesh file");
+  command
+      ->add_option("FILE", arguments->file,
+                   "GDML, STEP, glTF, 3MF, COLLADA, OBJ, STL, PLY or OFF file; GATE macro (.mac), "
+                   "Materials.xml or Surfaces.xml")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -119,10 +134,11 @@ void add_import_command(CLI::App& app) {
                       "Largest distance of triangles from curved faces (default: \"0.01 mm\")");
   command->add_option("--angle", arguments->angle,
                       "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
-  command->add_option("--medium", arguments->media,
-                      "GDML: use this medium of the database for a material, as Air=air; may be repeated");
+  command->add_option(
+      "--medium", arguments->media,
+      "GDML, GATE: use this medium of the database for a material, as Air=air; may be repeated");
   command->add_option("--surface", arguments->surfaces,
-                      "GDML: use this surface of the database for an optical surface; may be repeated");
+                      "GDML, GATE: use this surface of the database for an optical surface; may be repeated");
   command->add_flag("--skip-unsupported", arguments->skip_unsupported,
                     "GDML: leave out volumes whose solid is not supported, instead of stopping");
   command->callback([arguments] { import_scene(*arguments); });

@@ -9,6 +9,10 @@
 #include "scintray/mesh/tessellation.hpp"
 #include "scintray/mesh/trimesh.hpp"
 
+namespace scintray::scene {
+struct BuiltScene;
+}
+
 namespace scintray::exchange {
 
 /// A scene file's text and the meshes that it names, not yet written.
@@ -54,6 +58,11 @@ struct GdmlImport {
   std::map<std::string, std::string> surfaces;  ///< database surface for an optical surface of the file
   bool skip_unsupported = false;      ///< leave out volumes whose solid is not supported, with a note
   std::filesystem::path mesh_folder;  ///< of the meshes, from the scene's folder
+  /// Elements state the file, line and column that they were made from, in the attribute `origin`.
+  bool stated_origins = false;
+  std::vector<std::string> notes;  ///< what was not carried over, found before
+  /// The example source lies in all copies of its volume, where a pattern names these and no other parts.
+  bool light_in_all_copies = false;
 };
 
 /// A scene of the whole detector of a GDML file: a part for each placed volume, the world's material around
@@ -66,4 +75,36 @@ struct GdmlImport {
 /// Throws InputError as GdmlFile, Definitions, Solids, the materials and the structure.
 SceneDraft draft_of_gdml(const std::string& content, const std::string& file, const GdmlImport& options);
 
+/// The [media] and [surfaces] of all materials and optical surfaces of a file, without a scene around them.
+SceneDraft definitions_of_gdml(const std::string& content, const std::string& file,
+                               const GdmlImport& options);
+
+/// A GDML document, and what of the scene it does not hold, with the effect.
+struct GdmlExport {
+  std::string text;
+  std::vector<std::string> notes;
+};
+
+/// A scene as a GDML document for Geant4 11: a tessellated solid for each part, nested as in the scene,
+/// materials with their tables, compositions and densities, and border surfaces for light of each direction.
+///
+/// A sensor is a body of its window's index that holds one a thousandth smaller, whose surface absorbs all
+/// light and has the efficiency as EFFICIENCY. Tables cover the wavelengths in use.
+GdmlExport export_gdml(const scene::BuiltScene& scene);
+
 }  // namespace scintray::exchange::gdml
+
+namespace scintray::exchange::gate {
+
+/// A scene of the detector that a macro of GATE 9 describes: boxes, cylinders, spheres and cones, their
+/// placements and repeaters (cubicArray, linear, ring, genericRepeater), materials of GateMaterials.db with
+/// the properties of Materials.xml, and surfaces of Surfaces.xml between volumes, for light of one direction.
+/// The two .xml lie beside the macro, or in the folder above. The detector becomes the GDML document that
+/// Geant4 would have, and the scene is made as draft_of_gdml makes it.
+/// Throws InputError with all problems: their file, line, and what to do.
+SceneDraft draft_of_gate(const std::filesystem::path& macro, gdml::GdmlImport options);
+
+/// The [media] of a Materials.xml, or the [surfaces] of a Surfaces.xml, of GATE 9 or 10.
+SceneDraft definitions_of_gate(const std::filesystem::path& file, gdml::GdmlImport options);
+
+}  // namespace scintray::exchange::gate

@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/gdml/detail/optical.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
@@ -18,6 +19,10 @@ namespace {
 
 std::string lengths(const core::Vec3& mm) {
   return fmt::format("[\"{:.17g} mm\", \"{:.17g} mm\", \"{:.17g} mm\"]", mm.x(), mm.y(), mm.z());
+}
+
+Origins origins_of(const GdmlImport& options) {
+  return options.stated_origins ? Origins::stated : Origins::own;
 }
 
 bool is_identity(const Eigen::Matrix3d& rotation) { return rotation.isIdentity(1e-14); }
@@ -42,6 +47,7 @@ class SceneMaker {
     SceneDraft& draft = draft_;
     for (const std::string& differs : definitions_.notes()) note(differs);
     for (const std::string& note : structure_.notes) draft.notes.push_back(note);
+    for (const std::string& before : options_.notes) note(before);
     const std::string source_table = source();
     std::string notes;
     for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
@@ -300,6 +306,23 @@ class SceneMaker {
     return text;
   }
 
+  /// A pattern that the names of all parts of the volume of a part match, and no others; else its name.
+  std::string pattern_of_copies(std::size_t part) const {
+    std::string common = names_[part];
+    const auto is_copy = [&](std::size_t i) {
+      return structure_.placed[i].volume == structure_.placed[part].volume && !left_out_[i];
+    };
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (is_copy(i))
+        common.resize(static_cast<std::size_t>(
+            std::mismatch(common.begin(), common.end(), names_[i].begin(), names_[i].end()).first -
+            common.begin()));
+    common += "*";
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (core::matches_pattern(common, names_[i]) != is_copy(i)) return names_[part];
+    return common;
+  }
+
   std::string source() {
     for (const PlacedVolume& placed : structure_.placed)
       if (const ImportedMedium* medium = find_medium(placed.material);
@@ -317,8 +340,9 @@ class SceneMaker {
           continue;
         const std::string wavelength = scintillating ? "emission" : "420 nm";
         return "\n[source]  # an example: a GDML file has none\ntype = \"photons\"\nregion = { part = " +
-               toml_string(names_[i]) + " }\nwavelength = \"" + wavelength + "\"\n" +
-               (scintillating ? "time = \"decay\"\n" : "") + "photons = 10_000\n";
+               toml_string(options_.light_in_all_copies ? pattern_of_copies(i) : names_[i]) +
+               " }\nwavelength = \"" + wavelength + "\"\n" + (scintillating ? "time = \"decay\"\n" : "") +
+               "photons = 10_000\n";
       }
     draft_.missing.push_back(
         "[source]: no volume has a material with RINDEX for light to start in; give its materials media with "
@@ -345,7 +369,7 @@ class SceneMaker {
 }  // namespace
 
 SceneDraft draft_of_gdml(const std::string& content, const std::string& file, const GdmlImport& options) {
-  const GdmlFile gdml(content, file);
+  const GdmlFile gdml(content, file, origins_of(options));
   return SceneMaker(gdml, options).make(std::filesystem::path(file).filename().string());
 }
 

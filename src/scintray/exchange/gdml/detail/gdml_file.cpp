@@ -1,6 +1,7 @@
 #include "scintray/exchange/gdml/detail/gdml_file.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "scintray/mesh/import/file_checks.hpp"
 
@@ -23,10 +24,21 @@ core::FileLocation location(const std::string& file, const std::vector<std::size
   return {file, static_cast<long>(next - starts.begin()), static_cast<long>(at - *(next - 1)) + 1};
 }
 
+/// The place "file:line:column".
+core::FileLocation stated_place(const std::string& text) {
+  const std::size_t column = text.rfind(':');
+  const std::size_t line = column == std::string::npos ? column : text.rfind(':', column - 1);
+  if (line == std::string::npos) return {text, 0, 0};
+  return {text.substr(0, line), std::atol(text.c_str() + line + 1), std::atol(text.c_str() + column + 1)};
+}
+
 }  // namespace
 
-GdmlFile::GdmlFile(std::string content, std::string file)
-    : content_(std::move(content)), file_(std::move(file)), line_starts_(starts_of_lines(content_)) {
+GdmlFile::GdmlFile(std::string content, std::string file, Origins origins)
+    : content_(std::move(content)),
+      file_(std::move(file)),
+      origins_(origins),
+      line_starts_(starts_of_lines(content_)) {
   if (mesh::xml_depth(content_) > mesh::kDeepestNesting)
     throw core::InputError(core::Problem{{file_}, "XML elements are nested more than 500 deep", ""});
   if (const std::size_t entity = content_.find("<!ENTITY"); entity != std::string::npos)
@@ -50,6 +62,11 @@ GdmlFile::GdmlFile(std::string content, std::string file)
 Node GdmlFile::section(const char* name) const { return document_.document_element().child(name); }
 
 core::FileLocation GdmlFile::where(Node node) const {
+  if (origins_ == Origins::stated) {
+    for (Node element = node; element; element = element.parent())
+      if (const pugi::xml_attribute origin = element.attribute("origin")) return stated_place(origin.value());
+    return {file_, 0, 0};
+  }
   return location(file_, line_starts_, node ? node.offset_debug() : -1);
 }
 

@@ -12,13 +12,19 @@ namespace scintray::exchange::gdml {
 
 using Node = pugi::xml_node;
 
+/// Where elements come from, for messages.
+enum class Origins {
+  own,     ///< the place in the file
+  stated,  ///< "file:line:column" in the attribute `origin` of the element or of one around it
+};
+
 /// A parsed file.
 class GdmlFile {
  public:
   /// Parses the content; `file` is the name for messages. Throws InputError for XML that is not well-formed
   /// or is nested more than 500 deep, for entities that include other files, and for a document without
   /// <solids> and <structure>.
-  GdmlFile(std::string content, std::string file);
+  GdmlFile(std::string content, std::string file, Origins origins = Origins::own);
 
   /// A section of the document (define, materials, solids, structure, setup); empty when it is absent.
   Node section(const char* name) const;
@@ -31,6 +37,7 @@ class GdmlFile {
 
  private:
   std::string content_, file_;
+  Origins origins_;
   pugi::xml_document document_;
   std::vector<std::size_t> line_starts_;
 };

@@ -1,5 +1,6 @@
 #include "scintray/exchange/gdml/detail/structure.hpp"
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -11,11 +12,11 @@ namespace scintray::exchange::gdml {
 namespace {
 
 /// Kinds of the elements of <structure> and of a volume.
-enum class Element { volume, assembly, skin, border, placement, replica, division };
+enum class Element { volume, assembly, skin, border, placement, replica, division, parameterised };
 constexpr core::Word<Element> kElements[] = {
-    {"volume", Element::volume},        {"assembly", Element::assembly}, {"skinsurface", Element::skin},
-    {"bordersurface", Element::border}, {"physvol", Element::placement}, {"replicavol", Element::replica},
-    {"divisionvol", Element::division}, {"paramvol", Element::division}};
+    {"volume", Element::volume},        {"assembly", Element::assembly},     {"skinsurface", Element::skin},
+    {"bordersurface", Element::border}, {"physvol", Element::placement},     {"replicavol", Element::replica},
+    {"divisionvol", Element::division}, {"paramvol", Element::parameterised}};
 
 std::optional<Element> element_of(Node node) { return core::find_word(kElements, node.name()); }
 
@@ -99,7 +100,8 @@ class StructureReader {
       const std::optional<Element> element = element_of(node);
       if (element == Element::placement) place(node, to_world, mother);
       if (element == Element::replica) replicate(node, to_world, mother);
-      if (element == Element::division)
+      if (element == Element::division) divide(node, volume, to_world, mother);
+      if (element == Element::parameterised)
         file_.reject(node, std::string("<") + node.name() + "> is not read",
                      "write its copies as <physvol>s");
     });
@@ -157,26 +159,89 @@ class StructureReader {
     inside_.erase(volume);
   }
 
-  /// Copies side by side along an axis of the mother, centred in it: number * width is its extent.
+  /// Copies of a volume in its mother, named by their numbers.
+  template <typename Shift>
+  void add_copies(Node element, int count, const Eigen::Affine3d& mother_to_world,
+                  std::optional<std::size_t> mother, const Shift& shift) {
+    const Node reference_node = child(element, "volumeref");
+    const std::string volume = reference(reference_node);
+    for (int copy = 0; copy < count; ++copy)
+      add({volume + "_" + std::to_string(copy), placement_of(element)}, volume, reference_node,
+          mother_to_world * shift(copy), mother);
+  }
+
+  int copy_count(Node element, double count) const {
+    if (!(count >= 1.0 && count <= static_cast<double>(kMostPlaced)))
+      file_.reject(element, std::string("<") + element.name() + "> has no number of copies from 1 on",
+                   "give number=\"...\"");
+    return static_cast<int>(count);
+  }
+
+  /// Copies side by side along an axis of the mother, centred in it, whose number * width is its extent; or,
+  /// about its z axis, side by side from the offset on (G4PVReplica: the middle of copy n is at offset + (n +
+  /// 1/2) width).
   void replicate(Node replica, const Eigen::Affine3d& mother_to_world, std::optional<std::size_t> mother) {
-    const double count = definitions_.number(replica, "number");
+    const int count = copy_count(replica, definitions_.number(replica, "number"));
     const Node along = child(replica, "replicate_along_axis"), direction = child(along, "direction");
-    const Node width_node = child(along, "width");
-    core::Vec3 axis(definitions_.number(direction, "x", 0.0), definitions_.number(direction, "y", 0.0),
-                    definitions_.number(direction, "z", 0.0));
-    if (direction.attribute("rho") || direction.attribute("phi") || axis.norm() != 1.0 || !(count >= 1.0) ||
-        count > static_cast<double>(kMostPlaced))
-      file_.reject(replica, "replicas other than along x, y or z are not read", "write them as <physvol>s");
+    const Node width_node = child(along, "width"), offset_node = along.child("offset");
+    const core::Vec3 axis(definitions_.number(direction, "x", 0.0), definitions_.number(direction, "y", 0.0),
+                          definitions_.number(direction, "z", 0.0));
+    const bool about_z = definitions_.number(direction, "phi", 0.0) == 1.0;
+    if (direction.attribute("rho") || (about_z ? axis.norm() != 0.0 : axis.norm() != 1.0))
+      file_.reject(replica, "replicas other than along x, y, z or phi are not read",
+                   "write them as <physvol>s");
     const double width =
         definitions_.number(width_node, "value") * definitions_.number(width_node, "unit", 1.0);
-    const Node reference_node = child(replica, "volumeref");
-    const std::string volume = reference(reference_node);
-    const auto copies = static_cast<int>(count);
-    for (int copy = 0; copy < copies; ++copy) {
-      const core::Vec3 shift = axis * (width * (copy - 0.5 * (copies - 1)));
-      add({volume + "_" + std::to_string(copy), placement_of(replica)}, volume, reference_node,
-          mother_to_world * Eigen::Translation3d(shift), mother);
-    }
+    const double offset = offset_node ? definitions_.number(offset_node, "value", 0.0) *
+                                            definitions_.number(offset_node, "unit", 1.0)
+                                      : 0.0;
+    add_copies(replica, count, mother_to_world, mother, [&](int copy) {
+      if (about_z)
+        return Eigen::Affine3d(Eigen::AngleAxisd(offset + (copy + 0.5) * width, core::Vec3::UnitZ()));
+      return Eigen::Affine3d(Eigen::Translation3d(axis * (width * (copy - 0.5 * (count - 1)))));
+    });
+  }
+
+  /// The length of a box along an axis; rejects other solids.
+  double box_length(Node division, Node volume, const char* axis) const {
+    const std::string name = reference(child(volume, "solidref"));
+    const Node box = file_.section("solids").find_child_by_attribute("box", "name", name.c_str());
+    if (!box)
+      file_.reject(division, "divisions of other solids than boxes are not read: \"" + name + "\" is none",
+                   "write the copies as <physvol>s");
+    return definitions_.length(box, axis);
+  }
+
+  /// Divisions of a box along x, y or z (G4PVDivision): from the offset on, by number, width or both.
+  void divide(Node division, Node volume, const Eigen::Affine3d& mother_to_world,
+              std::optional<std::size_t> mother) {
+    static constexpr core::Word<int> kAxes[] = {{"kXAxis", 0}, {"kYAxis", 1}, {"kZAxis", 2}};
+    static constexpr const char* kLengths[] = {"x", "y", "z"};
+    const std::optional<int> axis = core::find_word(kAxes, division.attribute("axis").value());
+    if (!axis)
+      file_.reject(division, "divisions other than along kXAxis, kYAxis or kZAxis are not read",
+                   "write the copies as <physvol>s");
+    const double extent = box_length(division, volume, kLengths[*axis]);
+    const double unit = definitions_.number(division, "unit", 1.0);
+    const double offset = definitions_.number(division, "offset", 0.0) * unit;
+    double width = definitions_.number(division, "width", 0.0) * unit;
+    double number = definitions_.number(division, "number", 0.0);
+    constexpr double kRounding = 1e-9;
+    if (width > 0.0 && number == 0.0) number = std::floor((extent - offset) / width * (1.0 + kRounding));
+    const int count = copy_count(division, number);
+    if (width == 0.0) width = (extent - offset) / count;
+    const Node divided_node = child(division, "volumeref");
+    const double own =
+        box_length(division, find(reference(divided_node), divided_node).node, kLengths[*axis]);
+    if (!(std::abs(own - width) <= 1e-6 * extent))
+      file_.reject(division,
+                   "the copies of a division are " + std::to_string(width) + " mm wide, and their solid is " +
+                       std::to_string(own) + " mm: Geant4 gives it another length",
+                   "give the solid that length");
+    add_copies(division, count, mother_to_world, mother, [&](int copy) {
+      const double middle = -0.5 * extent + offset + (copy + 0.5) * width;
+      return Eigen::Affine3d(Eigen::Translation3d(core::Vec3::Unit(*axis) * middle));
+    });
   }
 
   const GdmlFile& file_;

@@ -44,8 +44,9 @@ struct Structure {
 
 /// Structure of the file from the world of <setup> on. A <physvol> is placed as in Geant4: rotated by the
 /// inverse of its rotation, moved by its position, after its scale. Assemblies are expanded; replicas along
-/// x, y or z are placed one by one. Throws InputError for references without a target, a volume inside
-/// itself, volumes of other files, other replicas, and more than kMostPlaced volumes.
+/// x, y, z or phi and divisions of boxes are placed one by one. Throws InputError for references without a
+/// target, a volume inside itself, volumes of other files, other replicas and divisions, parameterised
+/// volumes, and more than kMostPlaced volumes.
 Structure read_structure(const GdmlFile& file, const Definitions& definitions);
 
 }  // namespace scintray::exchange::gdml
