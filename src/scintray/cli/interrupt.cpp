@@ -29,7 +29,7 @@ extern "C" void request_stop(int signal) {
 extern "C" void end_without_results(int) {
   if (has_results.load()) return;
   constexpr std::string_view kText = "\nstopped before the first photon\n";
-  if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) _exit(kInterrupted);
+  if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) _exit(kInterrupted);
   _exit(kInterrupted);
 }
 
