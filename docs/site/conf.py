@@ -19,6 +19,6 @@ highlight_language = 'none'
 suppress_warnings = ['misc.highlighting_failure']
 if os.environ.get('SCINTRAY_PYTHON'):
     sys.path.insert(0, os.environ['SCINTRAY_PYTHON'])
-    extensions += ['sphinx.ext.autodoc']
+    extensions += ['sphinx.ext.autodoc', 'sphinx.ext.napoleon']
     autodoc_member_order = 'bysource'
     autodoc_typehints = 'description'

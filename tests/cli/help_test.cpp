@@ -95,6 +95,33 @@ TEST_CASE("the help of every command has examples, and each of them parses") {
   }
 }
 
+TEST_CASE("every command line of the pages parses") {
+  std::size_t lines = 0;
+  std::vector<std::filesystem::path> pages{source_file("README.md")};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source_file("docs")))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  for (const std::filesystem::path& page : pages) {
+    CAPTURE(page.string());
+    std::istringstream text(config::read_text_file(page));
+    for (std::string line; std::getline(text, line);) {
+      const std::size_t at = line.find_first_not_of(' ');
+      if (at == std::string::npos || (at != 0 && at != 4)) continue;
+      line = line.substr(at);
+      if (line.rfind("build/release/bin/scintray ", 0) == 0) line = line.substr(18);
+      if (line.rfind("scintray ", 0) != 0) continue;
+      for (std::string rest; line.ends_with("\\") && std::getline(text, rest);)
+        line = line.substr(0, line.size() - 1) + rest;
+      for (const char* end : {" > ", " #", " | ", " && ", " 2>"}) line = line.substr(0, line.find(end));
+      if (contains(line, "COMMAND") || contains(line, "...") || contains(line, "$")) continue;
+      CAPTURE(line);
+      ++lines;
+      IdleProgram program;
+      CHECK_THROWS_AS(program.app().parse(line, true), CLI::Success);
+    }
+  }
+  CHECK(lines > 60);
+}
+
 TEST_CASE("every command that prints numbers prints them as JSON on request") {
   const std::set<std::string> without{// they print no numbers
                                       "scintray new",         "scintray manual", "scintray completion",

@@ -111,7 +111,7 @@ class Explorer {
       waiting.pop_front();
       const std::vector<std::string> found = read_all(settings);
       for (const std::string& path : found)
-        for (Settings& next : alternatives(path))
+        for (Settings& next : alternatives(path, settings))
           if (next.size() <= kMostSettings && seen.insert(next).second) waiting.push_back(std::move(next));
     }
   }
@@ -154,7 +154,7 @@ class Explorer {
         if (read_tables.insert(use.table).second) ++table_at(use.table).readings;
         const std::string path = key_path(use.table, use.key);
         const bool is_new = add(use, settings);
-        if (use.form != Form::one_of) known_.at(path).last_use = reading_;
+        if (use.form != Form::one_of) note_use(known_.at(path), use);
         if (!is_new) continue;
         more = true;
         if (std::find(found.begin(), found.end(), path) == found.end()) found.push_back(path);
@@ -162,6 +162,11 @@ class Explorer {
     }
     find_lost(settings, found);
     return found;
+  }
+
+  /// To look whether a key with a value is there is no use of it.
+  void note_use(Known& known, const KeyUse& use) const {
+    if (use.form != Form::present || known.of_no_form()) known.last_use = reading_;
   }
 
   /// Keys of these settings that the last document of them did not use, and keys lost before that it did use:
@@ -268,8 +273,8 @@ class Explorer {
     return known.labels.empty() ? kAbsent : known.labels.front();
   }
 
-  /// Settings under which a key has another value than usual.
-  std::vector<Settings> alternatives(const std::string& path) const {
+  /// The settings under which something new was found at a key, with each other value there.
+  std::vector<Settings> alternatives(const std::string& path, const Settings& base) const {
     std::vector<Settings> list;
     const auto found = known_.find(path);
     if (found == known_.end()) return list;  // a group, whose keys are known on their own
@@ -277,7 +282,7 @@ class Explorer {
     labels.push_back(kAbsent);
     for (const std::string& label : labels) {
       if (label == usual(path)) continue;
-      Settings settings = found->second.beside;
+      Settings settings = base;
       settings[path] = label;
       list.push_back(std::move(settings));
     }
