@@ -30,6 +30,7 @@ BoxSide read_side(const config::TomlTable& table) {
   const config::TomlNode* value = table.node()->find("side");
   const std::string word = value ? value->text : "";
   if (const auto meant = core::find_word(kSideNames, word)) {
+    table.take("side");
     table.report("side",
                  "\"part.place.side\" is \"" + word + "\", but one of " +
                      core::list_quoted(core::word_list(kBoxSides)) + " is expected",
