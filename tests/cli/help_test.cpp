@@ -108,7 +108,7 @@ TEST_CASE("every command line of the pages parses") {
       if (at == std::string::npos || (at != 0 && at != 4)) continue;
       line = line.substr(at);
       if (line.rfind("build/release/bin/scintray ", 0) == 0) line = line.substr(18);
-      if (line.rfind("scintray ", 0) != 0) continue;
+      if (line.rfind("scintray ", 0) != 0 || line.rfind("scintray --", 0) == 0) continue;
       for (std::string rest; line.ends_with("\\") && std::getline(text, rest);)
         line = line.substr(0, line.size() - 1) + rest;
       for (const char* end : {" > ", " #", " | ", " && ", " 2>"}) line = line.substr(0, line.find(end));
