@@ -30,8 +30,8 @@ TEST_CASE("Every problem of an InputError is printed with its place and hint") {
   };
   CHECK(cli::run_guarded(command, err) == cli::kBadInput);
   CHECK(err.str() ==
-        "scene.toml:3:7: error: unknown key \"surfce\"\n  hint: did you mean \"surface\"?\n"
-        "scene.toml:9:1: error: no source\n2 problems\n");
+        "scene.toml:3:7: error: unknown key \"surfce\" [unknown-key]\n  hint: did you mean \"surface\"?\n"
+        "scene.toml:9:1: error: no source [input]\n2 problems\n");
 }
 
 TEST_CASE("Problems that differ in numbers only share one message, with their lines and a hint for all") {
@@ -69,7 +69,7 @@ TEST_CASE("A stop by the user is no defect") {
 TEST_CASE("Failures of the system and defects of the program have exit codes of their own") {
   std::ostringstream err;
   CHECK(cli::run_guarded([] { throw SystemError("disk full"); }, err) == cli::kSystemFailure);
-  CHECK(err.str() == "error: disk full\n");
+  CHECK(err.str() == "error: disk full [system]\n");
   CHECK(cli::run_guarded([] { throw std::bad_alloc(); }, err) == cli::kSystemFailure);
 
   err.str("");

@@ -57,3 +57,11 @@ TEST_CASE("bash completes commands and options") {
     CHECK(contains(other.output, "threads"));
   }
 }
+
+TEST_CASE("the page of commands has a section for each, with its options and examples") {
+  const std::filesystem::path folder = scratch_folder("manual_markdown");
+  REQUIRE(run_program({"manual", "pages", "--markdown"}, folder).exit_code == cli::kSuccess);
+  const std::string page = config::read_text_file(folder / "pages/commands.md");
+  for (const char* part : {"## scintray run\n", "### scintray table build\n", "`-t, --threads", "--resume"})
+    CHECK(contains(page, part));
+}

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -38,6 +39,7 @@ std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
 }
 
 void analyze(const AnalyzeOptions& options) {
+  const JsonAnswer answer(options.json);
   const std::filesystem::path results = result_to_analyze(options);
   const tally::RunResult run = results::read_results(results);
   const scene_file::AnalysisSpec settings =
@@ -53,22 +55,20 @@ void analyze(const AnalyzeOptions& options) {
   std::vector<report::PointAnalysis> points;
   for (std::size_t i = 0; i < analyses.size(); ++i) {
     points.push_back({report::point_label(run.points[i]), analyses[i], run.points[i].omitted});
-    if (options.json) continue;
     if (analyses.size() > 1) std::cout << points.back().label << "\n";
     std::cout << report::event_lines(analyses[i], run.points[i].omitted);
   }
-  if (options.json) {
+  answer.print_text([&] {
     report::RunAnalysis all;
     all.points = analyses;
-    std::cout << report::result_json(run, all);
-  }
-  std::ostream& out = options.json ? std::cerr : std::cout;  // JSON is alone on standard output
-  if (!options.output.empty()) out << "results  " << options.output.string() << "\n";
+    return report::result_json(run, all);
+  });
+  if (!options.output.empty()) std::cout << "results  " << options.output.string() << "\n";
   if (options.page.empty()) return;
   core::write_whole_file(options.page,
                          report::event_page(run.header.title, results.string(), points, run.header.parts),
                          "the page");
-  out << "page     " << options.page.string() << "\n";
+  std::cout << "page     " << options.page.string() << "\n";
 }
 
 }  // namespace
@@ -85,7 +85,8 @@ void add_analyze_command(CLI::App& app) {
                       "without tracing");
   command->add_option("-o,--output", options->output, "the result with these electronics (HDF5)");
   command->add_option("--page", options->page, "write an HTML page with the plots");
-  command->add_flag("--json", options->json, "print the numbers as JSON");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray analyze module.h5 --page module_events.html");
   command->callback([options] { analyze(*options); });
 }
 

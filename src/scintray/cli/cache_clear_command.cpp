@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/core/byte_size.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
@@ -38,7 +39,8 @@ Clock::time_point before_now(const std::string& text) {
   return Clock::now() - std::chrono::seconds(std::llround(3600.0 * number * *hours));
 }
 
-void clear(const std::string& older_than) {
+void clear(const std::string& older_than, bool json) {
+  const JsonAnswer answer(json);
   const Clock::time_point before = older_than.empty() ? Clock::time_point::max() : before_now(older_than);
   const std::filesystem::path folder = materials::default_table_cache();
   if (folder.empty()) {
@@ -49,6 +51,9 @@ void clear(const std::string& older_than) {
   std::cout << fmt::format("removed      {} table{}, {}, from {}\n", removed.files,
                            removed.files == 1 ? "" : "s", core::byte_size_text(removed.bytes),
                            folder.string());
+  answer.print([&] {
+    return Json{{"folder", folder.string()}, {"removed", removed.files}, {"bytes", removed.bytes}};
+  });
   if (removed.refused > 0)
     throw core::SystemError(fmt::format("{}: {} tables cannot be removed; is there permission?",
                                         folder.string(), removed.refused));
@@ -60,7 +65,10 @@ void add_cache_clear_command(CLI::App& cache) {
   auto older_than = std::make_shared<std::string>();
   CLI::App* command = cache.add_subcommand("clear", "Remove the tables that are kept; other files stay");
   command->add_option("--older-than", *older_than, "only those not used for this time, as \"30 days\"");
-  command->callback([older_than] { clear(*older_than); });
+  auto json = std::make_shared<bool>(false);
+  add_json_flag(*command, *json);
+  command->footer("Example: scintray cache clear --older-than \"30 days\"");
+  command->callback([older_than, json] { clear(*older_than, *json); });
 }
 
 }  // namespace scintray::cli

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/core/byte_size.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/materials/cache_folder.hpp"
@@ -77,41 +78,31 @@ void print_list(const Listing& cache) {
                            core::byte_size_text(cache.bytes()), core::byte_size_text(cache.limit.bytes));
 }
 
-/// A JSON string (RFC 8259, section 7).
-std::string quoted(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') json += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      json += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      json += c;
-  }
-  return json + "\"";
-}
-
-std::string table_json(const CacheFile& file) {
-  std::string json = fmt::format(R"({{"file": {}, "bytes": {}, "last_use": "{}", )",
-                                 quoted(file.path.string()), file.bytes, utc_text(file));
+Json cached_json(const CacheFile& file) {
+  Json json = {{"file", file.path.string()}, {"bytes", file.bytes}, {"last_use", utc_text(file)}};
   const std::optional<CachedTable> table = materials::describe_cached(file.path);
-  if (!table) return json + R"("readable": false})";
-  const auto point_json = [](const topography::SpectralPoint& point) {
-    return fmt::format(R"({{"wavelength_nm": {}, "index_inside": {}, "index_outside": {}}})",
-                       point.wavelength_nm, point.index.inside, point.index.outside);
-  };
-  return json + fmt::format(R"("readable": true, "surface": {}, "media": {}, "map": {}, "stack": {}, )"
-                            R"("version": {}, "spectrum": [{}]}})",
-                            quoted(table->surface), quoted(table->media), quoted(table->map),
-                            quoted(table->stack), quoted(table->version),
-                            core::list_of(table->spectrum, ", ", point_json));
+  json["readable"] = table.has_value();
+  if (!table) return json;
+  json["surface"] = table->surface;
+  json["media"] = table->media;
+  json["map"] = table->map;
+  json["stack"] = table->stack;
+  json["version"] = table->version;
+  json["spectrum"] = Json::array();
+  for (const topography::SpectralPoint& point : table->spectrum)
+    json["spectrum"].push_back({{"wavelength_nm", json_of(point.wavelength_nm)},
+                                {"index_inside", json_of(point.index.inside)},
+                                {"index_outside", json_of(point.index.outside)}});
+  return json;
 }
 
-void print_json(const Listing& cache) {
-  if (!cache.limit.warning.empty()) std::cerr << "warning: " << cache.limit.warning << "\n";
-  std::cout << fmt::format("{{\"folder\": {}, \"limit_bytes\": {}, \"total_bytes\": {}, \"tables\": [",
-                           quoted(cache.folder.string()), cache.limit.bytes, cache.bytes())
-            << (cache.files.empty() ? "" : "\n  ") << core::list_of(cache.files, ",\n  ", table_json)
-            << "]}\n";
+Json cache_json(const Listing& cache) {
+  Json tables = Json::array();
+  for (const CacheFile& file : cache.files) tables.push_back(cached_json(file));
+  return {{"folder", cache.folder.string()},
+          {"limit_bytes", cache.limit.bytes},
+          {"total_bytes", cache.bytes()},
+          {"tables", tables}};
 }
 
 }  // namespace
@@ -120,10 +111,13 @@ void add_cache_list_command(CLI::App& cache) {
   auto json = std::make_shared<bool>(false);
   CLI::App* command =
       cache.add_subcommand("list", "Print what is kept: surfaces, media, sizes, the last use of each");
-  command->add_flag("--json", *json, "print JSON");
+  add_json_flag(*command, *json);
+  command->footer("Example: scintray cache list --json");
   command->callback([json] {
+    const JsonAnswer answer(*json);
     const Listing listing = read_cache();
-    *json ? print_json(listing) : print_list(listing);
+    print_list(listing);
+    answer.print([&] { return cache_json(listing); });
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include "scintray/cli/check.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -18,6 +19,7 @@ struct CheckOptions {
   std::filesystem::path scene, picture;
   bool every_point = false;
   bool all = false;
+  bool json = false;
 };
 
 void print_source(const source::LightSource& source, const scene::Scene& scene) {
@@ -29,6 +31,42 @@ void print_source(const source::LightSource& source, const scene::Scene& scene) 
   if (origins.size() > 1)
     std::cout << " and " << origins.size() - 1 << " more part" << (origins.size() > 2 ? "s" : "");
   std::cout << "\n";
+}
+
+Json problem_json(const core::Problem& problem) {
+  return {{"what", problem.what}, {"hint", problem.hint}, {"places_mm", problem.places_mm}};
+}
+
+/// The numbers of a point: its parts and faces, and the findings.
+Json point_json(const scene::BuiltScene& built, const GapFindings& gaps) {
+  Json parts = Json::array(), faces = Json::array(), warnings = Json::array();
+  for (const core::PartId id : built.scene.parts.ids()) {
+    const scene::PartReport& part = built.parts[id.index()];
+    const mesh::MeshDiagnosis& d = part.diagnosis;
+    parts.push_back(
+        {{"name", part.name},
+         {"medium",
+          built.scene.media[built.scene.regions[built.scene.parts[id].region].medium].medium().name},
+         {"volume_mm3",
+          json_of(built.scene.parts[id].curved ? built.scene.parts[id].volume_mm3 : d.volume_mm3)},
+         {"triangles", d.triangles},
+         {"closed", d.closed()},
+         {"notes", part.notes}});
+  }
+  for (const scene::FaceInfo& face : built.scene.faces)
+    faces.push_back({{"name", face.name},
+                     {"surface", face.surface},
+                     {"area_mm2", json_of(face.area_mm2)},
+                     {"contact_area_mm2", json_of(face.contact_area_mm2)},
+                     {"exact", face.exact}});
+  for (const core::Problem& warning : gaps.warnings) warnings.push_back(problem_json(warning));
+  for (const std::string& warning : built.warnings) warnings.push_back({{"what", warning}});
+  return {{"low_nm", json_of(built.scene.low_nm)},
+          {"high_nm", json_of(built.scene.high_nm)},
+          {"parts", parts},
+          {"faces", faces},
+          {"interfaces", built.scene.interfaces.size()},
+          {"warnings", warnings}};
 }
 
 /// The scene file. One with errors is drawn as far as it can be read, before they are thrown.
@@ -46,6 +84,8 @@ scene_file::SceneFile load_or_draw(const CheckOptions& options) {
 }
 
 void check_scene(const CheckOptions& options) {
+  const JsonAnswer answer(options.json);
+  Json points = Json::array();
   const std::filesystem::path& path = options.scene;
   if (!options.picture.empty()) expect_picture_name(options.picture);
   const scene_file::SceneFile file = load_or_draw(options);
@@ -86,10 +126,13 @@ void check_scene(const CheckOptions& options) {
     print_source(ready->source(), built.scene);
     print_notes(std::cout, file, *ready);
     print_gaps(std::cout, gaps);
+    points.push_back(point_json(built, gaps));
+    points.back()["parameters"] = file.parameters(point);
   }
   std::cout << "\n"
             << path.string() << ": no errors in " << file.points() << " point"
             << (file.points() == 1 ? "" : "s") << "\n";
+  answer.print([&] { return Json{{"scene", path.string()}, {"points", points}}; });
 }
 
 }  // namespace
@@ -103,6 +146,11 @@ void add_check_command(CLI::App& app) {
   command->add_flag("--all", options->all, "print every part and interface on a line of its own");
   command->add_option("--picture", options->picture,
                       "draw the parts and mark the positions of problems: .glb, or .svg with three views");
+  add_json_flag(*command, options->json);
+  command->footer(
+      "Examples:\n"
+      "  scintray check quickstart.toml\n"
+      "  scintray check quickstart.toml --picture quickstart.svg");
   command->callback([options] {
     const InterruptGuard guard;
     check_scene(*options);

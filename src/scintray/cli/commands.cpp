@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <ostream>
 
+#include "scintray/cli/error_kinds.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/mpi_ranks.hpp"
 #include "scintray/core/error.hpp"
@@ -31,6 +32,7 @@ namespace scintray::cli {
   ADD(reweight)                \
   ADD(fit)                     \
   ADD(cache)                   \
+  ADD(schema)                  \
   ADD(manual)                  \
   ADD(completion)
 
@@ -129,11 +131,33 @@ std::span<const AddCommand> table_commands() { return kTableCommands; }
 
 std::span<const AddCommand> cache_commands() { return kCacheCommands; }
 
+std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
 int run_program(std::span<const AddCommand> available, int argc, const char* const* argv, std::ostream& out,
                 std::ostream& err) {
   CLI::App app("Follows scintillation light through detectors made of triangle meshes.", "scintray");
   app.set_version_flag("--version", "scintray " + core::version());
+  app.add_option_function<std::string>(
+         "--explain",
+         [&out](const std::string& code) {
+           out << explanation(code);
+           throw CLI::Success();
+         },
+         "explain the code that stands in brackets behind an error message; without one, list them")
+      ->type_name("CODE")
+      ->expected(0, 1)
+      ->trigger_on_parse();
   app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  scintray new crystal\n"
+      "  scintray run crystal.toml\n"
+      "  scintray --explain unknown-key\n"
+      "Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 the system failed, 4 a "
+      "defect,\n"
+      "130 interrupted.");
   for (const AddCommand add : available) add(app);
   app.failure_message(CLI::FailureMessage::help);
   app.parse_complete_callback([&app] { require_one_process(app); });

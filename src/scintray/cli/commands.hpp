@@ -5,6 +5,7 @@
 #include <functional>
 #include <iosfwd>
 #include <span>
+#include <vector>
 
 namespace scintray::cli {
 
@@ -19,6 +20,9 @@ std::span<const AddCommand> map_commands();
 std::span<const AddCommand> table_commands();
 /// Subcommands of `scintray cache`.
 std::span<const AddCommand> cache_commands();
+
+/// The commands within a command, in the order of its help.
+std::vector<const CLI::App*> subcommands_of(const CLI::App& command);
 
 /// Exit code (exit_codes.hpp) of a command line of `scintray`, whose first word is the program's name.
 ///

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/commands.hpp"
 #include "scintray/cli/word_option.hpp"
 
 namespace scintray::cli {
@@ -12,10 +13,6 @@ namespace {
 
 enum class Shell { bash, zsh, fish };
 constexpr core::Word<Shell> kShells[] = {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
-
-std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
-}
 
 /// Words that may follow a command: its subcommands and options.
 std::string words_after(const CLI::App& command) {

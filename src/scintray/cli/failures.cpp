@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "scintray/cli/alike.hpp"
+#include "scintray/cli/error_kinds.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
@@ -46,13 +47,19 @@ std::string other_places(const Kind& kind) {
   return named < lines.size() ? text + " and " + std::to_string(lines.size() - named) + " more" : text;
 }
 
+/// The message of a problem, with the code of its kind behind what was found.
+std::string message(core::Problem problem) {
+  problem.what += std::string(" [") + input_error_code(problem.what) + "]";
+  return problem.text();
+}
+
 void print_kind(const Kind& kind, std::ostream& err) {
   if (kind.problems.size() <= kFewAlike) {
-    for (const core::Problem* problem : kind.problems) err << problem->text() << '\n';
+    for (const core::Problem* problem : kind.problems) err << message(*problem) << '\n';
     return;
   }
   const core::Problem& first = *kind.problems.front();
-  err << first.text() << '\n'
+  err << message(first) << '\n'
       << "  and " << kind.problems.size() - 1 << " more of this kind" << other_places(kind) << '\n';
   const std::string hint = core::with_patterns(first.hint);
   if (hint != first.hint) err << "  for all of them: " << hint << '\n';
@@ -80,12 +87,12 @@ int report_input_error(const core::InputError& error, std::ostream& err) {
 }
 
 int report_system_error(const std::string& what, std::ostream& err) {
-  err << "error: " << what << '\n';
+  err << "error: " << what << " [" << kSystemError << "]\n";
   return kSystemFailure;
 }
 
 int report_defect(const std::string& what, std::ostream& err) {
-  err << "internal error: " << what << '\n'
+  err << "internal error: " << what << " [" << kDefectError << "]\n"
       << "  This is a defect in ScintRay, not in your input. Please report it with this message, the\n"
       << "  version (" << core::version() << "), and the scene file.\n";
   return kDefect;

@@ -7,6 +7,7 @@
 #include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/report/pages/page.hpp"
@@ -23,6 +24,7 @@ struct FitOptions {
   std::optional<int> threads;
   std::optional<std::uint64_t> seed, photons, events;
   bool quiet = false;
+  bool json = false;
 };
 
 simulation::SceneFitOptions fit_options(const FitOptions& options, ProgressLine& line) {
@@ -41,7 +43,39 @@ simulation::SceneFitOptions fit_options(const FitOptions& options, ProgressLine&
   return result;
 }
 
+const char* end_word(analysis::FitEnd end) {
+  return end == analysis::FitEnd::converged       ? "converged"
+         : end == analysis::FitEnd::not_converged ? "not_converged"
+                                                  : "stopped";
+}
+
+Json fit_json(const analysis::FitRecord& record) {
+  Json parameters = Json::array(), curve = Json::array();
+  for (std::size_t i = 0; i < record.fit.parameters.size(); ++i) {
+    const analysis::FittedParameter& fitted = record.fit.parameters[i];
+    parameters.push_back({{"key", record.spec.parameters[i].path.key},
+                          {"unit", record.spec.parameters[i].unit},
+                          {"start", json_of(fitted.parameter.start)},
+                          {"value", json_of(fitted.value.value)},
+                          {"error", json_of(fitted.value.error)},
+                          {"monte_carlo_error", json_of(fitted.monte_carlo_error)},
+                          {"determined", fitted.determined}});
+  }
+  for (std::size_t i = 0; i < record.fit.residual.size(); ++i)
+    curve.push_back({{"at", json_of(record.measured.points[i].x)},
+                     {"measured", json_of(record.measured.points[i].y)},
+                     {"residual_over_error", json_of(record.fit.residual[i])}});
+  return {{"end", end_word(record.fit.end)},
+          {"parameters", parameters},
+          {"scale", json_of(record.fit.scale)},
+          {"chi_square", json_of(record.fit.goodness.chi2)},
+          {"degrees_of_freedom", json_of(record.fit.goodness.degrees)},
+          {"curve", curve},
+          {"warnings", record.fit.warnings}};
+}
+
 void run_fit(const FitOptions& options) {
+  const JsonAnswer answer(options.json);
   const scene_file::SceneFile file = scene_file::SceneFile::load(options.scene);
   std::filesystem::path output = options.output;
   if (output.empty()) output = options.scene.stem().string() + "_fit.h5";
@@ -67,6 +101,7 @@ void run_fit(const FitOptions& options) {
   if (page.empty()) page = std::filesystem::path(output).replace_extension(".html");
   report::write_page(page, report::fit_page(record));
   std::cout << "report   " << page.string() << "\n";
+  answer.print([&] { return fit_json(record); });
   if (record.fit.end == analysis::FitEnd::stopped) {
     std::cerr << "stopped: the fit is partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
@@ -93,6 +128,8 @@ void add_fit_command(CLI::App& app) {
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->check(above_zero());
   command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps of the search");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray fit fit_depth_curve.toml --photons 20000");
   command->callback([options] {
     const InterruptGuard guard;
     run_fit(*options);

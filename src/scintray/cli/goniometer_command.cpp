@@ -11,6 +11,7 @@
 #include "scintray/analysis/goniometer/measured_profile.hpp"
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/report/pages/page.hpp"
@@ -28,6 +29,7 @@ struct GoniometerOptions {
   optics::Side side = optics::Side::inside;
   std::vector<std::string> angles;
   bool on_the_spot = false;
+  bool json = false;
 };
 
 void print_lobe(const char* light, const analysis::Lobe& lobe) {
@@ -54,6 +56,31 @@ void print_readings(const std::vector<analysis::GoniometerReading>& readings) {
     print_lobe("reflected", r.reflected_lobe);
     print_lobe("transmitted", r.transmitted_lobe);
   }
+}
+
+Json lobe_json(const analysis::Lobe& lobe) {
+  if (lobe.rays == 0) return nullptr;
+  const auto degrees = [](const core::Estimate& angle) {
+    return json_of(core::Estimate{angle.value / core::kDegree, angle.error / core::kDegree});
+  };
+  return {{"rays", lobe.rays},
+          {"in_plane_deg", degrees(lobe.in_plane_rad)},
+          {"across_deg", degrees(lobe.across_rad)},
+          {"rms_sine_in_plane", json_of(lobe.width_in_plane)},
+          {"rms_sine_across", json_of(lobe.width_across)}};
+}
+
+Json readings_json(const std::vector<analysis::GoniometerReading>& readings) {
+  Json list = Json::array();
+  for (const analysis::GoniometerReading& r : readings)
+    list.push_back({{"incidence_deg", json_of(r.settings.incidence_rad / core::kDegree)},
+                    {"rays", r.settings.rays},
+                    {"reflectance", json_of(r.reflectance())},
+                    {"transmittance", json_of(r.transmittance())},
+                    {"absorptance", json_of(r.absorptance())},
+                    {"reflected", lobe_json(r.reflected_lobe)},
+                    {"transmitted", lobe_json(r.transmitted_lobe)}});
+  return {{"readings", list}};
 }
 
 /// In-plane profiles of all readings. ScintRay's reader skips lines that start with #.
@@ -104,6 +131,7 @@ void write(const std::string& path, const std::string& content) {
 }
 
 void run_goniometer(const GoniometerOptions& options) {
+  const JsonAnswer answer(options.json);
   analysis::GoniometerSettings settings;
   settings.side = options.side;
   settings.rays = options.sample.rays;
@@ -137,6 +165,7 @@ void run_goniometer(const GoniometerOptions& options) {
       report::sample_text(sample, settings.side), settings.rays, settings.seed);
   for (const std::string& warning : sample.warnings) std::cout << "warning: " << warning << "\n";
   print_readings(readings);
+  answer.print([&] { return readings_json(readings); });
   std::optional<report::Overlay> overlay;
   if (measured) {
     overlay = report::Overlay{analysis::scale_to(*measured, readings.front().reflected_directions,
@@ -178,6 +207,11 @@ void add_goniometer_command(CLI::App& app) {
   command->add_option("-o,--output", options->page, "HTML page to write");
   command->add_option("--csv", options->csv, "CSV file for the in-plane profiles");
   command->add_option("--cells", options->cells, "CSV file for the counts over the hemisphere");
+  add_json_flag(*command, options->json);
+  command->footer(
+      "Examples:\n"
+      "  scintray goniometer lso_ground_30um --angle \"45 deg\" -o page.html\n"
+      "  scintray goniometer polished_esr_air --angle \"0 deg\" --angle \"60 deg\" --json");
   command->callback([options] { run_goniometer(*options); });
 }
 

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/scene_draft.hpp"
@@ -16,6 +17,7 @@ struct SceneImportArguments {
   std::string unit, deviation, angle;
   std::vector<std::string> media, surfaces;
   bool skip_unsupported = false;
+  bool json = false;
 };
 
 /// "A=B" pairs of an option.
@@ -95,6 +97,7 @@ exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::
 }
 
 void import_scene(const SceneImportArguments& arguments) {
+  const JsonAnswer answer(arguments.json);
   const std::filesystem::path scene = exchange::scene_file_of(arguments.output);
   const exchange::SceneDraft draft = draft_of(arguments, scene);
   exchange::write_scene_draft(draft, scene);
@@ -111,6 +114,13 @@ void import_scene(const SceneImportArguments& arguments) {
            "--medium MATERIAL=DATABASE_MEDIUM\n";
   if (!draft.size.empty()) std::cout << "size " << draft.size << ": a wrong --unit shows here\n";
   for (const std::string& missing : draft.missing) std::cout << "to be filled in: " << missing << "\n";
+  answer.print([&] {
+    return Json{{"scene", scene.string()},
+                {"meshes", draft.meshes.size()},
+                {"size", draft.size},
+                {"notes", draft.notes},
+                {"missing", draft.missing}};
+  });
   if (draft.missing.empty()) std::cout << "inspect it with: scintray check " << scene.string() << "\n";
 }
 
@@ -141,6 +151,11 @@ void add_import_command(CLI::App& app) {
                       "GDML, GATE: use this surface of the database for an optical surface; may be repeated");
   command->add_flag("--skip-unsupported", arguments->skip_unsupported,
                     "GDML: leave out volumes whose solid is not supported, instead of stopping");
+  add_json_flag(*command, arguments->json);
+  command->footer(
+      "Examples:\n"
+      "  scintray import detector.step -o detector.toml\n"
+      "  scintray import detector.gdml -o detector.toml --medium Air=air --skip-unsupported");
   command->callback([arguments] { import_scene(*arguments); });
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/commands.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
 
@@ -62,10 +63,6 @@ std::string command_line(const CLI::App& command) {
                               : command.get_name();
 }
 
-std::vector<const CLI::App*> subcommands_of(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
-}
-
 std::string synopsis(const CLI::App& command) {
   std::string text = ".B " + roff(command_line(command)) + "\n";
   if (!subcommands_of(command).empty()) text += ".I COMMAND\n";
@@ -118,15 +115,62 @@ std::size_t write_pages(const CLI::App& command, const std::filesystem::path& fo
   return pages;
 }
 
+/// A cell of a table in Markdown.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+/// "-t, --threads INT", without marks.
+std::string plain_names(const CLI::Option& option) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const std::string& name : option.get_snames()) add("-" + name);
+  for (const std::string& name : option.get_lnames()) add("--" + name);
+  if (names.empty()) return option.get_name(true);
+  return option.get_type_name().empty() ? names : names + " " + option.get_type_name();
+}
+
+/// A command and those in it as sections of a page in Markdown.
+std::string markdown(const CLI::App& command, const std::string& level) {
+  std::string usage = command_line(command);
+  if (!subcommands_of(command).empty()) usage += " COMMAND";
+  std::string rows;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_positional()) {
+      const std::string name = option->get_name(true);
+      usage += option->get_required() ? " " + name : " [" + name + "]";
+    }
+    rows += fmt::format("| `{}` | {}{} |\n", cell(plain_names(*option)), cell(option->get_description()),
+                        option->get_required() ? " (needed)" : "");
+  }
+  std::string text = fmt::format("{} {}\n\n{}\n\n```text\n{} [OPTIONS]\n```\n\n", level,
+                                 command_line(command), command.get_description(), usage);
+  text += "| option | meaning |\n| --- | --- |\n" + rows + "\n";
+  if (!command.get_footer().empty()) text += "```text\n" + command.get_footer() + "\n```\n\n";
+  for (const CLI::App* one : subcommands_of(command))
+    text += markdown(*one, command.get_parent() ? "###" : "##");
+  return text;
+}
+
 }  // namespace
 
 void add_manual_command(CLI::App& app) {
   auto folder = std::make_shared<std::filesystem::path>();
+  auto one_page = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("manual", "Write the manual pages of all commands, for man(1)");
   command->add_option("FOLDER", *folder, "folder to write them in; made when it is not there")->required();
+  command->add_flag("--markdown", *one_page, "write one page, commands.md, instead");
   command->footer("Example: scintray manual ~/.local/share/man/man1");
-  command->callback([folder, &app] {
+  command->callback([folder, one_page, &app] {
     std::filesystem::create_directories(*folder);
+    if (*one_page) {
+      core::write_whole_file(
+          *folder / "commands.md",
+          "# Commands\n\nAs `scintray COMMAND --help` prints them.\n\n" + markdown(app, "##"));
+      std::cout << (*folder / "commands.md").string() << "\n";
+      return;
+    }
     std::cout << fmt::format("{} manual pages in {}\n", write_pages(app, *folder), folder->string());
   });
 }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 #include "scintray/report/pages/pages.hpp"
@@ -17,6 +18,7 @@ struct PrepareArguments {
   MapOptions map;
   PreparationOptions preparation;
   std::string output, page;
+  bool json = false;
 };
 
 void print_before_and_after(const topography::HeightMap& before, const topography::HeightMap& after) {
@@ -28,6 +30,7 @@ void print_before_and_after(const topography::HeightMap& before, const topograph
 }
 
 void prepare_map(const PrepareArguments& arguments) {
+  const JsonAnswer answer(arguments.json);
   // "before" is the part that is kept, as measured: both show the same surface.
   topography::Preparation cropping, preparation = preparation_of(arguments.preparation);
   std::swap(cropping.crop, preparation.crop);
@@ -42,6 +45,7 @@ void prepare_map(const PrepareArguments& arguments) {
   print_warnings(after);
   topography::write_gsf(arguments.output, after);
   std::cout << "written      " << arguments.output << "\n";
+  answer.print([&] { return Json{{"before", map_json(before)}, {"after", map_json(after)}}; });
   if (arguments.page.empty()) return;
   report::write_map_page(arguments.page, std::filesystem::path(arguments.map.map).filename().string(), before,
                          after);
@@ -58,6 +62,9 @@ void add_map_prepare_command(CLI::App& map) {
   app->add_option("-o,--output", arguments->output, "Height map to write (.gsf)")->required();
   add_preparation_options(*app, arguments->preparation);
   app->add_option("--page", arguments->page, "HTML page with the map before and after, and profiles");
+  add_json_flag(*app, arguments->json);
+  app->footer(
+      "Example: scintray map prepare measured.gsf --level plane -o prepared.gsf --page prepared.html");
   app->callback([arguments] { prepare_map(*arguments); });
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 #include "scintray/cli/word_option.hpp"
@@ -27,6 +28,7 @@ constexpr core::Word<ReliefKind> kReliefKinds[] = {
 const char* name_of(ReliefKind kind) { return core::word_of(kReliefKinds, kind); }
 
 struct SynthesisArguments {
+  bool json = false;
   ReliefKind kind = ReliefKind::gaussian;
   std::string output, pitch;
   std::string rms_height, correlation_length, lay_length, lay_angle;
@@ -174,6 +176,7 @@ void print_seeds(topography::SynthesisRecipe recipe, std::uint32_t seeds) {
 }
 
 void synthesize_map(const SynthesisArguments& arguments) {
+  const JsonAnswer answer(arguments.json);
   topography::SynthesisRecipe recipe = recipe_of(arguments);
   if (!arguments.fit_normal.empty()) recipe = topography::fit_recipe(recipe, target_of(arguments));
   const topography::HeightMap map = topography::synthesize(recipe);
@@ -183,6 +186,7 @@ void synthesize_map(const SynthesisArguments& arguments) {
   print_warnings(map);
   topography::write_gsf(arguments.output, map);
   std::cout << "written      " << arguments.output << " (one period: build tables with --periodic)\n";
+  answer.print([&] { return map_json(map); });
 }
 
 void add_relief_options(CLI::App& app, SynthesisArguments& a) {
@@ -234,6 +238,10 @@ void add_map_synthesize_command(CLI::App& map) {
   app->add_option("--seeds", a.seeds, "Fit the mean of this many seeds, from --seed upwards, and print each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  add_json_flag(*app, a.json);
+  const std::string words = "  scintray " + map.get_name() + " synthesize ";
+  app->footer("Examples:\n" + words + "ground -o ground.gsf\n" + words +
+              "gaussian --rms-height \"0.5 um\" --correlation-length \"5 um\" -o rough.gsf");
   app->callback([arguments] { synthesize_map(*arguments); });
 }
 

@@ -56,6 +56,29 @@ void print_warnings(const topography::HeightMap& map) {
     std::cout << "warning: " << warning << "\n";
 }
 
+Json map_json(const topography::HeightMap& map) {
+  const topography::MapStatistics s = topography::map_statistics(map);
+  return {{"columns", map.columns},
+          {"rows", map.rows},
+          {"pitch_x_um", json_of(map.pitch_x_um)},
+          {"pitch_y_um", json_of(map.pitch_y_um)},
+          {"points_missing", s.missing},
+          {"sa_um", json_of(s.sa_um)},
+          {"sq_um", json_of(s.sq_um)},
+          {"sz_um", json_of(s.sz_um)},
+          {"lowest_um", json_of(s.lowest_um)},
+          {"highest_um", json_of(s.highest_um)},
+          {"skewness", json_of(s.ssk)},
+          {"kurtosis", json_of(s.sku)},
+          {"rms_gradient", json_of(s.sdq)},
+          {"developed_area_ratio", json_of(s.sdr)},
+          {"rms_slope_x", json_of(s.rms_slope_x)},
+          {"rms_slope_y", json_of(s.rms_slope_y)},
+          {"mean_slope_deg", json_of(s.mean_slope_rad / core::kDegree)},
+          {"steps", map.steps},
+          {"warnings", topography::map_warnings(map, s, topography::map_texture(map))}};
+}
+
 void print_description(const topography::HeightMap& map) {
   std::cout << fmt::format("map          {} x {} points, pitch {:.6g} x {:.6g} um\n", map.columns, map.rows,
                            map.pitch_x_um, map.pitch_y_um);

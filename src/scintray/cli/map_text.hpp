@@ -1,6 +1,7 @@
 #pragma once
 /// Text about a height map.
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/topography/height_map.hpp"
 
 namespace scintray::cli {
@@ -11,6 +12,9 @@ void print_summary(const topography::HeightMap& map);
 /// Lengths and directions, the distribution of slopes, visible slopes against incidence (when no point
 /// is missing), after the summary.
 void print_description(const topography::HeightMap& map);
+
+/// The numbers of a map and its warnings, with the units in their names.
+Json map_json(const topography::HeightMap& map);
 
 /// The warnings of map_warnings, one a line.
 void print_warnings(const topography::HeightMap& map);

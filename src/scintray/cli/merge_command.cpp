@@ -4,9 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/simulation/checkpoints.hpp"
 #include "scintray/simulation/results_file.hpp"
 
@@ -20,6 +22,7 @@ struct MergeOptions {
   bool partial = false;
   bool no_report = false;
   bool quiet = false;
+  bool json = false;
 };
 
 /// Files of all parts; a folder stands for the checkpoints in it.
@@ -37,6 +40,7 @@ std::vector<std::filesystem::path> files_of(const std::vector<std::filesystem::p
 }
 
 void merge(const MergeOptions& options) {
+  const JsonAnswer answer(options.json);
   const std::vector<std::filesystem::path> files = files_of(options.parts);
   std::filesystem::path output = options.output;
   if (output.empty()) {
@@ -46,7 +50,8 @@ void merge(const MergeOptions& options) {
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::ResultsFile results(output);
   const tally::RunResult result = simulation::merge_ranges(files, results, options.partial);
-  show_results(output, result, {!options.quiet, !options.no_report});
+  const report::RunAnalysis analyses = show_results(output, result, {!options.quiet, !options.no_report});
+  answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete())
     std::cerr << "the results are partial and marked so: " << result.partial_reason << "\n";
 }
@@ -64,6 +69,7 @@ void add_merge_command(CLI::App& app) {
                     "take what there is when parts are missing; the results are marked as partial");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
+  add_json_flag(*command, options->json);
   command->footer(
       "Examples:\n"
       "  scintray merge scanner.*.shard -o scanner.h5\n"

@@ -61,7 +61,8 @@ const char* lossless_ending(const std::filesystem::path& in, const mesh::ImportO
 }
 
 bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& options,
-                 const std::filesystem::path& out, const mesh::RepairSettings& settings) {
+                 const std::filesystem::path& out, const mesh::RepairSettings& settings,
+                 const RepairReport& report) {
   const std::string ending = mesh::lower_extension(out);
   if (ending != ".stl" && ending != ".ply" && ending != ".glb")
     throw core::InputError({{},
@@ -87,6 +88,7 @@ bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& opt
         written.bodies);
   for (const core::Problem& problem : mesh::mesh_problems(written, in.filename().string()))
     std::cout << "  left: " << problem.what << "\n        hint: " << problem.hint << "\n";
+  if (report) report(in, repaired.before, written);
   return written.sound();
 }
 

@@ -98,8 +98,12 @@ mesh::ImportOptions options_of(const MeshUse& use) {
 class SceneRepairer {
  public:
   SceneRepairer(const std::filesystem::path& scene, const std::filesystem::path& out,
-                const mesh::RepairSettings& settings)
-      : scene_(scene), out_(out), settings_(settings), folder_(scene.parent_path()) {}
+                const mesh::RepairSettings& settings, RepairReport report)
+      : scene_(scene),
+        out_(out),
+        settings_(settings),
+        report_(std::move(report)),
+        folder_(scene.parent_path()) {}
 
   bool run() {
     const config::TomlNodePtr document = config::parse_toml_file(scene_);
@@ -169,7 +173,7 @@ class SceneRepairer {
     for (int copy = 2; !names_.insert(name).second; ++copy)
       name = in.stem().string() + "_mended" + std::to_string(copy) + ending;
     try {
-      sound_ = repair_file(in, options, out_ / name, settings_) && sound_;
+      sound_ = repair_file(in, options, out_ / name, settings_, report_) && sound_;
     } catch (const core::InputError&) {
       mended_.erase(known);
       throw;
@@ -204,6 +208,7 @@ class SceneRepairer {
 
   std::filesystem::path scene_, out_;
   mesh::RepairSettings settings_;
+  RepairReport report_;
   std::filesystem::path folder_;
   std::map<Reading, std::string> mended_;  ///< with the names of the written files
   std::set<std::string> names_;
@@ -215,8 +220,8 @@ class SceneRepairer {
 }  // namespace
 
 bool repair_scene(const std::filesystem::path& scene, const std::filesystem::path& out,
-                  const mesh::RepairSettings& settings) {
-  return SceneRepairer(scene, out, settings).run();
+                  const mesh::RepairSettings& settings, const RepairReport& report) {
+  return SceneRepairer(scene, out, settings, report).run();
 }
 
 }  // namespace scintray::cli

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -19,6 +20,7 @@ struct ReplayOptions {
   std::filesystem::path scene;
   std::uint64_t event = 0, photon = 0, point = 0;
   std::optional<std::uint64_t> seed;
+  bool json = false;
 };
 
 /// True for a file that begins as HDF5 files do.
@@ -44,7 +46,19 @@ void print_row(std::uint64_t number, const source::Photon& photon, const std::st
       p.x(), p.y(), p.z(), d.x(), d.y(), d.z(), photon.path_mm, photon.time_ns, event);
 }
 
+Json step_json(const source::Photon& photon, const std::string& event) {
+  const core::Vec3 p = photon.position, d = photon.ray.direction;
+  return {{"position_mm", {p.x(), p.y(), p.z()}},
+          {"direction", {d.x(), d.y(), d.z()}},
+          {"path_mm", json_of(photon.path_mm)},
+          {"time_ns", json_of(photon.time_ns)},
+          {"wavelength_nm", json_of(photon.wavelength_nm)},
+          {"event", event}};
+}
+
 void replay_photon(const ReplayOptions& options) {
+  const JsonAnswer answer(options.json);
+  Json steps = Json::array();
   simulation::SimulationOptions run;
   run.seed = options.seed;
   scene_file::SceneFile scene = scene_of(options, run);
@@ -54,14 +68,19 @@ void replay_photon(const ReplayOptions& options) {
   const source::Photon start = point->start(options.event, options.photon);
   std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",
                            "x mm", "y mm", "z mm", "dx", "dy", "dz", "path mm", "time ns");
-  print_row(0, start,
-            fmt::format("emitted in {}, {:.2f} nm", point->scene().region_names[start.region],
-                        start.wavelength_nm));
+  const auto add = [&](std::uint64_t number, const source::Photon& photon, const std::string& event) {
+    print_row(number, photon, event);
+    steps.push_back(step_json(photon, event));
+  };
+  add(0, start,
+      fmt::format("emitted in {}, {:.2f} nm", point->scene().region_names[start.region],
+                  start.wavelength_nm));
   std::uint64_t number = 0;
   point->replay(options.event, options.photon,
                 [&](const source::Photon& photon, const transport::Step& step) {
-                  print_row(++number, photon, simulation::step_text(point->scene(), step));
+                  add(++number, photon, simulation::step_text(point->scene(), step));
                 });
+  answer.print([&] { return Json{{"steps", steps}}; });
 }
 
 }  // namespace
@@ -75,6 +94,8 @@ void add_replay_command(CLI::App& app) {
   command->add_option("--photon", options->photon, "photon number within the event")->required();
   command->add_option("--point", options->point, "point of the sweep, from 0 (default: 0)");
   command->add_option("--seed", options->seed, "seed, in place of that of the scene or the run");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray replay quickstart.h5 --event 0 --photon 17");
   command->callback([options] { replay_photon(*options); });
 }
 

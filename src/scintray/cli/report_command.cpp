@@ -87,6 +87,10 @@ void add_report_command(CLI::App& app) {
   command->add_flag("--text", options->text, "print the summary instead of writing a page");
   command->add_flag("--json", options->json, "print the numbers as JSON instead of writing a page")
       ->excludes("--text");
+  command->footer(
+      "Examples:\n"
+      "  scintray report quickstart.h5 --text\n"
+      "  scintray report before.h5 after.h5 -o comparison.html");
   command->callback([options] { options->files.size() > 1 ? compare(*options) : report_one(*options); });
 }
 

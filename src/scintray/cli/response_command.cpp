@@ -7,10 +7,12 @@
 #include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/simulation/response.hpp"
 #include "scintray/simulation/results_file.hpp"
@@ -27,6 +29,7 @@ struct BuildOptions {
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;
   bool quiet = false;
+  bool json = false;
 };
 
 struct MappedRunOptions {
@@ -35,6 +38,7 @@ struct MappedRunOptions {
   std::optional<std::uint64_t> seed, events;
   bool no_report = false;
   bool quiet = false;
+  bool json = false;
 };
 
 double pitch_of(const std::string& text) {
@@ -48,14 +52,38 @@ double pitch_of(const std::string& text) {
   throw CLI::ValidationError("--pitch", "\"" + text + "\" is not above zero");
 }
 
+/// Counts of all cells of a grid.
+struct GridCounts {
+  std::uint64_t emitted = 0, detected = 0, filled = 0;
+};
+
+GridCounts counts_of(const simulation::ResponseGrid& grid) {
+  GridCounts counts;
+  for (const std::uint32_t photons : grid.photons) {
+    counts.emitted += photons;
+    counts.filled += photons > 0 ? 1 : 0;
+  }
+  for (const std::uint32_t photons : grid.detected) counts.detected += photons;
+  return counts;
+}
+
+Json json_of_map(const simulation::ResponseMap& map) {
+  Json grids = Json::array();
+  for (const simulation::ResponseGrid& grid : map.grids) {
+    const GridCounts counts = counts_of(grid);
+    grids.push_back({{"part", grid.part},
+                     {"cells", {grid.cells[0], grid.cells[1], grid.cells[2]}},
+                     {"pitch_mm", {grid.pitch.x(), grid.pitch.y(), grid.pitch.z()}},
+                     {"cells_filled", counts.filled},
+                     {"photons", counts.emitted},
+                     {"detected", counts.detected}});
+  }
+  return {{"grids", grids}};
+}
+
 void print_map(const simulation::ResponseMap& map) {
   for (const simulation::ResponseGrid& grid : map.grids) {
-    std::uint64_t emitted = 0, detected = 0, filled = 0;
-    for (const std::uint32_t photons : grid.photons) {
-      emitted += photons;
-      filled += photons > 0 ? 1 : 0;
-    }
-    for (const std::uint32_t photons : grid.detected) detected += photons;
+    const auto [emitted, detected, filled] = counts_of(grid);
     std::cout << fmt::format(
         "{}: {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} mm, {} of them filled; {} photons, {:.4f} "
         "detected\n",
@@ -65,6 +93,7 @@ void print_map(const simulation::ResponseMap& map) {
 }
 
 void build(const BuildOptions& options) {
+  const JsonAnswer answer(options.json);
   simulation::MapOptions map_options;
   map_options.settings = {pitch_of(options.pitch), options.photons, options.delays};
   simulation::check_response_path(options.output);
@@ -86,6 +115,7 @@ void build(const BuildOptions& options) {
   simulation::write_response(options.output, file);
   if (!options.quiet) print_map(file.map);
   std::cout << "map      " << options.output.string() << "\n";
+  answer.print([&] { return json_of_map(file.map); });
 }
 
 void print_speed(const tally::PointResult& point) {
@@ -94,6 +124,7 @@ void print_speed(const tally::PointResult& point) {
 }
 
 void run(const MappedRunOptions& options) {
+  const JsonAnswer answer(options.json);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
   simulation::SimulationOptions simulation;
@@ -116,6 +147,7 @@ void run(const MappedRunOptions& options) {
   }
   std::cout << "results  " << options.output.string() << "\n";
   if (!options.no_report) write_page(options.output, result, analyses);
+  answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete()) {
     std::cerr << "stopped: the results are partial and marked so\n";
     throw CLI::RuntimeError(kInterrupted);
@@ -139,6 +171,8 @@ void add_build(CLI::App& response) {
       ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray response build module.toml --pitch \"0.5 mm\" -o module_map.h5");
   command->callback([options] {
     const InterruptGuard guard;
     build(*options);
@@ -161,6 +195,8 @@ void add_run(CLI::App& response) {
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray response run module.toml module_map.h5 --events 1000000 -o module.h5");
   command->callback([options] {
     const InterruptGuard guard;
     run(*options);
@@ -172,6 +208,10 @@ void add_run(CLI::App& response) {
 void add_response_command(CLI::App& app) {
   CLI::App* response = app.add_subcommand("response", "Response maps: trace once, simulate events often");
   response->require_subcommand(1);
+  response->footer(
+      "Examples:\n"
+      "  scintray response build module.toml -o module_map.h5\n"
+      "  scintray response run module.toml module_map.h5 -o module.h5");
   add_build(*response);
   add_run(*response);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/units.hpp"
@@ -90,6 +91,7 @@ simulation::PropertyScan parse_scan(const std::string& option, simulation::Optic
 struct ReweightOptions {
   std::filesystem::path results, output;
   std::vector<std::string> lengths, reflectances;
+  bool json = false;
 };
 
 std::vector<simulation::PropertyScan> scans_of(const ReweightOptions& options) {
@@ -135,6 +137,28 @@ void print(const tally::RunResult& run, const std::vector<simulation::PropertySc
                              100.0 * light.effective_share)
               << "; " << (light.valid ? "valid" : "NOT VALID: " + light.reason) << "\n";
   }
+}
+
+Json json_of_points(const tally::RunResult& run, const std::vector<simulation::PropertyScan>& scans,
+                    const std::vector<simulation::ReweightedPoint>& points) {
+  Json list = Json::array();
+  for (const simulation::ReweightedPoint& point : points) {
+    Json values = Json::object();
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      values[describe(scans[i])] = simulation::describe_value(scans[i], point.values[i]);
+    const analysis::Reweighted& light = point.light;
+    list.push_back({{"point", point.point},
+                    {"parameters", run.points[point.point].parameters},
+                    {"values", values},
+                    {"traced_fraction", json_of(point.traced_fraction)},
+                    {"fraction", json_of(light.detected_fraction)},
+                    {"relative", json_of(light.relative)},
+                    {"per_event", point.per_event ? json_of(*point.per_event) : Json(nullptr)},
+                    {"effective_photons", json_of(light.effective_photons)},
+                    {"valid", light.valid},
+                    {"reason", light.reason}});
+  }
+  return {{"points", list}};
 }
 
 /// A field of a CSV file (RFC 4180).
@@ -185,12 +209,14 @@ std::string csv_of(const ReweightOptions& options, const tally::RunResult& run,
 }
 
 void reweight(const ReweightOptions& options) {
+  const JsonAnswer answer(options.json);
   const std::vector<simulation::PropertyScan> scans = scans_of(options);
   const tally::RunResult run = results::read_results(options.results);
   const std::vector<simulation::ReweightedPoint> points =
       simulation::reweight_results(options.results, run, scans);
   if (!run.complete()) std::cout << "partial result: " << run.partial_reason << "\n";
   print(run, scans, points);
+  answer.print([&] { return json_of_points(run, scans, points); });
   if (options.output.empty()) return;
   core::write_whole_file(options.output, csv_of(options, run, scans, points), "the table");
   std::cout << "table    " << options.output.string() << "\n";
@@ -217,6 +243,8 @@ void add_reweight_command(CLI::App& app) {
                    "\"REFLECTOR=x0.98\"")
       ->allow_extra_args(false);
   command->add_option("-o,--output", options->output, "write a table (CSV)");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray reweight crystal.h5 --absorption-length \"LSO=100,200,400 mm\"");
   command->callback([options] { reweight(*options); });
 }
 

@@ -31,12 +31,13 @@ report::RunAnalysis analysis_of(const std::filesystem::path& results, const tall
           results::read_surfaces(results)};
 }
 
-void show_results(const std::filesystem::path& results, const tally::RunResult& run,
-                  const ShownResults& shown) {
-  const report::RunAnalysis analyses = analysis_of(results, run);
+report::RunAnalysis show_results(const std::filesystem::path& results, const tally::RunResult& run,
+                                 const ShownResults& shown) {
+  report::RunAnalysis analyses = analysis_of(results, run);
   if (shown.summary) std::cout << report::text_summary(run, analyses);
   std::cout << "results  " << results.string() << "\n";
   if (shown.page) write_page(results, run, analyses);
+  return analyses;
 }
 
 void write_page(const std::filesystem::path& results, const tally::RunResult& run,

@@ -21,9 +21,10 @@ struct ShownResults {
   bool summary = true, page = true;
 };
 
-/// Prints the path of results, with the summary and the page of the run as far as they are wanted.
-void show_results(const std::filesystem::path& results, const tally::RunResult& run,
-                  const ShownResults& shown);
+/// Prints the path of results, with the summary and the page of the run as far as they are wanted. Returns
+/// the analyses.
+report::RunAnalysis show_results(const std::filesystem::path& results, const tally::RunResult& run,
+                                 const ShownResults& shown);
 
 /// Writes the page of a run beside its results file, and prints its path.
 void write_page(const std::filesystem::path& results, const tally::RunResult& run,

@@ -10,6 +10,7 @@
 #include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/mpi_ranks.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_analysis.hpp"
@@ -18,6 +19,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 
@@ -33,6 +35,7 @@ struct RunOptions {
   bool no_report = false;
   bool quiet = false;
   bool quick = false;
+  bool json = false;
   std::string shard_text;         ///< "17/400"; empty: the whole run
   simulation::Shard shard;        ///< of that text
   std::string interval = "60 s";  ///< between checkpoints
@@ -150,10 +153,12 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
 
 void run_shard(const RunOptions& options, simulation::Simulation& simulation,
                const std::filesystem::path& output, ProgressLine& line) {
+  const JsonAnswer answer(options.json);
   simulation::RangeFile file(output, options.shard);
   const tally::RunResult result = trace(options, simulation, file, output, line);
   if (!result.partial_reason.empty()) end_stopped("there is no shard yet", !options.no_checkpoints);
   std::cout << "shard    " << output.string() << "\n";
+  answer.print([&] { return Json{{"shard", output.string()}}; });
 }
 
 void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
@@ -166,9 +171,11 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   simulation::Simulation simulation(file, simulation_options(options, line));
   if (!options.quiet) say_before_tracing(simulation, file, line);
   if (!options.shard_text.empty()) return run_shard(options, simulation, output, line);
+  const JsonAnswer answer(options.json);
   simulation::ResultsFile results(output);
   const tally::RunResult result = trace(options, simulation, results, output, line);
-  show_results(output, result, {!options.quiet, !options.no_report});
+  const report::RunAnalysis analyses = show_results(output, result, {!options.quiet, !options.no_report});
+  answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
 }
 
@@ -238,6 +245,7 @@ void add_run_command(CLI::App& app) {
                       "time between checkpoints, at least; \"0 s\": after each block (default: \"60 s\")");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
+  add_json_flag(*command, options->json);
   command->footer(
       "Examples:\n"
       "  scintray run quickstart.toml\n"
@@ -249,6 +257,8 @@ void add_run_command(CLI::App& app) {
     interval_of(options->interval);
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
+    if (options->scenes.size() > 1 && options->json)
+      throw CLI::ValidationError("--json", "prints one result, but several scenes are to be run");
     const InterruptGuard guard;
     options->ranks = mpi_ranks();
     if (options->ranks) return run_on_ranks(*options);

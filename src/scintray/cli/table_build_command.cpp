@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
 #include "scintray/cli/table_options.hpp"
@@ -16,6 +17,7 @@ constexpr core::Word<topography::Tiling> kTilings[] = {{"auto", topography::Tili
                                                        {"periodic", topography::Tiling::periodic}};
 
 struct BuildArguments {
+  bool json = false;
   MapOptions map;
   PreparationOptions preparation;
   TracingOptions tracing;
@@ -24,6 +26,7 @@ struct BuildArguments {
 };
 
 void build(const BuildArguments& arguments) {
+  const JsonAnswer answer(arguments.json);
   const Between media = between(arguments.tracing, database_of(arguments.tracing));
   const std::vector<topography::SpectralPoint> spectrum = media.spectrum();
   topography::HeightMap map = read_map(arguments.map);
@@ -46,7 +49,9 @@ void build(const BuildArguments& arguments) {
     return topography::build_table(topography::make_height_field(map, arguments.tiling), spectrum, settings,
                                    provenance, progress);
   };
-  write_and_report(arguments.output, *table_with_progress(entry, trace));
+  const std::shared_ptr<const optics::SurfaceTable> built = table_with_progress(entry, trace);
+  write_and_report(arguments.output, *built);
+  answer.print([&] { return table_json(*built); });
 }
 
 }  // namespace
@@ -60,6 +65,10 @@ void add_table_build_command(CLI::App& table) {
   add_preparation_options(*app, arguments->preparation);
   add_word_option(*app, "--tiling", arguments->tiling, kTilings, "Continuation of the map beyond its edges")
       ->default_str(core::word_of(kTilings, arguments->tiling));
+  add_json_flag(*app, arguments->json);
+  app->footer(
+      "Example: scintray table build ground.gsf --inside LSO --outside air --wavelength \"420 nm\" -o "
+      "ground.h5");
   app->callback([arguments] { build(*arguments); });
 }
 

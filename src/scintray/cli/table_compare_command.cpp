@@ -8,6 +8,7 @@
 
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/optics/fresnel.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/plots/goniometer_plots.hpp"
@@ -25,6 +26,7 @@ struct CompareOptions {
   std::vector<std::string> surfaces, outside{"air"};
   std::string angle = "45 deg", slopes, reflectance, directions;
   bool on_the_spot = false;
+  bool json = false;
 };
 
 /// Steps of 2.5 deg, and 88.5 deg, the incidence of the grazing slopes of recipes.
@@ -48,10 +50,11 @@ std::vector<analysis::SampleSurface> make_all(const CompareOptions& options, con
   return all;
 }
 
-/// Rows of numbers, a column for each surface.
+/// Rows of numbers, a column for each surface, printed and kept as JSON.
 class Columns {
  public:
-  Columns(const std::string& what, const std::vector<std::string>& names) {
+  Columns(const std::string& what, const std::vector<std::string>& names)
+      : json_({{"what", what}, {"columns", names}, {"rows", Json::array()}}) {
     std::cout << "\n" << what << "\n" << fmt::format("{:>8}", "deg");
     for (const std::string& name : names) {
       widths_.push_back(std::max<std::size_t>(21, name.size()) + 2);
@@ -59,13 +62,19 @@ class Columns {
     }
     std::cout << "\n";
   }
-  void row(double degrees, const std::vector<std::string>& cells) const {
+  void row(double degrees, const std::vector<core::Estimate>& values, const std::vector<std::string>& cells) {
+    Json row = {{"deg", json_of(degrees)}, {"values", Json::array()}};
+    for (const core::Estimate& value : values) row["values"].push_back(json_of(value));
+    json_["rows"].push_back(std::move(row));
     std::cout << fmt::format("{:>8.2f}", degrees);
     for (std::size_t k = 0; k < cells.size(); ++k) std::cout << fmt::format("{:>{}}", cells[k], widths_[k]);
     std::cout << "\n";
   }
 
+  const Json& json() const { return json_; }
+
  private:
+  Json json_;
   std::vector<std::size_t> widths_;
 };
 
@@ -82,16 +91,18 @@ void write(const std::string& path, const report::Plot& plot) {
   std::cout << "written      " << path << "\n";
 }
 
-void slopes(const CompareOptions& options) {
+Json slopes(const CompareOptions& options) {
   const std::vector<analysis::SampleSurface> all = make_all(options, options.outside.front(), true);
-  const Columns columns("mean visible slope from inside (deg) against incidence", options.surfaces);
+  Columns columns("mean visible slope from inside (deg) against incidence", options.surfaces);
   report::Plot plot =
       report::incidence_plot("Mean visible slope against incidence", "mean visible slope (deg)");
   plot.series.resize(all.size());
   for (const double angle : incidences()) {
     std::vector<std::string> cells;
+    std::vector<core::Estimate> values;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const core::Estimate slope = analysis::mean_visible_slope(all[k].surface, optics::Side::inside, angle);
+      values.push_back({slope.value / core::kDegree, slope.error / core::kDegree});
       cells.push_back(
           fmt::format("{:.3f} +- {:.3f}", slope.value / core::kDegree, slope.error / core::kDegree));
       report::PlotSeries& series = plot.series[k];
@@ -99,13 +110,14 @@ void slopes(const CompareOptions& options) {
       series.x.push_back(angle / core::kDegree);
       series.y.push_back(slope.value / core::kDegree);
     }
-    columns.row(angle / core::kDegree, cells);
+    columns.row(angle / core::kDegree, values, cells);
   }
   write(options.slopes, plot);
+  return columns.json();
 }
 
 /// Prints reflectances into one medium, and adds them to the plot.
-void reflectance_into(const CompareOptions& options, const std::string& outside, report::Plot& plot) {
+Json reflectance_into(const CompareOptions& options, const std::string& outside, report::Plot& plot) {
   const std::vector<analysis::SampleSurface> all = make_all(options, outside, options.on_the_spot);
   const optics::IndexPair index = all.front().index;
   const std::vector<double> angles = incidences();
@@ -123,23 +135,30 @@ void reflectance_into(const CompareOptions& options, const std::string& outside,
   if (index.inside > index.outside)
     what +=
         fmt::format(", critical angle {:.2f} deg", std::asin(index.outside / index.inside) / core::kDegree);
-  const Columns columns(what, names);
+  Columns columns(what, names);
   for (std::size_t row = 0; row < angles.size(); ++row) {
     std::vector<std::string> cells;
-    for (const auto& of_surface : readings) cells.push_back(share_text(of_surface[row].reflectance()));
-    cells.push_back(fmt::format(
-        "{:.5f}", optics::fresnel(std::cos(angles[row]), index.inside, index.outside).unpolarised()));
-    columns.row(angles[row] / core::kDegree, cells);
+    std::vector<core::Estimate> values;
+    for (const auto& of_surface : readings) values.push_back(of_surface[row].reflectance());
+    for (const core::Estimate& value : values) cells.push_back(share_text(value));
+    const double fresnel = optics::fresnel(std::cos(angles[row]), index.inside, index.outside).unpolarised();
+    values.push_back({fresnel, 0.0});
+    cells.push_back(fmt::format("{:.5f}", fresnel));
+    columns.row(angles[row] / core::kDegree, values, cells);
   }
+  return columns.json();
 }
 
-void reflectance(const CompareOptions& options) {
+Json reflectance(const CompareOptions& options) {
+  Json tables = Json::array();
   report::Plot plot = report::incidence_plot("Reflectance against incidence", "reflectance");
-  for (const std::string& outside : options.outside) reflectance_into(options, outside, plot);
+  for (const std::string& outside : options.outside)
+    tables.push_back(reflectance_into(options, outside, plot));
   write(options.reflectance, plot);
+  return tables;
 }
 
-void directions(const CompareOptions& options) {
+Json directions(const CompareOptions& options) {
   const std::vector<analysis::SampleSurface> all =
       make_all(options, options.outside.front(), options.on_the_spot);
   analysis::GoniometerSettings settings = settings_of(options);
@@ -153,31 +172,36 @@ void directions(const CompareOptions& options) {
     plot.series.push_back(
         report::profile_series(sample.place.surface, readings.back().reflected_directions, settings));
   }
-  const Columns columns(
-      fmt::format("reflected light (1/sr) within {:g} deg of the plane of incidence, into {}, "
-                  "incidence {:g} deg",
-                  settings.profile_half_width_rad / core::kDegree, options.outside.front(),
-                  settings.incidence_rad / core::kDegree),
-      options.surfaces);
+  Columns columns(fmt::format("reflected light (1/sr) within {:g} deg of the plane of incidence, into {}, "
+                              "incidence {:g} deg",
+                              settings.profile_half_width_rad / core::kDegree, options.outside.front(),
+                              settings.incidence_rad / core::kDegree),
+                  options.surfaces);
   const double solid_angle = analysis::profile_bin_sr(settings.profile_half_width_rad);
   for (int bin = 0; bin < analysis::DirectionCounts::kProfileBins; ++bin) {
     std::vector<std::string> cells;
+    std::vector<core::Estimate> values;
     for (const analysis::GoniometerReading& reading : readings)
-      cells.push_back(share_text(analysis::density_per_sr(
-          reading.reflected_directions.profile[static_cast<std::size_t>(bin)], settings.rays, solid_angle)));
-    columns.row(analysis::profile_edge_deg(bin) + 0.5, cells);
+      values.push_back(analysis::density_per_sr(
+          reading.reflected_directions.profile[static_cast<std::size_t>(bin)], settings.rays, solid_angle));
+    for (const core::Estimate& value : values) cells.push_back(share_text(value));
+    columns.row(analysis::profile_edge_deg(bin) + 0.5, values, cells);
   }
   write(options.directions, plot);
+  return columns.json();
 }
 
 void run_compare(const CompareOptions& options) {
+  const JsonAnswer answer(options.json);
   const InterruptGuard guard;
   const analysis::SamplePlace place = place_of(options.sample, "", "");
   std::cout << fmt::format("inside       {}, {:g} nm, light from inside, seed {}\n", place.inside,
                            place.wavelength_nm, options.sample.seed);
-  if (!options.slopes.empty()) slopes(options);
-  if (!options.reflectance.empty()) reflectance(options);
-  if (!options.directions.empty()) directions(options);
+  Json tables = Json::object();
+  if (!options.slopes.empty()) tables["slopes"] = slopes(options);
+  if (!options.reflectance.empty()) tables["reflectance"] = reflectance(options);
+  if (!options.directions.empty()) tables["directions"] = directions(options);
+  answer.print([&] { return tables; });
 }
 
 }  // namespace
@@ -205,6 +229,9 @@ void add_table_compare_command(CLI::App& table) {
                                                "SVG file for reflectance against incidence");
   auto* direction_file = command->add_option("--directions", options->directions,
                                              "SVG file for the in-plane profile of reflected light");
+  add_json_flag(*command, options->json);
+  command->footer(
+      "Example: scintray table compare lso_ground_30um polished --inside LSO --reflectance lso.svg");
   command->callback([=] {
     if (slope_file->empty() && reflectance_file->empty() && direction_file->empty())
       throw CLI::RequiredError("one at least of --slopes, --reflectance, --directions");

@@ -105,6 +105,7 @@ void add_table_export_command(CLI::App& table) {
       ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{100'000'000}))
       ->capture_default_str();
   app->add_option("--seed", arguments->seed, "Seed of the points (davis, bsdf)")->capture_default_str();
+  app->footer("Example: scintray table export ground.h5 --format davis -o Ground_LUT.z");
   app->callback([arguments] { export_table(*arguments); });
 }
 

@@ -83,6 +83,9 @@ void add_table_import_command(CLI::App& table) {
   add_word_option(*app, "--unreflected", arguments->unreflected, exchange::kUnreflectedWords,
                   "davis: treatment of light that is not reflected");
   app->add_option("--reflectance", arguments->reflectance, "lbnl: Geant4's REFLECTIVITY of the surface");
+  app->footer(
+      "Example: scintray table import Rough_LUT.z --format davis --inside-index 1.82 --outside-index 1 "
+      "--from-outside smooth --unreflected transmitted -o rough.h5");
   app->callback([arguments] { import_table(*arguments); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "scintray/cli/goniometer_options.hpp"
 #include "scintray/cli/interrupt.hpp"
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/report/pages/page.hpp"
@@ -25,6 +26,7 @@ constexpr double kStated_deg[] = {0.0, 45.0, 80.0};
 struct ListOptions {
   SampleOptions sample;
   std::string outside = "air", page;
+  bool json = false;
 };
 
 std::vector<double> sweep_angles() {
@@ -99,7 +101,22 @@ void print_entry(const report::SurfaceEntry& entry) {
   std::cout << "\n";
 }
 
+Json entry_json(const report::SurfaceEntry& entry) {
+  Json json = {{"surface", entry.name},        {"model", entry.outline.model},
+               {"bases", entry.outline.bases}, {"sources", entry.outline.sources},
+               {"needs", entry.outline.needs}, {"not_made", entry.not_made},
+               {"reflectance", Json::array()}};
+  if (entry.readings)
+    for (const analysis::GoniometerReading& reading : entry.readings->sweep)
+      json["reflectance"].push_back(
+          {{"incidence_deg", json_of(reading.settings.incidence_rad / core::kDegree)},
+           {"value", json_of(reading.reflectance().value)},
+           {"error", json_of(reading.reflectance().error)}});
+  return json;
+}
+
 void run_list(const ListOptions& options) {
+  const JsonAnswer answer(options.json);
   const InterruptGuard guard;
   ProgressLine line(true);
   materials::SurfaceFactory factory = watched_factory(line);
@@ -116,6 +133,11 @@ void run_list(const ListOptions& options) {
     line.clear();
     print_entry(entries.back());
   }
+  answer.print([&] {
+    Json list = Json::array();
+    for (const report::SurfaceEntry& entry : entries) list.push_back(entry_json(entry));
+    return Json{{"surfaces", list}};
+  });
   if (options.page.empty()) return;
   report::write_page(options.page, report::surface_page(entries, under));
   std::cout << "\nwritten      " << options.page << "\n";
@@ -130,6 +152,8 @@ void add_table_list_command(CLI::App& table) {
   add_sample_options(*command, options->sample, kListedRays);
   command->add_option("--outside", options->outside, "Medium outside")->capture_default_str();
   command->add_option("--page", options->page, "HTML page to write");
+  add_json_flag(*command, options->json);
+  command->footer("Example: scintray table list --inside LSO --outside air --page surfaces.html");
   command->callback([options] { run_list(*options); });
 }
 

@@ -119,6 +119,38 @@ std::shared_ptr<const optics::SurfaceTable> table_with_progress(
   return table;
 }
 
+Json table_json(const optics::SurfaceTable& table) {
+  const optics::TableProvenance& p = table.provenance();
+  Json slices = Json::array();
+  for (const optics::TableSlice& slice : table.slices()) {
+    Json one = {{"index_inside", json_of(slice.index.inside)},
+                {"index_outside", json_of(slice.index.outside)},
+                {"wavelength_nm", slice.wavelength_nm > 0.0 ? Json(slice.wavelength_nm) : Json(nullptr)},
+                {"azimuth_deg", json_of(slice.azimuth_rad / core::kDegree)}};
+    for (const optics::Side side : {optics::Side::inside, optics::Side::outside}) {
+      Json nodes = Json::array();
+      for (const optics::TableNode& node : slice.nodes(side))
+        nodes.push_back({{"incidence_deg", json_of(node.incidence_rad / core::kDegree)},
+                         {"reflectance", json_of(node.reflectance)},
+                         {"reflectance_error", json_of(node.reflectance_error)},
+                         {"absorptance", json_of(node.absorptance)},
+                         {"mean_slope_deg", json_of(node.mean_slope_rad / core::kDegree)}});
+      one[side == optics::Side::inside ? "from_inside" : "from_outside"] = std::move(nodes);
+    }
+    slices.push_back(std::move(one));
+  }
+  return {{"map", p.map},
+          {"stack", p.stack},
+          {"rays_per_azimuth", p.rays_per_azimuth},
+          {"azimuths", p.azimuths},
+          {"seed", p.seed},
+          {"unclassified", p.unclassified},
+          {"cut", p.cut},
+          {"unconverged", p.unconverged},
+          {"version", p.version},
+          {"slices", slices}};
+}
+
 void write_and_report(const std::string& path, const optics::SurfaceTable& table) {
   optics::write_table(path, table);
   const optics::TableProvenance& p = table.provenance();

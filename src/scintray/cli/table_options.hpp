@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/table_cache.hpp"
 #include "scintray/optics/medium.hpp"
@@ -48,6 +49,9 @@ topography::TableSettings settings_of(const TracingOptions& options);
 using BuildTable = std::function<optics::SurfaceTable(const topography::TableProgress&)>;
 std::shared_ptr<const optics::SurfaceTable> table_with_progress(
     const std::optional<materials::CacheEntry>& entry, const BuildTable& build);
+
+/// Numbers of a table: its provenance, and each slice with its nodes.
+Json table_json(const optics::SurfaceTable& table);
 
 /// Writes the table and prints its content, with a warning when the target error was not reached.
 void write_and_report(const std::string& path, const optics::SurfaceTable& table);

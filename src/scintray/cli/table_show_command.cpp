@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/table_options.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
@@ -114,13 +115,18 @@ void print_slice(const optics::SurfaceTable& table, std::size_t number) {
 void add_table_show_command(CLI::App& table) {
   auto file = std::make_shared<std::string>();
   auto plot = std::make_shared<std::string>();
+  auto json = std::make_shared<bool>(false);
   CLI::App* app = table.add_subcommand("show", "Print the content of a surface table");
   app->add_option("file", *file, "Table file (HDF5)")->required();
   app->add_option("--plot", *plot, "SVG file for reflectance and slopes against incidence");
-  app->callback([file, plot] {
+  add_json_flag(*app, *json);
+  app->footer("Example: scintray table show ground.h5 --plot ground.svg");
+  app->callback([file, plot, json] {
+    const JsonAnswer answer(*json);
     const optics::SurfaceTable read = optics::read_table(*file);
     print_provenance(read);
     for (std::size_t slice = 0; slice < read.slices().size(); ++slice) print_slice(read, slice);
+    answer.print([&] { return table_json(read); });
     if (!plot->empty()) plot_table(*plot, read);
   });
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/table_options.hpp"
 #include "scintray/materials/database.hpp"
 #include "scintray/materials/surface_factory.hpp"
@@ -14,6 +15,7 @@ namespace scintray::cli {
 namespace {
 
 struct StackArguments {
+  bool json = false;
   std::string surface, output;
   TracingOptions tracing;
 };
@@ -55,6 +57,7 @@ optics::TableProvenance provenance_of(const materials::SurfaceSpec& spec) {
 }
 
 void build(const StackArguments& arguments) {
+  const JsonAnswer answer(arguments.json);
   const materials::MaterialDatabase database = database_of(arguments.tracing);
   const materials::SurfaceSpec spec = materials::traced_on_the_spot(database.surface(arguments.surface));
   const Between media = between(arguments.tracing, database);
@@ -72,7 +75,9 @@ void build(const StackArguments& arguments) {
     return topography::build_stack_table(surface_of(spec, media), spectrum, settings, provenance_of(spec),
                                          progress);
   };
-  write_and_report(arguments.output, *table_with_progress(entry, trace));
+  const std::shared_ptr<const optics::SurfaceTable> built = table_with_progress(entry, trace);
+  write_and_report(arguments.output, *built);
+  answer.print([&] { return table_json(*built); });
 }
 
 }  // namespace
@@ -85,6 +90,10 @@ void add_table_stack_command(CLI::App& table) {
   app->add_option("surface", arguments->surface, "Name of the surface")->required();
   app->add_option("-o,--output", arguments->output, "Table file to write (HDF5)")->required();
   add_tracing_options(*app, arguments->tracing);
+  add_json_flag(*app, arguments->json);
+  app->footer(
+      "Example: scintray table stack lso_polished_esr_air --inside LSO --outside air --wavelength \"420 nm\" "
+      "-o polished.h5");
   app->callback([arguments] { build(*arguments); });
 }
 

@@ -31,12 +31,13 @@ struct Samples {
 }  // namespace
 
 core::Curve TomlTable::curve(const std::string& key, core::Dimension y, core::Dimension x) const {
-  if (!read(key, true)) return core::Curve::constant(0.0);
+  read(key, true);
   return optional_curve(key, y, x).value_or(core::Curve::constant(0.0));
 }
 
 std::optional<core::Curve> TomlTable::optional_curve(const std::string& key, core::Dimension y,
                                                      core::Dimension x) const {
+  record(key, {.form = KeyUse::Form::curve, .dimension = y, .x = x});
   const TomlNode* value = read(key, false);
   if (!value) return std::nullopt;
   if (value->kind == TomlNode::Kind::table) return curve_of(key, *value, y, x);

@@ -23,6 +23,8 @@ struct TomlTable::Session {
     std::set<std::string> known, read, bad;
   };
   core::Problems* problems = nullptr;
+  bool recording = false;
+  std::vector<KeyUse> uses;
   std::map<const TomlNode*, Marks> tables;
 
   Marks& of(const TomlNodePtr& node, const std::string& path) {
@@ -59,12 +61,25 @@ core::FileLocation TomlTable::where(const std::string& key) const {
   return value ? value->where : node_->where;
 }
 
+void TomlTable::record_uses() const { session_->recording = true; }
+
+const std::vector<KeyUse>& TomlTable::key_uses() const { return session_->uses; }
+
+void TomlTable::record(const std::string& key, KeyUse use) const {
+  if (!session_->recording) return;
+  use.table = path_;
+  use.key = key;
+  session_->uses.push_back(std::move(use));
+}
+
 bool TomlTable::has(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::present});
   session_->of(node_, path_).known.insert(key);
   return node_->find(key) != nullptr;
 }
 
 bool TomlTable::is_array(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::raw});
   const TomlNode* value = node_->find(key);
   return value && value->kind == Kind::array;
 }
@@ -101,10 +116,12 @@ void TomlTable::report(const std::string& key, std::string what, std::string hin
 
 void TomlTable::expect(const std::string& key, bool ok, const std::string& what,
                        const std::string& hint) const {
+  record(key, {.form = KeyUse::Form::rule, .note = what});
   if (!ok && good(key)) report(key, what, hint);
 }
 
 std::optional<std::string> TomlTable::one_of(const std::vector<std::string>& choices, bool required) const {
+  record("", {.form = KeyUse::Form::one_of, .words = choices, .required = required});
   std::vector<std::string> found;
   for (const std::string& choice : choices)
     if (has(choice)) found.push_back(choice);
@@ -133,6 +150,7 @@ std::optional<std::string> TomlTable::one_of(const std::vector<std::string>& cho
 const TomlNode* TomlTable::read(const std::string& key, bool required) const {
   Session::Marks& marks = session_->of(node_, path_);
   marks.known.insert(key);
+  if (required) record(key, {.form = KeyUse::Form::present, .required = true});
   const TomlNode* value = node_->find(key);
   if (value) marks.read.insert(key);
   if (!value && required && !marks.absent) {
@@ -150,6 +168,7 @@ TomlTable TomlTable::table(const std::string& key) const {
     const std::optional<TomlTable> found = optional_table(key);
     if (found) return *found;
   }
+  record(key, {.form = KeyUse::Form::table});
   auto absent = std::make_shared<TomlNode>();
   absent->key = key;
   absent->where = absent->key_where = where(key);
@@ -159,6 +178,7 @@ TomlTable TomlTable::table(const std::string& key) const {
 }
 
 std::optional<TomlTable> TomlTable::optional_table(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::table});
   const TomlNode* value = read(key, false);
   if (!value) return std::nullopt;
   if (value->kind == Kind::table) return child(*value, key);
@@ -174,6 +194,7 @@ std::optional<TomlTable> TomlTable::optional_table(const std::string& key) const
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) const {
   std::vector<TomlTable> result;
+  record(key, {.form = KeyUse::Form::tables});
   const TomlNode* value = read(key, false);
   if (!value) return result;
   const std::string full = path_.empty() ? key : path_ + "." + key;
@@ -204,6 +225,7 @@ std::vector<TomlTable> TomlTable::named_tables(const std::string& key) const {
 }
 
 TomlNodePtr TomlTable::take(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::raw});
   const TomlNode* value = read(key, false);
   return value ? TomlNodePtr(node_, value) : nullptr;
 }

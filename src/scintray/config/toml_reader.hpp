@@ -60,6 +60,33 @@ TomlNodePtr parse_toml_file(const std::filesystem::path& path);
 /// The content of a text file. Throws InputError, at `where` if that is given, when it cannot be read.
 std::string read_text_file(const std::filesystem::path& path, const core::FileLocation& where = {});
 
+/// One way in which a reader uses a key: what it accepts there. A key may have several, of different forms.
+struct KeyUse {
+  enum class Form {
+    present,  ///< only whether it is there
+    raw,      ///< the value as written
+    text,     ///< one of `words` where there are any
+    file,     ///< the name of a file
+    boolean,
+    integer,
+    number,
+    quantity,  ///< of `dimension`
+    curve,     ///< a quantity of `dimension`, or a table of them over `x`
+    table,
+    tables,  ///< a list of tables
+    one_of,  ///< a group: exactly one of the keys in `words` may be present; `key` is empty
+    rule,    ///< the error message `note` of a condition on the value
+  };
+  Form form = Form::present;
+  std::string table = {}, key = {};  ///< "part.face", "name"; the path is empty for the outermost table
+  core::Dimension dimension = core::Dimension::dimensionless, x = core::Dimension::wavelength;
+  std::vector<std::string> words = {};
+  bool list = false, required = false;
+  std::size_t count = 0;  ///< elements of a list; 0: any number above 0
+  std::string note = {};  ///< the value of an absent key, as text; of a rule its message
+  bool operator==(const KeyUse&) const = default;
+};
+
 /// A table being read. Problems are added to a collector and a harmless default is returned, so that reading
 /// continues and all problems are reported together.
 ///
@@ -138,7 +165,11 @@ class TomlTable {
   }
   template <typename T, std::size_t N>
   T choice(const std::string& key, const core::Word<T> (&words)[N], std::type_identity_t<T> fallback) const {
-    return core::find_word(words, choice(key, core::word_list(words), "")).value_or(fallback);
+    std::string absent;
+    if constexpr (requires { fallback == fallback; })
+      for (const core::Word<T>& known : words)
+        if (absent.empty() && known.value == fallback) absent = known.word;
+    return core::find_word(words, choice(key, core::word_list(words), absent)).value_or(fallback);
   }
 
   /// Arrays of `count` elements; `count` 0 means any length, and at least one unless stated otherwise. Empty
@@ -192,6 +223,11 @@ class TomlTable {
   /// compare with the documentation.
   std::vector<std::string> known_keys() const;
 
+  /// From here on, keeps how the keys of the document are used, for key_uses().
+  void record_uses() const;
+  /// Every use of a key since record_uses(), in the order of reading; the same use may occur several times.
+  const std::vector<KeyUse>& key_uses() const;
+
  private:
   struct Session;
   TomlTable(TomlNodePtr node, std::string path, std::shared_ptr<Session> session);
@@ -199,6 +235,7 @@ class TomlTable {
   void report_at(const core::FileLocation& where, const std::string& key, std::string what,
                  std::string hint) const;
   void mark_bad(const std::string& key) const;
+  void record(const std::string& key, KeyUse use) const;
   std::string hint_for_unknown(const TomlNode& table, const std::string& key) const;
   std::string quoted(const std::string& key) const;
   TomlTable child(const TomlNode& node, const std::string& key) const;

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
+#include <sstream>
 
 #include "scintray/config/detail/toml_words.hpp"
 #include "scintray/config/toml_reader.hpp"
@@ -22,9 +24,27 @@ std::string whole_number(const TomlNode& value) {
   return whole ? std::to_string(static_cast<std::int64_t>(number)) : "1_000_000";
 }
 
+std::string number_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return std::isfinite(value) ? text.str() : "";
+}
+
+/// A value in the internal unit of its dimension (core/units.hpp) as a quantity with a unit.
+std::string in_internal_unit(double value, core::Dimension dimension) {
+  if (dimension == core::Dimension::angle && std::isfinite(value))
+    return number_text(value * 180.0 / std::numbers::pi) + " deg";
+  const std::vector<std::string> units = core::units_of(dimension);
+  const auto own = std::find_if(units.begin(), units.end(), [&](const std::string& unit) {
+    return core::unit_factor(unit, dimension) == 1.0;
+  });
+  return number_text(value) + (own == units.end() || !std::isfinite(value) ? "" : " " + *own);
+}
+
 }  // namespace
 
 std::optional<std::string> TomlTable::optional_string(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::text});
   const TomlNode* value = read(key, false);
   if (!value) return std::nullopt;
   if (value->kind != Kind::string) {
@@ -40,18 +60,23 @@ std::optional<std::string> TomlTable::optional_string(const std::string& key) co
 }
 
 std::string TomlTable::string(const std::string& key) const {
-  return read(key, true) ? optional_string(key).value_or("") : "";
+  if (read(key, true)) return optional_string(key).value_or("");
+  record(key, {.form = KeyUse::Form::text});
+  return "";
 }
 
 std::string TomlTable::string(const std::string& key, const std::string& fallback) const {
+  record(key, {.form = KeyUse::Form::text, .note = fallback});
   return optional_string(key).value_or(fallback);
 }
 
 bool TomlTable::boolean(const std::string& key) const {
-  return read(key, true) ? boolean(key, false) : false;
+  read(key, true);
+  return boolean(key, false);
 }
 
 bool TomlTable::boolean(const std::string& key, bool fallback) const {
+  record(key, {.form = KeyUse::Form::boolean, .note = fallback ? "true" : "false"});
   const TomlNode* value = read(key, false);
   if (!value) return fallback;
   if (value->kind == Kind::boolean) return value->boolean;
@@ -61,6 +86,7 @@ bool TomlTable::boolean(const std::string& key, bool fallback) const {
 }
 
 std::optional<std::int64_t> TomlTable::optional_integer(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::integer});
   const TomlNode* value = read(key, false);
   if (!value) return std::nullopt;
   if (value->kind == Kind::integer) return value->integer;
@@ -70,10 +96,12 @@ std::optional<std::int64_t> TomlTable::optional_integer(const std::string& key) 
 }
 
 std::int64_t TomlTable::integer(const std::string& key) const {
-  return read(key, true) ? optional_integer(key).value_or(0) : 0;
+  read(key, true);
+  return optional_integer(key).value_or(0);
 }
 
 std::int64_t TomlTable::integer(const std::string& key, std::int64_t fallback) const {
+  record(key, {.form = KeyUse::Form::integer, .note = std::to_string(fallback)});
   return optional_integer(key).value_or(fallback);
 }
 
@@ -90,15 +118,18 @@ std::optional<double> TomlTable::number_of(const std::string& key, const TomlNod
 }
 
 std::optional<double> TomlTable::optional_number(const std::string& key) const {
+  record(key, {.form = KeyUse::Form::number});
   const TomlNode* value = read(key, false);
   return value ? number_of(key, *value) : std::nullopt;
 }
 
 double TomlTable::number(const std::string& key) const {
-  return read(key, true) ? optional_number(key).value_or(0.0) : 0.0;
+  read(key, true);
+  return optional_number(key).value_or(0.0);
 }
 
 double TomlTable::number(const std::string& key, double fallback) const {
+  record(key, {.form = KeyUse::Form::number, .note = number_text(fallback)});
   return optional_number(key).value_or(fallback);
 }
 
@@ -124,24 +155,32 @@ std::optional<double> TomlTable::quantity_of(const std::string& key, const TomlN
 }
 
 std::optional<double> TomlTable::optional_quantity(const std::string& key, core::Dimension dimension) const {
+  record(key, {.form = KeyUse::Form::quantity, .dimension = dimension});
   const TomlNode* value = read(key, false);
   return value ? quantity_of(key, *value, dimension) : std::nullopt;
 }
 
 double TomlTable::quantity(const std::string& key, core::Dimension dimension) const {
-  return read(key, true) ? optional_quantity(key, dimension).value_or(0.0) : 0.0;
+  read(key, true);
+  return optional_quantity(key, dimension).value_or(0.0);
 }
 
 double TomlTable::quantity(const std::string& key, core::Dimension dimension, double fallback) const {
+  record(key, {.form = KeyUse::Form::quantity,
+               .dimension = dimension,
+               .note = in_internal_unit(fallback, dimension)});
   return optional_quantity(key, dimension).value_or(fallback);
 }
 
 std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed) const {
-  return read(key, true) ? choice(key, allowed, allowed.front()) : allowed.front();
+  if (read(key, true)) return choice(key, allowed, "");
+  record(key, {.form = KeyUse::Form::text, .words = allowed});
+  return allowed.front();
 }
 
 std::string TomlTable::choice(const std::string& key, const std::vector<std::string>& allowed,
                               const std::string& fallback) const {
+  record(key, {.form = KeyUse::Form::text, .words = allowed, .note = fallback});
   const TomlNode* value = read(key, false);
   if (!value) return fallback;
   if (value->kind == Kind::string && std::find(allowed.begin(), allowed.end(), value->text) != allowed.end())
@@ -173,6 +212,7 @@ const TomlNode* TomlTable::array(const std::string& key, std::size_t count, bool
 }
 
 std::vector<std::string> TomlTable::strings(const std::string& key, std::size_t count, bool required) const {
+  record(key, {.form = KeyUse::Form::text, .list = true, .count = count});
   std::vector<std::string> result;
   const TomlNode* list = array(key, count, required);
   if (!list) return result;
@@ -189,6 +229,7 @@ std::vector<std::string> TomlTable::strings(const std::string& key, std::size_t 
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count, bool required) const {
+  record(key, {.form = KeyUse::Form::number, .list = true, .count = count});
   std::vector<double> result;
   const TomlNode* list = array(key, count, required);
   if (!list) return result;
@@ -198,6 +239,7 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count
 
 std::vector<double> TomlTable::quantities(const std::string& key, core::Dimension dimension,
                                           std::size_t count, bool required) const {
+  record(key, {.form = KeyUse::Form::quantity, .dimension = dimension, .list = true, .count = count});
   std::vector<double> result;
   const TomlNode* list = array(key, count, required);
   if (!list) return result;
@@ -228,6 +270,7 @@ std::optional<core::Vec3> TomlTable::optional_direction(const std::string& key) 
 }
 
 std::filesystem::path TomlTable::existing_file(const std::string& key, bool required) const {
+  record(key, {.form = KeyUse::Form::file});
   if (required && !read(key, true)) return {};
   const std::optional<std::string> name = optional_string(key);
   if (!name) return {};

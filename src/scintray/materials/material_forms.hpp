@@ -2,6 +2,7 @@
 /// The forms of the material, sensor and reflector files (docs/materials.md).
 
 #include <string>
+#include <vector>
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/detector/sensor.hpp"
@@ -28,5 +29,10 @@ void expect_sheet(const config::TomlTable& table, const std::string& key, const 
 
 /// Composition from `formula` or `mass_fractions`; empty on an error.
 optics::Composition read_composition(const config::TomlTable& block);
+
+/// How the reader of a definition uses its keys, errors and all (config::explore_keys).
+/// @param tables  the table of definitions in a scene: "media", "surfaces", "sensors" or "reflectors"
+std::vector<config::KeyUse> definition_key_uses(const std::string& tables,
+                                                const config::TomlNodePtr& definition);
 
 }  // namespace scintray::materials

@@ -27,8 +27,10 @@ constexpr core::Word<const char*> kSideNames[] = {
 
 /// The side of a part that is touched.
 BoxSide read_side(const config::TomlTable& table) {
-  const std::string word = table.string("side", "");
+  const config::TomlNode* value = table.node()->find("side");
+  const std::string word = value ? value->text : "";
   if (const auto meant = core::find_word(kSideNames, word)) {
+    table.take("side");
     table.report("side",
                  "\"part.place.side\" is \"" + word + "\", but one of " +
                      core::list_quoted(core::word_list(kBoxSides)) + " is expected",

@@ -152,6 +152,14 @@ std::vector<std::string> scene_keys(const config::TomlNodePtr& document) {
   return root.known_keys();
 }
 
+std::vector<config::KeyUse> scene_key_uses(const config::TomlNodePtr& document) {
+  core::Problems ignored;
+  const config::TomlTable root(document, ignored);
+  root.record_uses();
+  read_from(root, "", TallyVariables::built_in());
+  return root.key_uses();
+}
+
 SceneFile SceneFile::load(const std::filesystem::path& path, const TallyVariables& variables) {
   return from_text(config::read_text_file(path), path.string(), variables);
 }

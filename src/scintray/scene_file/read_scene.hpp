@@ -20,6 +20,10 @@ SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& tex
 /// All keys that read_scene can read in the tables of this document, as "part.place.gap", sorted.
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
 
+/// How read_scene uses the keys of this document, errors and all (config::explore_keys). Definitions,
+/// [media.NAME] and the like, are read by the material database (materials::definition_key_uses).
+std::vector<config::KeyUse> scene_key_uses(const config::TomlNodePtr& document);
+
 /// A scene file with its sweeps, one scene per point.
 class SceneFile {
  public:

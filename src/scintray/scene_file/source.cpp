@@ -13,9 +13,11 @@ constexpr core::Word<OriginKind> kPhotonOrigins[] = {{"region", OriginKind::regi
 constexpr core::Word<DirectionKind> kDirectionShapes[] = {{"cone", DirectionKind::cone},
                                                           {"lambertian", DirectionKind::lambertian}};
 
+/// True when the value is this word, which is then read. Other values are left to be read otherwise.
 bool is_word(const config::TomlTable& table, const std::string& key, const std::string& word) {
   const config::TomlNode* node = table.node()->find(key);
-  return node && node->kind == Kind::string && node->text == word;
+  if (node && (node->kind != Kind::string || node->text != word)) return false;
+  return table.choice(key, {word}, "") == word;
 }
 
 }  // namespace
@@ -74,10 +76,7 @@ namespace {
 
 void read_wavelength(const config::TomlTable& table, SourceSpec& source) {
   source.wavelength_where = table.where("wavelength");
-  if (is_word(table, "wavelength", "emission")) {
-    table.take("wavelength");
-    return;
-  }
+  if (is_word(table, "wavelength", "emission")) return;
   source.wavelength_nm = table.quantity("wavelength", core::Dimension::wavelength);
   table.expect("wavelength", *source.wavelength_nm > 0.0, "a wavelength that is not positive",
                "give a wavelength, as \"420 nm\", or \"emission\"");
@@ -86,7 +85,6 @@ void read_wavelength(const config::TomlTable& table, SourceSpec& source) {
 void read_time(const config::TomlTable& table, SourceSpec& source) {
   source.time_where = table.where("time");
   if (is_word(table, "time", "decay")) {
-    table.take("time");
     source.time_ns = std::nullopt;
     return;
   }

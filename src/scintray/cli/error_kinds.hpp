@@ -1,0 +1,37 @@
+#pragma once
+/// Kinds of errors, each with the code that stands in brackets behind a message, and what `scintray --explain
+/// CODE` prints of it.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scintray::cli {
+
+struct ErrorKind {
+  const char* code;    ///< "unknown-key"
+  const char* title;   ///< what is wrong, in one phrase
+  const char* why;     ///< when it occurs, and what its place is
+  const char* remedy;  ///< what to write
+  /// Fragments of messages: a message that holds one of them is of this kind. Empty: by the type of the
+  /// exception.
+  std::vector<std::string_view> fragments;
+};
+
+/// All kinds; of several that fit a message the first counts.
+std::span<const ErrorKind> error_kinds();
+
+/// The code of a message about the input: that of the first kind with a fragment of it, else kInputError.
+const char* input_error_code(std::string_view what);
+
+inline constexpr const char* kInputError = "input";
+inline constexpr const char* kUsageError = "usage";
+inline constexpr const char* kSystemError = "system";
+inline constexpr const char* kDefectError = "defect";
+
+/// The text of `scintray --explain CODE`, or of a list of all codes without one. Throws InputError for a code
+/// that there is not, with the nearest.
+std::string explanation(const std::string& code);
+
+}  // namespace scintray::cli
