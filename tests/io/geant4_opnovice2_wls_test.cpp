@@ -194,7 +194,8 @@ TEST_CASE("OpNovice2 wls: two shifters, of which one re-emits three photons, agr
 
 TEST_CASE("OpNovice2 scint_by_particle: number, spectrum and time of the light of each particle agree") {
   // scint_by_particle.mac, without its rise times, which it turns off (setFiniteRiseTime false). The electron
-  // of its first run is left out: its light is below that of one that stops, since energy leaves the box again.
+  // of its first run is left out: its light is below that of one that stops, since energy leaves the box
+  // again.
   GdmlText text;
   text.define = R"(<matrix name="ABS" coldim="2" values="2*eV 1 5*eV 2 8*eV 3"/>
 <matrix name="N" coldim="2" values="2*eV 1.3 8*eV 1.4"/>

@@ -53,9 +53,11 @@ wavelength_shifting = [)" +
 std::string dye(double length_mm, const std::string& quantum_yield, const std::string& emission,
                 const std::string& decay) {
   return fmt::format(
-      "{{ absorption = {{ coefficient = {{ wavelength = [370, 389, 390, 410, 411, 600], wavelength_unit = \"nm\", "
+      "{{ absorption = {{ coefficient = {{ wavelength = [370, 389, 390, 410, 411, 600], wavelength_unit = "
+      "\"nm\", "
       "value "
-      "= [0, 0, {0}, {0}, 0, 0], value_unit = \"1/mm\" }} }}, quantum_yield = {{ {1} }}, emission = {{ {2} }}, "
+      "= [0, 0, {0}, {0}, 0, 0], value_unit = \"1/mm\" }} }}, quantum_yield = {{ {1} }}, emission = {{ {2} "
+      "}}, "
       "decay = [{{ {3} }}] "
       "}}",
       1.0 / length_mm, quantum_yield, emission, decay);
@@ -153,4 +155,13 @@ TEST_CASE("light that multiplies without end is an error, not a run without end"
     refused = std::string(error.what()).find("multiplies light without end") != std::string::npos;
   }
   CHECK(refused);
+}
+
+TEST_CASE("histories of photons that may become several are refused") {
+  const std::string green = dye(0.1, "value = 1.5, statistics = \"poisson\"", kGreen, kAtOnce);
+  const std::string single = dye(0.1, "value = 0.9", kGreen, kAtOnce);
+  const std::string history = "[run]\nphoton_history = true\nphoton_list = true\n";
+  CHECK_NOTHROW(trace(slab(single) + history, 1));
+  CHECK_THROWS_WITH_AS(trace(slab(green) + history, 1), doctest::Contains("several photons for one"),
+                       InputError);
 }

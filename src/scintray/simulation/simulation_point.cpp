@@ -86,7 +86,14 @@ SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, std::shared_ptr<con
       built_(std::move(built)),
       source_(source::make_light_source(spec_, built_->scene, &source_notes_)),
       plan_(built_->scene, spec_),
-      settings_(settings_of(spec_, built_->scene, plan_, number)) {}
+      settings_(settings_of(spec_, built_->scene, plan_, number)) {
+  if (plan_.history && multiplies_light(built_->scene))
+    throw core::InputError(core::Problem{
+        spec_.run.where,
+        "photon_history with a wavelength shifter that may re-emit several photons for one: the history of a "
+        "detected photon would be that of its parent",
+        "remove photon_history, or state statistics = \"single\" for the shifter"});
+}
 
 SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, scene::SceneBuilder& builder,
                                  std::uint32_t number)

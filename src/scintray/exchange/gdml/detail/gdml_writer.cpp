@@ -148,19 +148,40 @@ void GdmlWriter::add_bulk(pugi::xml_node material, const optics::Medium& medium)
     add_number(material, "MIEHG_BACKWARD", particles.backward_g);
     add_number(material, "MIEHG_FORWARD_RATIO", particles.forward_share);
   }
-  if (medium.shifter) {
-    const optics::WavelengthShifter& shifter = *medium.shifter;
-    add_lengths(material, "WLSABSLENGTH", shifter.absorption_per_mm());
-    add_spectrum(material, "WLSCOMPONENT", shifter.emission());
-    add_number(material, "WLSMEANNUMBERPHOTONS", shifter.quantum_yield().max_y());
-    if (shifter.quantum_yield().min_y() < shifter.quantum_yield().max_y())
-      note("medium " + medium.name +
-           ": the quantum yield of its shifter varies; Geant4 has one number: its largest is written, and "
-           "more "
-           "light is re-emitted");
-    note("medium " + medium.name +
-         ": the decay times of its shifter are left out (WLSTIMECONSTANT): shifted light is emitted at once");
+  if (medium.shifter) add_shifters(material, medium);
+}
+
+void GdmlWriter::add_shifters(pugi::xml_node material, const optics::Medium& medium) {
+  constexpr std::size_t kMostShifters = 2;
+  const std::vector<optics::Fluorophore>& all = medium.shifter->fluorophores();
+  const std::string of = "medium " + medium.name + ": ";
+  if (all.size() > kMostShifters)
+    note(of + "Geant4 has two wavelength shifters: the first two are written, and less light is shifted");
+  for (std::size_t i = 0; i < std::min(all.size(), kMostShifters); ++i) {
+    const optics::Fluorophore& one = all[i];
+    const std::string number = i == 0 ? "" : "2";
+    const auto key = [&](const char* name) { return name + number; };
+    add_lengths(material, key("WLSABSLENGTH").c_str(), one.absorption_per_mm);
+    add_spectrum(material, key("WLSCOMPONENT").c_str(), one.emission);
+    const double low = one.quantum_yield.min_y(), high = one.quantum_yield.max_y();
+    // Without a mean number Geant4 re-emits one photon for each that is absorbed.
+    const bool one_each = one.statistics == optics::ShiftStatistics::single && low == 1.0;
+    if (!one_each) add_number(material, key("WLSMEANNUMBERPHOTONS").c_str(), high);
+    if (low < high)
+      note(of +
+           "the quantum yield of its shifter varies; Geant4 has one number: its largest is written, and "
+           "more light is re-emitted");
+    if (!one_each && one.statistics == optics::ShiftStatistics::single)
+      note(of +
+           "Geant4 draws the number of re-emitted photons from a Poisson distribution: the mean is the "
+           "same, and some photons become several");
+    if (one.rule == optics::ShiftRule::kasha)
+      note(of +
+           "its shifter emits the whole spectrum (Kasha's rule); Geant4 keeps to energies below that of "
+           "the absorbed photon");
   }
+  note(of +
+       "the decay times of its shifter are left out (WLSTIMECONSTANT): shifted light is emitted at once");
 }
 
 void GdmlWriter::add_scintillation(pugi::xml_node material, const optics::Medium& medium) {
@@ -178,6 +199,11 @@ void GdmlWriter::add_scintillation(pugi::xml_node material, const optics::Medium
   if (medium.intrinsic_fwhm > 0.0)
     note("medium " + medium.name +
          ": its intrinsic resolution is left out (RESOLUTIONSCALE 1): the light spreads by counting alone");
+  if (!medium.by_particle.empty())
+    note("medium " + medium.name +
+         ": its light by particle is left out: every particle has that of electrons");
+  if (medium.birks_mm_per_keV > 0.0)
+    note("medium " + medium.name + ": Birks' law is left out: light is proportional to energy");
   if (!medium.relative_yield.is_constant())
     note("medium " + medium.name + ": its non-proportionality is left out: light is proportional to energy");
   for (std::size_t i = 0; i < parts.size(); ++i) {

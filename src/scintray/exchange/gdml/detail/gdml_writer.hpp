@@ -53,6 +53,8 @@ class GdmlWriter {
   void add_matrix(pugi::xml_node owner, const char* name, int columns, const std::string& values);
   void add_bulk(pugi::xml_node material, const optics::Medium& medium);
   void add_scintillation(pugi::xml_node material, const optics::Medium& medium);
+  /// At most two shifters, as Geant4's WLS and WLS2.
+  void add_shifters(pugi::xml_node material, const optics::Medium& medium);
   void add_composition(pugi::xml_node material, const optics::Medium& medium);
   void add_finish(pugi::xml_node node, const optics::Surface& surface, optics::Side from);
   void add_rough(pugi::xml_node node, const optics::Surface& surface);

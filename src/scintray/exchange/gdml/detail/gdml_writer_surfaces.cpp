@@ -2,7 +2,7 @@
 
 #include "scintray/exchange/gdml/detail/gdml_writer.hpp"
 #include "scintray/optics/coherent_layers.hpp"
-#include "scintray/optics/unified.hpp"
+#include "scintray/optics/facets.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -82,7 +82,7 @@ void GdmlWriter::add_finish(pugi::xml_node node, const optics::Surface& surface,
     if (painted) {
       set_kind(node, "dielectric_dielectric", specular ? "polishedfrontpainted" : "groundfrontpainted");
     } else {
-      const auto* facets = surface.microsurface.get_if<optics::UnifiedSurface>();
+      const auto* facets = surface.microsurface.get_if<optics::FacetSurface>();
       set_kind(node, "dielectric_dielectric", specular ? "polishedbackpainted" : "groundbackpainted",
                facets ? facets->sigma_alpha_rad : 0.0);
       add_table(node, "RINDEX", surface.gap_index);
@@ -103,7 +103,7 @@ void GdmlWriter::add_finish(pugi::xml_node node, const optics::Surface& surface,
     }
     return;
   }
-  const auto* facets = surface.microsurface.get_if<optics::UnifiedSurface>();
+  const auto* facets = surface.microsurface.get_if<optics::FacetSurface>();
   set_kind(node, "dielectric_dielectric", facets ? "ground" : "polished",
            facets ? facets->sigma_alpha_rad : 0.0);
   add_rough(node, surface);
@@ -119,7 +119,7 @@ void GdmlWriter::add_rough(pugi::xml_node node, const optics::Surface& surface) 
     add_table(node, "SPECULARLOBECONSTANT", core::Curve::constant(1.0));
     return;
   }
-  const auto* facets = surface.microsurface.get_if<optics::UnifiedSurface>();
+  const auto* facets = surface.microsurface.get_if<optics::FacetSurface>();
   if (!facets) {
     note("surface " + surface.name +
          ": its microsurface (a table, a height map, films or another model) has no counterpart in GDML: "

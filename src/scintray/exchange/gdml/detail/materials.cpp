@@ -18,12 +18,14 @@ namespace {
 class MaterialImporter {
  public:
   explicit MaterialImporter(const OpticalTables& tables)
-      : tables_(tables), file_(tables.file()), definitions_(tables.definitions()) {}
+      : tables_(tables),
+        file_(tables.file()),
+        definitions_(tables.definitions()),
+        substances_(file_, definitions_) {}
 
   std::vector<ImportedMedium> import() {
     std::vector<Node> materials;
     definitions_.for_each_child(file_.section("materials"), [&](Node node) {
-      substances_.emplace(definitions_.name(node.attribute("name").value(), node), node);
       if (std::string(node.name()) == "material") materials.push_back(node);
     });
     std::vector<ImportedMedium> media;
@@ -210,85 +212,13 @@ class MaterialImporter {
                     std::clamp(constant(material, {"MIEHG_FORWARD_RATIO"}).value_or(0.0), 0.0, 1.0));
   }
 
-  /// Mass by the symbol of each element, in grams for a mole or of a unit mass: only ratios count.
-  using Masses = std::map<std::string, double>;
-
-  static double total(const Masses& masses) {
-    double sum = 0.0;
-    for (const auto& [symbol, mass] : masses) sum += mass;
-    return sum;
-  }
-
-  Node substance(Node reference) const {
-    const auto found = substances_.find(definitions_.name(reference.attribute("ref").value(), reference));
-    return found == substances_.end() ? Node() : found->second;
-  }
-
-  /// Molar mass of an element, that of its isotopes by their shares where it consists of such; 0 when not
-  /// stated.
-  double molar_mass(Node element) const {
-    if (const Node atom = element.child("atom")) return definitions_.number(atom, "value");
-    double sum = 0.0;
-    for (const Node share : element.children("fraction"))
-      if (const Node isotope = substance(share); isotope && isotope.child("atom"))
-        sum += definitions_.number(share, "n") * definitions_.number(isotope.child("atom"), "value");
-    return sum;
-  }
-
-  /// Symbol of an element, of a material of one element, or of the isotopes of an element; empty when not
-  /// known.
-  std::string symbol_of(Node element) const {
-    // By atomic number, up to that of the last element with tables of cross sections.
-    static constexpr std::string_view kSymbols =
-        "H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr "
-        "Rb Sr Y "
-        "Zr Nb Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf "
-        "Ta W Re "
-        "Os Ir Pt Au Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu ";
-    Node with_number = element;
-    if (!with_number.attribute("Z")) with_number = substance(element.child("fraction"));
-    if (!with_number || !with_number.attribute("Z")) return {};
-    const double number = definitions_.number(with_number, "Z");
-    std::string_view rest = kSymbols;
-    for (double z = 1.0; z < number && !rest.empty(); ++z) rest.remove_prefix(rest.find(' ') + 1);
-    return number >= 1.0 ? std::string(rest.substr(0, rest.find(' '))) : std::string();
-  }
-
-  /// Masses of the elements of a material or element; empty when something is not stated.
-  Masses masses_of(Node node, int depth = 0) const {
-    constexpr int kDeepest = 20;  // a material may refer to itself
-    if (!node || depth > kDeepest) return {};
-    const bool is_element = std::string_view(node.name()) == "element";
-    if (is_element || node.attribute("Z")) {
-      const std::string symbol = symbol_of(node);
-      const double mass = molar_mass(node);
-      return symbol.empty() || !(mass > 0.0) ? Masses() : Masses{{symbol, mass}};
-    }
-    Masses masses;
-    for (const Node part : node.children()) {
-      const std::string_view kind = part.name();
-      if (kind != "fraction" && kind != "composite") continue;
-      const Masses of_part = masses_of(substance(part), depth + 1);
-      const double sum = total(of_part);
-      if (!(sum > 0.0)) return {};
-      // A fraction is a share of the mass, a composite a number of atoms or molecules.
-      const double factor = definitions_.number(part, "n") / (kind == "fraction" ? sum : 1.0);
-      for (const auto& [symbol, mass] : of_part) masses[symbol] += factor * mass;
-    }
-    return masses;
-  }
-
   void add_composition(Node material, ImportedMedium& medium) const {
-    const Masses masses = masses_of(material);
-    const double sum = total(masses);
-    if (!(sum > 0.0) || !material.child("D")) {
+    const std::string list = substances_.mass_fractions(material);
+    if (list.empty() || !material.child("D")) {
       if (!material.child("fraction") && !material.child("composite") && !material.attribute("Z")) return;
       medium.notes.push_back("its composition or density, which gammas need, is not stated in full");
       return;
     }
-    std::string list;
-    for (const auto& [symbol, mass] : masses)
-      list += fmt::format("{}{} = {:.9g}", list.empty() ? "" : ", ", symbol, mass / sum);
     medium.toml += "composition = { mass_fractions = { " + list + " } }\n";
   }
 
@@ -399,7 +329,7 @@ class MaterialImporter {
   const OpticalTables& tables_;
   const GdmlFile& file_;
   const Definitions& definitions_;
-  std::map<std::string, Node> substances_;  ///< isotopes, elements and materials by name
+  Substances substances_;
 };
 
 }  // namespace

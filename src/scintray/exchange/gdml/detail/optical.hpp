@@ -2,6 +2,7 @@
 /// The optics of a GDML file: its materials as media, its optical surfaces as surface definitions.
 
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +67,26 @@ class OpticalTables {
   const GdmlFile& file_;
   const Definitions& definitions_;
   double low_nm_ = 0.0, high_nm_ = 0.0;
+};
+
+/// What materials consist of: the isotopes, elements and materials of a file by name.
+class Substances {
+ public:
+  Substances(const GdmlFile& file, const Definitions& definitions);
+  /// Shares of the mass by element, as "Lu = 0.714467891, O = ..."; empty when something is not stated.
+  std::string mass_fractions(Node material) const;
+
+ private:
+  /// Mass by the symbol of each element, in grams for a mole or of a unit mass: only ratios count.
+  using Masses = std::map<std::string, double>;
+
+  Node find(Node reference) const;
+  double molar_mass(Node element) const;
+  std::string symbol_of(Node element) const;
+  Masses masses_of(Node node, int depth) const;
+
+  const Definitions& definitions_;
+  std::map<std::string, Node> by_name_;
 };
 
 /// A material as a medium of a scene.
