@@ -124,9 +124,9 @@ TEST_CASE("every command line of the pages parses") {
 
 TEST_CASE("every command that prints numbers prints them as JSON on request") {
   const std::set<std::string> without{// they print no numbers
-                                      "scintray new",         "scintray manual", "scintray completion",
-                                      "scintray schema",      "scintray view",   "scintray table export",
-                                      "scintray table import"};
+                                      "scintray new",          "scintray manual",      "scintray completion",
+                                      "scintray schema",       "scintray view",        "scintray export",
+                                      "scintray table export", "scintray table import"};
   std::map<std::string, std::string> footers;
   IdleProgram program;
   collect(program.app(), "scintray", footers);
