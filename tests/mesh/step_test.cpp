@@ -132,6 +132,24 @@ TEST_CASE("STEP: curved faces keep the requested tolerance, and the note has the
   }
 }
 
+TEST_CASE("STEP: a free-form strip keeps the requested deviation, a finer one too") {
+  const auto file = shared_file("findings/inputs/cad/featuretype.step");
+  if (!file) return;
+  for (const double deviation : {0.01, 0.002}) {
+    CAPTURE(deviation);
+    ImportOptions options;
+    options.tessellation.deviation_mm = deviation;
+    const MeshImport read = import_mesh(*file, options);
+    REQUIRE(read.notes.size() == 1);
+    double noted = 0.0;
+    std::istringstream(read.notes[0].substr(read.notes[0].find("within ") + 7)) >> noted;
+    CHECK(noted > 0.0);
+    CHECK(noted <= deviation);
+    CHECK(read.mesh.volume() == doctest::Approx(190448.0).epsilon(1e-4));
+    if (deviation == 0.01) CHECK(diagnose(read.mesh).closed());
+  }
+}
+
 TEST_CASE("STEP: the angle bounds a small circle that the deviation would leave coarse") {
   const StepBody fibre{"fibre", StepSolid::cylinder, {0.01, 0.0, 1.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
   const MeshImport read = written_and_read({fibre});

@@ -45,10 +45,10 @@
 
 #include "scintray/core/child_process.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/detail/surface_refinement.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/import/detail/step_isolation.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
-#include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray::mesh {
 namespace {
@@ -68,7 +68,7 @@ std::string label_name(const TDF_Label& label) {
   return bytes;
 }
 
-/// Placeholder names that CAD programs write for faces without a name.
+/// Names that CAD programs write for faces without one.
 bool is_no_name(const std::string& name) { return name.empty() || name == "NONE"; }
 
 core::Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
@@ -117,6 +117,8 @@ class ShapeReader {
     raw_.fill_body();
     if (loose_faces_ > 0)
       raw_.notes.push_back(std::to_string(loose_faces_) + " CAD faces left out: they belong to no solid");
+    if (raw_.deviation_mm > tessellation_.deviation_mm)
+      raw_.notes.push_back("coarser than requested, most of all: face" + std::to_string(coarsest_face_));
     if (uncut_faces_ > 0)
       reject_file(path_,
                   std::to_string(uncut_faces_) + " of " + std::to_string(faces_) +
@@ -225,58 +227,55 @@ class ShapeReader {
     raw_.mesh.groups.push_back(!is_no_name(name) ? name : own_colour.value_or(number));
     raw_.mesh.group_tags.push_back(std::move(tags));
 
-    measure(BRep_Tool::Surface(face, own_place), *triangles);
-    const std::optional<SupportSurface> support =
-        support_of(BRep_Tool::Surface(face, own_place), (place * own_place).Transformation());
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, own_place);
+    const SurfacePatch patch = refined(surface, *triangles);
+    const gp_Trsf transform = (place * own_place).Transformation();
+    const std::optional<SupportSurface> support = support_of(surface, transform);
     const std::uint32_t number_of_support = support ? raw_.mesh.support_index(*support) : kNoSupport;
-    raw_.mesh.support.resize(raw_.mesh.triangles.size() + static_cast<std::size_t>(triangles->NbTriangles()),
-                             number_of_support);
-    append(*triangles, (place * own_place).Transformation(), face.Orientation() == TopAbs_REVERSED);
+    raw_.mesh.support.resize(raw_.mesh.triangles.size() + patch.triangles.size(), number_of_support);
+    append(patch, transform, face.Orientation() == TopAbs_REVERSED);
   }
 
-  void append(const Poly_Triangulation& triangles, const gp_Trsf& transform, bool reversed) {
+  void append(const SurfacePatch& patch, const gp_Trsf& transform, bool reversed) {
     TriMesh& mesh = raw_.mesh;
-    if (mesh.vertices.size() + static_cast<std::size_t>(triangles.NbNodes()) > kMostElements ||
-        mesh.triangles.size() + static_cast<std::size_t>(triangles.NbTriangles()) > kMostElements)
+    if (mesh.vertices.size() + patch.vertices.size() > kMostElements ||
+        mesh.triangles.size() + patch.triangles.size() > kMostElements)
       reject_file(path_, "the mesh has more than 2^31 vertices or triangles",
                   "give the tessellation a larger deviation");
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int i = 1; i <= triangles.NbNodes(); ++i)
-      mesh.vertices.push_back(to_vec(triangles.Node(i).Transformed(transform)));
+    for (const core::Vec3& p : patch.vertices)
+      mesh.vertices.push_back(to_vec(gp_Pnt(p.x(), p.y(), p.z()).Transformed(transform)));
     const bool turned = reversed != transform.IsNegative();
-    for (int i = 1; i <= triangles.NbTriangles(); ++i) {
-      int a = 0, b = 0, c = 0;
-      triangles.Triangle(i).Get(a, b, c);
-      if (turned) std::swap(b, c);
-      const auto vertex = [first](int node) { return first + static_cast<std::uint32_t>(node - 1); };
-      mesh.triangles.push_back({vertex(a), vertex(b), vertex(c)});
+    for (std::array<std::uint32_t, 3> corner : patch.triangles) {
+      if (turned) std::swap(corner[1], corner[2]);
+      mesh.triangles.push_back({first + corner[0], first + corner[1], first + corner[2]});
       mesh.group.push_back(static_cast<std::uint32_t>(mesh.groups.size() - 1));
     }
   }
 
-  /// Distance of the middles of triangles and of their edges from the surface at the same parameters, mm.
-  void measure(const Handle(Geom_Surface) & surface, const Poly_Triangulation& triangles) {
-    if (surface.IsNull() || !triangles.HasUVNodes() ||
-        GeomAdaptor_Surface(surface).GetType() == GeomAbs_Plane)
-      return;
-    std::array<core::Vec3, 3> corners;
+  /// The triangles of a face, refined where curved: Open CASCADE exceeds the deviation on free-form strips.
+  SurfacePatch refined(const Handle(Geom_Surface) & surface, const Poly_Triangulation& triangles) {
+    SurfacePatch patch;
+    for (int i = 1; i <= triangles.NbNodes(); ++i) patch.vertices.push_back(to_vec(triangles.Node(i)));
     for (int i = 1; i <= triangles.NbTriangles(); ++i) {
       std::array<int, 3> node{};
       triangles.Triangle(i).Get(node[0], node[1], node[2]);
-      std::array<gp_XY, 3> uv;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        corners[corner] = to_vec(triangles.Node(node[corner]));
-        uv[corner] = triangles.UVNode(node[corner]).XY();
-      }
-      const auto measure_at = [&](const gp_XY& at) {
-        const core::Vec3 point = to_vec(surface->Value(at.X(), at.Y()));
-        raw_.deviation_mm =
-            std::max(raw_.deviation_mm, distance_to_triangle(point, corners[0], corners[1], corners[2]));
-      };
-      measure_at((uv[0] + uv[1] + uv[2]) / 3.0);
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        measure_at((uv[corner] + uv[(corner + 1) % 3]) / 2.0);
+      const auto vertex = [](int n) { return static_cast<std::uint32_t>(n - 1); };
+      patch.triangles.push_back({vertex(node[0]), vertex(node[1]), vertex(node[2])});
     }
+    if (surface.IsNull() || !triangles.HasUVNodes() ||
+        GeomAdaptor_Surface(surface).GetType() == GeomAbs_Plane)
+      return patch;
+    for (int i = 1; i <= triangles.NbNodes(); ++i)
+      patch.parameters.emplace_back(triangles.UVNode(i).X(), triangles.UVNode(i).Y());
+    const double reached_mm = refine(
+        patch, [&](const Eigen::Vector2d& at) { return to_vec(surface->Value(at.x(), at.y())); },
+        tessellation_.deviation_mm);
+    if (reached_mm > raw_.deviation_mm) {
+      raw_.deviation_mm = reached_mm;
+      coarsest_face_ = faces_;
+    }
+    return patch;
   }
 
   Handle(XCAFDoc_ShapeTool) shapes_;
@@ -285,6 +284,7 @@ class ShapeReader {
   Tessellation tessellation_;
   RawMesh raw_;
   std::size_t faces_ = 0, loose_faces_ = 0, uncut_faces_ = 0;
+  std::size_t coarsest_face_ = 0;  ///< number of the face with the largest deviation
 };
 
 /// The unit of length of the first representation that has one.
