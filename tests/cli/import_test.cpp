@@ -70,7 +70,8 @@ TEST_CASE("export writes a scene as GDML that import reads, and refuses other en
   check_contains(run_program({"export", "one.toml", "-o", "one.gdml"}, folder), 0, "wrote one.gdml");
   check_contains(run_program({"import", "one.gdml", "-o", "two.toml"}, folder), 0, "wrote two.toml");
   check_contains(run_program({"check", "two.toml"}, folder), 0, "no errors");
-  check_contains(run_program({"export", "one.toml", "-o", "one.step"}, folder), 1, {"one.step", ".gdml"});
+  check_contains(run_program({"export", "one.toml", "-o", "one.step"}, folder), 1,
+                 {"one.step", "exported as GDML"});
 }
 
 TEST_CASE("import explains options that do not fit") {
@@ -88,9 +89,10 @@ TEST_CASE("import explains options that do not fit") {
                  {"0.1", "90 deg"});
   write(folder / "Surfaces.xml", "<surfaces/>");
   check_contains(run_program({"import", "Surfaces.xml", "-o", "x"}, folder), 1,
-                 {"Surfaces.xml", "no entries", "<surface name="});
+                 {"Surfaces.xml", "no entries"});
   write(folder / "Materials.db", "[Elements]\n");
-  check_contains(run_program({"import", "Materials.db", "-o", "x"}, folder), 1, {"Materials.db", ".mac"});
+  check_contains(run_program({"import", "Materials.db", "-o", "x"}, folder), 1,
+                 {"Materials.db", "densities and compositions"});
   check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "mesh file not found");
   CHECK_FALSE(std::filesystem::exists(folder / "x"));
 }

@@ -27,7 +27,7 @@ const std::vector<ErrorKind>& kinds() {
        "the file is of another kind",
        "The file is no scene: an XML file, a macro of another program, a results file, or a mesh.",
        "Name a scene (TOML). `scintray import` makes one of GDML, STEP and mesh files.",
-       {"this is an XML file", "is a command of a Geant4", "this file holds no geometry",
+       {"this is an XML file", "is a command of a Geant4", "a material database of GATE",
         "is not an HDF5 file"}},
       // Keys.
       {"unknown-key",
