@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/vec.hpp"
 #include "scintray/core/words.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 
