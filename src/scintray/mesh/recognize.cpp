@@ -2,10 +2,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace scintray::mesh {
 
@@ -22,7 +24,9 @@ constexpr int kFewestDirections = 3;
 /// Sizes of the neighbourhoods to which a first surface is fitted, in triangles.
 constexpr std::array<std::size_t, 3> kSeeds = {12, 48, 200};
 /// Starts without a result after which the search of a mesh ends: its faces have other forms.
-constexpr int kMostFailures = 200;
+constexpr int kMostFailures = 64;
+/// Rounds of growth and fit of a face.
+constexpr int kMostRounds = 8;
 /// Least thickness of a round face, in tolerances.
 constexpr double kLeastBend = 20.0;
 /// Steps of the Gauss-Newton method, which converges within a few where the surface fits.
@@ -81,19 +85,31 @@ class Recognizer {
   };
 
   void find_neighbours() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sides;
+    struct Side {
+      std::uint32_t from, to, triangle, number;
+    };
+    // A sorted list: maps take seconds for parts of a million triangles.
+    std::vector<Side> sides;
+    sides.reserve(3 * mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) sides[{mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]}] = t;
+      for (std::uint32_t k = 0; k < 3; ++k)
+        sides.push_back({mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3], t, k});
+    const auto ends = [](const Side& side) { return std::pair(side.from, side.to); };
+    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return ends(a) < ends(b); });
     neighbours_.assign(mesh_.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto across = sides.find({mesh_.triangles[t][(k + 1) % 3], mesh_.triangles[t][k]});
-        if (across != sides.end() && angle_of(normals_[t], normals_[across->second]) <= kSharpestEdge)
-          neighbours_[t][k] = across->second;
-      }
+    for (const Side& side : sides) {
+      const auto across =
+          std::lower_bound(sides.begin(), sides.end(), std::pair(side.to, side.from),
+                           [&](const Side& one, const std::pair<std::uint32_t, std::uint32_t>& wanted) {
+                             return ends(one) < wanted;
+                           });
+      if (across != sides.end() && ends(*across) == std::pair(side.to, side.from) &&
+          angle_of(normals_[side.triangle], normals_[across->triangle]) <= kSharpestEdge)
+        neighbours_[side.triangle][side.number] = across->triangle;
+    }
   }
 
-  /// Whether a facet meets a neighbour of its smooth face at an angle.
+  /// Whether a facet and a neighbour of its smooth face are at an angle.
   bool bends(std::size_t t) const {
     return std::any_of(neighbours_[t].begin(), neighbours_[t].end(), [&](std::uint32_t other) {
       return other != kNoNeighbour && mesh_.support[other] == kNoSupport &&
@@ -143,32 +159,38 @@ class Recognizer {
   Candidate best_from(std::size_t seed) {
     Candidate best;
     const auto start = static_cast<std::uint32_t>(seed);
-    const auto any = [](std::uint32_t) { return true; };
     std::size_t before = 0;
-    for (const std::size_t most : {kSeeds[0], kSeeds[1], kSeeds[2], mesh_.triangles.size()}) {
-      const std::vector<std::uint32_t> near = around(start, most, any);
+    for (const std::size_t most : kSeeds) {
+      const std::vector<std::uint32_t> near = around(start, most, [](std::uint32_t) { return true; });
       if (near.size() == before) break;
       before = near.size();
-      for (const bool round : {true, false}) {
-        const std::optional<Candidate> grown = grow(start, near, round);
+      bool fitted = false;
+      for (const bool sphere : {true, false}) {
+        const std::optional<SupportSurface> surface = fit(near, sphere);
+        if (!surface) continue;
+        fitted = true;
+        const std::optional<Candidate> grown = grow(start, *surface, sphere);
         if (grown && grown->triangles.size() > best.triangles.size()) best = *grown;
       }
+      // What does not fit a few facets does not fit more, unless these do not determine it.
+      if (!fitted && is_determined(near)) break;
     }
     return best;
   }
 
-  /// The surface fitted to some triangles, and the part of the smooth face that lies on it.
-  std::optional<Candidate> grow(std::uint32_t start, const std::vector<std::uint32_t>& near, bool sphere) {
-    std::optional<SupportSurface> surface = fit(near, sphere);
-    if (!surface) return std::nullopt;
+  /// The part of the smooth face that lies on a surface, which is fitted again as it grows.
+  std::optional<Candidate> grow(std::uint32_t start, const SupportSurface& first, bool sphere) {
+    std::optional<SupportSurface> surface = first;
     Candidate result;
-    for (int round = 0; round < 2; ++round) {
-      if (!lies_on(*surface, start)) return std::nullopt;
-      result.surface = *surface;
-      result.triangles =
-          around(start, mesh_.triangles.size(), [&](std::uint32_t t) { return lies_on(result.surface, t); });
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (!lies_on(*surface, start)) break;
+      std::vector<std::uint32_t> triangles =
+          around(start, mesh_.triangles.size(), [&](std::uint32_t t) { return lies_on(*surface, t); });
+      if (triangles.size() < result.triangles.size()) break;
+      const bool grows = triangles.size() > result.triangles.size();
+      result = {*surface, std::move(triangles)};
       surface = fit(result.triangles, sphere);
-      if (!surface) return std::nullopt;
+      if (!surface || (!grows && round > 0)) break;
     }
     if (!is_determined(result.triangles)) return std::nullopt;
     return result;
@@ -299,6 +321,9 @@ class Recognizer {
     return Wall{mean + s[0] * x + s[1] * y, axis, radius, cone ? s[3] / (2.0 * radius) : 0.0};
   }
 
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
   /// What the Gauss-Newton method may change.
   struct Free {
     bool slope, axis;
@@ -307,21 +332,24 @@ class Recognizer {
   /// One step of the Gauss-Newton method on the distances across the axis.
   static std::optional<Wall> improved(const std::vector<core::Vec3>& points, const Wall& wall, Free free) {
     const core::Vec3 x = wall.axis.unitOrthogonal(), y = wall.axis.cross(x);
-    Eigen::MatrixXd slopes(static_cast<Eigen::Index>(points.size()), 6);
-    Eigen::VectorXd off(slopes.rows());
-    for (Eigen::Index i = 0; i < slopes.rows(); ++i) {
-      const core::Vec3 p = points[static_cast<std::size_t>(i)] - wall.origin;
+    // Normal equations: of large faces a matrix of all slopes takes more memory than the mesh.
+    Vector6 slope, sums = Vector6::Zero();
+    Matrix6 products = Matrix6::Zero();
+    for (const core::Vec3& point : points) {
+      const core::Vec3 p = point - wall.origin;
       const double px = x.dot(p), py = y.dot(p), z = wall.axis.dot(p), rho = std::hypot(px, py);
       // The tip of a cone has no direction across the axis.
       const double cosine = rho > 0.0 ? px / rho : 0.0, sine = rho > 0.0 ? py / rho : 0.0;
-      off[i] = rho - wall.radius - wall.slope * z;
+      const double off = rho - wall.radius - wall.slope * z;
       // The axis turned by small angles towards x and y takes z from the distance, and adds to z. Of what is
       // not free, no change is the least solution.
       const double turn = free.axis ? 1.0 : 0.0;
-      slopes.row(i) << -cosine, -sine, -turn * (z * cosine + wall.slope * px),
-          -turn * (z * sine + wall.slope * py), -1.0, free.slope ? -z : 0.0;
+      slope << -cosine, -sine, -turn * (z * cosine + wall.slope * px), -turn * (z * sine + wall.slope * py),
+          -1.0, free.slope ? -z : 0.0;
+      products += slope * slope.transpose();
+      sums -= off * slope;
     }
-    const Eigen::VectorXd change = slopes.completeOrthogonalDecomposition().solve(-off);
+    const Vector6 change = products.completeOrthogonalDecomposition().solve(sums);
     if (!change.allFinite()) return std::nullopt;
     Wall next = wall;
     next.origin += change[0] * x + change[1] * y;
