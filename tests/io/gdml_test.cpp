@@ -138,7 +138,7 @@ TEST_CASE("GDML: replicas about z and divisions of a box lie where Geant4 has th
   text.daughters = gdml_placed("s", "slab_v") + gdml_placed("r", "ring_v", R"(<position z="20"/>)");
   const SceneSpec spec = written(draft(text));
   REQUIRE(spec.parts.size() == 2 + 3 + 4);
-  const auto part = [&](const char* name) {
+  const auto part = [&](const char* name) -> const PartSpec& {
     return *std::find_if(spec.parts.begin(), spec.parts.end(),
                          [&](const PartSpec& known) { return known.name.name == name; });
   };
