@@ -25,10 +25,6 @@ std::vector<core::Vec3> unit_normals(const TriMesh& mesh) {
   return normals;
 }
 
-double angle_between(const core::Vec3& a, const core::Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// Growth of flat regions; used to label all triangles and to select one region.
 class FlatRegionGrower {
  public:

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "scintray/mesh/detail/edges.hpp"
+
 namespace scintray::mesh {
 
 namespace {
@@ -32,10 +34,6 @@ constexpr double kLeastBend = 20.0;
 /// Steps of the Gauss-Newton method, which converges within a few where the surface fits.
 constexpr int kSteps = 12;
 
-constexpr std::uint32_t kNoNeighbour = 0xffffffffu;
-
-double angle_of(const core::Vec3& a, const core::Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 /// Cylinder or cone by its axis, and the radius along it: radius + slope z.
 struct Wall {
   core::Vec3 origin, axis;
@@ -44,7 +42,7 @@ struct Wall {
 
 class Recognizer {
  public:
-  Recognizer(TriMesh& mesh, double tolerance_mm) : mesh_(mesh), tolerance_(tolerance_mm) {
+  Recognizer(TriMesh& mesh, double tolerance_mm) : mesh_(mesh), tolerance_(tolerance_mm), neighbours_(mesh) {
     const std::size_t count = mesh_.triangles.size();
     mesh_.support.resize(count, kNoSupport);
     for (std::size_t t = 0; t < count; ++t) {
@@ -52,7 +50,6 @@ class Recognizer {
       areas_.push_back(area.norm());
       normals_.push_back(areas_.back() > 0.0 ? core::Vec3(area / areas_.back()) : core::Vec3::Zero());
     }
-    find_neighbours();
   }
 
   std::vector<RecognizedFace> run() {
@@ -84,37 +81,21 @@ class Recognizer {
     std::vector<std::uint32_t> triangles;
   };
 
-  void find_neighbours() {
-    struct Side {
-      std::uint32_t from, to, triangle, number;
-    };
-    // A sorted list: maps take seconds for parts of a million triangles.
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh_.triangles.size());
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k)
-        sides.push_back({mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3], t, k});
-    const auto ends = [](const Side& side) { return std::pair(side.from, side.to); };
-    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return ends(a) < ends(b); });
-    neighbours_.assign(mesh_.triangles.size(), {kNoNeighbour, kNoNeighbour, kNoNeighbour});
-    for (const Side& side : sides) {
-      const auto across =
-          std::lower_bound(sides.begin(), sides.end(), std::pair(side.to, side.from),
-                           [&](const Side& one, const std::pair<std::uint32_t, std::uint32_t>& wanted) {
-                             return ends(one) < wanted;
-                           });
-      if (across != sides.end() && ends(*across) == std::pair(side.to, side.from) &&
-          angle_of(normals_[side.triangle], normals_[across->triangle]) <= kSharpestEdge)
-        neighbours_[side.triangle][side.number] = across->triangle;
-    }
+  /// Calls visit(neighbour) for the free triangles of the same smooth face beside one.
+  template <class Visit>
+  void for_each_beside(std::size_t t, const Visit& visit) const {
+    for (const std::uint32_t* next = neighbours_.begin(t); next != neighbours_.end(t); ++next)
+      if (mesh_.support[*next] == kNoSupport && angle_between(normals_[t], normals_[*next]) <= kSharpestEdge)
+        visit(*next);
   }
 
   /// Whether a facet and a neighbour of its smooth face are at an angle.
   bool bends(std::size_t t) const {
-    return std::any_of(neighbours_[t].begin(), neighbours_[t].end(), [&](std::uint32_t other) {
-      return other != kNoNeighbour && mesh_.support[other] == kNoSupport &&
-             angle_of(normals_[t], normals_[other]) > kFlattestEdge;
+    bool found = false;
+    for_each_beside(t, [&](std::uint32_t other) {
+      found = found || angle_between(normals_[t], normals_[other]) > kFlattestEdge;
     });
+    return found;
   }
 
   double farthest(const SupportSurface& surface, std::uint32_t t) const {
@@ -137,11 +118,11 @@ class Recognizer {
     std::vector<std::uint32_t> result{start};
     visited_[start] = visit_;
     for (std::size_t i = 0; i < result.size() && result.size() < most; ++i)
-      for (const std::uint32_t next : neighbours_[result[i]]) {
-        if (next == kNoNeighbour || visited_[next] == visit_ || mesh_.support[next] != kNoSupport) continue;
+      for_each_beside(result[i], [&](std::uint32_t next) {
+        if (visited_[next] == visit_) return;
         visited_[next] = visit_;
         if (admit(next)) result.push_back(next);
-      }
+      });
     return result;
   }
 
@@ -201,7 +182,7 @@ class Recognizer {
     std::vector<core::Vec3> directions;
     for (const std::uint32_t t : triangles) {
       const bool known = std::any_of(directions.begin(), directions.end(), [&](const core::Vec3& d) {
-        return angle_of(d, normals_[t]) <= kFlattestEdge;
+        return angle_between(d, normals_[t]) <= kFlattestEdge;
       });
       if (!known) directions.push_back(normals_[t]);
       if (directions.size() >= kFewestDirections) return true;
@@ -378,9 +359,9 @@ class Recognizer {
 
   TriMesh& mesh_;
   double tolerance_;
+  TriangleNeighbours neighbours_;
   std::vector<double> areas_;
   std::vector<core::Vec3> normals_;
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< across the three sides, in one smooth face
   std::vector<std::uint32_t> visited_;
   std::uint32_t visit_ = 0;
 };

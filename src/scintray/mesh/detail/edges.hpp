@@ -1,6 +1,7 @@
 #pragma once
 /// Edges of a mesh, and the triangles that share each.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,6 +9,11 @@
 #include "scintray/mesh/trimesh.hpp"
 
 namespace scintray::mesh {
+
+/// Angle (rad, 0 to pi) between two directions of any length; exact also for small angles.
+inline double angle_between(const core::Vec3& a, const core::Vec3& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 /// One triangle's use of the edge between vertices low < high.
 struct EdgeUse {
