@@ -200,3 +200,52 @@ TEST_CASE("Triangles without area in a row along one edge go without leaving a s
       CHECK(after.volume_mm3 == doctest::Approx(10.0));
     }
 }
+
+TEST_CASE("Slivers along a smooth border of close vertices go without leaving a slit") {
+  // A prism over a fan of an arc whose steps are far below its size: each vertex is within rounding of the
+  // chord of its neighbours. On the lids, nested chords end in slivers that cuts can only move along the arc.
+  for (const int steps : {4, 5, 9}) {
+    CAPTURE(steps);
+    const double radius = 10.0, step_rad = 2e-4;
+    TriMesh mesh;
+    std::vector<std::uint32_t> low, high;
+    const auto add = [&](double x, double y) {
+      low.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.emplace_back(x, y, 0.0);
+      high.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.emplace_back(x, y, 5.0);
+    };
+    for (int i = 0; i <= steps; ++i) add(radius * std::cos(i * step_rad), radius * std::sin(i * step_rad));
+    add(0.0, 0.0);
+    const auto lid = [&](std::size_t a, std::size_t b, std::size_t c) {
+      mesh.triangles.push_back({high[a], high[b], high[c]});
+      mesh.triangles.push_back({low[c], low[b], low[a]});
+    };
+    const auto last = static_cast<std::size_t>(steps), middle = last + 1;
+    lid(0, last, middle);
+    std::size_t from = 0, to = last;  // chords inside chords, drawn in at both ends in turn
+    for (bool at_start = true; to - from > 1; at_start = !at_start) {
+      if (at_start)
+        lid(from, from + 1, to), ++from;
+      else
+        lid(from, to - 1, to), --to;
+    }
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      const std::size_t j = (i + 1) % low.size();
+      mesh.triangles.push_back({low[i], low[j], high[j]});
+      mesh.triangles.push_back({low[i], high[j], high[i]});
+    }
+    REQUIRE(diagnose(mesh).closed());
+    const double volume = mesh.volume();
+    // One ear is a sliver, the next chords are not.
+    const double ear_mm = radius * (1.0 - std::cos(step_rad));
+    const DegenerateRemoval removal = remove_degenerate(mesh, 1.5 * ear_mm);
+    const MeshDiagnosis after = diagnose(mesh);
+    CHECK(after.closed());
+    CHECK(after.outward());
+    CHECK(after.self_intersections.count == 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) CHECK_FALSE(is_degenerate(mesh, t, 1.5 * ear_mm));
+    CHECK(removal.merged > 0);
+    CHECK(std::abs(after.volume_mm3 - volume) < 2.0 * ear_mm * radius * steps * step_rad * 5.0);
+  }
+}

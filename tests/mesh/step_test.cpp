@@ -150,6 +150,19 @@ TEST_CASE("STEP: a free-form strip keeps the requested deviation, a finer one to
   }
 }
 
+TEST_CASE("STEP: a free-form strip divided by a fine angle is closed") {
+  const auto file = shared_file("findings/inputs/cad/featuretype.step");
+  if (!file) return;
+  ImportOptions options;
+  options.tessellation.deviation_mm = 0.01;
+  options.tessellation.angle_rad = 1.0 * kDegree;
+  const MeshImport read = import_mesh(*file, options);
+  const MeshDiagnosis diagnosis = diagnose(read.mesh);
+  CHECK(diagnosis.closed());
+  CHECK(diagnosis.degenerate_triangles.count == 0);
+  CHECK(diagnosis.volume_mm3 == doctest::Approx(190448.0).epsilon(1e-4));
+}
+
 TEST_CASE("STEP: the angle bounds a small circle that the deviation would leave coarse") {
   const StepBody fibre{"fibre", StepSolid::cylinder, {0.01, 0.0, 1.0}, {0.0, 0.0, 0.0}, {}, {}, ""};
   const MeshImport read = written_and_read({fibre});

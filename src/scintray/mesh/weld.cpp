@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <unordered_map>
 #include <vector>
@@ -92,35 +93,37 @@ bool has_equal_corners(const std::array<std::uint32_t, 3>& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
+double longest_edge(const TriMesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const core::Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+  return std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
+}
+
+std::vector<std::size_t> degenerate_triangles(const TriMesh& mesh, double length_mm) {
+  std::vector<std::size_t> flat;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (is_degenerate(mesh, t, length_mm)) flat.push_back(t);
+  return flat;
+}
+
 /// One pass of remove_degenerate: removes degenerate triangles no two of which share a neighbour.
 class DegeneratePass {
  public:
-  DegeneratePass(TriMesh& mesh, double length_mm) : mesh_(mesh), length_mm_(length_mm) {}
+  explicit DegeneratePass(TriMesh& mesh) : mesh_(mesh) {}
 
-  /// Returns false when nothing is degenerate. With `cut_neighbours` false slits remain.
-  bool run(bool cut_neighbours, DegenerateRemoval& total) {
-    std::vector<std::size_t> flat;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (is_degenerate(mesh_, t, length_mm_)) flat.push_back(t);
-    }
-    if (flat.empty()) return false;
+  /// With `cut_neighbours` false slits remain.
+  void run(const std::vector<std::size_t>& flat, bool cut_neighbours, DegenerateRemoval& total) {
     gone_.assign(mesh_.triangles.size(), false);
     cut_at_.assign(mesh_.triangles.size(), kNone);
     cut_edge_.assign(mesh_.triangles.size(), 0);
     longest_.assign(mesh_.triangles.size(), 0.0);
-    for (const std::size_t t : flat) {
-      const auto& corner = mesh_.triangles[t];
-      for (std::size_t side = 0; side < 3; ++side)
-        longest_[t] = std::max(
-            longest_[t], (mesh_.vertices[corner[side]] - mesh_.vertices[corner[(side + 1) % 3]]).norm());
-    }
+    for (const std::size_t t : flat) longest_[t] = longest_edge(mesh_, t);
     for (const std::size_t t : flat) {
       if (has_equal_corners(mesh_.triangles[t]) || !cut_neighbours) gone_[t] = true;
     }
     const auto uses = sorted_edge_uses(mesh_);
     for (const std::size_t t : flat) take_out(t, uses);
     rebuild(total);
-    return true;
   }
 
  private:
@@ -187,11 +190,117 @@ class DegeneratePass {
   }
 
   TriMesh& mesh_;
-  double length_mm_;
   std::vector<bool> gone_;
   std::vector<std::uint32_t> cut_at_;  ///< vertex to cut the triangle at
   std::vector<double> longest_;        ///< longest edge of a degenerate triangle, 0 for others
   std::vector<std::size_t> cut_edge_;  ///< first corner of the edge that is cut
+};
+
+/// Removes degenerate triangles by merging their middle corner with an end of their long edge. On a smooth
+/// border of close vertices every chord makes a sliver with the next two of them: cutting moves it along the
+/// border for ever, and only fewer vertices end that.
+class DegenerateMerge {
+ public:
+  DegenerateMerge(TriMesh& mesh, double length_mm)
+      : mesh_(mesh), length_mm_(length_mm), around_(mesh.vertices.size()) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (const std::uint32_t v : mesh_.triangles[t]) around_[v].push_back(t);
+    touched_.assign(mesh_.triangles.size(), 0);
+  }
+
+  /// Returns the number of corners merged.
+  std::size_t run(const std::vector<std::size_t>& flat) {
+    std::size_t merged = 0;
+    for (const std::size_t t : flat) {
+      if (touched_[t] || has_equal_corners(mesh_.triangles[t])) continue;
+      const std::size_t at = middle_corner(mesh_, t);
+      const std::uint32_t middle = mesh_.triangles[t][at];
+      std::uint32_t nearer = mesh_.triangles[t][(at + 1) % 3], farther = mesh_.triangles[t][(at + 2) % 3];
+      const core::Vec3& place = mesh_.vertices[middle];
+      if ((mesh_.vertices[farther] - place).norm() < (mesh_.vertices[nearer] - place).norm())
+        std::swap(nearer, farther);
+      for (const std::uint32_t end : {nearer, farther}) {
+        if (!can_merge(middle, end)) continue;
+        merge(middle, end);
+        ++merged;
+        break;
+      }
+    }
+    std::vector<char> wanted(mesh_.triangles.size());
+    for (std::size_t t = 0; t < wanted.size(); ++t) wanted[t] = !has_equal_corners(mesh_.triangles[t]);
+    if (merged > 0) keep_triangles(mesh_, wanted);
+    return merged;
+  }
+
+ private:
+  static bool has(const std::array<std::uint32_t, 3>& t, std::uint32_t v) {
+    return std::find(t.begin(), t.end(), v) != t.end();
+  }
+
+  /// The other vertices of the triangles about one, each once.
+  std::vector<std::uint32_t> neighbours(std::uint32_t vertex) const {
+    std::vector<std::uint32_t> found;
+    for (const std::size_t t : around_[vertex])
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (v != vertex) found.push_back(v);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+  /// True when the surface stays what it was, but for rounding: the edge has two triangles, no others have
+  /// both ends in reach (Dey et al. 1999, the link condition), none coincides with another afterwards, and
+  /// `to` lies in the planes and on the round faces of those that move.
+  bool can_merge(std::uint32_t from, std::uint32_t to) const {
+    std::size_t vanish = 0;
+    for (const std::size_t t : around_[from]) {
+      if (touched_[t]) return false;
+      if (has(mesh_.triangles[t], to))
+        ++vanish;
+      else if (!can_move(t, from, to))
+        return false;
+    }
+    for (const std::size_t t : around_[to])
+      if (touched_[t]) return false;
+    std::vector<std::uint32_t> common;
+    const std::vector<std::uint32_t> one = neighbours(from), other = neighbours(to);
+    std::set_intersection(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(common));
+    return vanish == 2 && common.size() == 2;
+  }
+
+  bool can_move(std::size_t triangle, std::uint32_t from, std::uint32_t to) const {
+    std::array<std::uint32_t, 3> moved = mesh_.triangles[triangle];
+    std::replace(moved.begin(), moved.end(), from, to);
+    for (const std::size_t t : around_[to])
+      if (std::is_permutation(moved.begin(), moved.end(), mesh_.triangles[t].begin())) return false;
+    const auto area_vector = [this](const std::array<std::uint32_t, 3>& t) -> core::Vec3 {
+      const core::Vec3& p = mesh_.vertices[t[0]];
+      return (mesh_.vertices[t[1]] - p).cross(mesh_.vertices[t[2]] - p);
+    };
+    const std::uint32_t support = mesh_.support_of(triangle);
+    if (support != kNoSupport &&
+        std::abs(mesh_.supports[support].distance(mesh_.vertices[to])) > 2.0 * length_mm_)
+      return false;
+    const core::Vec3 before = area_vector(mesh_.triangles[triangle]);
+    if (is_degenerate(mesh_, triangle, length_mm_)) return true;
+    // Vertices beside a sliver of height h are up to 2 h from the line along its other half.
+    const double off = before.normalized().dot(mesh_.vertices[to] - mesh_.vertices[from]);
+    return std::abs(off) <= 2.0 * length_mm_ && before.dot(area_vector(moved)) > 0.0;
+  }
+
+  void merge(std::uint32_t from, std::uint32_t to) {
+    for (const std::size_t t : around_[to]) touched_[t] = 1;
+    for (const std::size_t t : around_[from]) {
+      touched_[t] = 1;
+      auto& corners = mesh_.triangles[t];
+      std::replace(corners.begin(), corners.end(), from, to);
+    }
+  }
+
+  TriMesh& mesh_;
+  double length_mm_;
+  std::vector<std::vector<std::size_t>> around_;  ///< triangles about each vertex, as they were
+  std::vector<char> touched_;                     ///< triangles changed in this pass, and those beside them
 };
 
 }  // namespace
@@ -241,8 +350,25 @@ DegenerateRemoval remove_degenerate(TriMesh& mesh, double length_mm) {
   // slivers, where slits no longer matter.
   constexpr int kMostPasses = 100;
   DegenerateRemoval total;
-  int pass = 0;
-  while (DegeneratePass(mesh, length_mm).run(pass < kMostPasses, total)) ++pass;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  double shortest_mm = std::numeric_limits<double>::infinity();
+  for (int pass = 0;; ++pass) {
+    const std::vector<std::size_t> flat = degenerate_triangles(mesh, length_mm);
+    if (flat.empty()) break;
+    double length = 0.0;
+    for (const std::size_t t : flat) length += longest_edge(mesh, t);
+    const bool progress = flat.size() < fewest || length < shortest_mm;
+    fewest = std::min(fewest, flat.size());
+    shortest_mm = std::min(shortest_mm, length);
+    if (!progress && pass < kMostPasses) {
+      const std::size_t before = mesh.triangles.size();
+      const std::size_t merged = DegenerateMerge(mesh, length_mm).run(flat);
+      total.merged += merged;
+      total.removed += before - mesh.triangles.size();
+      if (merged > 0) continue;
+    }
+    DegeneratePass(mesh).run(flat, pass < kMostPasses, total);
+  }
   drop_unused_vertices(mesh);
   return total;
 }

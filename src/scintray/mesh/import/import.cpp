@@ -121,9 +121,12 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
   }
   const DegenerateRemoval removal = remove_degenerate(mesh, length);
   if (result.degenerate_triangles > 0) {
-    result.notes.push_back(std::to_string(result.degenerate_triangles) +
-                           " triangles without area left out, " + std::to_string(removal.cut) +
-                           " neighbours cut to close the slits they leave");
+    result.notes.push_back(
+        std::to_string(result.degenerate_triangles) + " triangles without area left out, " +
+        std::to_string(removal.cut) + " neighbours cut to close the slits they leave" +
+        (removal.merged > 0
+             ? ", " + std::to_string(removal.merged) + " vertices on smooth borders merged with the next one"
+             : ""));
   }
   if (mesh.triangles.empty()) {
     reject_file(path, "no triangle in the file has an area", "check the mesh in the program that made it");

@@ -120,10 +120,12 @@ class ShapeReader {
     if (raw_.deviation_mm > tessellation_.deviation_mm)
       raw_.notes.push_back("coarser than requested, most of all: face" + std::to_string(coarsest_face_));
     if (uncut_faces_ > 0)
-      reject_file(path_,
-                  std::to_string(uncut_faces_) + " of " + std::to_string(faces_) +
-                      " CAD faces could not be cut in triangles",
-                  "repair the shape in the CAD program, or export a mesh from it");
+      reject_file(
+          path_,
+          std::to_string(uncut_faces_) + " of " + std::to_string(faces_) +
+              " CAD faces could not be cut in triangles",
+          "give the tessellation a larger deviation or angle, repair the shape in the CAD program, or "
+          "export a mesh from it");
     return std::move(raw_);
   }
 
@@ -390,7 +392,10 @@ RawMesh import_step(const MeshFile& file) {
       core::run_in_child([&] { return step_answer(file.path, file.content, file.tessellation); },
                          kAlways + kPerByte * file.content.size(), kMostSeconds);
   if (!answer.trouble.empty() || answer.bytes.empty())
-    reject_step(file.path, "Open CASCADE failed: " + answer.trouble);
+    reject_file(
+        file.path, "cannot read the STEP file: Open CASCADE failed: " + answer.trouble,
+        "give the tessellation a larger deviation or angle, or export the file again (AP203, AP214 or "
+        "AP242)");
   const std::string_view payload = std::string_view(answer.bytes).substr(1);
   if (answer.bytes.front() == kMesh) return from_bytes(payload);
   const std::size_t end = std::min(payload.find('\0'), payload.size() - 1);
