@@ -63,24 +63,31 @@ class FacetSurface : public MicrosurfaceModel {
   /// bounds the projected area of a facet.
   static constexpr double kWidestFacet_sigma = 6.0;
 
-  /// Angle between facet and mean normal (rad), drawn at random, below 90 deg.
-  double sample_facet_angle(core::Rng& rng) const;
+  /// Angle between facet and mean normal.
+  struct FacetTilt {
+    double angle_rad;
+    core::SineCosine of;  ///< its sine and cosine
+  };
+  /// Tilt of a facet, drawn at random, below 90 deg.
+  FacetTilt sample_facet_tilt(core::Rng& rng) const;
   /// Largest cosine between the reversed direction of a ray and any facet normal.
   double greatest_facing(double cos_incidence) const;
   core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
-inline double FacetSurface::sample_facet_angle(core::Rng& rng) const {
+inline FacetSurface::FacetTilt FacetSurface::sample_facet_tilt(core::Rng& rng) const {
   const double sigma = sigma_alpha_rad;
   for (;;) {
-    if (definition == SigmaAlphaDefinition::polar_angle) {
+    if (definition == SigmaAlphaDefinition::polar_angle) [[unlikely]] {
       const double alpha = std::abs(sigma * core::sample_normal(rng));
-      if (alpha < 0.5 * core::kPi) return alpha;
+      if (alpha < 0.5 * core::kPi) return {alpha, core::sincos(alpha)};
       continue;
     }
     // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
     const double alpha = sigma * std::sqrt(2.0 * core::sample_exponential(rng));
-    if (alpha < 0.5 * core::kPi && rng.uniform() * alpha <= core::sincos(alpha).sine) return alpha;
+    if (!(alpha < 0.5 * core::kPi)) continue;
+    const core::SineCosine of = core::sincos(alpha);
+    if (rng.uniform() * alpha <= of.sine) return {alpha, of};
   }
 }
 
@@ -102,10 +109,9 @@ inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Fr
   const bool weighted = sampling == FacetSampling::projected_area;
   const double bound = weighted ? greatest_facing(-k.dot(frame.z)) : 1.0;
   for (;;) {
-    const double alpha = sample_facet_angle(rng);
+    const auto [alpha, tilt] = sample_facet_tilt(rng);
     if (weighted && alpha > kWidestFacet_sigma * sigma_alpha_rad) continue;
     const core::SineCosine azimuth = core::sincos_of_turn(rng.uniform());
-    const core::SineCosine tilt = core::sincos(alpha);
     const core::Vec3 m =
         tilt.sine * azimuth.cosine * frame.x + tilt.sine * azimuth.sine * frame.y + tilt.cosine * frame.z;
     const double facing = -k.dot(m);

@@ -15,6 +15,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/triangle_distance.hpp"
+#include "scintray/scene/detail/nearest_plane.hpp"
 
 namespace scintray::scene {
 
@@ -171,18 +172,9 @@ Exit Accelerator::exit_by_embree(const core::Vec3& origin, const core::Vec3& dir
 }
 
 Exit Accelerator::exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const {
-  double nearest = kInfinity;
-  const BoundingPlane* exit = nullptr;
-  for (const BoundingPlane& plane : boundary_.planes) {
-    const double along = plane.normal.dot(direction);
-    if (along <= 0.0) continue;
-    const double distance = (plane.offset - plane.normal.dot(origin)) / along;
-    if (distance < nearest) {
-      nearest = distance;
-      exit = &plane;
-    }
-  }
-  nearest = std::max(nearest, 0.0);
+  const PlaneAhead ahead = nearest_plane(boundary_, origin, direction);
+  const BoundingPlane* const exit = &boundary_.planes[ahead.plane];
+  const double nearest = std::max(ahead.distance_mm, 0.0);
   std::uint32_t triangle = exit->first;
   if (exit->triangles_begin != exit->triangles_end) {
     const core::Vec3 point = origin + nearest * direction;
