@@ -211,7 +211,7 @@ void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64
                               " photons have no fate");
 }
 
-/// Collects blocks in their order into ranges.
+/// Collects blocks in their order into ranges. Of an event source a block is an event.
 class RangeCollector {
  public:
   /// @param empty  returns sums over no blocks
@@ -220,7 +220,7 @@ class RangeCollector {
 
   void add(const Block& block) {
     if (present_.count() == 0) sums_ = empty_();
-    block.photons.add_to(sums_);
+    block.photons.add_to(sums_, !block.events.events().empty());
     block.events.add_to(sums_.energy);
     sums_.counts.emitted += block.emitted + block.additional;
     traced_ += block.traced + block.additional;

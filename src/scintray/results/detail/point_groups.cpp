@@ -45,6 +45,13 @@ void put_fates(core::h5::Group& group, const tally::PointResult& point) {
   put(group, "fate_count", counts);
   put(group, "fate_fraction", fractions);
   put(group, "fate_error", errors);
+  if (point.event_fates.events == 0) return;
+  put(group, "events_with_photons", point.event_fates.events);
+  std::vector<std::uint64_t> products;
+  for (const auto& row : point.event_fates.products) products.insert(products.end(), row.begin(), row.end());
+  group.write("event_fate_products", products,
+              {std::size_t{core::kFateCount}, std::size_t{core::kFateCount}});
+  describe(group, "event_fate_products");
 }
 
 void put_shifts(core::h5::Group& point, const std::string& name, const std::string& description,
@@ -134,11 +141,18 @@ void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& 
     describe(tally, "sum");
     tally.write("sum_of_squares", from.sum_of_squares, shape);
     describe(tally, "sum_of_squares");
+    if (!from.event_squares.empty()) {
+      tally.write("event_squares", from.event_squares, shape);
+      describe(tally, "event_squares");
+      tally.write("event_products", from.event_products, shape);
+      describe(tally, "event_products");
+    }
     put(tally, "beyond", from.outside);
     put(tally, "refractive_index", from.index);
     std::vector<std::string> bins;
     for (std::size_t k = 0; k < from.axes.size(); ++k) bins.push_back("bin_" + std::to_string(k));
-    name_dimensions(tally, {{"sum", bins}, {"sum_of_squares", bins}});
+    name_dimensions(
+        tally, {{"sum", bins}, {"sum_of_squares", bins}, {"event_squares", bins}, {"event_products", bins}});
   }
 }
 
@@ -241,6 +255,7 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
   name_dimensions(group, {{"fate_count", fates},
                           {"fate_fraction", fates},
                           {"fate_error", fates},
+                          {"event_fate_products", fates},
                           {"parameters", keys},
                           {"parameter_value", keys},
                           {"parameter_unit", keys},
