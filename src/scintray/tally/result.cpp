@@ -73,6 +73,17 @@ core::Estimate PointResult::not_detected_fraction(std::uint64_t not_detected, st
   return {mean, std::sqrt(std::max(1.0 / n, square - mean * mean) / n)};
 }
 
+bool UntilResult::ended() const {
+  return std::any_of(conditions.begin(), conditions.end(),
+                     [](const UntilCondition& condition) { return condition.met; });
+}
+
+bool UntilResult::is_reproducible() const {
+  return std::none_of(conditions.begin(), conditions.end(), [](const UntilCondition& condition) {
+    return condition.met && condition.quantity == "wall_time";
+  });
+}
+
 void EventFates::add(const std::array<std::uint64_t, core::kFateCount>& fates) {
   std::uint64_t photons = 0;
   for (const std::uint64_t count : fates) photons += count;

@@ -115,6 +115,24 @@ struct PointFacts {
   double birth_efficiency = 1.0;
 };
 
+/// A condition of [run] until at the end of a point.
+struct UntilCondition {
+  std::string quantity;  ///< "relative_error", "absolute_error", "wall_time" (s), "photons" or "events"
+  double goal = 0.0, reached = 0.0;  ///< reached: not a number for an error that is not known
+  bool met = false;                  ///< it ended the point
+};
+
+/// What [run] until stated of a point, and what was reached.
+struct UntilResult {
+  core::Fate fate = core::Fate::detected;  ///< whose share the errors are of
+  std::vector<UntilCondition> conditions;
+
+  /// True when a condition ended the point; else all photons or events of its source were traced.
+  bool ended() const;
+  /// False when the point ended by the clock: another run ends after other photons.
+  bool is_reproducible() const;
+};
+
 /// Sums over the events of a point, from which the errors of its fates follow.
 struct EventFates {
   /// Sums over the events of the product of the numbers of photons with two fates.
@@ -141,6 +159,7 @@ struct PointResult : PointFacts {
   EnergyBalance energy;
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
   EventFates event_fates;                               ///< of an event source
+  std::optional<UntilResult> until;                     ///< with [run] until
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;
   core::IdVector<core::MediumId, optics::ShiftCount> shifted_in_medium;

@@ -205,6 +205,27 @@ void put_omitted(core::h5::Group& point, const std::vector<tally::OmittedEffect>
   name_dimensions(group);
 }
 
+void put_until(core::h5::Group& point, const tally::UntilResult& until) {
+  core::h5::Group group = point.create_group("until");
+  group.set_attribute("", "description", std::string("what was to end the point, and what did"));
+  group.set_attribute("", "share_of", std::string(core::fate_name(until.fate)));
+  group.set_attribute("", "reproducible", static_cast<std::int64_t>(until.is_reproducible()));
+  std::vector<std::string> names;
+  std::vector<double> goals, reached;
+  std::vector<std::uint8_t> met;
+  for (const tally::UntilCondition& condition : until.conditions) {
+    names.push_back(condition.quantity);
+    goals.push_back(condition.goal);
+    reached.push_back(condition.reached);
+    met.push_back(condition.met ? 1 : 0);
+  }
+  put_text(group, "condition", names);
+  put(group, "goal", goals);
+  put(group, "reached", reached);
+  put(group, "met", met);
+  name_dimensions(group);
+}
+
 /// The values of the swept keys, as text and as numbers with their units.
 void put_parameters(core::h5::Group& group, const std::vector<std::string>& keys,
                     const std::vector<std::string>& parameters) {
@@ -287,6 +308,7 @@ void put_point_facts(core::h5::Group& group, const tally::PointResult& point) {
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
   if (point.light_timing) put_light_timing(group, *point.light_timing);
   if (point.omitted) put_omitted(group, *point.omitted);
+  if (point.until) put_until(group, *point.until);
 }
 
 }  // namespace scintray::results::format

@@ -43,6 +43,24 @@ std::vector<tally::OmittedEffect> get_omitted_effects(const core::h5::Group& poi
   return effects;
 }
 
+tally::UntilResult get_until(const core::h5::Group& point) {
+  const core::h5::Group group = point.open_group("until");
+  const std::string fate = group.string_attribute("", "share_of");
+  int index = 0;
+  while (index < core::kFateCount && fate != core::fate_name(core::fate_at(index))) ++index;
+  require_record(index < core::kFateCount, "until is of a fate that does not exist");
+  tally::UntilResult until;
+  until.fate = core::fate_at(index);
+  const auto names = group.read_strings("condition");
+  const auto goal = group.read<double>("goal"), reached = group.read<double>("reached");
+  const auto met = group.read<std::uint8_t>("met");
+  require_record(goal.size() == names.size() && reached.size() == names.size() && met.size() == names.size(),
+                 "the columns of until differ in length");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    until.conditions.push_back({names[i], goal[i], reached[i], met[i] != 0});
+  return until;
+}
+
 tally::EventFates get_event_fates(const core::h5::Group& point) {
   tally::EventFates fates;
   const auto events = point.read<std::uint64_t>("events_with_photons");

@@ -112,6 +112,7 @@ class PointReader {
     point.lost = get<std::uint64_t>(group_, "lost");
     point.wall_seconds = get<double>(group_, "wall_seconds");
     if (group_.has("energy")) point.energy = energy();
+    if (group_.has("until")) point.until = sound(format::get_until);
     if (group_.has("event_fate_products")) point.event_fates = sound(format::get_event_fates);
     require(point.event_fates.events <= point.energy.events, "more events have photons than there are");
     for (tally::TallyResult& tally : point.tallies) tally.events = point.event_counts();
