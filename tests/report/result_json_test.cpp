@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/made_up_events.hpp"
+#include "scintray/report/text/text_summary.hpp"
+#include "scintray/report/text/until_text.hpp"
 #include "support/made_up_result.hpp"
 
 using namespace scintray;
@@ -30,6 +32,26 @@ TEST_CASE("JSON has the fates of every point and what they do not include") {
   CHECK(first["not_included"][0]["changes"] == json::array({"detected fraction"}));
   CHECK(first["not_included"][1]["changes"] == json::array({"energy resolution", "CTR"}));
   CHECK(result["points"][1]["not_included"].is_null());  // not recorded
+}
+
+TEST_CASE("JSON and the summary state what ended a point") {
+  RunResult run = test::made_up_run();
+  run.points.resize(1);
+  run.points[0].until =
+      UntilResult{Fate::detected, {{"relative_error", 0.01, 0.0098, true}, {"wall_time", 60.0, 12.0, false}}};
+  const json until = json::parse(report::result_json(run, {}))["points"][0]["until"];
+  CHECK(until["ended"] == true);
+  CHECK(until["reproducible"] == true);
+  CHECK(until["conditions"][0]["condition"] == "relative_error");
+  CHECK(until["conditions"][0]["reached"] == 0.0098);
+  CHECK(until["conditions"][1]["met"] == false);
+  CHECK(report::until_sentence(run.points[0]).find("0.0098, goal 0.01") != std::string::npos);
+  CHECK(report::text_summary(run, {}).find(report::until_sentence(run.points[0])) != std::string::npos);
+  run.points[0].until->conditions[0].met = false;
+  run.points[0].until->conditions[1].met = true;
+  CHECK(report::until_sentence(run.points[0]).find("another run") != std::string::npos);
+  run.points[0].until->conditions[1].met = false;
+  CHECK(report::until_sentence(run.points[0]).find("before a condition") != std::string::npos);
 }
 
 TEST_CASE("JSON has every number of the analysis of events") {

@@ -134,6 +134,12 @@ TEST_CASE("the documented example is read as documented") {
   CHECK(scene.source.photons == 100000);
   CHECK(scene.run.max_time_ns.value_or(0.0) == 500.0);
   CHECK(scene.run.threads.value_or(0) == 4);
+  REQUIRE(scene.run.until);
+  CHECK(scene.run.until->fate == Fate::detected);
+  CHECK(scene.run.until->relative_error.value_or(0.0) == doctest::Approx(0.005));
+  CHECK(scene.run.until->absolute_error.value_or(0.0) == doctest::Approx(0.001));
+  CHECK(scene.run.until->wall_time_s.value_or(0.0) == doctest::Approx(3600.0));
+  CHECK(scene.run.until->photons.value_or(0) == 50'000);
   CHECK(scene.run.contact_tolerance_mm == doctest::Approx(1e-4));
   const TallySpec& angles = exit_angle_of(scene);
   CHECK(angles.detected_only());

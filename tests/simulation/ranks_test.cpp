@@ -1,11 +1,7 @@
 // A run by several ranks: the same results, the errors of each, and what a stop leaves.
 #include <doctest/doctest.h>
 
-#include <array>
-#include <deque>
-#include <mutex>
-#include <thread>
-
+#include "ranks_in_threads.hpp"
 #include "scenes.hpp"
 #include "scintray/core/cancelled.hpp"
 #include "scintray/simulation/memory_sink.hpp"
@@ -19,74 +15,6 @@ using namespace scintray::simulation;
 using namespace scintray::test;
 
 namespace {
-
-/// Messages between threads that stand for processes.
-class Exchange {
- public:
-  explicit Exchange(int size) : boxes_(static_cast<std::size_t>(size)) {}
-  int size() const { return static_cast<int>(boxes_.size()); }
-
-  void put(int to, Ranks::Message message) {
-    const std::lock_guard lock(mutex_);
-    boxes_[static_cast<std::size_t>(to)].push_back(std::move(message));
-  }
-  std::optional<Ranks::Message> take(int of) {
-    const std::lock_guard lock(mutex_);
-    auto& box = boxes_[static_cast<std::size_t>(of)];
-    if (box.empty()) return std::nullopt;
-    Ranks::Message message = std::move(box.front());
-    box.pop_front();
-    return message;
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::deque<Ranks::Message>> boxes_;
-};
-
-class ThreadRanks : public Ranks {
- public:
-  ThreadRanks(Exchange& exchange, int rank) : exchange_(exchange), rank_(rank) {}
-  int rank() const override { return rank_; }
-  int size() const override { return exchange_.size(); }
-  void send(int to, std::string bytes) override { exchange_.put(to, {rank_, std::move(bytes)}); }
-  std::optional<Message> receive() override { return exchange_.take(rank_); }
-  void close() override { closed = true; }
-
-  bool closed = false;
-
- private:
-  Exchange& exchange_;
-  int rank_;
-};
-
-/// The simulation of each rank: the same, unless a test makes one differ.
-using MakeSimulation = std::function<Simulation(int rank)>;
-
-/// Runs all ranks, each in a thread; an exception of rank 0 is thrown here.
-void run_ranks(int count, const MakeSimulation& make, ResultSink& sink, SimulationHooks hooks = {}) {
-  Exchange exchange(count);
-  std::vector<std::thread> others;
-  std::atomic<int> closed{0};
-  for (int rank = 1; rank < count; ++rank)
-    others.emplace_back([&, rank] {
-      ThreadRanks ranks(exchange, rank);
-      run_part(ranks, [&] { make(rank).serve(ranks); });
-      closed += ranks.closed ? 1 : 0;
-    });
-  ThreadRanks ranks(exchange, 0);
-  hooks.ranks = &ranks;
-  std::exception_ptr failure;
-  try {
-    run_part(ranks, [&] { make(0).run_all(sink, hooks); });
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  for (std::thread& other : others) other.join();
-  CHECK(closed == count - 1);
-  CHECK(ranks.closed);
-  if (failure) std::rethrow_exception(failure);
-}
 
 Simulation simulation_of(const std::string& scene, std::uint64_t photons = 0) {
   SimulationOptions options;

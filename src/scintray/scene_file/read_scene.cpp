@@ -65,6 +65,13 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
   }
 }
 
+/// Reports a number of events to end by for a source that has none.
+void expect_events(const config::TomlTable& root, const SceneSpec& scene) {
+  if (!scene.run.until || !scene.run.until->events || scene.energy_source) return;
+  root.report("run", "\"until\" has a number of events, but the source emits photons",
+              "give photons in until, or use an event source (docs/gamma_sources.md)");
+}
+
 /// Collector that reports common problems of several sweeps and points once.
 class DistinctProblems {
  public:
@@ -123,6 +130,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   read_source(root, names, scene);
   scene.run = read_run(root);
+  expect_events(root, scene);
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
   scene.criteria = read_criteria(root);

@@ -33,6 +33,7 @@ RunSpec read_run(const config::TomlTable& scene) {
   run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
   run.photon_list = table->boolean("photon_list", false);
   run.photon_history = table->boolean("photon_history", false);
+  run.until = read_until(*table);
   run.output = table->string("output", "");
   if (!run.output.empty() && run.output.is_relative())
     run.output = std::filesystem::path(table->where("output").file).parent_path() / run.output;

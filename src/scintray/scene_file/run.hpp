@@ -7,6 +7,7 @@
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/scene_file/until.hpp"
 
 namespace scintray::scene_file {
 
@@ -43,6 +44,7 @@ struct RunSpec {
   bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
   bool photon_list = false;         ///< write every detected photon to the results
   bool photon_history = false;      ///< write the history of each, for reweighting
+  std::optional<UntilSpec> until;   ///< ends a point before the photons or events of its source
   std::filesystem::path output;     ///< results file; empty: default of the command
   core::FileLocation where;
 };

@@ -75,8 +75,15 @@ bool is_consistent(const tally::PointSums& sums, const tally::RunHeader& header)
       if (axis.bins() > filled / bins) return false;
       bins *= axis.bins();
     }
+    const auto none_or_all = [](const auto& events, const auto& photons) {
+      return events.empty() || events.size() == photons.size();
+    };
     return bins == filled && tally.counts.size() == tally.count_squares.size() &&
-           tally.sums.size() == tally.sum_squares.size();
+           tally.sums.size() == tally.sum_squares.size() &&
+           none_or_all(tally.event_count_squares, tally.counts) &&
+           tally.event_count_products.size() == tally.event_count_squares.size() &&
+           none_or_all(tally.event_squares, tally.sums) &&
+           tally.event_products.size() == tally.event_squares.size();
   };
   return sums.counts.absorbed_in_medium.size() == header.media.size() &&
          sums.shifted_in_medium.size() == header.media.size() &&

@@ -50,8 +50,24 @@ void RankScheduler::stop_ranks() {
 }
 
 bool RankScheduler::has_work(std::size_t point) const {
-  return (!jobs_.empty() && jobs_.front().job.point == point) ||
+  const auto is_of_point = [&](const Job& job) { return job.job.point == point && !job.dropped; };
+  return std::any_of(jobs_.begin(), jobs_.end(), is_of_point) ||
          (!work_.empty() && work_.front().point == point);
+}
+
+void RankScheduler::drop(std::size_t point) {
+  if (!work_.empty() && work_.front().point == point) {
+    blocks_left_ -= work_.front().blocks.count();
+    work_.pop_front();
+  }
+  for (Job& job : jobs_) job.dropped = job.dropped || job.job.point == point;
+}
+
+void RankScheduler::forget_dropped() {
+  while (!jobs_.empty() && jobs_.front().dropped && jobs_.front().result) {
+    bytes_waiting_ -= jobs_.front().result->records.size();
+    jobs_.pop_front();
+  }
 }
 
 std::uint64_t RankScheduler::blocks_for(const Rank& rank) const {
@@ -74,6 +90,7 @@ void RankScheduler::hand_out() {
       Work& work = work_.front();
       RankJob job{next_number_++, work.point, work.blocks};
       job.blocks.last = job.blocks.first + std::min(blocks_for(rank), work.blocks.count());
+      if (next_division_) job.blocks.last = std::min(job.blocks.last, next_division_(job.blocks.first));
       work.blocks.first = job.blocks.last;
       blocks_left_ -= job.blocks.count();
       if (work.blocks.count() == 0) work_.pop_front();
@@ -151,9 +168,9 @@ void RankScheduler::take(int from, RankResult result) {
   jobs_[at].result = std::move(result);
 }
 
-bool RankScheduler::pass_on(std::size_t point, ResultSink& sink,
-                            const std::function<void(const RangeReader::Content&)>& passed) {
-  while (!jobs_.empty() && jobs_.front().result && jobs_.front().job.point == point) {
+bool RankScheduler::pass_on(std::size_t point, ResultSink& sink, const Passed& passed) {
+  for (forget_dropped(); !jobs_.empty() && jobs_.front().result && jobs_.front().job.point == point;
+       forget_dropped()) {
     const Clock::time_point start = Clock::now();
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
@@ -167,7 +184,7 @@ bool RankScheduler::pass_on(std::size_t point, ResultSink& sink,
                            std::make_unique<std::istringstream>(std::move(job.result->records)), 0, size);
       const double seconds = std::chrono::duration<double>(start - last_passed_).count();
       last_passed_ = start;
-      passed(replay_range(records, run_, range, {sink, false, seconds}));
+      if (passed(replay_range(records, run_, range, {sink, false, seconds}))) drop(point);
     }
     pass_seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     if (range.blocks.last != job.job.blocks.last) return false;
@@ -176,7 +193,7 @@ bool RankScheduler::pass_on(std::size_t point, ResultSink& sink,
 }
 
 bool RankScheduler::collect(std::size_t point, ResultSink& sink, const std::atomic<bool>* stop,
-                            const std::function<void(const RangeReader::Content&)>& passed) {
+                            const Passed& passed) {
   std::optional<Clock::time_point> until;  // after a stop
   while (has_work(point)) {
     if (!until && ((stop && stop->load()) || stop_requested_)) {

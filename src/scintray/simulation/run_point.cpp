@@ -211,7 +211,7 @@ void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64
                               " photons have no fate");
 }
 
-/// Collects blocks in their order into ranges.
+/// Collects blocks in their order into ranges. Of an event source a block is an event.
 class RangeCollector {
  public:
   /// @param empty  returns sums over no blocks
@@ -220,7 +220,7 @@ class RangeCollector {
 
   void add(const Block& block) {
     if (present_.count() == 0) sums_ = empty_();
-    block.photons.add_to(sums_);
+    block.photons.add_to(sums_, !block.events.events().empty());
     block.events.add_to(sums_.energy);
     sums_.counts.emitted += block.emitted + block.additional;
     traced_ += block.traced + block.additional;
@@ -305,17 +305,27 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
   const BlockTracer tracer(scene, source, plan, settings);
   RangeCollector collector([&] { return tally::empty_sums(scene, plan); }, blocks.first, hooks);
   const bool energy = source.has_energy();
-  std::uint64_t done = 0;
-  const auto trace = [&](std::uint64_t number) { return tracer.trace(blocks.first + number); };
+  std::uint64_t done = 0, kept = 0;
+  bool is_enough = false;
+  std::atomic<bool> ended{false};  // by a stop or because it is enough, where hooks decide that
+  const auto trace = [&](std::uint64_t number) {
+    if (hooks.enough && hooks.stop && hooks.stop->load()) ended = true;
+    return tracer.trace(blocks.first + number);
+  };
   const auto collect = [&](std::uint64_t, const Block& block) {
+    if (is_enough) return;
     done += energy ? block.events.events().size() : block.emitted;
+    ++kept;
     collector.add(block);
     if (hooks.progress) hooks.progress(done);
+    if (!hooks.enough || !hooks.enough()) return;
+    is_enough = true;
+    ended = true;
   };
-  const std::uint64_t traced =
-      transport::work_in_order(blocks.count(), settings.threads, hooks.stop, trace, collect);
+  transport::work_in_order(blocks.count(), settings.threads, hooks.enough ? &ended : hooks.stop, trace,
+                           collect);
   collector.end_range();
-  return {blocks.first, blocks.first + traced};
+  return {blocks.first, blocks.first + kept};
 }
 
 tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,

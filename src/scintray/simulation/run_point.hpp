@@ -38,6 +38,9 @@ struct RunHooks {
   std::function<bool(const tally::BlockRange& present)> range_ends;
   /// Sums over a range, after all else of its blocks. The ranges of a run follow each other without a gap.
   std::function<void(const tally::BlockRange& range, tally::PointSums sums)> range;
+  /// Called after each block, and after range(): true ends the run there. Blocks traced beyond it are
+  /// dropped.
+  std::function<bool()> enough;
   const std::atomic<bool>* stop = nullptr;  ///< set from outside: finish the current blocks and return
 };
 
@@ -86,7 +89,7 @@ int lane_width_of(const scene::Scene& scene, const source::LightSource& source, 
                   const RunSettings& settings);
 
 /// Traces some blocks of a source's photons: the ranges passed to hooks.range, from `blocks.first` on without
-/// a gap. One range unless hooks.range_ends divides them; fewer blocks after a stop.
+/// a gap. One range unless hooks.range_ends divides them; fewer blocks after a stop, or when they are enough.
 /// @return the blocks traced
 /// @throws InternalError when a photon has no fate
 tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,

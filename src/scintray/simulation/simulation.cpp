@@ -8,7 +8,9 @@
 
 #include "scintray/core/version.hpp"
 #include "scintray/simulation/detail/passing_on.hpp"
+#include "scintray/simulation/detail/point_sink.hpp"
 #include "scintray/simulation/detail/rank_scheduler.hpp"
+#include "scintray/simulation/detail/until_watch.hpp"
 #include "scintray/simulation/run_names.hpp"
 
 namespace scintray::simulation {
@@ -40,6 +42,15 @@ core::SystemError out_of_memory(const std::string& during, std::size_t point, st
                   during, point + 1, points));
 }
 
+/// A shard does not have the sums by which a run ends. @throws InputError
+void refuse_shard_of_until(const scene_file::SceneSpec& spec, const Shard& shard) {
+  if (shard.of == 1 || !spec.run.until) return;
+  throw core::InputError(
+      {spec.run.until->where,
+       "a run that ends by [run] until has no shards: when it ends depends on all of its blocks",
+       "remove until, or run without --shard, with mpirun for several machines"});
+}
+
 /// Keeps the ranges that were finished before an error, if there is a way to.
 void seal_what_there_is(const SimulationHooks& hooks) {
   try {
@@ -49,43 +60,6 @@ void seal_what_there_is(const SimulationHooks& hooks) {
 }
 
 }  // namespace
-
-/// Receiver of the blocks of one point: passes them on to the sink of the run, and to a second one where
-/// there is one, and sums them up.
-class PointSink : public ResultSink {
- public:
-  explicit PointSink(ResultSink& to) : to_(to) {}
-
-  void photons(const std::vector<tally::DetectedPhoton>& photons) override {
-    to_.photons(photons);
-    if (also) also->photons(photons);
-  }
-  void histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& of_point) override {
-    to_.histories(histories, of_point);
-    if (also) also->histories(histories, of_point);
-  }
-  void events(const std::vector<tally::EventRecord>& events) override {
-    to_.events(events);
-    if (also) also->events(events);
-  }
-  void range(const PointRange& of, const tally::PointSums& sums) override {
-    to_.range(of, sums);
-    if (also) also->range(of, sums);
-    if (total && !total->alike(sums))
-      throw core::InputError(
-          {{}, "the tallies of a checkpoint are not those of this run", "add --restart to begin anew"});
-    if (total)
-      total->merge(sums);
-    else
-      total = sums;
-  }
-
-  ResultSink* also = nullptr;
-  std::optional<tally::PointSums> total;  ///< over the ranges so far; nothing before the first
-
- private:
-  ResultSink& to_;
-};
 
 Simulation::Simulation(scene_file::SceneFile file, SimulationOptions options)
     : file_(std::move(file)),
@@ -265,6 +239,10 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
     run.progress = [&, start = start_of(number, shard)](std::uint64_t done) {
       SimulationProgress progress = start;
       progress.done += done;
+      if (receiver.expected_work) {
+        progress.done = until_.work_done + done;
+        progress.total = until_.work_done + *receiver.expected_work * until_.points_left;
+      }
       hooks.progress(progress);
     };
   detail::begin_events(*traced, renumbering, number, sink);
@@ -274,6 +252,7 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
     receiver.total = renumbering.applied(tally::empty_sums(traced->scene(), traced->plan()));
   tally::PointResult result = finished_point(*receiver.total, outline_, number, complete);
   static_cast<tally::PointFacts&>(result) = traced->facts();
+  result.until = receiver.until;
   sink.point(result, subjects);
   return result;
 }
@@ -285,43 +264,11 @@ tally::BlockRange Simulation::blocks_left(std::size_t number, const SimulationHo
   return blocks;
 }
 
-tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
-                                          const Shard& shard, detail::RankScheduler* ranks) {
-  const auto work_in = [this](const tally::PointSums& sums) {
-    return outline_.has_energy ? sums.energy.events : sums.counts.emitted;
-  };
-  const auto tracer = [&](const SimulationPoint& ready, PointSink& receiver, RunHooks& run) {
-    const tally::BlockRange blocks = blocks_left(number, hooks, shard);
-    const auto seal_when_due = [&] {
-      if (hooks.checkpoints && hooks.checkpoints->due()) hooks.checkpoints->seal();
-    };
-    if (hooks.checkpoints) {
-      hooks.checkpoints->replay(number, receiver);
-      receiver.also = hooks.checkpoints;
-      run.range_ends = [&](const tally::BlockRange&) { return hooks.checkpoints->due(); };
-      run.range = [&, pass_on = run.range](const tally::BlockRange& range, tally::PointSums sums) {
-        pass_on(range, std::move(sums));
-        seal_when_due();
-      };
-    }
-    std::uint64_t done = receiver.total ? work_in(*receiver.total) : 0;
-    if (ranks)
-      return ranks->collect(number, receiver, hooks.stop, [&](const RangeReader::Content& range) {
-        seal_when_due();
-        done += work_in(range.sums);
-        if (run.progress) run.progress(done);
-      });
-    if (run.progress && done > 0)
-      run.progress = [show = run.progress, done](std::uint64_t more) { show(done + more); };
-    return ready.trace(blocks, run).last == blocks.last;
-  };
-  return trace(number, tracer, sink, hooks, shard);
-}
-
 tally::PointResult Simulation::run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks) {
   build(hooks);
   SimulationHooks alone = hooks;
   alone.checkpoints = nullptr;  // they are of a run of all points
+  begin_until(1);
   return run_blocks(point, sink, alone, {});
 }
 
@@ -341,6 +288,7 @@ tally::PointResult Simulation::run(std::size_t point, const MappedResponse& resp
 }
 
 tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& hooks, const Shard& shard) {
+  refuse_shard_of_until(spec(0), shard);
   build(hooks);
   if (hooks.checkpoints) hooks.checkpoints->open(outline_, shard);
   const std::unique_ptr<detail::RankScheduler> ranks = scheduler(hooks, shard);
@@ -349,6 +297,7 @@ tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& ho
   tally::RunResult result;
   result.header = header();
   std::size_t ended = 0;
+  begin_until(points());
   try {
     for (; ended < points() && !stopped(hooks); ++ended) {
       if (shard.of > 1 && blocks_of_point(blocks, outline_, ended).count() == 0) continue;

@@ -7,6 +7,7 @@
 ///     const Estimate light = result.points[0].fraction(Fate::detected);
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,6 +32,7 @@ namespace detail {
 class RankScheduler;
 struct RankJob;
 struct RankResult;
+class UntilWatch;
 }  // namespace detail
 
 /// RunResult::partial_reason of a run that SimulationHooks::stop ended.
@@ -150,6 +152,10 @@ class Simulation {
   std::function<detail::RankResult(const detail::RankJob&, const std::atomic<bool>&)> job_tracer(
       std::size_t number);
   SimulationProgress start_of(std::size_t number, const Shard& shard) const;
+  /// What decides when a point ends, by its [run] until; null without it.
+  std::unique_ptr<detail::UntilWatch> watch_of(const SimulationPoint& point, std::size_t number) const;
+  /// Begins the wall time and the progress of so many points that end by [run] until.
+  void begin_until(std::size_t points);
 
   std::optional<scene_file::SceneFile> file_;
   scene_file::SceneSpec scene_;  ///< when there is no file
@@ -165,6 +171,13 @@ class Simulation {
   RunNames names_;
   std::vector<std::string> notes_;    ///< in the header, each once
   std::set<core::InputFile> inputs_;  ///< read for all points so far
+
+  /// Of the points that run() or run_all() traces.
+  struct UntilState {
+    std::chrono::steady_clock::time_point start{};
+    std::size_t points_left = 1;  ///< the present one included
+    std::uint64_t work_done = 0;  ///< of the points before
+  } until_;
 };
 
 }  // namespace scintray::simulation

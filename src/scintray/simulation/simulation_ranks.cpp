@@ -8,6 +8,7 @@
 #include "scintray/simulation/detail/range_stream.hpp"
 #include "scintray/simulation/detail/rank_scheduler.hpp"
 #include "scintray/simulation/detail/rank_work.hpp"
+#include "scintray/simulation/detail/until_watch.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::simulation {
@@ -80,8 +81,12 @@ std::unique_ptr<detail::RankScheduler> Simulation::scheduler(const SimulationHoo
         if (kept.first != number) kept = {number, job_tracer(number)};
         return kept.second;
       };
-  return std::make_unique<detail::RankScheduler>(*hooks.ranks, outline_, std::move(work), tracer_of,
-                                                 threads_of(*point(0)));
+  auto made = std::make_unique<detail::RankScheduler>(*hooks.ranks, outline_, std::move(work), tracer_of,
+                                                      threads_of(*point(0)));
+  if (spec(0).run.until)
+    made->divide_at(
+        [energy = outline_.has_energy](std::uint64_t first) { return detail::next_decision(first, energy); });
+  return made;
 }
 
 void Simulation::serve(Ranks& ranks, const SimulationHooks& hooks) {

@@ -96,9 +96,12 @@ void BlockTally::cut(const source::Photon& photon, core::Fate fate) {
   finish(photon, fate);
 }
 
-void BlockTally::add_to(PointSums& total) const {
+void BlockTally::add_to(PointSums& total, bool is_event) const {
   total.add(result_);
   if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
+  if (!is_event) return;
+  total.counts.event_fates.add(result_.fates);
+  if (scorer_) add_event(scorer_->contributions(), result_.photons, total.tallies);
 }
 
 void BlockTally::finish(const source::Photon& photon, core::Fate fate) {

@@ -53,7 +53,8 @@ class BlockTally {
   /// Histories of the detected photons; null when none are requested.
   const PhotonHistories* histories() const { return history_ ? &history_->kept() : nullptr; }
   /// Adds the block to the sums over others.
-  void add_to(PointSums& total) const;
+  /// @param is_event  the block is one event of an event source, the photons of which are not independent
+  void add_to(PointSums& total, bool is_event) const;
 
  private:
   void count_step(const transport::Step& step) { count_steps(step.segments, step.resolved); }

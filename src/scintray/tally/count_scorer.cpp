@@ -12,6 +12,10 @@ bool among(const std::vector<bool>& set, core::PartId part) {
   return set.empty() || set[scene_file::place_of(part)];
 }
 
+bool before_in_order(const Contribution& a, const Contribution& b) {
+  return a.count != b.count ? a.count < b.count : a.bin < b.bin;
+}
+
 }  // namespace
 
 CountScorer::CountScorer(const scene::Scene& scene, const TallyPlan& plan) : scene_(scene), plan_(plan) {
@@ -150,11 +154,8 @@ void CountScorer::end(core::Fate fate) {
     if (!count.visited.empty() && !seen(count.visited)) return false;
     return count.not_visited.empty() || !seen(count.not_visited);
   };
-  const auto before = [](const Contribution& a, const Contribution& b) {
-    return a.count != b.count ? a.count < b.count : a.bin < b.bin;
-  };
-  if (!std::is_sorted(pending_.begin(), pending_.end(), before))
-    std::stable_sort(pending_.begin(), pending_.end(), before);
+  if (!std::is_sorted(pending_.begin(), pending_.end(), before_in_order))
+    std::stable_sort(pending_.begin(), pending_.end(), before_in_order);
   const std::size_t first = contributions_.size();
   for (const Contribution& c : pending_) {
     if (!keeps(c)) continue;
@@ -174,6 +175,19 @@ void add_contributions(const std::vector<Contribution>& contributions, std::vect
       tally.add_outside(c.score);
     else
       tally.add(c.bin, c.score);
+  }
+}
+
+void add_event(std::vector<Contribution> contributions, std::uint64_t photons,
+               std::vector<TallySums>& total) {
+  // Stable, so that scores are summed in the order of photons.
+  std::stable_sort(contributions.begin(), contributions.end(), before_in_order);
+  for (auto first = contributions.begin(); first != contributions.end();) {
+    double score = 0.0;
+    auto last = first;
+    for (; last != contributions.end() && !before_in_order(*first, *last); ++last) score += last->score;
+    if (first->bin != Contribution::kOutside) total[first->count].add_event(first->bin, score, photons);
+    first = last;
   }
 }
 

@@ -55,4 +55,8 @@ class CountScorer {
 /// Adds contributions to the sums of `total`, which has one entry for each count of the plan.
 void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallySums>& total);
 
+/// Adds all contributions of the photons of one event to the sums over events of `total`.
+/// @param photons  traced of the event
+void add_event(std::vector<Contribution> contributions, std::uint64_t photons, std::vector<TallySums>& total);
+
 }  // namespace scintray::tally

@@ -20,11 +20,24 @@ void merge_each(std::vector<T>& into, const std::vector<T>& from) {
   for (std::size_t i = 0; i < into.size(); ++i) into[i].merge(from[i]);
 }
 
+/// The same where either may be empty, which stands for zeros.
+void add_to_some(std::vector<std::uint64_t>& into, const std::vector<std::uint64_t>& from) {
+  if (into.empty()) into.resize(from.size());
+  if (!from.empty()) add_each(into, from);
+}
+
+template <typename T>
+void merge_some(std::vector<T>& into, const std::vector<T>& from) {
+  if (into.empty()) into.resize(from.size());
+  if (!from.empty()) merge_each(into, from);
+}
+
 /// Adds the integers of a result.
 void add_counts(PointResult& total, const PointResult& more) {
   total.emitted += more.emitted;
   total.photons += more.photons;
   add_each(total.fates, more.fates);
+  total.event_fates += more.event_fates;
   add_each(total.absorbed_in_medium, more.absorbed_in_medium);
   add_each(total.absorbed_at_surface, more.absorbed_at_surface);
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
@@ -142,11 +155,34 @@ void TallySums::add(std::size_t bin, double score) {
 
 void TallySums::add_outside(double score) { outside.add(score); }
 
+void TallySums::add_event(std::size_t bin, double score, std::uint64_t photons) {
+  if (counts.empty()) {
+    if (event_squares.empty()) {
+      event_squares.resize(sums.size());
+      event_products.resize(sums.size());
+    }
+    event_squares[bin].add(score * score);
+    event_products[bin].add(score * static_cast<double>(photons));
+    return;
+  }
+  if (event_count_squares.empty()) {
+    event_count_squares.assign(counts.size(), 0);
+    event_count_products.assign(counts.size(), 0);
+  }
+  const auto scored = static_cast<std::uint64_t>(score);
+  event_count_squares[bin] += scored * scored;
+  event_count_products[bin] += scored * photons;
+}
+
 void TallySums::merge(const TallySums& other) {
   add_each(counts, other.counts);
   add_each(count_squares, other.count_squares);
   merge_each(sums, other.sums);
   merge_each(sum_squares, other.sum_squares);
+  add_to_some(event_count_squares, other.event_count_squares);
+  add_to_some(event_count_products, other.event_count_products);
+  merge_some(event_squares, other.event_squares);
+  merge_some(event_products, other.event_products);
   outside.merge(other.outside);
 }
 
@@ -156,6 +192,10 @@ TallyResult TallySums::value() const {
   result.sum_of_squares.assign(count_squares.begin(), count_squares.end());
   for (const core::ExactSum& sum : sums) result.sum.push_back(sum.value());
   for (const core::ExactSum& sum : sum_squares) result.sum_of_squares.push_back(sum.value());
+  result.event_squares.assign(event_count_squares.begin(), event_count_squares.end());
+  result.event_products.assign(event_count_products.begin(), event_count_products.end());
+  for (const core::ExactSum& sum : event_squares) result.event_squares.push_back(sum.value());
+  for (const core::ExactSum& sum : event_products) result.event_products.push_back(sum.value());
   result.outside = outside.value();
   return result;
 }
@@ -210,7 +250,17 @@ PointResult PointSums::result() const {
   result.detected_time_ns = detected_time_ns.value();
   result.detected_interactions = detected_interactions.value();
   result.energy = energy.value();
-  for (const TallySums& tally : tallies) result.tallies.push_back(tally.value());
+  const EventCounts events = result.event_counts();
+  for (const TallySums& tally : tallies) {
+    result.tallies.push_back(tally.value());
+    TallyResult& made = result.tallies.back();
+    made.events = events;
+    // No event scored in a tally whose sums are empty, but there were events.
+    if (events.all > 0 && made.event_squares.empty()) {
+      made.event_squares.assign(made.sum.size(), 0.0);
+      made.event_products = made.event_squares;
+    }
+  }
   return result;
 }
 

@@ -62,6 +62,9 @@ class TallySums {
   void add(std::size_t bin, double score);
   /// Adds a score beyond the axes.
   void add_outside(double score);
+  /// Adds the score of one event in a bin, beside its photons.
+  /// @param photons  traced of the event
+  void add_event(std::size_t bin, double score, std::uint64_t photons);
   /// @pre those of the same tally
   void merge(const TallySums& other);
   TallyResult value() const;
@@ -70,6 +73,10 @@ class TallySums {
   std::vector<std::uint64_t> counts, count_squares;
   /// Of other scores, per bin. Empty for photons.
   std::vector<core::ExactSum> sums, sum_squares;
+  /// Per bin, over events: of the square of an event's score, and of its product with the photons traced of
+  /// it. Integers for photons, else exact sums; all zero for a source of photons.
+  std::vector<std::uint64_t> event_count_squares, event_count_products;
+  std::vector<core::ExactSum> event_squares, event_products;
   core::ExactSum outside;
   TallyResult empty;  ///< name and axes; its sums are empty
 };

@@ -14,8 +14,25 @@ std::size_t TallyResult::bins() const {
   return bins;
 }
 
+namespace {
+
+/// Standard error of a ratio of sums over events: the root of the sum of squared residuals, by the number of
+/// degrees of freedom, over the denominator (W. G. Cochran 1977, Sampling Techniques, 3rd edition, section
+/// 6.4, as analysis/ratio.hpp; derived in docs/physics.md).
+double ratio_error(double residual_squares, std::uint64_t events, double denominator) {
+  const auto count = static_cast<double>(events);
+  return std::sqrt(std::max(0.0, residual_squares) * count / (count - 1.0)) / denominator;
+}
+
+}  // namespace
+
 core::Estimate TallyResult::at(std::size_t bin, std::uint64_t photons) const {
   if (photons == 0) return {};
+  if (!event_squares.empty() && events.all >= 2) {
+    const auto count = static_cast<double>(events.all);
+    const double error = ratio_error(event_squares[bin] - sum[bin] * sum[bin] / count, events.all, 1.0);
+    return {sum[bin], score == scene_file::kPhotonScore && sum[bin] == 0.0 ? 1.0 : error};
+  }
   const double n = static_cast<double>(photons);
   // Sum of n independent scores: n times their variance, which is at least that of one count.
   const double variance = std::max(sum_of_squares[bin] - sum[bin] * sum[bin] / n, 0.0);
@@ -26,7 +43,12 @@ core::Estimate TallyResult::at(std::size_t bin, std::uint64_t photons) const {
 core::Estimate TallyResult::per_photon(std::size_t bin, std::uint64_t photons) const {
   const core::Estimate total = at(bin, photons);
   const double n = std::max(1.0, static_cast<double>(photons));
-  return {total.value / n, total.error / n};
+  const bool nothing = score == scene_file::kPhotonScore && sum[bin] == 0.0;
+  if (event_squares.empty() || events.with_photons < 2 || photons == 0 || nothing)
+    return {total.value / n, total.error / n};
+  const double r = sum[bin] / n;
+  const double residual = event_squares[bin] - 2.0 * r * event_products[bin] + r * r * events.photon_squares;
+  return {r, ratio_error(residual, events.with_photons, n)};
 }
 
 optics::ShiftCount PointResult::shifted() const {
@@ -51,11 +73,65 @@ core::Estimate PointResult::not_detected_fraction(std::uint64_t not_detected, st
   return {mean, std::sqrt(std::max(1.0 / n, square - mean * mean) / n)};
 }
 
+bool UntilResult::ended() const {
+  return std::any_of(conditions.begin(), conditions.end(),
+                     [](const UntilCondition& condition) { return condition.met; });
+}
+
+bool UntilResult::is_reproducible() const {
+  return std::none_of(conditions.begin(), conditions.end(), [](const UntilCondition& condition) {
+    return condition.met && condition.quantity == "wall_time";
+  });
+}
+
+void EventFates::add(const std::array<std::uint64_t, core::kFateCount>& fates) {
+  std::uint64_t photons = 0;
+  for (const std::uint64_t count : fates) photons += count;
+  if (photons == 0) return;
+  ++events;
+  for (std::size_t i = 0; i < fates.size(); ++i)
+    for (std::size_t k = 0; k < fates.size(); ++k) products[i][k] += fates[i] * fates[k];
+}
+
+EventFates& EventFates::operator+=(const EventFates& other) {
+  events += other.events;
+  for (std::size_t i = 0; i < products.size(); ++i)
+    for (std::size_t k = 0; k < products.size(); ++k) products[i][k] += other.products[i][k];
+  return *this;
+}
+
+double EventFates::photon_squares() const {
+  double sum = 0.0;
+  for (const auto& row : products)
+    for (const std::uint64_t product : row) sum += static_cast<double>(product);
+  return sum;
+}
+
+EventCounts PointResult::event_counts() const {
+  if (event_fates.events == 0) return {};
+  return {std::max(energy.events, event_fates.events), event_fates.events, event_fates.photon_squares()};
+}
+
 core::Estimate PointResult::fraction(core::Fate fate) const {
-  if (fate == core::Fate::detected) return detected_fraction(count(fate));
+  core::Estimate share = core::binomial_estimate(count(fate), photons);
+  if (fate == core::Fate::detected) share = detected_fraction(count(fate));
   if (fate == core::Fate::not_detected)
-    return not_detected_fraction(count(fate), count(core::Fate::detected));
-  return core::binomial_estimate(count(fate), photons);
+    share = not_detected_fraction(count(fate), count(core::Fate::detected));
+  if (event_fates.events < 2 || photons == 0) return share;
+  // The share is the ratio of two sums over the events, of the weights of their photons and of the photons.
+  std::array<double, core::kFateCount> weights{};
+  weights[core::fate_index(fate)] = fate == core::Fate::detected ? birth_efficiency : 1.0;
+  if (fate == core::Fate::not_detected)
+    weights[core::fate_index(core::Fate::detected)] = 1.0 - birth_efficiency;
+  double residual = 0.0;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      residual += (weights[i] - share.value) * (weights[k] - share.value) *
+                  static_cast<double>(event_fates.products[i][k]);
+  const double n = static_cast<double>(photons);
+  const bool none_or_all = count(fate) == 0 || count(fate) == photons;
+  const double error = ratio_error(residual, event_fates.events, n);
+  return {share.value, none_or_all ? std::max(error, share.error) : error};
 }
 
 double PointResult::cut_bias_bound() const {

@@ -37,6 +37,14 @@ struct TallyAxis {
   std::size_t bins() const { return names.empty() ? edges.size() - 1 : names.size(); }
 };
 
+/// Events of an event source as what is independent in its photons: those of one event share its place. The
+/// errors of shares are then those of the ratio of two sums over events (docs/physics.md, Estimates).
+struct EventCounts {
+  std::uint64_t all = 0;           ///< traced to their end; 0: photons are independent, or not known
+  std::uint64_t with_photons = 0;  ///< of them, those with photons traced
+  double photon_squares = 0.0;     ///< sum over the events of the square of the photons traced
+};
+
 /// Sums over the photons of a point, on a grid of axes (row-major, the last axis fastest).
 struct TallyResult {
   std::string name;
@@ -49,15 +57,21 @@ struct TallyResult {
   std::vector<TallyAxis> axes;
   std::vector<double> sum;             ///< per bin
   std::vector<double> sum_of_squares;  ///< per bin, of the contributions of each photon
-  double outside = 0.0;                ///< score beyond the axes
+  /// Per bin, over the events of an event source: of the square of an event's score, and of its product with
+  /// the photons traced of the event. Empty: photons are independent, or older than these sums.
+  std::vector<double> event_squares, event_products;
+  EventCounts events;    ///< of these
+  double outside = 0.0;  ///< score beyond the axes
   /// Refractive index, at the middle of the wavelengths in use, of the medium of its directions at faces; 0
   /// without such directions or for several media.
   double index = 0.0;
 
   std::size_t bins() const;
-  /// Score of a bin with its standard error, from `photons` independent photons.
+  /// Score of a bin with its standard error, from `photons` independent photons, or from the events. A bin
+  /// of photons without any has the error of one.
   core::Estimate at(std::size_t bin, std::uint64_t photons) const;
-  /// Score of a bin per photon, with its standard error.
+  /// Score of a bin per photon, with its standard error: the ratio of two sums over the photons, or over the
+  /// events, so that the fluctuation of the number of photons is in it as far as it matters.
   core::Estimate per_photon(std::size_t bin, std::uint64_t photons) const;
 };
 
@@ -101,6 +115,40 @@ struct PointFacts {
   double birth_efficiency = 1.0;
 };
 
+/// A condition of [run] until at the end of a point.
+struct UntilCondition {
+  std::string quantity;  ///< "relative_error", "absolute_error", "wall_time" (s), "photons" or "events"
+  double goal = 0.0, reached = 0.0;  ///< reached: not a number for an error that is not known
+  bool met = false;                  ///< it ended the point
+};
+
+/// What [run] until stated of a point, and what was reached.
+struct UntilResult {
+  core::Fate fate = core::Fate::detected;  ///< whose share the errors are of
+  std::vector<UntilCondition> conditions;
+
+  /// True when a condition ended the point; else all photons or events of its source were traced.
+  bool ended() const;
+  /// False when the point ended by the clock: another run ends after other photons.
+  bool is_reproducible() const;
+};
+
+/// Sums over the events of a point, from which the errors of its fates follow.
+struct EventFates {
+  /// Sums over the events of the product of the numbers of photons with two fates.
+  using Products = std::array<std::array<std::uint64_t, core::kFateCount>, core::kFateCount>;
+
+  std::uint64_t events = 0;  ///< with photons traced; 0: photons are independent, or older than these sums
+  Products products{};       ///< symmetric
+
+  /// Adds an event by its photons of each fate; nothing without photons.
+  void add(const std::array<std::uint64_t, core::kFateCount>& fates);
+  EventFates& operator+=(const EventFates& other);
+  /// Sum over the events of the square of the photons traced.
+  double photon_squares() const;
+  bool operator==(const EventFates&) const = default;
+};
+
 /// One traced point of a sweep (a run without a sweep has one point).
 struct PointResult : PointFacts {
   std::vector<std::string> parameters;  ///< value of each swept key, as written ("2 mm")
@@ -110,6 +158,8 @@ struct PointResult : PointFacts {
   bool complete = false;                ///< false when interrupted
   EnergyBalance energy;
   std::array<std::uint64_t, core::kFateCount> fates{};  ///< by fate_index
+  EventFates event_fates;                               ///< of an event source
+  std::optional<UntilResult> until;                     ///< with [run] until
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;
   core::IdVector<core::MediumId, optics::ShiftCount> shifted_in_medium;
@@ -132,13 +182,18 @@ struct PointResult : PointFacts {
   optics::ShiftCount shifted() const;
   /// Share of the emitted photons with a fate. With a birth efficiency b below 1 and n photons traced: b
   /// detected / n, (not detected + (1 - b) detected) / n, and count / n for any other fate. Their sum is 1.
+  /// The error is that of independent photons, or of independent events where there are two or more
+  /// (event_fates); at least that of one photon where none or all have the fate.
   core::Estimate fraction(core::Fate fate) const;
-  /// Share of the emitted photons that some of the detected photons stand for.
+  /// Share of the emitted photons that some of the detected photons stand for, with the error of independent
+  /// photons.
   core::Estimate detected_fraction(std::uint64_t detected) const;
   /// Share of the emitted photons that reach a sensor and are not detected, from the counts there.
   core::Estimate not_detected_fraction(std::uint64_t not_detected, std::uint64_t detected) const;
   /// Upper bound of the error of any fraction from cut photons: cut photons / photons.
   double cut_bias_bound() const;
+  /// Its events as what is independent; `all` is 0 for a source of photons.
+  EventCounts event_counts() const;
 };
 
 /// One detected photon, as streamed to the results file when a list is requested.

@@ -90,6 +90,19 @@ Json energy_json(const tally::EnergyBalance& energy) {
           {"detected_per_event", estimate_json(energy.detected.mean())}};
 }
 
+Json until_json(const tally::UntilResult& until) {
+  Json conditions = Json::array();
+  for (const tally::UntilCondition& condition : until.conditions)
+    conditions.push_back({{"condition", condition.quantity},
+                          {"goal", number_json(condition.goal)},
+                          {"reached", number_json(condition.reached)},
+                          {"met", condition.met}});
+  return {{"share_of", core::fate_name(until.fate)},
+          {"ended", until.ended()},
+          {"reproducible", until.is_reproducible()},
+          {"conditions", conditions}};
+}
+
 Json sensors_json(const tally::RunResult& run, const tally::PointResult& point) {
   Json sensors = Json::array();
   for (const tally::SensorFaceCount& count : point.sensor_faces)
@@ -115,6 +128,7 @@ Json point_json(const tally::RunResult& run, const tally::PointResult& point) {
     json["sensors"] = sensors_json(run, point);
   }
   json["not_included"] = omitted_json(point.omitted);
+  if (point.until) json["until"] = until_json(*point.until);
   if (point.energy.events_requested > 0) json["energy"] = energy_json(point.energy);
   return json;
 }

@@ -9,6 +9,7 @@
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
+#include "scintray/report/text/until_text.hpp"
 
 namespace scintray::report {
 
@@ -80,6 +81,17 @@ std::string warnings(const tally::RunResult& run) {
   return text;
 }
 
+/// Why each point ended, where [run] until is stated.
+std::string until_lines(const tally::RunResult& run) {
+  std::string text;
+  for (const tally::PointResult& point : run.points) {
+    const std::string sentence = until_sentence(point);
+    if (sentence.empty()) continue;
+    text += (run.points.size() > 1 ? point_label(point) + ": " : "") + sentence + "\n";
+  }
+  return text;
+}
+
 /// Text of the events of a point: their energies and analyses.
 std::string energy_lines(const tally::PointResult& point) {
   const tally::EnergyBalance& energy = point.energy;
@@ -102,7 +114,7 @@ std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyse
            shift_lines(run.header, run.points.front()) + tally_lines(run.header, run.points.front()) +
            energy_lines(run.points.front()) +
            (analyses.points.empty() ? "" : event_lines(analyses.points.front(), run.points.front().omitted)) +
-           criterion_lines(evaluate(run, analyses)) + warnings(run);
+           criterion_lines(evaluate(run, analyses)) + until_lines(run) + warnings(run);
   const auto view = view_sweep(run);
   const std::string table =
       !view ? point_table(run)
@@ -111,7 +123,7 @@ std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyse
                 aligned(upright(light_table(*view, analyses.points, analyses.reference), kMostColumns))
           : sweep_table(run, *view);
   const std::string omitted = omission_sentence(omitted_anywhere(run), Figure::fraction) + "\n";
-  return table + omitted + criterion_lines(evaluate(run, analyses)) + warnings(run);
+  return table + omitted + criterion_lines(evaluate(run, analyses)) + until_lines(run) + warnings(run);
 }
 
 }  // namespace scintray::report

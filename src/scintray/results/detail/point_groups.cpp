@@ -45,6 +45,13 @@ void put_fates(core::h5::Group& group, const tally::PointResult& point) {
   put(group, "fate_count", counts);
   put(group, "fate_fraction", fractions);
   put(group, "fate_error", errors);
+  if (point.event_fates.events == 0) return;
+  put(group, "events_with_photons", point.event_fates.events);
+  std::vector<std::uint64_t> products;
+  for (const auto& row : point.event_fates.products) products.insert(products.end(), row.begin(), row.end());
+  group.write("event_fate_products", products,
+              {std::size_t{core::kFateCount}, std::size_t{core::kFateCount}});
+  describe(group, "event_fate_products");
 }
 
 void put_shifts(core::h5::Group& point, const std::string& name, const std::string& description,
@@ -134,11 +141,18 @@ void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& 
     describe(tally, "sum");
     tally.write("sum_of_squares", from.sum_of_squares, shape);
     describe(tally, "sum_of_squares");
+    if (!from.event_squares.empty()) {
+      tally.write("event_squares", from.event_squares, shape);
+      describe(tally, "event_squares");
+      tally.write("event_products", from.event_products, shape);
+      describe(tally, "event_products");
+    }
     put(tally, "beyond", from.outside);
     put(tally, "refractive_index", from.index);
     std::vector<std::string> bins;
     for (std::size_t k = 0; k < from.axes.size(); ++k) bins.push_back("bin_" + std::to_string(k));
-    name_dimensions(tally, {{"sum", bins}, {"sum_of_squares", bins}});
+    name_dimensions(
+        tally, {{"sum", bins}, {"sum_of_squares", bins}, {"event_squares", bins}, {"event_products", bins}});
   }
 }
 
@@ -188,6 +202,27 @@ void put_omitted(core::h5::Group& point, const std::vector<tally::OmittedEffect>
     for (const tally::OmittedEffect& effect : effects) column.push_back(effect.*member ? 1 : 0);
     put(group, name, column);
   });
+  name_dimensions(group);
+}
+
+void put_until(core::h5::Group& point, const tally::UntilResult& until) {
+  core::h5::Group group = point.create_group("until");
+  group.set_attribute("", "description", std::string("what was to end the point, and what did"));
+  group.set_attribute("", "share_of", std::string(core::fate_name(until.fate)));
+  group.set_attribute("", "reproducible", static_cast<std::int64_t>(until.is_reproducible()));
+  std::vector<std::string> names;
+  std::vector<double> goals, reached;
+  std::vector<std::uint8_t> met;
+  for (const tally::UntilCondition& condition : until.conditions) {
+    names.push_back(condition.quantity);
+    goals.push_back(condition.goal);
+    reached.push_back(condition.reached);
+    met.push_back(condition.met ? 1 : 0);
+  }
+  put_text(group, "condition", names);
+  put(group, "goal", goals);
+  put(group, "reached", reached);
+  put(group, "met", met);
   name_dimensions(group);
 }
 
@@ -241,6 +276,7 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
   name_dimensions(group, {{"fate_count", fates},
                           {"fate_fraction", fates},
                           {"fate_error", fates},
+                          {"event_fate_products", fates},
                           {"parameters", keys},
                           {"parameter_value", keys},
                           {"parameter_unit", keys},
@@ -272,6 +308,7 @@ void put_point_facts(core::h5::Group& group, const tally::PointResult& point) {
   if (point.energy.events_requested > 0) put_energy(group, point.energy);
   if (point.light_timing) put_light_timing(group, *point.light_timing);
   if (point.omitted) put_omitted(group, *point.omitted);
+  if (point.until) put_until(group, *point.until);
 }
 
 }  // namespace scintray::results::format

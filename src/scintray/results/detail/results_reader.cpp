@@ -10,6 +10,7 @@
 #include "scintray/results/detail/columns.hpp"
 #include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
+#include "scintray/results/detail/point_records.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
@@ -111,8 +112,12 @@ class PointReader {
     point.lost = get<std::uint64_t>(group_, "lost");
     point.wall_seconds = get<double>(group_, "wall_seconds");
     if (group_.has("energy")) point.energy = energy();
-    if (group_.has("light_timing")) point.light_timing = light_timing();
-    if (group_.has("omitted_effects")) point.omitted = omitted_effects();
+    if (group_.has("until")) point.until = sound(format::get_until);
+    if (group_.has("event_fate_products")) point.event_fates = sound(format::get_event_fates);
+    require(point.event_fates.events <= point.energy.events, "more events have photons than there are");
+    for (tally::TallyResult& tally : point.tallies) tally.events = point.event_counts();
+    if (group_.has("light_timing")) point.light_timing = sound(format::get_light_timing);
+    if (group_.has("omitted_effects")) point.omitted = sound(format::get_omitted_effects);
     check_counts(point);
     check_numbers(point);
     return point;
@@ -121,6 +126,16 @@ class PointReader {
  private:
   void require(bool holds, const std::string& what) const {
     if (!holds) throw format::damaged(path_, "in point " + name_ + ", " + what);
+  }
+
+  /// A record of the point; a contradiction in it is a damaged file.
+  template <typename T>
+  T sound(T (*get_record)(const core::h5::Group&)) const {
+    try {
+      return get_record(group_);
+    } catch (const std::invalid_argument& contradiction) {
+      throw format::damaged(path_, "in point " + name_ + ", " + contradiction.what());
+    }
   }
 
   template <typename Counts>
@@ -184,6 +199,9 @@ class PointReader {
       for (const double sum : tally.sum)
         require(std::isfinite(sum), "the tally \"" + tally.name + "\" has a sum that is not a number");
       for (const double sum : tally.sum_of_squares) require_number(sum, "a sum of squares of a tally");
+      for (const double sum : tally.event_squares) require_number(sum, "a sum over events of a tally");
+      for (const double sum : tally.event_products)
+        require(std::isfinite(sum), "a sum over events of a tally is not a number");
       require_number(tally.index, "refractive_index");
     }
   }
@@ -207,32 +225,6 @@ class PointReader {
     energy.non_scintillating = get<double>(group, "unseen_total_keV");
     energy.detected = get_moments(group, "detected_per_event");
     return energy;
-  }
-
-  tally::LightTiming light_timing() const {
-    const core::h5::Group group = group_.open_group("light_timing");
-    const auto decay = group.read<double>("decay_ns"), rise = group.read<double>("rise_ns"),
-               share = group.read<double>("decay_share");
-    require(!decay.empty() && rise.size() == decay.size() && share.size() == decay.size(),
-            "the columns of light_timing differ in length");
-    tally::LightTiming timing;
-    for (std::size_t i = 0; i < decay.size(); ++i) timing.decay.push_back({decay[i], rise[i], share[i]});
-    timing.time_spread_ns = get<double>(group, "time_spread_ns");
-    return timing;
-  }
-
-  std::vector<tally::OmittedEffect> omitted_effects() const {
-    const core::h5::Group group = group_.open_group("omitted_effects");
-    std::vector<tally::OmittedEffect> effects(group.read_strings("effect").size());
-    const auto fill = [&](const char* name, auto member, const auto& values) {
-      require(values.size() == effects.size(), std::string("omitted_effects differs in length in ") + name);
-      for (std::size_t i = 0; i < effects.size(); ++i) effects[i].*member = values[i];
-    };
-    format::for_each_omission_text(
-        [&](const char* name, auto member) { fill(name, member, group.read_strings(name)); });
-    format::for_each_omission_figure(
-        [&](const char* name, auto member) { fill(name, member, group.read<std::uint8_t>(name)); });
-    return effects;
   }
 
   /// Zeros from a file older than wavelength shifters.
@@ -323,6 +315,12 @@ class PointReader {
       tally.sum_of_squares = from.read<double>("sum_of_squares");
       require(tally.sum.size() == tally.bins() && tally.sum_of_squares.size() == tally.bins(),
               "the sums of the tally \"" + tally.name + "\" do not match its axes");
+      if (from.has("event_squares")) {
+        tally.event_squares = from.read<double>("event_squares");
+        tally.event_products = from.read<double>("event_products");
+        require(tally.event_squares.size() == tally.bins() && tally.event_products.size() == tally.bins(),
+                "the sums over events of the tally \"" + tally.name + "\" do not match its axes");
+      }
       tally.outside = get<double>(from, "beyond");
       tally.index = get<double>(from, "refractive_index");
       tallies.push_back(std::move(tally));

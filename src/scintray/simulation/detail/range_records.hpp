@@ -25,7 +25,7 @@ enum class Record : std::uint8_t {
 
 /// First bytes of a file, and the version of its layout after them.
 inline constexpr std::string_view kMagic = "ScintRay block ranges\n";
-inline constexpr std::uint32_t kRangesVersion = 2;
+inline constexpr std::uint32_t kRangesVersion = 3;
 /// Of a record: its kind and the number of its bytes before them, their CRC-32 and those of both after.
 inline constexpr std::size_t kRecordHead = 1 + sizeof(std::uint64_t), kRecordTail = sizeof(std::uint32_t);
 
@@ -150,12 +150,22 @@ void exchange(A& a, tally::TallySums& v) {
   exchange_sparse(a, v.count_squares);
   exchange_sparse(a, v.sums);
   exchange_sparse(a, v.sum_squares);
+  exchange_sparse(a, v.event_count_squares);
+  exchange_sparse(a, v.event_count_products);
+  exchange_sparse(a, v.event_squares);
+  exchange_sparse(a, v.event_products);
+}
+template <typename A>
+void exchange(A& a, tally::EventFates& v) {
+  pass(a, v.events);
+  for (auto& row : v.products) pass(a, row);
 }
 template <typename A>
 void exchange(A& a, tally::PointSums& v) {
   tally::PointResult& c = v.counts;
   pass(a, c.emitted, c.photons, c.fates, c.absorbed_in_medium, c.absorbed_at_surface, c.sensor_faces,
-       c.detected_path_histogram, c.scatterings, c.segments, c.resolved_misses, c.wall_seconds);
+       c.detected_path_histogram, c.scatterings, c.segments, c.resolved_misses, c.wall_seconds,
+       c.event_fates);
   pass(a, v.shifted_in_medium, v.shifted_at_surface, v.interactions, v.detected_path_mm, v.detected_time_ns,
        v.detected_interactions, v.energy, v.tallies);
 }

@@ -34,13 +34,19 @@ class RankScheduler {
   RankScheduler(const RankScheduler&) = delete;
   RankScheduler& operator=(const RankScheduler&) = delete;
 
+  /// No job goes beyond the first block count that this returns for its first block; for runs that decide at
+  /// fixed block counts when to end.
+  void divide_at(std::function<std::uint64_t(std::uint64_t first)> next) { next_division_ = std::move(next); }
+  /// Drops the blocks of a point that were not passed on.
+  void drop(std::size_t point);
+
+  /// Called after each range; true when the point needs no more blocks: those left are dropped.
+  using Passed = std::function<bool(const RangeReader::Content&)>;
   /// Passes the results of a point's blocks on. Ranks trace blocks of the points after it meanwhile.
-  /// @param stop    set from outside: the blocks under way are finished, and no more begun; may be null
-  /// @param passed  called after each range
-  /// @return true when all blocks of the point have been passed on; false after a stop
+  /// @param stop  set from outside: the blocks under way are finished, and no more begun; may be null
+  /// @return true when all blocks of the point have been passed on or dropped; false after a stop
   /// @throws InputError, SystemError, InternalError of any rank, with its number
-  bool collect(std::size_t point, ResultSink& sink, const std::atomic<bool>* stop,
-               const std::function<void(const RangeReader::Content&)>& passed);
+  bool collect(std::size_t point, ResultSink& sink, const std::atomic<bool>* stop, const Passed& passed);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -48,6 +54,7 @@ class RankScheduler {
     RankJob job;
     int rank = 0;
     std::optional<RankResult> result;
+    bool dropped = false;  ///< its result is not needed
   };
   struct Rank {
     std::uint32_t threads = 1;
@@ -66,8 +73,9 @@ class RankScheduler {
   void receive(const Ranks::Message& message);
   void take(int from, RankResult result);
   /// Passes the results on that are there without a gap. Returns false after a range that was stopped.
-  bool pass_on(std::size_t point, ResultSink& sink,
-               const std::function<void(const RangeReader::Content&)>& passed);
+  bool pass_on(std::size_t point, ResultSink& sink, const Passed& passed);
+  /// Removes the jobs at the front that were dropped and have come back.
+  void forget_dropped();
   void stop_ranks();
 
   Ranks& ranks_;
@@ -75,6 +83,7 @@ class RankScheduler {
   std::deque<Work> work_;          ///< not yet handed out
   std::uint64_t blocks_left_ = 0;  ///< in work_
   TracerOf tracer_of_;
+  std::function<std::uint64_t(std::uint64_t)> next_division_;
   std::vector<Rank> states_;
   std::deque<Job> jobs_;  ///< handed out and not yet passed on
   std::uint64_t next_number_ = 0;

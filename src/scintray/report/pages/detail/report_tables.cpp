@@ -9,6 +9,7 @@
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/omissions.hpp"
+#include "scintray/report/text/until_text.hpp"
 
 namespace scintray::report {
 
@@ -276,6 +277,9 @@ std::string condition_section(const tally::RunResult& run) {
   } else {
     row("events", grouped(events) + in_points + ", without tracing photons");
   }
+  for (const tally::PointResult& point : run.points)
+    if (const std::string sentence = until_sentence(point); !sentence.empty())
+      row(run.points.size() > 1 ? "end of " + point_label(point) : "end", sentence);
   row("time", compact(seconds, 3) + " s");
   if (seconds > 0.0)
     row("speed", run.traced_photons() ? rate(static_cast<double>(segments) / seconds) + " segments/s, " +

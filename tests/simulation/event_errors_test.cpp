@@ -1,0 +1,225 @@
+// Errors of fates and tallies of event sources: the photons of one event share its place, so that they are
+// not independent.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "scenes.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::simulation;
+using namespace scintray::test;
+
+namespace {
+
+/// Black but for the face at the sensor: the share of an event that is detected is the solid angle of that
+/// face at its place.
+const std::string kBlackCrystal = R"(
+title = "A black crystal"
+ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO"
+surface = "black"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "R6231"
+[surfaces.black]
+model = "painted"
+reflectance = 0.0
+specular_share = 0.0
+[source]
+type = "gamma_events"
+events = 60
+region = { part = "crystal" }
+energy = "8 keV"
+)";
+const std::string kTallies = R"(
+[[tally]]
+type = "count"
+name = "depth"
+at = "absorbed_at_surface"
+axes = [{ variable = "position", along = [0, 0, 1], from = "0 mm", to = "4 mm", bins = 2 }]
+[[tally]]
+type = "count"
+name = "path"
+at = "detected"
+score = "path"
+)";
+
+/// Results of runs that differ in their seeds alone.
+std::vector<tally::PointResult> runs_of(const std::string& scene, std::uint64_t count) {
+  materials::SurfaceFactory::Hooks hooks;
+  hooks.cache.clear();
+  scene::SceneBuilder builder(hooks);
+  scene_file::SceneSpec spec = scene_of(scene).spec(0);
+  const auto built = std::make_shared<const scene::BuiltScene>(builder.build(spec));
+  std::vector<tally::PointResult> results;
+  for (spec.run.seed = 1; spec.run.seed <= count; ++spec.run.seed)
+    results.push_back(SimulationPoint(spec, built).trace());
+  return results;
+}
+
+/// Of the values of many runs, their distances from the value of all together, in their errors.
+struct Pulls {
+  double count = 0.0, mean = 0.0, mean_square = 0.0, mean_fourth = 0.0;
+
+  Pulls(const std::vector<Estimate>& values, double truth) : count(static_cast<double>(values.size())) {
+    for (const Estimate& value : values) {
+      const double pull = (value.value - truth) / value.error;
+      mean += pull / count;
+      mean_square += pull * pull / count;
+      mean_fourth += std::pow(pull, 4) / count;
+    }
+  }
+  double width() const { return std::sqrt(mean_square - mean * mean); }
+  /// True when mean 0 and mean square 1 + 2 / (events - 3), the variance of Student's distribution, are
+  /// within four standard errors, by the spread of the pulls themselves: a correct program fails once in
+  /// 8000.
+  bool are_standard(double events) const {
+    constexpr double kLimit = 4.0;
+    const double expected = (events - 1.0) / (events - 3.0);
+    const double spread = std::sqrt((mean_fourth - mean_square * mean_square) / count);
+    return std::abs(mean) < kLimit * std::sqrt(mean_square / count) &&
+           std::abs(mean_square - expected) < kLimit * spread;
+  }
+};
+
+constexpr std::uint64_t kRuns = 300;
+constexpr double kEventsOfARun = 60.0;
+
+/// The ratio of the sums of two numbers over all runs.
+template <typename Over, typename Under>
+double ratio_of_all(const std::vector<tally::PointResult>& runs, const Over& over, const Under& under) {
+  double y = 0.0, x = 0.0;
+  for (const tally::PointResult& run : runs) {
+    y += over(run);
+    x += under(run);
+  }
+  return y / x;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "The fates of an event source have pulls of mean 0 and width 1, with and without a birth efficiency") {
+  for (const bool birth : {true, false}) {
+    const auto runs = runs_of(kBlackCrystal + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
+    CHECK((runs.front().birth_efficiency < 1.0) == birth);
+    for (const Fate fate : {Fate::detected, Fate::not_detected, Fate::absorbed_at_surface}) {
+      CAPTURE(fate_name(fate));
+      const double truth = ratio_of_all(
+          runs,
+          [&](const tally::PointResult& run) {
+            return run.fraction(fate).value * static_cast<double>(run.photons);
+          },
+          [](const tally::PointResult& run) { return static_cast<double>(run.photons); });
+      std::vector<Estimate> values, as_independent;
+      for (const tally::PointResult& run : runs) {
+        values.push_back(run.fraction(fate));
+        tally::PointResult photons = run;
+        photons.event_fates = {};
+        as_independent.push_back(photons.fraction(fate));
+      }
+      const Pulls pulls(values, truth), before(as_independent, truth);
+      CAPTURE(pulls.mean);
+      CAPTURE(pulls.width());
+      CHECK(pulls.are_standard(kEventsOfARun));
+      // As independent photons the same numbers fail.
+      CAPTURE(before.width());
+      CHECK_FALSE(before.are_standard(kEventsOfARun));
+    }
+  }
+}
+
+TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width 1, summed and per photon") {
+  const auto runs = runs_of(kBlackCrystal + kTallies, kRuns);
+  for (const auto& [tally, bin] : {std::pair{0, 0}, {0, 1}, {1, 0}}) {
+    CAPTURE(tally);
+    CAPTURE(bin);
+    const auto number = static_cast<std::size_t>(tally);
+    const auto at = static_cast<std::size_t>(bin);
+    const auto sum = [&](const tally::PointResult& run) { return run.tallies.at(number).sum.at(at); };
+    std::vector<Estimate> sums, shares, as_independent;
+    for (const tally::PointResult& run : runs) {
+      const tally::TallyResult& result = run.tallies.at(number);
+      sums.push_back(result.at(at, run.photons));
+      shares.push_back(result.per_photon(at, run.photons));
+      tally::TallyResult photons = result;
+      photons.event_squares.clear();
+      as_independent.push_back(photons.at(at, run.photons));
+    }
+    const double mean = ratio_of_all(runs, sum, [](const tally::PointResult&) { return 1.0; });
+    const double share = ratio_of_all(
+        runs, sum, [](const tally::PointResult& run) { return static_cast<double>(run.photons); });
+    const Pulls pulls(sums, mean), of_shares(shares, share), before(as_independent, mean);
+    CAPTURE(pulls.mean);
+    CAPTURE(pulls.width());
+    CAPTURE(of_shares.width());
+    CAPTURE(before.width());
+    CHECK(pulls.are_standard(kEventsOfARun));
+    CHECK(of_shares.are_standard(kEventsOfARun));
+    CHECK_FALSE(before.are_standard(kEventsOfARun));
+  }
+}
+
+TEST_CASE("Sums over events are those of the events, in memory, in shards and in the file") {
+  const scene_file::SceneFile scene = scene_of(kBlackCrystal + kTallies);
+  const std::filesystem::path folder = scratch_folder("event_errors");
+  MemorySink memory;
+  ResultsFile file(folder / "a.h5");
+  Simulation(scene).run_all(memory);
+  Simulation(scene).run_all(file);
+  const tally::PointResult& point = memory.result.points.at(0);
+  std::uint64_t squares = 0, events = 0;
+  for (const tally::EventRecord& event : memory.event_list) {
+    squares += event.detected * event.detected;
+    events += event.emitted > 0 ? 1 : 0;
+  }
+  const std::size_t detected = fate_index(Fate::detected);
+  CHECK(point.event_fates.products[detected][detected] == squares);
+  CHECK(point.event_fates.events == events);
+  double photons = 0.0;
+  for (const tally::EventRecord& event : memory.event_list)
+    photons += std::pow(static_cast<double>(event.emitted), 2);
+  CHECK(point.event_fates.photon_squares() == photons);
+
+  std::vector<std::filesystem::path> shards;
+  for (const std::uint64_t number : {2, 3, 1}) {
+    shards.push_back(folder / (std::to_string(number) + ".shard"));
+    RangeFile shard(shards.back(), {number, 3});
+    Simulation(scene).run_all(shard, {}, {number, 3});
+  }
+  MemorySink merged;
+  merge_ranges(shards, merged);
+  for (const tally::PointResult& other :
+       {merged.result.points.at(0), results::read_results(folder / "a.h5").points.at(0)}) {
+    CHECK(other.event_fates == point.event_fates);
+    for (const std::size_t tally : {0, 1}) {
+      CHECK(other.tallies.at(tally).event_squares == point.tallies.at(tally).event_squares);
+      CHECK(other.tallies.at(tally).event_products == point.tallies.at(tally).event_products);
+      CHECK(other.tallies.at(tally).at(0, other.photons).error ==
+            point.tallies.at(tally).at(0, point.photons).error);
+    }
+  }
+}
+
+TEST_CASE("A source of photons has no sums over events") {
+  const tally::RunResult run = Simulation(scene_of(kCrystal + kPhotons + kTallies)).run_all();
+  CHECK(run.points.at(0).event_fates == tally::EventFates{});
+  CHECK(run.points.at(0).tallies.at(0).event_squares.empty());
+  const Estimate share = run.points.at(0).fraction(Fate::escaped);
+  CHECK(share.error == binomial_estimate(run.points.at(0).count(Fate::escaped), 3000).error);
+}

@@ -1,0 +1,263 @@
+// Runs that end by [run] until: where, with what, and how far their results can be trusted.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ranks_in_threads.hpp"
+#include "scenes.hpp"
+#include "scintray/simulation/detail/until_watch.hpp"
+#include "scintray/simulation/memory_sink.hpp"
+#include "scintray/simulation/results_file.hpp"
+#include "scintray/simulation/simulation.hpp"
+#include "support/words.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::simulation;
+using namespace scintray::test;
+
+namespace {
+
+/// A crystal of which light is lost at its faces, so that runs are short.
+const std::string kDimCrystal = R"(
+title = "A dim crystal"
+ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO"
+surface = "dark"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "R6231"
+[surfaces.dark]
+model = "painted"
+reflectance = 0.5
+specular_share = 0.0
+)";
+const std::string kManyPhotons = R"(
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "emission"
+photons = 100_000
+)";
+const std::string kManyEvents = R"(
+[source]
+type = "gamma_events"
+events = 2000
+region = { part = "crystal" }
+energy = "8 keV"
+)";
+const std::string kDarkness = R"(
+[[sweep]]
+key = "surfaces.dark.reflectance"
+values = [0.5, 0.2]
+)";
+
+std::string until(const std::string& conditions, const std::string& more = "") {
+  return "[run]\nuntil = { " + conditions + " }\n" + more;
+}
+
+Simulation simulation_with(const std::string& scene, std::uint64_t seed = 1, int threads = 2) {
+  SimulationOptions options;
+  options.threads = threads;
+  options.seed = seed;
+  return Simulation(scene_of(scene), options);
+}
+
+void check_same_end(const MemorySink& a, const MemorySink& b) {
+  REQUIRE(a.result.points.size() == b.result.points.size());
+  REQUIRE(a.photon_list.size() == b.photon_list.size());
+  REQUIRE(a.event_list.size() == b.event_list.size());
+  for (std::size_t i = 0; i < a.photon_list.size(); ++i)
+    CHECK(a.photon_list[i].photon == b.photon_list[i].photon);
+  for (std::size_t i = 0; i < a.result.points.size(); ++i) {
+    const tally::PointResult &x = a.result.points[i], &y = b.result.points[i];
+    CHECK(x.fates == y.fates);
+    CHECK(x.event_fates == y.event_fates);
+    CHECK(x.complete);
+    CHECK(y.complete);
+    CHECK(x.detected_time_ns.sum == y.detected_time_ns.sum);
+    REQUIRE((x.until && y.until));
+    for (std::size_t k = 0; k < x.until->conditions.size(); ++k) {
+      CHECK(x.until->conditions[k].met == y.until->conditions[k].met);
+      CHECK(x.until->conditions[k].reached == y.until->conditions[k].reached);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Decisions are at fixed block counts that grow by a tenth") {
+  CHECK(simulation::detail::next_decision(0, false) == 4);
+  CHECK(simulation::detail::next_decision(4, false) == 5);
+  CHECK(simulation::detail::next_decision(0, true) == 32);
+  CHECK(simulation::detail::next_decision(32, true) == 35);
+  for (std::uint64_t blocks = 20; blocks < 1'000'000;
+       blocks = simulation::detail::next_decision(blocks, false))
+    CHECK(simulation::detail::next_decision(blocks, false) <= blocks + blocks / 10);
+}
+
+TEST_CASE("A run ends at the same photon for any threads, ranks and resumed runs, of photons and events") {
+  for (const bool events : {false, true}) {
+    const std::string goal = until("relative_error = \"4 %\"", events ? "" : "photon_list = true\n");
+    const std::string scene = kDimCrystal + (events ? kManyEvents : kManyPhotons) + goal + kDarkness;
+    MemorySink one;
+    simulation_with(scene, 1, 1).run_all(one);
+    for (const tally::PointResult& point : one.result.points) {
+      REQUIRE(point.until);
+      CHECK(point.until->ended());
+      CHECK(point.until->is_reproducible());
+      const Estimate share = point.fraction(Fate::detected);
+      CHECK(share.error <= 0.04 * share.value);
+      CHECK(point.until->conditions.at(0).reached == share.error / share.value);
+      const std::uint64_t blocks = events ? point.energy.events : point.emitted / 1024;
+      CHECK(simulation::detail::next_decision(blocks - 1, events) == blocks);
+      CHECK(blocks < (events ? 2000u : 97u));
+    }
+    if (!events) {
+      std::uint64_t detected = 0;
+      for (const tally::PointResult& point : one.result.points) detected += point.count(Fate::detected);
+      CHECK(one.photon_list.size() == detected);
+    }
+    MemorySink many, ranks, rest;
+    simulation_with(scene, 1, 5).run_all(many);
+    check_same_end(one, many);
+    run_ranks(
+        3, [&](int) { return simulation_with(scene); }, ranks);
+    check_same_end(one, ranks);
+
+    const CheckpointSettings settings{scratch_folder("until") / "checkpoints", std::chrono::milliseconds(0),
+                                      Resume::resume};
+    {
+      // Stopped in the second point: the first has ended, and is not traced again.
+      Checkpoints checkpoints(settings);
+      std::atomic<bool> stop{false};
+      SimulationHooks hooks;
+      hooks.checkpoints = &checkpoints;
+      hooks.stop = &stop;
+      hooks.progress = [&](const SimulationProgress& progress) { stop = stop || progress.point == 1; };
+      MemorySink part;
+      simulation_with(scene).run_all(part, hooks);
+      CHECK_FALSE(part.result.complete());
+    }
+    Checkpoints checkpoints(settings);
+    SimulationHooks hooks;
+    hooks.checkpoints = &checkpoints;
+    simulation_with(scene).run_all(rest, hooks);
+    check_same_end(one, rest);
+  }
+}
+
+TEST_CASE("Ending by a relative error has no bias above its square, and errors cover as stated") {
+  constexpr double kLimit = 4.0;
+  constexpr std::uint64_t kRuns = 400;
+  for (const bool events : {false, true}) {
+    CAPTURE(events);
+    const double goal = events ? 0.08 : 0.04;
+    const std::string source = kDimCrystal + (events ? kManyEvents : kManyPhotons);
+    // The truth, by a run that does not end by its error.
+    SimulationOptions options;
+    options.seed = 1'000'000;
+    (events ? options.events : options.photons) = events ? 40'000 : 3'000'000;
+    const Estimate truth =
+        Simulation(scene_of(source), options).run_all().points.at(0).fraction(Fate::detected);
+    double sum = 0.0, squares = 0.0, within_one = 0.0, within_two = 0.0;
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+      const tally::RunResult run =
+          simulation_with(source + until(fmt::format("relative_error = {}", goal)), seed).run_all();
+      REQUIRE(run.points.at(0).until->ended());
+      const Estimate share = run.points.at(0).fraction(Fate::detected);
+      sum += share.value;
+      squares += share.value * share.value;
+      const double pull = std::abs(share.value - truth.value) / share.error;
+      within_one += pull < 1.0 ? 1.0 : 0.0;
+      within_two += pull < 2.0 ? 1.0 : 0.0;
+    }
+    const auto runs = static_cast<double>(kRuns);
+    const double mean = sum / runs, spread = std::sqrt((squares / runs - mean * mean) / runs);
+    const double error = std::hypot(spread, truth.error);
+    CAPTURE(mean / truth.value - 1.0);
+    CAPTURE(error / truth.value);
+    CHECK(std::abs(mean - truth.value) < kLimit * error + goal * goal * truth.value);
+    // Coverage of 1 and 2 standard errors; a correct program fails each once in 16,000.
+    CAPTURE(within_one / runs);
+    CAPTURE(within_two / runs);
+    for (const auto& [found, expected] : {std::pair{within_one / runs, 0.6827}, {within_two / runs, 0.9545}})
+      CHECK(std::abs(found - expected) < kLimit * std::sqrt(expected * (1.0 - expected) / runs));
+  }
+}
+
+TEST_CASE("The first condition that holds ends a point: photons, events, absolute error, time") {
+  const auto point_of = [&](const std::string& scene) {
+    return simulation_with(scene).run_all().points.at(0);
+  };
+  const tally::PointResult photons =
+      point_of(kDimCrystal + kManyPhotons + until("relative_error = 0.0001, photons = 9_000"));
+  CHECK(photons.emitted == 9 * 1024);
+  CHECK(photons.complete);
+  CHECK(photons.photons_requested == 100'000);
+  REQUIRE(photons.until->conditions.size() == 2);
+  CHECK_FALSE(photons.until->conditions[0].met);
+  CHECK(photons.until->conditions[1].met);
+  const tally::PointResult events = point_of(kDimCrystal + kManyEvents + until("events = 40"));
+  CHECK(events.energy.events == 41);  // 32, 35, 38, 41
+  const tally::PointResult escaped =
+      point_of(kDimCrystal + kManyPhotons + until("absolute_error = 0.004, fate = \"absorbed_at_surface\""));
+  CHECK(escaped.until->fate == Fate::absorbed_at_surface);
+  CHECK(escaped.until->ended());
+  CHECK(escaped.fraction(Fate::absorbed_at_surface).error <= 0.004);
+  const tally::PointResult at_once = point_of(kDimCrystal + kManyPhotons + until("wall_time = \"1 ps\""));
+  CHECK(at_once.emitted == 1024);
+  CHECK_FALSE(at_once.until->is_reproducible());
+  const tally::PointResult never = point_of(kDimCrystal + kManyPhotons + until("relative_error = 0.0001"));
+  CHECK(never.emitted == 100'000);
+  CHECK_FALSE(never.until->ended());
+  CHECK(never.until->conditions.at(0).reached > 0.0001);
+}
+
+TEST_CASE("Why a run ended is in its file, and progress expects what is needed") {
+  const auto path = scratch_folder("until_file") / "a.h5";
+  ResultsFile file(path);
+  SimulationHooks hooks;
+  SimulationProgress last;
+  hooks.progress = [&](const SimulationProgress& progress) { last = progress; };
+  const tally::RunResult run =
+      simulation_with(kDimCrystal + kManyPhotons + until("relative_error = 0.05, wall_time = \"3600 s\""))
+          .run_all(file, hooks);
+  const tally::PointResult read = results::read_results(path).points.at(0);
+  REQUIRE(read.until);
+  REQUIRE(read.until->conditions.size() == 2);
+  CHECK(read.until->fate == Fate::detected);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const tally::UntilCondition &a = read.until->conditions[i], &b = run.points.at(0).until->conditions[i];
+    CHECK(a.quantity == b.quantity);
+    CHECK(a.goal == b.goal);
+    CHECK(a.reached == b.reached);
+    CHECK(a.met == b.met);
+  }
+  CHECK(last.done == last.total);
+  CHECK(last.done == run.points.at(0).emitted);
+}
+
+TEST_CASE("A shard of a run that ends by its errors is refused, with the place of until") {
+  const auto path = scratch_folder("until_shard") / "a.shard";
+  RangeFile file(path, {1, 2});
+  Simulation simulation = simulation_with(kDimCrystal + kManyPhotons + until("relative_error = 0.05"));
+  try {
+    simulation.run_all(file, {}, {1, 2});
+    FAIL("a shard was traced");
+  } catch (const InputError& error) {
+    CHECK(contains(error.problems().front().what, "until"));
+    CHECK(contains(error.problems().front().hint, "--shard"));
+    CHECK(error.problems().front().where.line > 0);
+  }
+}
