@@ -38,11 +38,10 @@ std::vector<report::ViewPart> parts_of(const std::vector<contact::PlacedMesh>& p
 
 std::vector<report::ViewPath> paths_of(const simulation::SimulationPoint& point, std::uint64_t count) {
   std::vector<report::ViewPath> paths;
-  for (simulation::PhotonPath& path : simulation::photon_paths(point, count)) {
+  for (tally::PhotonPath& path : simulation::photon_paths(point, count)) {
     report::ViewPath shown{fmt::format("event {}, photon {}", path.event, path.photon), path.fate, {}};
-    for (simulation::PathVertex& vertex : path.vertices)
-      shown.vertices.push_back(
-          {vertex.position, vertex.time_ns, vertex.wavelength_nm, std::move(vertex.event)});
+    for (tally::PathStep& step : path.steps)
+      shown.vertices.push_back({step.position, step.time_ns, step.wavelength_nm, std::move(step.text)});
     paths.push_back(std::move(shown));
   }
   return paths;

@@ -9,6 +9,7 @@
 #include "scintray/core/version.hpp"
 #include "scintray/simulation/detail/passing_on.hpp"
 #include "scintray/simulation/detail/rank_scheduler.hpp"
+#include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/run_names.hpp"
 
 namespace scintray::simulation {
@@ -209,6 +210,7 @@ void Simulation::add_to_outline(const SimulationPoint& point) {
     outline_.photon_list = first.run.photon_list;
     if (first.run.photon_history) outline_.histories.emplace();
   }
+  outline_.paths = outline_.paths || point.spec().run.paths > 0;
   names_.add(point.scene());
   if (outline_.histories && point.plan().history) outline_.histories->add(point.plan().history->subjects());
   outline_.has_energy = point.source().has_energy();
@@ -315,7 +317,19 @@ tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, 
       run.progress = [show = run.progress, done](std::uint64_t more) { show(done + more); };
     return ready.trace(blocks, run).last == blocks.last;
   };
+  record_paths(number, sink, hooks, shard);
   return trace(number, tracer, sink, hooks, shard);
+}
+
+void Simulation::record_paths(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
+                              const Shard& shard) {
+  const tally::BlockRange blocks = blocks_of_point(blocks_of(shard, outline_), outline_, number);
+  if (!outline_.paths || blocks.first != 0 || blocks.count() == 0) return;
+  const std::shared_ptr<const SimulationPoint> traced = point(number);
+  const std::vector<tally::PhotonPath> paths = photon_paths(*traced, traced->spec().run.paths, hooks.stop);
+  sink.paths(number, paths);
+  if (hooks.checkpoints && hooks.checkpoints->next_block(number, 0) == 0)
+    hooks.checkpoints->paths(number, paths);
 }
 
 tally::PointResult Simulation::run(std::size_t point, ResultSink& sink, const SimulationHooks& hooks) {
