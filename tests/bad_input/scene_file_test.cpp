@@ -64,6 +64,7 @@ TEST_CASE("wrong types are reported with what was found and what is expected") {
   check_mistake("photons = 1000", "photons = @@\"many\"",
                 {"\"source.photons\"", "string \"many\"", "an integer"}, "whole number");
   check_mistake("photons = 1000", "photons = @@1e3", {"number 1e3", "an integer"}, "without quotes");
+  check_mistake("seed = 7", "seed = 7\npaths = @@-1", "0 to 100000", "number of photons");
   check_mistake("seed = 7", "seed = 7\nphoton_list = @@\"yes\"", "true or false", "without quotes");
   check_mistake("title = \"Two parts\"", "title = @@12", {"\"title\"", "integer 12", "a string"}, "quotes");
   check_mistake("[run]\nseed = 7", "@@[[run]]\nseed = 7", {"\"run\"", "list of tables"}, "once");

@@ -39,6 +39,7 @@ time = "decay"
 photons = 200_000
 [run]
 photon_list = true
+paths = 40
 [[sweep]]
 key = "part.crystal.surface"
 label = "surface"

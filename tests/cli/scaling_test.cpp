@@ -63,6 +63,7 @@ photons_per_event = 100
 [run]
 photon_list = true
 photon_history = true
+paths = 40
 [[tally]]
 type = "count"
 name = "path"
@@ -109,6 +110,8 @@ shaping = { order = 1, time_constant = "5 ns" }
 threshold = 3
 pulses = true
 photon_order = [1, 5, 20]
+[run]
+paths = 40
 )";
 
 std::filesystem::path scene_folder(const std::string& name, const std::string& text) {

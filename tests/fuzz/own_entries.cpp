@@ -46,6 +46,7 @@ photons_per_event = 20
 [run]
 photon_list = true
 photon_history = true
+paths = 3
 [[tally]]
 type = "count"
 name = "path"

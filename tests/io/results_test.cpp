@@ -317,6 +317,9 @@ TEST_CASE("docs/results.md names every dataset, group and attribute of a file, a
         {"LSO"}, {{0.001, 0.002}}, {{"wrapped", "wrapped", "PTFE"}}, {{0.9, 0.95}}, {}, {}};
     HistoryColumns columns;
     columns.add(subjects);
+    writer.begin_paths();
+    writer.append_paths(
+        0, {{3, 4, Fate::escaped, {{{1, 2, 3}, 0.0, 420.0, "emitted"}, {{1, 2, 4}, 0.5, 420.0, "escaped"}}}});
     writer.begin_histories(columns);
     writer.append_photons(made_up_photons(10));
     writer.append_histories({{0}, {1}, {2}, {30.0f}, {0.1f}, {4}, {0.3f}}, subjects);
@@ -373,6 +376,9 @@ TEST_CASE("Every dimension has a scale, swept values are numbers, and rows are s
   {
     ResultsWriter writer(path, run.header, true);
     writer.append_photons(made_up_photons(10'000));  // more than a block
+    writer.begin_paths();
+    writer.append_paths(
+        0, {{3, 4, Fate::escaped, {{{1, 2, 3}, 0.0, 420.0, "emitted"}, {{1, 2, 4}, 0.5, 420.0, "escaped"}}}});
     writer.begin_events(0, {}, {});
     EventRecord event;
     event.event = 7;

@@ -70,6 +70,7 @@ TEST_CASE("The page is well formed and loads nothing") {
     run.points.resize(static_cast<std::size_t>(points));
     const std::string page = html_report(run);
     CHECK(markup_fault(page) == "");
+    CHECK(markup_fault(html_report(run, {}, {SceneView{}, ""})) == "");
     const PageScripts scripts = scripts_of(page);
     for (const char* outside : {"http:", "https:", "src=", "url(", "@import", "<link", "nan", "inf\""})
       CHECK_FALSE(contains(scripts.page, outside));

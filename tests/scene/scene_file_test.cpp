@@ -184,6 +184,7 @@ TEST_CASE("what a scene leaves out has the documented default") {
   CHECK(scene.run.curved == CurvedFaces::exact);
   CHECK_FALSE(scene.run.photon_list);
   CHECK_FALSE(scene.run.photon_history);
+  CHECK(scene.run.paths == 0);
   const TallySpec& angles = exit_angle_of(scene);
   REQUIRE(angles.axes.size() == 1);
   CHECK(angles.axes[0].bins == 18);

@@ -18,7 +18,7 @@ using namespace scintray::test;
 
 namespace {
 
-const std::string kRowsOfLight = "[run]\nphoton_list = true\nphoton_history = true\n";
+const std::string kRowsOfLight = "[run]\nphoton_list = true\nphoton_history = true\npaths = 20\n";
 const std::string kPathTally = R"(
 [[tally]]
 type = "count"
@@ -102,6 +102,17 @@ TEST_CASE("Shards of a sweep divide its blocks, and merge in memory to what one 
     CHECK(a.tallies.at(0).sum_of_squares == b.tallies.at(0).sum_of_squares);
     CHECK(a.tallies.at(0).sum != std::vector<double>(20, 0.0));
     CHECK(whole.history_list.at(i).rows.path_mm == merged.history_list.at(i).rows.path_mm);
+    REQUIRE(whole.path_list.at(i).size() == 20);
+    REQUIRE(merged.path_list.at(i).size() == 20);
+    for (std::size_t k = 0; k < 20; ++k) {
+      const tally::PhotonPath &of = whole.path_list[i][k], &there = merged.path_list[i][k];
+      CHECK(of.photon == there.photon);
+      CHECK(of.fate == there.fate);
+      REQUIRE(of.steps.size() == there.steps.size());
+      CHECK(of.steps.back().position == there.steps.back().position);
+      CHECK(of.steps.back().time_ns == there.steps.back().time_ns);
+      CHECK(of.steps.back().text == there.steps.back().text);
+    }
   }
   // Of 9 blocks in all: 0 to 1, 2 to 3, 4 to 5 (in the second point), 6 to 8.
   const RangeReader third(files[1]);

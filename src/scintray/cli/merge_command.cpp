@@ -21,6 +21,7 @@ struct MergeOptions {
   std::filesystem::path output;
   bool partial = false;
   bool no_report = false;
+  bool no_view = false;
   bool quiet = false;
   bool json = false;
 };
@@ -50,7 +51,8 @@ void merge(const MergeOptions& options) {
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::ResultsFile results(output);
   const tally::RunResult result = simulation::merge_ranges(files, results, options.partial);
-  const report::RunAnalysis analyses = show_results(output, result, {!options.quiet, !options.no_report});
+  const report::RunAnalysis analyses =
+      show_results(output, result, {!options.quiet, !options.no_report, !options.no_view});
   answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete())
     std::cerr << "the results are partial and marked so: " << result.partial_reason << "\n";
@@ -68,6 +70,7 @@ void add_merge_command(CLI::App& app) {
   command->add_flag("--partial", options->partial,
                     "take what there is when parts are missing; the results are marked as partial");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
+  add_no_view_flag(*command, options->no_view);
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
   add_json_flag(*command, options->json);
   command->footer(

@@ -7,7 +7,6 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/report/comparison.hpp"
-#include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"
@@ -21,6 +20,7 @@ struct ReportOptions {
   std::filesystem::path output;
   bool text = false;
   bool json = false;
+  bool no_view = false;
 };
 
 /// Path of the page: beside the first results file unless set otherwise, never one of the results.
@@ -49,8 +49,7 @@ void report_one(const ReportOptions& options) {
     return;
   }
   const auto page = page_path(options);
-  report::write_report(page, run, analysis_of(results, run));
-  std::cout << "report   " << page.string() << "\n";
+  write_page(page, {results, run}, analysis_of(results, run), !options.no_view);
 }
 
 void compare(const ReportOptions& options) {
@@ -87,6 +86,7 @@ void add_report_command(CLI::App& app) {
   command->add_flag("--text", options->text, "print the summary instead of writing a page");
   command->add_flag("--json", options->json, "print the numbers as JSON instead of writing a page")
       ->excludes("--text");
+  add_no_view_flag(*command, options->no_view);
   command->footer(
       "Examples:\n"
       "  scintray report quickstart.h5 --text\n"

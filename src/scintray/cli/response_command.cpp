@@ -146,7 +146,9 @@ void run(const MappedRunOptions& options) {
     print_speed(result.points.front());
   }
   std::cout << "results  " << options.output.string() << "\n";
-  if (!options.no_report) write_page(options.output, result, analyses);
+  if (!options.no_report)
+    write_page(std::filesystem::path(options.output).replace_extension(".html"), {options.output, result},
+               analyses);
   answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete()) {
     std::cerr << "stopped: the results are partial and marked so\n";

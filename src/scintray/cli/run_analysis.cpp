@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "scintray/cli/scene_view.hpp"
 #include "scintray/report/acceptance.hpp"
 #include "scintray/report/pages/html_report.hpp"
 #include "scintray/report/surface_acceptance.hpp"
@@ -31,20 +32,25 @@ report::RunAnalysis analysis_of(const std::filesystem::path& results, const tall
           results::read_surfaces(results)};
 }
 
+void add_no_view_flag(CLI::App& command, bool& no_view) {
+  command.add_flag("--no-view", no_view, "write the page without the scene in three dimensions, 0.9 MB less");
+}
+
 report::RunAnalysis show_results(const std::filesystem::path& results, const tally::RunResult& run,
                                  const ShownResults& shown) {
   report::RunAnalysis analyses = analysis_of(results, run);
   if (shown.summary) std::cout << report::text_summary(run, analyses);
   std::cout << "results  " << results.string() << "\n";
-  if (shown.page) write_page(results, run, analyses);
+  if (shown.page)
+    write_page(std::filesystem::path(results).replace_extension(".html"), {results, run}, analyses,
+               shown.view);
   return analyses;
 }
 
-void write_page(const std::filesystem::path& results, const tally::RunResult& run,
-                const report::RunAnalysis& analyses) {
-  auto page = results;
-  page.replace_extension(".html");
-  report::write_report(page, run, analyses);
+void write_page(const std::filesystem::path& page, const RunFile& results,
+                const report::RunAnalysis& analyses, bool view) {
+  const SceneOfResults scene = view ? scene_of_results(results.path, results.run) : SceneOfResults();
+  report::write_report(page, results.run, analyses, scene.view);
   std::cout << "report   " << page.string() << "\n";
 }
 

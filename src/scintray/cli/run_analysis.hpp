@@ -1,6 +1,7 @@
 #pragma once
 /// Analyses of the events of a results file, and its page, for commands.
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "scintray/report/run_analysis.hpp"
@@ -16,9 +17,13 @@ void check_criteria(const scene_file::SceneFile& scene);
 /// is of.
 report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
 
+/// Adds the option --no-view.
+void add_no_view_flag(CLI::App& command, bool& no_view);
+
 /// What a command shows of results that it has written.
 struct ShownResults {
   bool summary = true, page = true;
+  bool view = true;  ///< the page has the scene in three dimensions
 };
 
 /// Prints the path of results, with the summary and the page of the run as far as they are wanted. Returns
@@ -26,8 +31,15 @@ struct ShownResults {
 report::RunAnalysis show_results(const std::filesystem::path& results, const tally::RunResult& run,
                                  const ShownResults& shown);
 
-/// Writes the page of a run beside its results file, and prints its path.
-void write_page(const std::filesystem::path& results, const tally::RunResult& run,
-                const report::RunAnalysis& analyses);
+/// A run, and the file of its results.
+struct RunFile {
+  const std::filesystem::path& path;
+  const tally::RunResult& run;
+};
+
+/// Writes the page of a run, and prints its path.
+/// @param view  the page has the scene in three dimensions
+void write_page(const std::filesystem::path& page, const RunFile& results,
+                const report::RunAnalysis& analyses, bool view = true);
 
 }  // namespace scintray::cli

@@ -33,6 +33,7 @@ struct RunOptions {
   std::optional<int> threads;
   std::optional<std::uint64_t> seed, photons, events;
   bool no_report = false;
+  bool no_view = false;
   bool quiet = false;
   bool quick = false;
   bool json = false;
@@ -174,7 +175,8 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const JsonAnswer answer(options.json);
   simulation::ResultsFile results(output);
   const tally::RunResult result = trace(options, simulation, results, output, line);
-  const report::RunAnalysis analyses = show_results(output, result, {!options.quiet, !options.no_report});
+  const report::RunAnalysis analyses =
+      show_results(output, result, {!options.quiet, !options.no_report, !options.no_view});
   answer.print_text([&] { return report::result_json(result, analyses); });
   if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
 }
@@ -244,6 +246,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--checkpoint-every", options->interval,
                       "time between checkpoints, at least; \"0 s\": after each block (default: \"60 s\")");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
+  add_no_view_flag(*command, options->no_view);
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");
   add_json_flag(*command, options->json);
   command->footer(

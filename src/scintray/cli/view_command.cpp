@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "scintray/cli/scene_notes.hpp"
+#include "scintray/cli/scene_view.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/report/view/view_page.hpp"
 #include "scintray/simulation/photon_paths.hpp"
@@ -20,41 +21,15 @@ struct ViewOptions {
   std::optional<std::uint64_t> seed;
 };
 
-std::vector<report::ViewPart> parts_of(const std::vector<contact::PlacedMesh>& placed) {
-  std::vector<report::ViewPart> parts;
-  for (const contact::PlacedMesh& part : placed) {
-    report::ViewPart shown{part.name,
-                           part.medium.empty() ? "sensor " + part.sensor.name : part.medium.name,
-                           &part.mesh,
-                           {},
-                           part.face_of};
-    for (const contact::PlacedFace& face : part.faces)
-      shown.faces.push_back(
-          {face.name, face.surface.name, (face.sensor.empty() ? part.sensor : face.sensor).name});
-    parts.push_back(std::move(shown));
-  }
-  return parts;
-}
-
-std::vector<report::ViewPath> paths_of(const simulation::SimulationPoint& point, std::uint64_t count) {
-  std::vector<report::ViewPath> paths;
-  for (simulation::PhotonPath& path : simulation::photon_paths(point, count)) {
-    report::ViewPath shown{fmt::format("event {}, photon {}", path.event, path.photon), path.fate, {}};
-    for (simulation::PathVertex& vertex : path.vertices)
-      shown.vertices.push_back(
-          {vertex.position, vertex.time_ns, vertex.wavelength_nm, std::move(vertex.event)});
-    paths.push_back(std::move(shown));
-  }
-  return paths;
-}
-
 void view_scene(const ViewOptions& options) {
   simulation::SimulationOptions settings;
   settings.seed = options.seed;
   simulation::Simulation simulation(scene_file::SceneFile::load(options.scene), settings);
   const auto point = simulation.point(options.point);
-  report::SceneView view{
-      point->spec().title, parts_of(point->built()->placed), paths_of(*point, options.paths), {}};
+  report::SceneView view{point->spec().title,
+                         view_parts(point->built()->placed),
+                         simulation::photon_paths(*point, options.paths),
+                         {}};
   if (view.title.empty()) view.title = options.scene.filename().string();
   for (const core::Problem& warning : find_gaps(*point).warnings) {
     report::ViewMark mark{warning.what, {}};

@@ -13,6 +13,7 @@
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/results/history_table.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -37,6 +38,10 @@ class ResultsWriter {
   void add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses);
   /// Appends to the list of detected photons. Rows are written in blocks, so memory is bounded.
   void append_photons(const std::vector<tally::DetectedPhoton>& photons);
+  /// Prepares the tables of photon paths, before the first of them; without it the file has none.
+  void begin_paths();
+  /// Appends the paths of a point, as append_photons does.
+  void append_paths(std::size_t point, const std::vector<tally::PhotonPath>& paths);
   /// Sets the readout of the events of a point, before the first of them; without it the file has
   /// no events. Throws InputError when points differ in the length of waveforms or in the order of photons.
   void begin_events(std::size_t point, std::vector<tally::ReadoutChannel> channels,
@@ -79,6 +84,9 @@ ResultsStatus read_results_status(const std::filesystem::path& path);
 /// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
 std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                                 std::uint64_t count);
+
+/// Recorded paths of a point's photons; empty when there are none.
+std::vector<tally::PhotonPath> read_paths(const std::filesystem::path& path, std::size_t point);
 
 /// Goniometer readings; empty when there are none.
 std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path);

@@ -199,6 +199,17 @@ constexpr std::array kFields = {
     Field{"time_ns", "ns", "time of detection since the event"},
     Field{"path_mm", "mm", "path length since emission"},
     Field{"interactions", "1", "boundary interactions since emission"},
+    // paths, path_steps
+    Field{"path_fate", "1", "fate of the photon, index into /fate_names"},
+    Field{"first_step", "1", "the path's first row of /path_steps; the next path's follow its last"},
+    Field{"path_row", "1", "row of /paths"},
+    Field{"step_x_mm", "mm", "where the path begins, bends or ends, x"},
+    Field{"step_y_mm", "mm", "where the path begins, bends or ends, y"},
+    Field{"step_z_mm", "mm", "where the path begins, bends or ends, z"},
+    Field{"step_ns", "ns", "time since the event"},
+    Field{"step_nm", "nm", "wavelength in vacuum, after the step"},
+    Field{"step_text", "1", "what happened there, index into /step_texts"},
+    Field{"step_texts", "", "step events of photon paths in words; step_text is an index into this"},
     // histories, traced_optics
     Field{"history_media", "",
           "media in which paths are recorded; columns with one number a medium are in "

@@ -1,5 +1,7 @@
 #include "scintray/scene_file/run.hpp"
 
+#include <algorithm>
+
 #include "scintray/scene_file/detail/names.hpp"
 
 namespace scintray::scene_file {
@@ -33,6 +35,12 @@ RunSpec read_run(const config::TomlTable& scene) {
   run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
   run.photon_list = table->boolean("photon_list", false);
   run.photon_history = table->boolean("photon_history", false);
+  constexpr std::int64_t kMostPaths = 100'000;
+  const std::int64_t paths = table->integer("paths", 0);
+  table->expect("paths", paths >= 0 && paths <= kMostPaths,
+                "the number of photon paths is not in 0 to 100000",
+                "give the number of photons whose paths the results file holds, as 500, or remove it");
+  run.paths = static_cast<std::uint64_t>(std::max<std::int64_t>(paths, 0));
   run.until = read_until(*table);
   run.output = table->string("output", "");
   if (!run.output.empty() && run.output.is_relative())

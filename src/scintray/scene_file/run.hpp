@@ -42,6 +42,7 @@ struct RunSpec {
   AcceleratorKind accelerator = AcceleratorKind::automatic;
   CurvedFaces curved = CurvedFaces::exact;
   bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
+  std::uint64_t paths = 0;          ///< photons whose paths are recorded, per point
   bool photon_list = false;         ///< write every detected photon to the results
   bool photon_history = false;      ///< write the history of each, for reweighting
   std::optional<UntilSpec> until;   ///< ends a point before the photons or events of its source

@@ -157,6 +157,10 @@ void Checkpoints::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyse
   if (earlier_.empty()) file().surfaces(analyses);  // else the first of them has these
 }
 
+void Checkpoints::paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  file().paths(point, paths);
+}
+
 void Checkpoints::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                                const std::optional<detector::ReadoutSpec>& readout) {
   readout_ = {point, channels, readout};

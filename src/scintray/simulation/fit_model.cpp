@@ -102,6 +102,7 @@ class SceneCurve : public FitModel {
     scene_file::SceneSpec spec = with_options(file_.spec(0, settings), settings_.run);
     spec.tallies.clear();
     spec.run.photon_list = !energy();
+    spec.run.paths = 0;
     return spec;
   }
 

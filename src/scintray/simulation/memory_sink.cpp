@@ -24,6 +24,11 @@ void MemorySink::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses
   surface_analyses = analyses;
 }
 
+void MemorySink::paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  path_list.resize(std::max(path_list.size(), point + 1));
+  path_list[point] = paths;
+}
+
 void MemorySink::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                               const std::optional<detector::ReadoutSpec>& readout) {
   readouts.resize(std::max(readouts.size(), point + 1));

@@ -26,10 +26,12 @@ class MemorySink : public ResultSink {
   std::vector<PointReadout> readouts;  ///< per point
   std::vector<tally::DetectedPhoton> photon_list;
   std::vector<tally::EventRecord> event_list;
-  std::vector<PointHistories> history_list;  ///< per point that has any, in order
+  std::vector<PointHistories> history_list;               ///< per point that has any, in order
+  std::vector<std::vector<tally::PhotonPath>> path_list;  ///< per point; empty when none are recorded
 
   void begin(const RunOutline& run) override;
   void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
+  void paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

@@ -97,23 +97,26 @@ std::string step_text(const scene::Scene& scene, const transport::Step& step) {
   throw core::InternalError("unknown step");
 }
 
-std::vector<PhotonPath> photon_paths(const SimulationPoint& point, std::uint64_t count) {
+std::vector<tally::PhotonPath> photon_paths(const SimulationPoint& point, std::uint64_t count,
+                                            const std::atomic<bool>* stop) {
   const scene::Scene& scene = point.scene();
   const double beyond_mm = 0.1 * diagonal_mm(scene);
-  std::vector<PhotonPath> paths;
+  std::vector<tally::PhotonPath> paths;
   for (const Address& address :
        point.source().has_energy() ? photons_of_events(point, count) : first_photons(point, count)) {
-    PhotonPath path{address.event, address.photon, {}, {}};
+    if (stop && stop->load()) break;
+    tally::PhotonPath path{address.event, address.photon, {}, {}};
     const source::Photon start = point.start(address.event, address.photon);
-    path.vertices.push_back({start.position, start.time_ns, start.wavelength_nm,
-                             "emitted in " + scene.region_names[start.region]});
+    path.steps.push_back({start.position, start.time_ns, start.wavelength_nm,
+                          "emitted in " + scene.region_names[start.region]});
     transport::Step last;
     const source::Photon end = point.replay(
         address.event, address.photon, [&](const source::Photon& photon, const transport::Step& step) {
           last = step;
           core::Vec3 place = photon.position;
           if (step.event == core::StepEvent::escaped) place += beyond_mm * photon.ray.direction.vec();
-          path.vertices.push_back({place, photon.time_ns, photon.wavelength_nm, step_text(scene, step)});
+          if (path.steps.size() == tally::kMostPathSteps) path.steps.pop_back();
+          path.steps.push_back({place, photon.time_ns, photon.wavelength_nm, step_text(scene, step)});
         });
     path.fate = fate_of(last, end, point.settings());
     paths.push_back(std::move(path));

@@ -105,6 +105,10 @@ void RangeFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses)
   state_->records.surfaces(analyses);
 }
 
+void RangeFile::paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  state_->records.paths(point, paths);
+}
+
 void RangeFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                              const std::optional<detector::ReadoutSpec>& readout) {
   state_->records.begin_events(point, channels, readout);

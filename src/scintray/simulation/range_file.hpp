@@ -39,6 +39,7 @@ class RangeFile : public ResultSink {
   /// @throws SystemError for a path that cannot be written, as all members do
   void begin(const RunOutline& run) override;
   void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
+  void paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

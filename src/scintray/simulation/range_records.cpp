@@ -114,6 +114,22 @@ bool is_consistent(const tally::PhotonHistories& rows, const tally::HistorySubje
          rows.reflection_depth.size() == count * reflectors;
 }
 
+/// The paths of a record.
+std::vector<tally::PhotonPath> read_paths(const RecordReader& records, const RunOutline& run,
+                                          const StoredRange& of) {
+  std::uint64_t point = 0;
+  std::vector<tally::PhotonPath> paths;
+  records.decode(point, paths);
+  const auto is_path = [](const tally::PhotonPath& path) {
+    return core::is_final(path.fate) && static_cast<int>(path.fate) < core::kStepEventCount &&
+           path.steps.size() >= 2;
+  };
+  if (!run.paths || point != of.point || of.blocks.first != 0 ||
+      !std::all_of(paths.begin(), paths.end(), is_path))
+    throw records.damaged();
+  return paths;
+}
+
 }  // namespace
 
 RangeReader::Content replay_range(RecordReader& records, const RunOutline& run, const StoredRange& of,
@@ -125,6 +141,9 @@ RangeReader::Content replay_range(RecordReader& records, const RunOutline& run, 
   std::size_t channels = 0, orders = 0, samples = 0;
   while (!records.at_end()) {
     switch (records.next()) {
+      case Record::paths:
+        sink.paths(of.point, read_paths(records, run, of));
+        break;
       case Record::readout: {
         std::uint64_t point = 0;
         std::vector<tally::ReadoutChannel> list;

@@ -29,8 +29,17 @@ void RangeWriter::write_readout() {
   has_readout_ = true;
 }
 
+void RangeWriter::write_paths() {
+  if (!paths_.empty()) write(Record::paths, paths_);
+  paths_.clear();
+}
+
 void RangeWriter::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
   write(Record::surfaces, encoded(analyses));
+}
+
+void RangeWriter::paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  paths_ = encoded(static_cast<std::uint64_t>(point), paths);
 }
 
 void RangeWriter::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
@@ -39,11 +48,13 @@ void RangeWriter::begin_events(std::size_t point, const std::vector<tally::Reado
 }
 
 void RangeWriter::photons(const std::vector<tally::DetectedPhoton>& photons) {
+  write_paths();
   for (tally::DetectedPhoton photon : photons) pass(photons_, photon);
   write_rows(Record::photons, photons_, kRowBytes);
 }
 
 void RangeWriter::histories(const tally::PhotonHistories& histories, const tally::HistorySubjects& of_point) {
+  write_paths();
   if (!has_subjects_) write(Record::subjects, encoded(of_point));
   has_subjects_ = true;
   tally::PhotonHistories rows = histories;
@@ -52,12 +63,14 @@ void RangeWriter::histories(const tally::PhotonHistories& histories, const tally
 }
 
 void RangeWriter::events(const std::vector<tally::EventRecord>& events) {
+  write_paths();
   write_readout();
   for (tally::EventRecord event : events) pass(events_, event);
   write_rows(Record::events, events_, kRowBytes);
 }
 
 void RangeWriter::range(const PointRange& of, const tally::PointSums& sums) {
+  write_paths();
   if (of.histories && !has_subjects_) write(Record::subjects, encoded(*of.histories));
   write_readout();
   has_subjects_ = has_readout_ = false;

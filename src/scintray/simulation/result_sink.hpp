@@ -11,6 +11,7 @@
 #include "scintray/results/history_table.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/photon_history.hpp"
+#include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/point_sums.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
@@ -30,6 +31,7 @@ struct PointOutline {
 struct RunOutline {
   tally::RunHeader header;
   bool photon_list = false;                          ///< detected photons will be passed to the sink
+  bool paths = false;                                ///< paths of photons will be passed to the sink
   std::optional<results::HistoryColumns> histories;  ///< of all points; empty: there are none
   bool has_energy = false;                           ///< of an event source
   std::vector<PointOutline> points;
@@ -59,6 +61,9 @@ class ResultSink {
   virtual void begin(const RunOutline& /*run*/) {}
   /// Readings of the scene's goniometers, once, when there are any.
   virtual void surfaces(const std::vector<analysis::SurfaceAnalysis>& /*studies*/) {}
+  /// Recorded paths of photons of a point, before all else of it, where they are requested. Of shards, only
+  /// the one with the point's first block has them.
+  virtual void paths(std::size_t /*point*/, const std::vector<tally::PhotonPath>& /*paths*/) {}
   /// Readout of the events of a point, before the first of them; not called for a source of photons.
   virtual void begin_events(std::size_t /*point*/, const std::vector<tally::ReadoutChannel>& /*channels*/,
                             const std::optional<detector::ReadoutSpec>& /*readout*/) {}

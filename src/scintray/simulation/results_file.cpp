@@ -5,11 +5,16 @@ namespace scintray::simulation {
 void ResultsFile::begin(const RunOutline& run) {
   writer_.emplace(path_, run.header, run.photon_list);
   analysis_.emplace(run.header);
+  if (run.paths) writer_->begin_paths();
   if (run.histories) writer_->begin_histories(*run.histories);
 }
 
 void ResultsFile::surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) {
   writer_->add_surfaces(analyses);
+}
+
+void ResultsFile::paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  writer_->append_paths(point, paths);
 }
 
 void ResultsFile::begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,

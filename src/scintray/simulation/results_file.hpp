@@ -20,6 +20,7 @@ class ResultsFile : public ResultSink {
   /// @throws InputError, SystemError as ResultsWriter
   void begin(const RunOutline& run) override;
   void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
+  void paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;

@@ -90,6 +90,7 @@ SimulationOptions without_photons(SimulationOptions options) {
     if (change) change(spec);
     spec.tallies.clear();
     spec.run.photon_list = spec.run.photon_history = false;
+    spec.run.paths = 0;
   };
   return options;
 }

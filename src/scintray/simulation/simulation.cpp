@@ -183,6 +183,7 @@ void Simulation::add_to_outline(const SimulationPoint& point) {
     outline_.photon_list = first.run.photon_list;
     if (first.run.photon_history) outline_.histories.emplace();
   }
+  outline_.paths = outline_.paths || point.spec().run.paths > 0;
   names_.add(point.scene());
   if (outline_.histories && point.plan().history) outline_.histories->add(point.plan().history->subjects());
   outline_.has_energy = point.source().has_energy();

@@ -144,6 +144,9 @@ class Simulation {
   /// @param ranks  that trace the others; null: this process alone does
   tally::PointResult run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
                                 const Shard& shard, detail::RankScheduler* ranks = nullptr);
+  /// Passes the paths that the scene requests of a point on, where its first block belongs to the shard.
+  /// Earlier checkpoints have them with that block.
+  void record_paths(std::size_t number, ResultSink& sink, const SimulationHooks& hooks, const Shard& shard);
   /// Blocks of a point that belong to a shard and are not among the checkpoints.
   tally::BlockRange blocks_left(std::size_t number, const SimulationHooks& hooks, const Shard& shard) const;
   /// What hands the blocks of a run out to ranks; null for one process.

@@ -4,6 +4,7 @@
 #include "scintray/simulation/detail/point_sink.hpp"
 #include "scintray/simulation/detail/rank_scheduler.hpp"
 #include "scintray/simulation/detail/until_watch.hpp"
+#include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::simulation {
@@ -80,7 +81,19 @@ tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, 
     const bool all = ready.trace(blocks, run).last == blocks.last;
     return finish(all || (watch && watch->has_ended()));
   };
+  record_paths(number, sink, hooks, shard);
   return trace(number, tracer, sink, hooks, shard);
+}
+
+void Simulation::record_paths(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
+                              const Shard& shard) {
+  const tally::BlockRange blocks = blocks_of_point(blocks_of(shard, outline_), outline_, number);
+  if (!outline_.paths || blocks.first != 0 || blocks.count() == 0) return;
+  const std::shared_ptr<const SimulationPoint> traced = point(number);
+  const std::vector<tally::PhotonPath> paths = photon_paths(*traced, traced->spec().run.paths, hooks.stop);
+  sink.paths(number, paths);
+  if (hooks.checkpoints && hooks.checkpoints->next_block(number, 0) == 0)
+    hooks.checkpoints->paths(number, paths);
 }
 
 }  // namespace scintray::simulation

@@ -97,7 +97,7 @@ std::string answer(const tally::RunResult& run, const RunAnalysis& analyses) {
 
 }  // namespace
 
-std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses) {
+std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses, const RunView& view) {
   const std::string title = run.header.title.empty() ? "ScintRay run" : run.header.title;
   std::string page;
   page += partial_banner(run) + answer(run, analyses) + criterion_section(evaluate(run, analyses)) +
@@ -105,16 +105,18 @@ std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses
   if (run.traced_photons())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);
-  page += condition_section(run);
+  page += view_section(view, run) + condition_section(run);
   page += "<section>\n<h2>Scene</h2>\n<pre tabindex=\"0\" role=\"group\" aria-label=\"scene file\">" +
           escape_html(run.header.scene_text) + "</pre>\n</section>\n";
-  return html_frame(title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
-                    kReportStyle + grid_map_style() + hemisphere_map_style(), page);
+  return html_frame(
+      title, "ScintRay " + run.header.version + " · " + run.header.scene_file,
+      kReportStyle + grid_map_style() + hemisphere_map_style() + std::string(view.view ? view_style() : ""),
+      page, view.view ? view_scripts() : std::vector<std::string_view>());
 }
 
-void write_report(const std::filesystem::path& path, const tally::RunResult& run,
-                  const RunAnalysis& analyses) {
-  core::write_whole_file(path, html_report(run, analyses), "the report");
+void write_report(const std::filesystem::path& path, const tally::RunResult& run, const RunAnalysis& analyses,
+                  const RunView& view) {
+  core::write_whole_file(path, html_report(run, analyses, view), "the report");
 }
 
 }  // namespace scintray::report

@@ -2,6 +2,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
+#include "scintray/core/sha256.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/report/pages/detail/page_script.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
@@ -63,15 +64,21 @@ std::string with_contents(const std::string& body) {
 }  // namespace
 
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
-                       const std::string& body) {
+                       const std::string& body, const std::vector<std::string_view>& scripts) {
+  std::string hashes, elements;
+  for (const std::string_view script : scripts) {
+    hashes += (hashes.empty() ? "" : " ") + core::sha256(script);
+    elements.append("<script>").append(script).append("</script>\n");
+  }
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
-  page += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + content_policy() + "\"/>\n";
+  page += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + content_policy(hashes) + "\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
           escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
           std::string(page_script_style()) + "</style>\n</head>\n<body>\n";
   page += "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) +
           "</p>\n</header>\n";
   page += "<main>\n" + with_contents(body) + "</main>\n";
+  page += elements;
   if (!page_script().empty()) page += "<script>" + std::string(page_script()) + "</script>\n";
   return page + "</body>\n</html>\n";
 }

@@ -1,17 +1,21 @@
 #pragma once
 /// The frame of the self-contained HTML pages: light and dark, nothing loaded from elsewhere. Their script
-/// (pages/detail/page_script.hpp) adds to what they show without it; no other may run.
+/// (pages/detail/page_script.hpp) adds to what they show without it; no other may run but those that a
+/// page is given.
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace scintray::report {
 
 /// A page with a list of its sections where there are four or more, whose style covers text, tables (.n:
 /// numbers), figures and plots; `style` is added CSS. `title` and `under`, the line below it, are escaped.
 /// `body` is HTML.
+/// @param scripts  that the body needs, after it and before that of all pages
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
-                       const std::string& body);
+                       const std::string& body, const std::vector<std::string_view>& scripts = {});
 
 /// The same with ScintRay's version after `under`.
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,

@@ -1,19 +1,24 @@
 #pragma once
-/// A scene in three dimensions, as a self-contained page: parts, faces with their surfaces, paths of photons.
+/// A scene in three dimensions: parts, faces with their surfaces, paths of photons. On a self-contained page
+/// of its own, or as a section of another page.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "scintray/core/step_event.hpp"
 #include "scintray/mesh/trimesh.hpp"
+#include "scintray/tally/photon_path.hpp"
+#include "scintray/tally/result.hpp"
 
 namespace scintray::report {
 
 struct ViewFace {
-  std::string name;     ///< within the part
-  std::string surface;  ///< empty: smooth
-  std::string sensor;   ///< empty: none
+  std::string name;       ///< within the part
+  std::string surface;    ///< empty: smooth
+  std::string sensor;     ///< empty: none
+  std::string stated_at;  ///< place of the rule that gave it the surface, "scene.toml:12"; empty: none
 };
 
 struct ViewPart {
@@ -21,18 +26,6 @@ struct ViewPart {
   const mesh::TriMesh* mesh = nullptr;  ///< world, mm
   std::vector<ViewFace> faces;
   std::vector<std::uint32_t> face_of;  ///< per triangle, index into `faces`
-};
-
-struct ViewVertex {
-  core::Vec3 position;  ///< world, mm
-  double time_ns = 0.0, wavelength_nm = 0.0;
-  std::string event;  ///< what happened there
-};
-
-struct ViewPath {
-  std::string name;
-  core::Fate fate = {};
-  std::vector<ViewVertex> vertices;
 };
 
 /// A finding of `scintray check`, with its places.
@@ -44,14 +37,30 @@ struct ViewMark {
 struct SceneView {
   std::string title;
   std::vector<ViewPart> parts;
-  std::vector<ViewPath> paths;
+  std::vector<tally::PhotonPath> paths;
   std::vector<ViewMark> marks;
 };
+
+/// What the page of a run has of its scene: a view of it, or why there is none, or (both empty) nothing.
+struct RunView {
+  std::optional<SceneView> view;
+  std::string missing;  ///< one sentence
+};
+
+/// Steps of photon paths that a page holds, at most; later paths are left out, and the page has their number.
+inline constexpr std::size_t kMostViewSteps = 150'000;
 
 /// True when this build has three.js, which draws the page.
 bool can_view();
 
 /// The page. Parts of equal shape are stored once. @throws SystemError without three.js
 std::string view_page(const SceneView& view);
+
+/// The section of the page of a run, HTML; empty when the page has nothing of its scene.
+std::string view_section(const RunView& view, const tally::RunResult& run);
+/// CSS of the section.
+std::string_view view_style();
+/// Scripts that a page with a view needs after it, in their order; empty without three.js.
+std::vector<std::string_view> view_scripts();
 
 }  // namespace scintray::report

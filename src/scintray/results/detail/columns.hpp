@@ -6,6 +6,7 @@
 
 #include "scintray/optics/wavelength_shifter.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -104,6 +105,53 @@ void for_each_column(const SignalRow*, const Visit& visit) {
       "amplitude", [](auto& r) -> auto& { return r.signal.amplitude; });
   visit(
       "pickoff_ns", [](auto& r) -> auto& { return r.signal.time_ns; });
+}
+
+/// A row of /paths: a path without its steps, which are rows of /path_steps.
+struct PathRow {
+  std::uint32_t point = 0;
+  std::uint64_t event = 0, photon = 0;
+  std::uint32_t fate = 0;        ///< index into /fate_names
+  std::uint64_t first_step = 0;  ///< row of /path_steps
+};
+
+/// A row of /path_steps.
+struct PathStepRow {
+  std::uint64_t path_row = 0;  ///< row of /paths
+  tally::PathStep step;
+  std::uint32_t text = 0;  ///< index into /step_texts
+};
+
+template <typename Visit>
+void for_each_column(const PathRow*, const Visit& visit) {
+  visit(
+      "point", [](auto& r) -> auto& { return r.point; });
+  visit(
+      "event", [](auto& r) -> auto& { return r.event; });
+  visit(
+      "photon", [](auto& r) -> auto& { return r.photon; });
+  visit(
+      "path_fate", [](auto& r) -> auto& { return r.fate; });
+  visit(
+      "first_step", [](auto& r) -> auto& { return r.first_step; });
+}
+
+template <typename Visit>
+void for_each_column(const PathStepRow*, const Visit& visit) {
+  visit(
+      "path_row", [](auto& r) -> auto& { return r.path_row; });
+  visit(
+      "step_x_mm", [](auto& r) -> auto& { return r.step.position.x(); });
+  visit(
+      "step_y_mm", [](auto& r) -> auto& { return r.step.position.y(); });
+  visit(
+      "step_z_mm", [](auto& r) -> auto& { return r.step.position.z(); });
+  visit(
+      "step_ns", [](auto& r) -> auto& { return r.step.time_ns; });
+  visit(
+      "step_nm", [](auto& r) -> auto& { return r.step.wavelength_nm; });
+  visit(
+      "step_text", [](auto& r) -> auto& { return r.text; });
 }
 
 /// The numbers of a channel.

@@ -8,6 +8,7 @@
 #include "scintray/core/value_text.hpp"
 #include "scintray/results/detail/file_ids.hpp"
 #include "scintray/results/detail/goniometer_columns.hpp"
+#include "scintray/results/detail/path_tables.hpp"
 #include "scintray/results/detail/point_groups.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
@@ -112,6 +113,7 @@ struct ResultsWriter::State {
   format::RowWriter<format::EventRow> events;
   format::RowWriter<format::SignalRow> signals;
   format::SampleWriter orders, pulses;  ///< a row a signal
+  std::optional<format::PathTables> paths{};
   std::optional<HistoryWriter> histories;
   std::map<std::size_t, std::vector<tally::ReadoutChannel>> channels;  ///< per point, until it is written
 };
@@ -138,6 +140,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const tally::Run
       {},
       {},
       {},
+      {},
       {}});
   if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
 }
@@ -153,6 +156,13 @@ void ResultsWriter::add_surfaces(const std::vector<analysis::SurfaceAnalysis>& a
 void ResultsWriter::append_photons(const std::vector<tally::DetectedPhoton>& photons) {
   if (!state_->photons.exists()) throw core::InternalError("photons for a result that has no photon list");
   for (const tally::DetectedPhoton& photon : photons) state_->photons.add(photon);
+}
+
+void ResultsWriter::begin_paths() { state_->paths.emplace(state_->root); }
+
+void ResultsWriter::append_paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) {
+  if (!state_->paths) throw core::InternalError("photon paths for a result that has none");
+  state_->paths->add(point, paths);
 }
 
 void ResultsWriter::begin_events(std::size_t point, std::vector<tally::ReadoutChannel> channels,
@@ -235,6 +245,7 @@ void ResultsWriter::commit(bool complete, const std::string& reason_if_partial) 
   state_->orders.write_waiting();
   state_->pulses.write_waiting();
   if (state_->histories) state_->histories->write_waiting();
+  if (state_->paths) state_->paths->finish();
   format::put_text(state_->root, "note", {state_->note});
   state_->root.make_scale("note");
   put_sweep(state_->root, state_->names.keys, state_->points_written);

@@ -20,7 +20,8 @@ enum class Record : std::uint8_t {
   histories,
   events,
   range,
-  end
+  end,
+  paths
 };
 
 /// First bytes of a file, and the version of its layout after them.
@@ -75,7 +76,7 @@ void exchange(A& a, PointOutline& v) {
 }
 template <typename A>
 void exchange(A& a, RunOutline& v) {
-  pass(a, v.header, v.photon_list, v.histories, v.has_energy, v.points, v.inputs);
+  pass(a, v.header, v.photon_list, v.paths, v.histories, v.has_energy, v.points, v.inputs);
 }
 template <typename A>
 void exchange(A& a, Shard& v) {
@@ -95,6 +96,14 @@ template <typename A>
 void exchange(A& a, tally::DetectedPhoton& v) {
   pass(a, v.point, v.event, v.photon, v.part, v.face, v.position_mm, v.direction, v.wavelength_nm, v.time_ns,
        v.path_mm, v.interactions);
+}
+template <typename A>
+void exchange(A& a, tally::PathStep& v) {
+  pass(a, v.position, v.time_ns, v.wavelength_nm, v.text);
+}
+template <typename A>
+void exchange(A& a, tally::PhotonPath& v) {
+  pass(a, v.event, v.photon, v.fate, v.steps);
 }
 template <typename A>
 void exchange(A& a, tally::ChannelRecord& v) {

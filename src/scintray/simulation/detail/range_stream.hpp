@@ -26,6 +26,7 @@ class RangeWriter : public ResultSink {
   void write(Record record, std::string_view content);
 
   void surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses) override;
+  void paths(std::size_t point, const std::vector<tally::PhotonPath>& paths) override;
   void begin_events(std::size_t point, const std::vector<tally::ReadoutChannel>& channels,
                     const std::optional<detector::ReadoutSpec>& readout) override;
   void photons(const std::vector<tally::DetectedPhoton>& photons) override;
@@ -37,12 +38,15 @@ class RangeWriter : public ResultSink {
   void write_rows(Record record, Encoder& rows, std::size_t least);
   /// Writes the readout of the events of the present range, once.
   void write_readout();
+  /// Writes the paths that wait, before all other rows of their range.
+  void write_paths();
 
   Put put_;
   Encoder photons_, histories_, events_;  ///< rows of the present range that wait to be written
   bool has_subjects_ = false;             ///< of the present range
   std::string readout_;                   ///< record of the present point; empty for a source of photons
   bool has_readout_ = false;              ///< in the present range
+  std::string paths_;                     ///< record that waits for the first range of its point
 };
 
 /// Reader of records, one after the other.

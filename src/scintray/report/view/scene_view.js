@@ -1,7 +1,13 @@
-// A scene in three dimensions: parts, paths of photons, findings of check. Data are of view_page.cpp.
-"use strict";
+// A scene in three dimensions: parts, paths of photons, findings of check. Data are of view_data.cpp. On a page of its own
+// it begins at once; within a report by the button .view-open, so that the report does not wait for it.
 (function () {
+  "use strict";
   const element = (id) => document.getElementById(id);
+  const host = element("view"), within = host.classList.contains("within"), open = host.querySelector(".view-open");
+  if (open) open.addEventListener("click", () => { host.classList.add("open"); start(); element("scene").focus(); }, { once: true });
+  else start();
+
+  function start() {
   const data = JSON.parse(element("data").textContent);
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -10,7 +16,7 @@
   const FATE_COLOURS = ["#009e73", "#e69f00", "#0072b2", "#d55e00", "#cc79a7", "#56b4e9", "#8a8a8a"];
   const FATES = ["detected", "not detected", "absorbed in medium", "absorbed at surface", "escaped", "cut interactions", "cut time"];
 
-  let renderer;
+  let renderer, frames = 0;
   try {
     renderer = new THREE.WebGLRenderer({ canvas: element("scene"), antialias: true });
   } catch (error) {
@@ -23,13 +29,21 @@
   const camera = new THREE.PerspectiveCamera(35, 1, 1, 10);
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, element("scene"));
+  controls.enableKeys = false;  // arrow keys turn, below
   const cut = new THREE.Plane(new THREE.Vector3(-1, 0, 0), 0);
   let drawn = false;
   const redraw = () => { drawn = false; };
 
-  // Shapes, unpacked once; coordinates of parts are relative to the middle of the scene.
+  // Shapes, unpacked once; coordinates of parts are relative to the middle of the scene. Numbers are integers of one, two or
+  // four bytes; those of coordinates are shares of 65535 of a box.
+  const integers = (text, width) => new ({ 1: Uint8Array, 2: Uint16Array, 4: Uint32Array })[width](bytes(text));
+  const unpacked = (text, box, made) => {
+    const shares = new Uint16Array(bytes(text)), values = new made(shares.length);
+    for (let i = 0; i < shares.length; ++i) values[i] = box[i % 3] + (box[3 + i % 3] - box[i % 3]) * shares[i] / 65535;
+    return values;
+  };
   const shapes = data.shapes.map((shape) => ({
-    v: new Float32Array(bytes(shape.v)), t: new Uint32Array(bytes(shape.t)), f: new Uint32Array(bytes(shape.f)),
+    v: unpacked(shape.v, shape.b, Float32Array), t: integers(shape.t, shape.tw), f: integers(shape.f, shape.fw),
   }));
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (const part of data.parts) {
@@ -160,10 +174,23 @@
   }
 
   // Paths: line segments with the time and the fate of their ends; the later ones are not drawn.
-  const paths = data.paths.map((path) => ({
-    n: path.n, fate: data.fates[path.f], p: new Float64Array(bytes(path.p)), v: new Float32Array(bytes(path.v)),
-    e: new Uint32Array(bytes(path.e)),
-  }));
+  const steps = { p: unpacked(data.steps.p, data.steps.b, Float64Array), t: integers(data.steps.t, 2),
+    e: integers(data.steps.e, data.steps.ew) };
+  const finest = Math.max(...[0, 1, 2].map((k) => data.steps.b[3 + k] - data.steps.b[k])) / 131070;
+  const decimals = Math.max(0, Math.min(3, Math.floor(-Math.log10(Math.max(finest, 1e-9)))));
+  let first = 0;
+  const paths = data.paths.map((path) => {
+    const made = { n: path.n, fate: data.fates[path.f], p: steps.p.subarray(3 * first, 3 * (first + path.k)),
+      v: new Float32Array(2 * path.k), e: steps.e.subarray(first, first + path.k) };
+    let nm = 0, change = 0;
+    for (let i = 0; i < path.k; ++i) {
+      if (change < path.w.length && path.w[change][0] === i) nm = path.w[change++][1];
+      made.v[2 * i] = path.t[0] + (path.t[1] - path.t[0]) * steps.t[first + i] / 65535;
+      made.v[2 * i + 1] = nm;
+    }
+    first += path.k;
+    return made;
+  });
   const shown = Object.fromEntries(data.fates.map((fate) => [fate, true]));
   let lastTime = 0, lowNm = Infinity, highNm = -Infinity;
   for (const path of paths)
@@ -173,11 +200,11 @@
       highNm = Math.max(highNm, path.v[2 * i + 1]);
     }
   const timed = new THREE.ShaderMaterial({
-    uniforms: { now: { value: 1e30 } }, vertexColors: THREE.VertexColors, clipping: true, clippingPlanes: [],
+    uniforms: { now: { value: 1e30 }, opacity: { value: 1 } }, depthWrite: false, vertexColors: THREE.VertexColors, clipping: true, clippingPlanes: [],
     vertexShader: "attribute float time; varying float at; varying vec3 c;\n#include <clipping_planes_pars_vertex>\n" +
       "void main() {\n#include <begin_vertex>\n#include <project_vertex>\n#include <clipping_planes_vertex>\nat = time; c = color; }",
-    fragmentShader: "uniform float now; varying float at; varying vec3 c;\n#include <clipping_planes_pars_fragment>\n" +
-      "void main() {\n#include <clipping_planes_fragment>\nif (at > now) discard; gl_FragColor = vec4(c, 1.0); }",
+    fragmentShader: "uniform float now; uniform float opacity; varying float at; varying vec3 c;\n#include <clipping_planes_pars_fragment>\n" +
+      "void main() {\n#include <clipping_planes_fragment>\nif (at > now) discard; gl_FragColor = vec4(c, opacity); }",
   });
   timed.transparent = true;  // drawn after the walls
   const lines = new THREE.LineSegments(new THREE.BufferGeometry(), timed);
@@ -196,7 +223,13 @@
     if (by === "wavelength") return scale(highNm > lowNm ? (path.v[2 * i + 1] - lowNm) / (highNm - lowNm) : 0.5);
     return scale(lastTime > 0 ? path.v[2 * i] / lastTime : 0);
   }
+  function path_legend(by) {
+    const ends = by === "wavelength" ? [Math.round(lowNm) + " nm", Math.round(highNm) + " nm"] : ["0", lastTime.toPrecision(3) + " ns"];
+    element("path_scale").hidden = by === "fate";
+    element("path_scale").querySelectorAll("span").forEach((span, i) => { span.textContent = ends[i]; });
+  }
   function draw_paths() {
+    path_legend(element("path_colour").value);
     const by = element("path_colour").value, position = [], colour = [], time = [];
     pathOf = [];
     paths.forEach((path, number) => {
@@ -210,6 +243,8 @@
         }
       }
     });
+    // Where many lie over each other, each is fainter.
+    timed.uniforms.opacity.value = Math.max(0.3, Math.min(1, Math.sqrt(4000 / Math.max(1, pathOf.length))));
     lines.geometry.dispose();
     lines.geometry = new THREE.BufferGeometry();
     for (const [name, values, items] of [["position", position, 3], ["color", colour, 3], ["time", time, 1]])
@@ -252,7 +287,7 @@
   // Picking.
   const ray = new THREE.Raycaster();
   function table(heads, rows) {
-    const made = document.createElement("table"), head = made.createTHead().insertRow();
+    const made = document.createElement("table"), head = heads.length ? made.createTHead().insertRow() : null;
     for (const text of heads) { const th = document.createElement("th"); th.textContent = text; head.append(th); }
     const body = made.createTBody();
     for (const cells of rows) {
@@ -266,11 +301,11 @@
     return made;
   }
   function show(title, heads, rows) {
-    const head = document.createElement("h2");
+    const head = document.createElement(within ? "h3" : "h2");
     head.textContent = title;
     element("chosen").replaceChildren(head, table(heads, rows));
-    document.body.classList.remove("folded");
-    element("chosen").scrollIntoView({ block: "nearest" });
+    if (host.classList.contains("folded")) element("menu").click();
+    element("panel").scrollTop = element("chosen").offsetTop - 8;
   }
   function show_path(path) {
     chosen.geometry.dispose();
@@ -283,8 +318,21 @@
     const rows = [];
     for (let i = 0; i < path.e.length; ++i)
       rows.push([i, data.events[path.e[i]], path.v[2 * i].toFixed(3), path.v[2 * i + 1].toFixed(1),
-        ...[0, 1, 2].map((k) => path.p[3 * i + k].toFixed(3))]);
+        ...[0, 1, 2].map((k) => path.p[3 * i + k].toFixed(decimals))]);
     show(path.n + ": " + path.fate, ["step", "event", "ns", "nm", "x mm", "y mm", "z mm"], rows);
+  }
+  // What the whole run counted there.
+  function ledger_rows(part, face, at) {
+    const ledger = data.ledger, rows = [];
+    if (!ledger) return rows;
+    const share = (count) => count + " (" + (100 * count / ledger.n).toPrecision(3) + " %)";
+    const add = (title, count) => { if (count !== undefined) rows.push([title, share(count)]); };
+    const through = ledger.faces[at], all = ledger.parts[part.n], medium = data.media[part.m].n, surface = face ? data.surfaces[face.s].n : "";
+    if (through) { add("run: detected through this face", through[0]); add("run: not detected through it", through[1]); }
+    if (all) { add("run: detected by this part", all[0]); add("run: not detected by it", all[1]); }
+    add("run: absorbed at " + surface + ", all its faces", ledger.surfaces[surface]);
+    add("run: absorbed in " + medium + ", all its parts", ledger.media[medium]);
+    return rows;
   }
   function show_face(part, triangle) {
     chosen.visible = false;
@@ -298,14 +346,16 @@
     const at = part.n + ":" + (face ? face.n : "");
     const rows = [["medium", data.media[part.m].n], ["face", face ? face.n : "-"],
       ["surface", face ? data.surfaces[face.s].n : "-"], ["area", area.toPrecision(5) + " mm2"]];
+    if (face && face.w) rows.push(["stated at", face.w]);
     if (face && face.d) rows.push(["sensor", face.d]);
+    ledger_rows(part, face, at).forEach((entry) => rows.push(entry));
     for (const [verb, title] of [["detected by " + part.n, "paths detected here"], ["not detected by " + part.n, "paths not detected here"],
       ["reflected at " + part.n + " |", "reflections at this part, as seen from inside"], ["into " + part.n, "entries into this part"]]) {
       let count = 0;
       for (const path of paths) for (const e of path.e) if (data.events[e].startsWith(verb)) ++count;
       if (count > 0) rows.push([title, count]);
     }
-    show(at, ["", ""], rows);
+    show(at, [], rows);
   }
   function pick(event) {
     const box = element("scene").getBoundingClientRect();
@@ -363,8 +413,11 @@
     redraw();
   }
   function resize() {
-    const wide = window.innerWidth, tall = window.innerHeight;
-    const folded = document.body.classList.contains("folded"), panel = element("panel").getBoundingClientRect();
+    const wide = host.clientWidth, tall = host.clientHeight;
+    if (!wide || !tall) return;
+    host.classList.toggle("narrow", wide < 720);
+    const folded = host.classList.contains("folded"), panel = element("panel").getBoundingClientRect();
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     renderer.setSize(wide, tall, false);
     camera.aspect = wide / tall;
     // The middle of what the panel leaves free.
@@ -405,7 +458,7 @@
     before = performance.now();
   });
   on("menu", "click", () => {
-    const folded = document.body.classList.toggle("folded");
+    const folded = host.classList.toggle("folded");
     element("menu").setAttribute("aria-expanded", String(!folded));
     resize();
   });
@@ -418,12 +471,36 @@
   }
   controls.addEventListener("change", redraw);
   dark.addEventListener("change", () => { lights(); paint(); });
-  window.addEventListener("resize", resize);
+  new ResizeObserver(resize).observe(host);
+  // Within a page the wheel scrolls the page until the scene is clicked or has the keyboard.
+  const canvas = element("scene"), zooms = () => { controls.enableZoom = !within || document.activeElement === canvas; };
+  canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+  for (const kind of ["focus", "blur"]) canvas.addEventListener(kind, zooms);
+  zooms();
+  canvas.addEventListener("keydown", (event) => {
+    const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const zoom = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 }[event.key];
+    if (!turn && !zoom || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    const way = new THREE.Spherical(), from = camera.position.clone().sub(controls.target);
+    way.setFromVector3(new THREE.Vector3(from.x, from.z, -from.y));  // its axis is y, ours is z
+    if (turn) {
+      way.theta += 0.1 * turn[0];
+      way.phi = Math.max(0.01, Math.min(Math.PI - 0.01, way.phi + 0.1 * turn[1]));
+    }
+    if (zoom) way.radius *= zoom;
+    const to = new THREE.Vector3().setFromSpherical(way);
+    camera.position.copy(controls.target).add(new THREE.Vector3(to.x, -to.z, to.y));
+    controls.update();
+    redraw();
+  });
+  element("full").hidden = !within || !document.fullscreenEnabled;
+  on("full", "click", () => { document.fullscreenElement ? document.exitFullscreen() : host.requestFullscreen(); });
 
   const number_text = (x) => String(+x.toPrecision(4));
   const triangles = groups.reduce((sum, group) => sum + group.triangles, 0);
   element("counts").textContent = data.parts.length + " parts, " + triangles + " triangles, " + paths.length +
-    " photon paths; " + low.map((x, i) => "xyz"[i] + " " + number_text(x) + " to " + number_text(high[i])).join(", ") + " mm";
+    (data.left_out ? " of " + (paths.length + data.left_out) : "") + " photon paths; " + low.map((x, i) => "xyz"[i] + " " + number_text(x) + " to " + number_text(high[i])).join(", ") + " mm";
   element("paths").hidden = paths.length === 0;
   data.fates.forEach((fate) => element("fates").append(row(FATE_COLOURS[Math.max(0, FATES.indexOf(fate))], fate,
     paths.filter((path) => path.fate === fate).length, true, (is) => { shown[fate] = is; draw_paths(); })));
@@ -435,8 +512,8 @@
   draw_paths();
   set_time();
   lights();
-  if (window.innerWidth < 736) element("menu").click();
   resize();
+  if (host.classList.contains("narrow")) element("menu").click();
   look(3);
   renderer.setAnimationLoop((now) => {
     if (playing) {
@@ -450,6 +527,8 @@
     drawn = true;
     lamp.position.copy(camera.position);
     renderer.render(space, camera);
+    ++frames;
   });
-  window.scintrayView = { data, show_path: (i) => show_path(paths[i]), pick };
+  window.scintrayView = { data, paths: paths.length, show_path: (i) => show_path(paths[i]), pick, get frames() { return frames; } };
+  }
 })();
