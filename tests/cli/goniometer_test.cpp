@@ -52,6 +52,24 @@ TEST_CASE("goniometer prints shares, directions and widths, and writes page and 
   CHECK(contains(content_of(folder / "cells.csv"), "reflected_rays"));
 }
 
+TEST_CASE("Ctrl-C and SIGTERM end goniometer with 130, a message, and no file") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    CAPTURE(signal);
+    const auto folder = scratch_folder("goniometer_stopped");
+    const Program program({"goniometer", "polished_lambertian_097", "--angle", "20deg", "--wavelength",
+                           "420nm", "--rays", "1000000000000", "-o", "out.html", "--csv", "out.csv"},
+                          folder);
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    program.signal(signal);
+    const Ended ended = program.wait();
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kInterrupted);
+    CHECK(contains(ended.output, "stopped"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      CHECK(entry.path().filename() == "output.txt");
+  }
+}
+
 TEST_CASE("goniometer takes several angles, either side, and the surfaces of a scene") {
   const auto folder = scratch_folder("goniometer_scene");
   std::ofstream(folder / "scene.toml") << R"(

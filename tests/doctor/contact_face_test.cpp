@@ -61,6 +61,20 @@ kind = "bonded"
   CHECK(!between(scene, "crystal:-z")->gap_medium.has_value());
 }
 
+TEST_CASE("A contact names a side of a box that no rule makes a face") {
+  const std::string parts = part_text("below", corners({0, 0, 0}, {4, 4, 2}), "n15") +
+                            part_text("above", corners({0, 0, 2}, {4, 4, 4}), "lso");
+  const Scene scene =
+      SceneBuilder()
+          .build(scene_spec(lit_scene(
+              parts + "[[contact]]\nbetween = [\"below:+z\", \"above\"]\nkind = \"dry\"\n", "above", 10)))
+          .scene;
+  const Interface* interface = between(scene, "below:+z");
+  REQUIRE(interface != nullptr);
+  CHECK(interface->gap_medium.has_value());
+  CHECK(between(scene, "below:other") == nullptr);
+}
+
 TEST_CASE("A contact of one part comes before that of many parts by a pattern") {
   std::string parts = part_text("guide", corners({0, 0, 4}, {9, 4, 5}), "n15");
   for (int i = 0; i < 3; ++i)
@@ -84,8 +98,10 @@ TEST_CASE("Contacts that contradict, name no face, or match nothing are refused 
       refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-z\", \"corner\"]\nkind = \"dry\"\n[[contact]]\n"
                           "between = [\"crystal\", \"corner:cut:crystal\"]\nkind = \"bonded\"\n"))
           .find("are equally close to") != std::string::npos);
+  CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-w\", \"corner\"]\nkind = \"dry\"\n"))
+            .find("the part \"crystal\" has no face \"-w\"\n  hint: did you mean") != std::string::npos);
   CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:-y\", \"corner\"]\nkind = \"dry\"\n"))
-            .find("the part \"crystal\" has no face \"-y\"\n  hint: did you mean") != std::string::npos);
+            .find("\"crystal:-y\" and \"corner\" of this contact do not touch") != std::string::npos);
   CHECK(refusal(in_a_corner("[[contact]]\nbetween = [\"crystal:other\", \"corner\"]\nkind = \"dry\"\n"))
             .find("\"crystal:other\" and \"corner\" of this contact do not touch") != std::string::npos);
 }

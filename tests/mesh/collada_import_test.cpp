@@ -128,3 +128,26 @@ TEST_CASE(
   CHECK((bounds.max() - Vec3(5, 0, 2)).norm() < 1e-9);
   CHECK(read.mesh.groups == std::vector<std::string>{"crystal:paint"});
 }
+
+TEST_CASE("COLLADA: <skew> turns its first axis towards the second, along which points move") {
+  const auto skewed = [](const std::string& numbers) {
+    std::string text = collada_text("<unit meter=\"0.001\" name=\"millimeter\"/>");
+    const std::string from = "<translate>10 0 0</translate>";
+    text.replace(text.find(from), from.size(), "<skew>" + numbers + "</skew>");
+    return mesh_file("skew.dae", text);
+  };
+  // The box of 1 x 2 x 3 mm: y turned towards x by 45 deg moves points by y along x; then in the plane of two
+  // axes 45 deg apart, of which 15 deg leave 30: cot 30 deg - cot 45 deg.
+  for (const auto& [numbers, shear] :
+       {std::pair{"45 0 1 0 1 0 0", 1.0}, {"15 1 1 0 1 0 0", std::sqrt(3.0) - 1.0}, {"0 0 2 0 3 0 0", 0.0}}) {
+    CAPTURE(numbers);
+    const MeshImport read = import_mesh(skewed(numbers), 0.0);
+    const MeshDiagnosis diagnosis = diagnose(read.mesh);
+    CHECK(diagnosis.sound());
+    CHECK(diagnosis.volume_mm3 == doctest::Approx(6.0));
+    CHECK(diagnosis.bounds.min().norm() < 1e-9);
+    CHECK((diagnosis.bounds.max() - Vec3(1.0 + 2.0 * shear, 2.0, 3.0)).norm() < 1e-9);
+  }
+  for (const char* numbers : {"45 1 1 0 1 0 0", "90 0 1 0 1 0 0", "-90 0 1 0 1 0 0", "0 0 0 0 1 0 0"})
+    check_refused(skewed(numbers), 0.0, "<skew>");
+}

@@ -108,6 +108,35 @@ score = "path"
   CHECK(path.per_photon(0, 100).error == doctest::Approx(0.0).epsilon(1e-6));
 }
 
+TEST_CASE("Tallies know the sides of a box, and its other face is then what is left of it") {
+  // Straight down from the middle of the left block, out of its named face and into the eye's top.
+  const Traced traced = trace(kTwoBlocks + beam(R"(["-1.5 mm", "0.5 mm", "3 mm"])", "[0, 0, -1]") + R"(
+[[tally]]
+type = "count"
+name = "top"
+at = "detected"
+face = "eye:+z"
+[[tally]]
+type = "count"
+name = "rest"
+at = "detected"
+face = "eye:other"
+[[tally]]
+type = "exit_angle"
+face = "left:+x"
+)");
+  CHECK(total(tally_of(traced, 0)) == 100.0);
+  CHECK(total(tally_of(traced, 1)) == 0.0);
+  CHECK(total(tally_of(traced, 2)) == 0.0);
+  // A rule has the triangles of its side, whatever its name.
+  const std::vector<Problem> found =
+      scene_problems(kTwoBlocks + beam(R"(["-1.5 mm", "0.5 mm", "3 mm"])", "[0, 0, -1]") +
+                     "[[tally]]\ntype = \"count\"\nname = \"taken\"\nat = \"crossed\"\nface = \"left:-z\"\n");
+  REQUIRE(found.size() == 1);
+  check_contains(found[0].what, {"no face", "left:-z"});
+  check_contains(found[0].hint, "there are: left:exit");
+}
+
 TEST_CASE("Conditions keep the photons they describe and no others") {
   const Traced traced = trace(kTwoBlocks + kIsotropic + R"(
 [[tally]]

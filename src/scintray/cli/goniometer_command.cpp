@@ -158,6 +158,7 @@ void run_goniometer(const GoniometerOptions& options) {
   const analysis::SampleSurface sample =
       analysis::make_sample_surface(database, factory, place, options.on_the_spot);
   line.clear();
+  settings.stop = [] { return InterruptGuard::requested().load(); };
   const auto readings = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);
 
   std::cout << fmt::format(

@@ -83,6 +83,7 @@ analysis::GoniometerSettings settings_of(const CompareOptions& options) {
   settings.rays = options.sample.rays;
   settings.seed = options.sample.seed;
   settings.wavelength_nm = place_of(options.sample, "", "").wavelength_nm;
+  settings.stop = [] { return InterruptGuard::requested().load(); };
   return settings;
 }
 

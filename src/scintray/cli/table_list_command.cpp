@@ -40,6 +40,7 @@ report::SurfaceReadings read_surface(analysis::SampleSurface sample, const Sampl
   settings.wavelength_nm = sample.place.wavelength_nm;
   settings.rays = options.rays;
   settings.seed = options.seed;
+  settings.stop = [] { return InterruptGuard::requested().load(); };
   report::SurfaceReadings readings;
   const std::vector<double> angles = sweep_angles();
   readings.sweep = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);

@@ -51,13 +51,10 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
         hint, {{at.x(), at.y(), at.z()}});
   };
   const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
-  const std::string other_sides = fmt::format(
+  const std::string other_sides =
       "their triangles cross at angles too small for this tolerance: give one of the round parts other "
-      "sides, as "
-      "segments = 48 in place of 64 or a tessellation deviation smaller by a fifth, or move one of them by "
-      "{:.3g} mm "
-      "or more",
-      4.0 * tolerance_mm);
+      "sides, "
+      "as segments = 48 in place of 64 or a tessellation deviation smaller by a fifth";
   if (!cut) return refuse("the result would not be a proper solid", other_sides);
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");

@@ -92,18 +92,44 @@ class FaceTagger {
       : part_(part), placed_(placed), problems_(problems), rule_of_(placed.mesh.triangles.size(), kNoRule) {}
 
   void tag() {
-    for (std::size_t rule = 0; rule < part_.faces.size(); ++rule) apply(rule);
-    const bool all_matched = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) == rule_of_.end();
+    for (const scene_file::FaceRuleSpec& rule : part_.faces)
+      if (!is_side(rule)) apply(rule);
+    expect_surface_of_rest();
+    for (const scene_file::FaceRuleSpec& rule : part_.faces)
+      if (is_side(rule)) add_side(rule);
     const auto rest = static_cast<std::uint32_t>(placed_.faces.size());
-    if (!all_matched) add_rest();
+    if (first_unmatched() < rule_of_.size())
+      placed_.faces.push_back({scene_file::kOtherFaces, part_.surface, {}});
     for (const std::uint32_t rule : rule_of_) placed_.face_of.push_back(rule == kNoRule ? rest : rule);
   }
 
  private:
   static constexpr std::uint32_t kNoRule = 0xffffffffu;
 
-  void apply(std::size_t rule) {
-    const scene_file::FaceRuleSpec& spec = part_.faces[rule];
+  /// A rule that only names a side (scene_file/detail/side_faces.hpp).
+  static bool is_side(const scene_file::FaceRuleSpec& rule) {
+    return rule.where.text().empty() && rule.surface.empty() && rule.sensor.empty() &&
+           rule.select.group.name == rule.name && !rule.name.empty();
+  }
+
+  std::size_t first_unmatched() const {
+    return static_cast<std::size_t>(std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin());
+  }
+
+  void add_side(const scene_file::FaceRuleSpec& side) {
+    const auto face = static_cast<std::uint32_t>(placed_.faces.size());
+    const std::vector<char> mask = mesh::select_triangles(placed_.mesh, selector_of(side.select));
+    bool any = false;
+    for (std::size_t t = 0; t < mask.size(); ++t) {
+      if (!mask[t] || rule_of_[t] != kNoRule) continue;
+      rule_of_[t] = face;
+      any = true;
+    }
+    if (any) placed_.faces.push_back({side.name, part_.surface, {}});
+  }
+
+  void apply(const scene_file::FaceRuleSpec& spec) {
+    const auto rule = static_cast<std::uint32_t>(placed_.faces.size());
     placed_.faces.push_back({spec.name, spec.surface.empty() ? part_.surface : spec.surface, spec.sensor});
     const std::vector<char> mask = mesh::select_triangles(placed_.mesh, selector_of(spec.select));
     bool any = false, reported = false;
@@ -111,14 +137,14 @@ class FaceTagger {
       if (!mask[t]) continue;
       any = true;
       if (rule_of_[t] == kNoRule) {
-        rule_of_[t] = static_cast<std::uint32_t>(rule);
+        rule_of_[t] = rule;
       } else if (!reported) {
         reported = true;
-        problems_.add(spec.select.where,
-                      "rules \"" + part_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
-                          placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
-                      "narrow one of them with a second criterion, such as box or normal",
-                      mark_at(placed_.mesh, t));
+        problems_.add(
+            spec.select.where,
+            "rules \"" + placed_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
+                placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
+            "narrow one of them with a second criterion, such as box or normal", mark_at(placed_.mesh, t));
       }
     }
     if (!any)
@@ -128,17 +154,14 @@ class FaceTagger {
                         group_list(placed_.mesh));
   }
 
-  void add_rest() {
-    if (part_.surface.empty() && placed_.needs_surface) {
-      const auto first = std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin();
-      problems_.add(part_.where,
-                    "part \"" + placed_.name +
-                        "\" has faces without a surface: no rule matches the triangle at " +
-                        place_of(placed_.mesh, static_cast<std::size_t>(first)),
-                    "give the part a surface = \"...\" for all faces that no rule matches",
-                    mark_at(placed_.mesh, static_cast<std::size_t>(first)));
-    }
-    placed_.faces.push_back({scene_file::kOtherFaces, part_.surface, {}});
+  void expect_surface_of_rest() {
+    const std::size_t first = first_unmatched();
+    if (first == rule_of_.size() || !part_.surface.empty() || !placed_.needs_surface) return;
+    problems_.add(
+        part_.where,
+        "part \"" + placed_.name + "\" has faces without a surface: no rule matches the triangle at " +
+            place_of(placed_.mesh, first),
+        "give the part a surface = \"...\" for all faces that no rule matches", mark_at(placed_.mesh, first));
   }
 
   const scene_file::PartSpec& part_;

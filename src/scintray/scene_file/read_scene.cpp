@@ -7,6 +7,7 @@
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene_file/detail/bodies.hpp"
 #include "scintray/scene_file/detail/names.hpp"
+#include "scintray/scene_file/detail/side_faces.hpp"
 #include "scintray/scene_file/readout.hpp"
 
 namespace scintray::scene_file {
@@ -136,6 +137,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   scene.criteria = read_criteria(root);
   scene.goniometers = read_goniometers(root);
   scene.tallies = read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), variables);
+  name_sides(scene);
   read_all_definitions(root, scene);
   scene.surfaces.merge(bodies.surfaces);
   scene.fit = read_fit(root);

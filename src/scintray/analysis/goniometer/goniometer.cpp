@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
 
 namespace scintray::analysis {
@@ -119,6 +120,8 @@ GoniometerReading read_goniometer(const optics::Surface& surface, const optics::
   const Tally total = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::uint64_t>(0, settings.rays, kBlockRays), Tally{},
       [&](const tbb::blocked_range<std::uint64_t>& block, Tally tally) {
+        if (settings.stop && settings.stop())
+          throw core::Cancelled("the goniometer requires all its rays, so nothing was written");
         for (std::uint64_t number = block.begin(); number < block.end(); ++number) shoot(number, tally);
         return tally;
       },
@@ -131,6 +134,7 @@ GoniometerReading read_goniometer(const optics::Surface& surface, const optics::
 
   GoniometerReading reading;
   reading.settings = settings;
+  reading.settings.stop = {};
   reading.reflected = total.reflected.sums.rays;
   reading.transmitted = total.transmitted.sums.rays;
   reading.absorbed = total.absorbed;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "scintray/analysis/goniometer/hemisphere.hpp"
@@ -19,6 +20,7 @@ struct GoniometerSettings {
   std::uint64_t seed = 1;
   std::uint64_t stream = 0;  ///< readings of one seed and different streams are independent
   double profile_half_width_rad = 5.0 * core::kDegree;  ///< of the detector, out of the plane of incidence
+  std::function<bool()> stop = {};  ///< cancels the reading when it returns true; called on any thread
 };
 
 /// Mean direction and width of the outgoing light on one side.
@@ -51,7 +53,7 @@ struct GoniometerReading {
 /// Runs on all threads of the calling task arena; the reading is the same for any number of them.
 /// @param index  of the media on the two sides, at the wavelength
 /// InputError on an incidence angle outside [0, 90 deg), no rays, a wavelength that is not positive, or a
-/// half-width outside (0, 90 deg].
+/// half-width outside (0, 90 deg]; Cancelled when it was stopped.
 GoniometerReading read_goniometer(const optics::Surface& surface, const optics::IndexPair& index,
                                   const GoniometerSettings& settings);
 

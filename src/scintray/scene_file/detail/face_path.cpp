@@ -1,26 +1,32 @@
 #include "scintray/scene_file/detail/face_path.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "scintray/contact/placed_mesh.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/scene_file/detail/names.hpp"
+#include "scintray/scene_file/detail/side_faces.hpp"
 
 namespace scintray::scene_file {
 
 namespace {
 
-/// Names of the possible faces of the parts of this name; nothing when none of them is among `parts`.
+/// Names, each once, of the possible faces of the parts of this name; nothing when none of them is among
+/// `parts`.
 std::vector<std::string> faces_of(const std::string& name, const std::vector<PartSpec>& parts) {
   std::vector<std::string> faces;
   for (const PartSpec& part : parts) {
     if (!core::matches_pattern(name, part.name.name)) continue;
     if (faces.empty()) faces.emplace_back(kOtherFaces);
     for (const FaceRuleSpec& rule : part.faces) faces.push_back(rule.name);
+    for (std::string& side : side_names(part.shape)) faces.push_back(std::move(side));
     for (const PartSpec& other : parts)
       if (other.priority > part.priority) faces.push_back(contact::kCutFaces + other.name.name);
   }
+  std::set<std::string> seen;
+  std::erase_if(faces, [&seen](const std::string& face) { return !seen.insert(face).second; });
   return faces;
 }
 

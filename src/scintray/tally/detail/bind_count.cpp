@@ -22,6 +22,20 @@ std::vector<std::string> part_names(const scene::Scene& scene) {
   return names;
 }
 
+/// Names for the hint of an error, those of `wanted` part first and those of arrays as one pattern.
+std::vector<std::string> names_near(const std::string& wanted, const std::vector<std::string>& names) {
+  const auto part = [](const std::string& name) { return name.substr(0, name.find(':')); };
+  std::vector<std::string> near, others;
+  for (const std::string& name : names) {
+    const bool matches = core::matches_pattern(part(wanted), part(name));
+    const std::string shown = names.size() > 30 ? core::pattern_of(name) : name;
+    std::vector<std::string>& list = matches ? near : others;
+    if (std::find(list.begin(), list.end(), shown) == list.end()) list.push_back(shown);
+  }
+  near.insert(near.end(), others.begin(), others.end());
+  return near;
+}
+
 /// For each of `names`, true when a pattern matches it. Throws InputError for a pattern without a match.
 std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std::vector<std::string>& names,
                          const std::string& kind, const core::FileLocation& where) {
@@ -31,7 +45,8 @@ std::vector<bool> picked(const std::vector<config::NameRef>& patterns, const std
     for (std::size_t i = 0; i < names.size(); ++i)
       if (core::matches_pattern(pattern.name, names[i])) result[i] = any = true;
     if (!any)
-      throw core::unknown_name(pattern.where.file.empty() ? where : pattern.where, kind, pattern.name, names);
+      throw core::unknown_name(pattern.where.file.empty() ? where : pattern.where, kind, pattern.name,
+                               names_near(pattern.name, names));
   }
   return result;
 }

@@ -15,14 +15,27 @@ namespace {
 
 /// Transform of a node: its elements, which apply in order, and the count of numbers of each.
 struct Transform {
-  enum class Kind { translate, rotate, scale, matrix, look_at, not_read };
+  enum class Kind { translate, rotate, scale, matrix, look_at, skew };
   Kind kind;
   std::size_t numbers;
 };
 constexpr core::Word<Transform> kTransforms[] = {
     {"translate", {Transform::Kind::translate, 3}}, {"rotate", {Transform::Kind::rotate, 4}},
     {"scale", {Transform::Kind::scale, 3}},         {"matrix", {Transform::Kind::matrix, 16}},
-    {"lookat", {Transform::Kind::look_at, 9}},      {"skew", {Transform::Kind::not_read, 7}}};
+    {"lookat", {Transform::Kind::look_at, 9}},      {"skew", {Transform::Kind::skew, 7}}};
+
+/// Displacement along `along` in proportion to the distance from it, which turns `turned` by the angle
+/// towards it (COLLADA follows Pixar, The RenderMan Interface, version 3.2, section 4.3, RiSkew). Nothing
+/// when the angle reaches the one between the axes, or 180 deg less that one to the other side.
+std::optional<Eigen::Matrix3d> skew(double angle_rad, const core::Vec3& turned, const core::Vec3& along) {
+  const double between = std::atan2(turned.cross(along).norm(), turned.dot(along));
+  if (!(angle_rad < between) || !(angle_rad > between - core::kPi) || !(between < core::kPi))
+    return std::nullopt;
+  const core::Vec3 direction = along.normalized();
+  const core::Vec3 across = (turned - turned.dot(direction) * direction).normalized();
+  const double shear = 1.0 / std::tan(between - angle_rad) - 1.0 / std::tan(between);
+  return Eigen::Matrix3d(Eigen::Matrix3d::Identity() + shear * direction * across.transpose());
+}
 
 /// Calls `take` for each word of the text of an element.
 template <typename Take>
@@ -163,8 +176,14 @@ Eigen::Affine3d ColladaDocument::transform_of(Node node) const {
         transform = transform * look;
         break;
       }
-      case Transform::Kind::not_read:
-        reject(std::string("a node is placed by <") + step.name() + ">, which is not read");
+      case Transform::Kind::skew: {
+        const std::optional<Eigen::Matrix3d> shear =
+            skew(v[0] * core::kDegree, core::Vec3(v[1], v[2], v[3]), core::Vec3(v[4], v[5], v[6]));
+        if (!shear)
+          reject("a <skew> by an angle that is not below the one between its axes, or to their other side");
+        transform.linear() = transform.linear() * *shear;
+        break;
+      }
     }
   }
   return transform;
