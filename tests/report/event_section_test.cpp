@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -185,4 +186,22 @@ TEST_CASE("Crystals away from the source are visible: colours are logarithmic wh
 TEST_CASE("A point without a flood map says why where the map would be") {
   const std::string page = report::event_page("t", "u", {made_up_analysis("few", 40, false)}, {});
   check_contains(page, {"few: no flood map", "100"});
+}
+
+TEST_CASE("A flood map has the outlines of the crystals as far as they lie on it, where they are available") {
+  PointAnalysis point = made_up_analysis("run", 6'000, true);
+  REQUIRE(point.analysis.flood);
+  const std::string without = report::event_page("t", "u", {point}, {});
+  CHECK_FALSE(contains(without, "<path class=\"outline\""));
+  CHECK_FALSE(contains(without, "the crystals where they stand"));
+  const FloodGrid& grid = point.analysis.flood->grid;
+  const double far = grid.x_high + 1.0;
+  point.crystals = {{grid.x_low, grid.y_low, 0.5 * (grid.x_low + grid.x_high), grid.y_high},
+                    {far, grid.y_low, far + 1.0, grid.y_high}};
+  const std::string page = report::event_page("t", "u", {point}, {});
+  check_contains(page, "dashed ones the crystals where they stand");
+  const std::size_t at = page.find("<path class=\"outline\" d=\"");
+  REQUIRE(at != std::string::npos);
+  const std::string path = page.substr(at, page.find("/>", at) - at);
+  CHECK(std::count(path.begin(), path.end(), 'M') == 1);  // the second lies beside the map
 }

@@ -62,12 +62,15 @@ std::string figures(const PointAnalysis& point) {
   if (analysis.light_against_depth)
     out += event_figure(chart(depth_plot(*analysis.light_against_depth)), point.label, "light against depth",
                         depth_text(*analysis.light_against_depth));
-  if (analysis.flood)
+  if (analysis.flood) {
+    GridMap map = flood_picture(analysis);
+    map.outlines = point.crystals;
     out += event_figure(
-        grid_map(flood_picture(analysis)), point.label, "flood map",
+        grid_map(map), point.label, "flood map",
         flood_text(*analysis.flood) + "; lines are the borders of the regions assigned to peaks" +
+            (map.outlines.empty() ? "" : ", dashed ones the crystals where they stand") +
             (analysis.flood->crystals.empty() ? "" : ", numbers those of the table of parts"));
-  else if (const std::string reason = analysis::reason_left_out(analysis, "flood map"); !reason.empty())
+  } else if (const std::string reason = analysis::reason_left_out(analysis, "flood map"); !reason.empty())
     out += event_figure("", point.label, "no flood map", reason);
   if (analysis.doi && !analysis.doi->slices.empty())
     out += event_figure(chart(doi_plot(*analysis.doi)), point.label, "depth of interaction",

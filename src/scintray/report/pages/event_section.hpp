@@ -1,6 +1,7 @@
 #pragma once
 /// Analyses of the events of a run: spectra, light against depth, flood maps, depth of interaction, timing.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct PointAnalysis {
   std::string label;  ///< "rough, 2 mm"; "run" without a sweep
   analysis::EventAnalysis analysis;
   std::optional<std::vector<tally::OmittedEffect>> omitted;  ///< PointResult::omitted
+  /// Crystals in the plane of the flood map: least x and y, largest x and y, mm. Empty when not available.
+  std::vector<std::array<double, 4>> crystals{};
 };
 
 /// Names of the parts of a run, by their ids.

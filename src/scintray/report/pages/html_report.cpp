@@ -1,6 +1,8 @@
 #include "scintray/report/pages/html_report.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -76,11 +78,37 @@ std::string partial_banner(const tally::RunResult& run) {
          " photons of the points below were traced.</p>\n";
 }
 
-std::string events(const tally::RunResult& run, const RunAnalysis& analyses) {
+/// Crystals of a flood map in its plane, from the parts of a view.
+std::vector<std::array<double, 4>> crystal_outlines(const tally::RunResult& run,
+                                                    const analysis::EventAnalysis& analysis,
+                                                    const SceneView& view) {
+  std::vector<std::array<double, 4>> outlines;
+  if (!analysis.flood) return outlines;
+  for (const core::PartId id : analysis.flood->crystals) {
+    const auto part = std::find_if(view.parts.begin(), view.parts.end(), [&](const ViewPart& shown) {
+      return run.header.parts.contains(id) && shown.name == run.header.parts[id];
+    });
+    if (part == view.parts.end() || part->mesh->vertices.empty()) continue;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    auto& [x_low, y_low, x_high, y_high] = outlines.emplace_back(std::array{kFar, kFar, -kFar, -kFar});
+    for (const core::Vec3& vertex : part->mesh->vertices) {
+      const double x = vertex.dot(analysis.across_x), y = vertex.dot(analysis.across_y);
+      x_low = std::min(x_low, x);
+      x_high = std::max(x_high, x);
+      y_low = std::min(y_low, y);
+      y_high = std::max(y_high, y);
+    }
+  }
+  return outlines;
+}
+
+std::string events(const tally::RunResult& run, const RunAnalysis& analyses, const RunView& view) {
   if (analyses.points.empty()) return "";
   std::vector<PointAnalysis> points;
   for (std::size_t i = 0; i < std::min(analyses.points.size(), run.points.size()); ++i)
     points.push_back({point_label(run.points[i]), analyses.points[i], run.points[i].omitted});
+  if (view.view && !points.empty())  // the view is of the first point
+    points.front().crystals = crystal_outlines(run, points.front().analysis, *view.view);
   return event_section(points, run.header.parts);
 }
 
@@ -101,7 +129,7 @@ std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses
   const std::string title = run.header.title.empty() ? "ScintRay run" : run.header.title;
   std::string page;
   page += partial_banner(run) + answer(run, analyses) + criterion_section(evaluate(run, analyses)) +
-          goniometer_sections(analyses.surfaces) + events(run, analyses);
+          goniometer_sections(analyses.surfaces) + events(run, analyses, view);
   if (run.traced_photons())
     page += fate_section(run) + shift_section(run) + sensor_section(run) + angle_section(run) +
             tally_section(run) + path_section(run);

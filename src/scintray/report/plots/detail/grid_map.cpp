@@ -63,6 +63,24 @@ std::string line_path(const GridMap& map, double width, double height) {
   return "<path class=\"border\" d=\"" + path + "\"/>\n";
 }
 
+/// The rectangles over the map, as far as they lie on it, as one path.
+std::string outline_path(const GridMap& map, double width, double height) {
+  std::string path;
+  for (const auto& [x1, y1, x2, y2] : map.outlines) {
+    if (x2 <= map.x_low || x1 >= map.x_high || y2 <= map.y_low || y1 >= map.y_high) continue;
+    const auto right = [&](double x) {
+      return kLeft + width * (std::clamp(x, map.x_low, map.x_high) - map.x_low) / (map.x_high - map.x_low);
+    };
+    const auto down = [&](double y) {
+      return kMargin +
+             height * (map.y_high - std::clamp(y, map.y_low, map.y_high)) / (map.y_high - map.y_low);
+    };
+    path += fmt::format("M{:.1f} {:.1f}H{:.1f}V{:.1f}H{:.1f}Z", right(x1), down(y1), right(x2), down(y2),
+                        right(x1));
+  }
+  return path.empty() ? "" : "<path class=\"outline\" d=\"" + path + "\"/>\n";
+}
+
 /// Texts at places of the map, as large as their distance allows; none when they would be too small to read.
 std::string mark_texts(const GridMap& map, double width, double height) {
   constexpr double kLargest = 13.0, kSmallest = 5.5;
@@ -128,7 +146,8 @@ std::string grid_map(const GridMap& map) {
 
   std::string out = opening(kLeft + width + kMargin, kMargin + height + kBelow, map.alternative);
   out += "<g class=\"cells\">\n" + image(data, kLeft, kMargin, width, height) +
-         line_path(map, width, height) + mark_texts(map, width, height) + "</g>\n<g class=\"axes\">\n";
+         line_path(map, width, height) + outline_path(map, width, height) + mark_texts(map, width, height) +
+         "</g>\n<g class=\"axes\">\n";
   for (const double tick : nice_ticks(map.x_low, map.x_high, 5)) {
     if (tick < map.x_low || tick > map.x_high) continue;
     out += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
@@ -206,6 +225,8 @@ std::string grid_map_style() {
          ".grid-map .tick { font-size: 12px; fill: var(--soft); } .grid-map .beyond { fill: var(--paper); }\n"
          ".grid-map .ring { fill: none; stroke: #fff; stroke-opacity: .5; }\n"
          ".grid-map .border { fill: none; stroke: #fff; stroke-opacity: .75; stroke-width: 1; }\n"
+         ".grid-map .outline { fill: none; stroke: #ff9c73; stroke-opacity: .8; stroke-width: 1; "
+         "stroke-dasharray: 3 2; }\n"
          ".grid-map .mark-text { fill: #fff; stroke: #000; stroke-width: .18em; paint-order: stroke; "
          "text-anchor: middle; font-weight: 600; }\n"
          ".scale { display: flex; gap: .5rem; align-items: center; font-size: .85rem; color: var(--soft); }\n"

@@ -18,8 +18,9 @@ struct GridMap {
   std::string alternative;  ///< read by screen readers
   /// Colours are even in log(1 + value / unit) instead of in the value.
   bool logarithmic = false;
-  double unit = 1.0;                         ///< of the logarithmic scale, above 0
-  std::vector<std::array<double, 4>> lines;  ///< drawn over the cells: x and y of both ends
+  double unit = 1.0;                            ///< of the logarithmic scale, above 0
+  std::vector<std::array<double, 4>> lines;     ///< drawn over the cells: x and y of both ends
+  std::vector<std::array<double, 4>> outlines;  ///< rectangles over the cells: least x and y, largest x and y
   struct Mark {
     double x = 0.0, y = 0.0;
     std::string text;
