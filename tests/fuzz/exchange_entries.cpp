@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "scintray/core/error.hpp"
-#include "scintray/exchange/davis.hpp"
-#include "scintray/exchange/lbnl.hpp"
+#include "scintray/tables/davis.hpp"
+#include "scintray/tables/lbnl.hpp"
 #include "support/deflated.hpp"
 
 namespace scintray::fuzz {
@@ -15,8 +15,8 @@ namespace {
 
 using test::deflated;
 
-constexpr exchange::DavisLayout kDavis{2};
-constexpr exchange::LbnlLayout kLbnl{2, 45, 37};
+constexpr tables::DavisLayout kDavis{2};
+constexpr tables::LbnlLayout kLbnl{2, 45, 37};
 
 template <class Read>
 bool expect_numbers_or_input_error(Read read) {
@@ -38,15 +38,15 @@ std::string directions() {
 
 std::string reflectances() {
   std::string text;
-  for (int degree = 0; degree < exchange::kDavisDegrees; ++degree) text += degree < 30 ? "0.25 " : "+1e0\n";
+  for (int degree = 0; degree < tables::kDavisDegrees; ++degree) text += degree < 30 ? "0.25 " : "+1e0\n";
   return text;
 }
 
 bool parse_pair(std::string_view lut, std::string_view shares) {
   return expect_numbers_or_input_error([&] {
-    const exchange::DavisPair pair = exchange::parse_davis(lut, shares, {"fuzz", "fuzz", false},
-                                                           exchange::Unreflected::transmitted, kDavis);
-    require(pair.reflectances.size() == exchange::kDavisDegrees, "a wrong number of reflectances");
+    const tables::DavisPair pair =
+        tables::parse_davis(lut, shares, {"fuzz", "fuzz", false}, tables::Unreflected::transmitted, kDavis);
+    require(pair.reflectances.size() == tables::kDavisDegrees, "a wrong number of reflectances");
     require(pair.directions.size() >= kDavis.numbers() - 1 && pair.directions.size() <= kDavis.numbers(),
             "a wrong number of directions");
     for (const float r : pair.reflectances) require(r >= 0.0f && r <= 1.0f, "a reflectance out of range");
@@ -72,7 +72,7 @@ bool run_davis_reflectances(const std::uint8_t* data, std::size_t size) {
 
 bool run_lbnl(const std::uint8_t* data, std::size_t size) {
   return expect_numbers_or_input_error([&] {
-    const std::vector<float> values = exchange::parse_lbnl(view(data, size), "fuzz", kLbnl);
+    const std::vector<float> values = tables::parse_lbnl(view(data, size), "fuzz", kLbnl);
     require(values.size() == kLbnl.numbers(), "a wrong number of values");
     for (const float value : values) require(value >= 0.0f && value <= 1.0f, "a value out of range");
   });

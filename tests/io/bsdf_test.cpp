@@ -1,4 +1,4 @@
-#include "scintray/exchange/bsdf_text.hpp"
+#include "scintray/tables/bsdf_text.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,13 +9,13 @@
 
 #include "io/tabulated.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/exchange/table_csv.hpp"
+#include "scintray/tables/table_csv.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::optics;
-using namespace scintray::exchange;
+using namespace scintray::tables;
 using namespace scintray::test;
 
 namespace {

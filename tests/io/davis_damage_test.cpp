@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
-#include "scintray/exchange/davis.hpp"
+#include "scintray/tables/davis.hpp"
 #include "support/deflated.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
-using namespace scintray::exchange;
+using namespace scintray::tables;
 using test::check_contains;
 using test::deflated;
 

@@ -1,4 +1,4 @@
-#include "scintray/exchange/davis.hpp"
+#include "scintray/tables/davis.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::optics;
-using namespace scintray::exchange;
+using namespace scintray::tables;
 using namespace scintray::test;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "scintray/exchange/lbnl.hpp"
+#include "scintray/tables/lbnl.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::optics;
-using namespace scintray::exchange;
+using namespace scintray::tables;
 using namespace scintray::test;
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include "physics/crystal_scene.hpp"
 #include "physics/traced.hpp"
-#include "scintray/exchange/davis.hpp"
+#include "scintray/tables/davis.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
@@ -15,7 +15,7 @@ using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::optics;
 using namespace scintray::topography;
-using namespace scintray::exchange;
+using namespace scintray::tables;
 using namespace scintray::test;
 
 namespace {

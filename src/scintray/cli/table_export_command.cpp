@@ -7,9 +7,9 @@
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
-#include "scintray/exchange/bsdf_text.hpp"
-#include "scintray/exchange/davis.hpp"
-#include "scintray/exchange/table_csv.hpp"
+#include "scintray/tables/bsdf_text.hpp"
+#include "scintray/tables/davis.hpp"
+#include "scintray/tables/table_csv.hpp"
 
 namespace scintray::cli {
 
@@ -24,23 +24,23 @@ struct ExportArguments {
   std::string table, output, wavelength;
   ExportFormat format = ExportFormat::csv;
   optics::Side side = optics::Side::inside;
-  std::uint64_t rays = exchange::BsdfSettings{}.rays, seed = 1;
+  std::uint64_t rays = tables::BsdfSettings{}.rays, seed = 1;
 };
 
 std::size_t slice_of(const ExportArguments& arguments, const optics::SurfaceTable& table) {
   std::optional<double> wavelength;
   if (!arguments.wavelength.empty())
     wavelength = core::parse_quantity(arguments.wavelength, core::Dimension::wavelength);
-  return exchange::slice_at(table, wavelength);
+  return tables::slice_at(table, wavelength);
 }
 
 void export_davis(const ExportArguments& arguments, const optics::SurfaceTable& table) {
-  exchange::DavisSettings settings;
+  tables::DavisSettings settings;
   settings.side = arguments.side;
   settings.slice = slice_of(arguments, table);
   settings.seed = arguments.seed;
-  const auto losses = exchange::write_davis(arguments.output, table, settings);
-  const exchange::DavisFiles files = exchange::davis_files(arguments.output);
+  const auto losses = tables::write_davis(arguments.output, table, settings);
+  const tables::DavisFiles files = tables::davis_files(arguments.output);
   std::cout << "written      " << files.directions.string() << "\n             "
             << files.reflectances.string() << "\n";
   for (const std::string& loss : losses) std::cout << "note         " << loss << "\n";
@@ -52,17 +52,17 @@ void export_bsdf(const ExportArguments& arguments, const optics::SurfaceTable& t
     throw core::InputError({{arguments.output},
                             "a name that does not end in .bsdf",
                             "NAME.bsdf makes NAME_brdf.bsdf and NAME_btdf.bsdf"});
-  for (const exchange::Leaving way : {exchange::Leaving::reflected, exchange::Leaving::transmitted}) {
-    exchange::BsdfSettings settings;
+  for (const tables::Leaving way : {tables::Leaving::reflected, tables::Leaving::transmitted}) {
+    tables::BsdfSettings settings;
     settings.side = arguments.side;
     settings.slice = slice_of(arguments, table);
     settings.way = way;
     settings.rays = arguments.rays;
     settings.seed = arguments.seed;
     auto path = name;
-    path.replace_filename(name.stem().string() + (way == exchange::Leaving::reflected ? "_brdf" : "_btdf") +
+    path.replace_filename(name.stem().string() + (way == tables::Leaving::reflected ? "_brdf" : "_btdf") +
                           ".bsdf");
-    exchange::write_bsdf(path, exchange::bsdf_of(table, settings), table, settings);
+    tables::write_bsdf(path, tables::bsdf_of(table, settings), table, settings);
     std::cout << "written      " << path.string() << "\n";
   }
 }
@@ -77,7 +77,7 @@ void export_table(const ExportArguments& arguments) {
     case ExportFormat::csv:
       break;
   }
-  exchange::write_table_csv(arguments.output, table);
+  tables::write_table_csv(arguments.output, table);
   std::cout << "written      " << arguments.output << "\n";
 }
 

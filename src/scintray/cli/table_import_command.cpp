@@ -6,8 +6,8 @@
 
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/exchange/davis.hpp"
-#include "scintray/exchange/lbnl.hpp"
+#include "scintray/tables/davis.hpp"
+#include "scintray/tables/lbnl.hpp"
 
 namespace scintray::cli {
 
@@ -21,9 +21,9 @@ constexpr core::Word<ImportFormat> kImportFormats[] = {{"davis", ImportFormat::d
 struct ImportArguments {
   std::string file, output;
   ImportFormat format = ImportFormat::davis;
-  std::optional<exchange::Unreflected> unreflected;
+  std::optional<tables::Unreflected> unreflected;
   std::optional<double> reflectance;
-  exchange::ImportSettings settings;
+  tables::ImportSettings settings;
 };
 
 void require_options_of_format(const ImportArguments& arguments) {
@@ -48,12 +48,12 @@ void require_options_of_format(const ImportArguments& arguments) {
 
 void import_table(ImportArguments arguments) {
   require_options_of_format(arguments);
-  exchange::ImportSettings& settings = arguments.settings;
-  settings.unreflected = arguments.unreflected.value_or(exchange::Unreflected::transmitted);
+  tables::ImportSettings& settings = arguments.settings;
+  settings.unreflected = arguments.unreflected.value_or(tables::Unreflected::transmitted);
   settings.reflectance = arguments.reflectance.value_or(1.0);
   const optics::SurfaceTable table = arguments.format == ImportFormat::davis
-                                         ? exchange::read_davis(arguments.file, settings)
-                                         : exchange::read_lbnl(arguments.file, settings);
+                                         ? tables::read_davis(arguments.file, settings)
+                                         : tables::read_lbnl(arguments.file, settings);
   optics::write_table(arguments.output, table);
   std::cout << "read         " << table.provenance().map << "\n             "
             << table.provenance().preparation << "\nwritten      " << arguments.output << "\n";
@@ -76,11 +76,11 @@ void add_table_import_command(CLI::App& table) {
       ->required();
   app->add_option("--outside-index", arguments->settings.index.outside, "Refractive index outside")
       ->required();
-  add_word_option(*app, "--from-outside", arguments->settings.from_outside, exchange::kFromOutsideWords,
+  add_word_option(*app, "--from-outside", arguments->settings.from_outside, tables::kFromOutsideWords,
                   "Treatment of light incident from outside, which the files do not describe: "
                   "smooth (Fresnel), mirror or absorb")
       ->required();
-  add_word_option(*app, "--unreflected", arguments->unreflected, exchange::kUnreflectedWords,
+  add_word_option(*app, "--unreflected", arguments->unreflected, tables::kUnreflectedWords,
                   "davis: treatment of light that is not reflected");
   app->add_option("--reflectance", arguments->reflectance, "lbnl: Geant4's REFLECTIVITY of the surface");
   app->footer(

@@ -14,6 +14,9 @@ namespace scintray::materials {
   ADD(slightly_rough)                \
   ADD(angular)                       \
   ADD(table)                         \
+  ADD(geant4_table)                  \
+  ADD(measured_brdf)                 \
+  ADD(mirror_scatter)                \
   ADD(height_map)                    \
   ADD(recipe)
 

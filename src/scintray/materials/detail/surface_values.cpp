@@ -54,6 +54,13 @@ double read_share(const config::TomlTable& table, const std::string& key, std::o
   return share;
 }
 
+double read_gap_index(const config::TomlTable& table) {
+  const double index = table.quantity("gap", core::Dimension::dimensionless, 0.0);
+  table.expect("gap", index >= 1.0 && index <= 5.0, "the index of a gap lies between 1 and 5",
+               "give the index, as gap = 1.0, or remove it: the reflector is then in contact with the face");
+  return index;
+}
+
 std::optional<TracingSpec> read_tracing(const config::TomlTable& surface) {
   TracingSpec tracing;
   topography::TableSettings& settings = tracing.settings;

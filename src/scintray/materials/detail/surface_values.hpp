@@ -26,6 +26,9 @@ optics::FacetSurface read_facets(const config::TomlTable& table);
 /// These values, for the key of a table of the surface.
 std::string text_of(const optics::FacetSurface& facets);
 
+/// The key `gap`, the index of a thin gap before the reflector of a model that has one of its own; 0: none.
+double read_gap_index(const config::TomlTable& table);
+
 /// [tracing] of a surface: settings of its table; nothing for rays traced on the spot.
 std::optional<TracingSpec> read_tracing(const config::TomlTable& surface);
 

@@ -131,8 +131,9 @@ struct ImportedSurface {
 inline std::string gap_name(const std::string& surface) { return "gap of " + surface; }
 
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
-/// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted. Tables
-/// (LUT, Davis, dichroic) are not in the file and cannot be carried over.
+/// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted; types
+/// dielectric_LUT and dielectric_LUTDAVIS with the finishes of their tables, which the scene names. Dichroic
+/// tables are not in the file and cannot be carried over.
 ImportedSurface import_surface(Node surface, const OpticalTables& tables);
 
 }  // namespace scintray::exchange::gdml

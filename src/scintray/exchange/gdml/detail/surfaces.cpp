@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "scintray/exchange/gdml/detail/optical.hpp"
+#include "scintray/tables/geant4_finish.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -25,14 +29,25 @@ constexpr std::array kTypes{"dielectric_metal",
 constexpr std::array kFinishes{"polished", "polishedfrontpainted", "polishedbackpainted",
                                "ground",   "groundfrontpainted",   "groundbackpainted"};
 
+/// All finishes in the order of Geant4's enumeration, those of its tables after the others.
+const std::vector<std::string>& all_finishes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all(kFinishes.begin(), kFinishes.end());
+    for (const auto* tabulated : {&tables::lbnl_finishes(), &tables::davis_finishes()})
+      all.insert(all.end(), tabulated->begin(), tabulated->end());
+    return all;
+  }();
+  return names;
+}
+
 /// A word, from itself or its number.
-template <std::size_t N>
-std::string word(Node node, const char* attribute, const std::array<const char*, N>& words) {
+template <typename Words>
+std::string word(Node node, const char* attribute, const Words& words) {
   const std::string text = node.attribute(attribute).value();
   const bool number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   if (!number || text.size() > 3) return text;
   const auto index = static_cast<std::size_t>(std::stoul(text));
-  return index < N ? words[index] : text;
+  return index < words.size() ? std::string(words[index]) : text;
 }
 
 /// Applies the rules of Geant4's boundary process, G4OpBoundaryProcess of release 11.4, to one surface.
@@ -43,7 +58,7 @@ class SurfaceImporter {
         tables_(tables),
         model_(word(surface, "model", kModels)),
         type_(word(surface, "type", kTypes)),
-        finish_(word(surface, "finish", kFinishes)) {}
+        finish_(word(surface, "finish", all_finishes())) {}
 
   ImportedSurface import() {
     note_others();
@@ -53,9 +68,11 @@ class SurfaceImporter {
     const bool known_finish = std::find(kFinishes.begin(), kFinishes.end(), finish_) != kFinishes.end();
     if (type_ == kTypes[7]) {
       coated();
+    } else if (type_ == kTypes[2] || type_ == kTypes[3]) {
+      tabulated();
     } else if (!known_model || !known_finish) {
       note("model \"" + model_ + "\", finish \"" + finish_ +
-           "\": its table is not in the file; import one with scintray table import");
+           "\": its table is not in the file, and its type \"" + type_ + "\" does not name one of Geant4's");
     } else if (metallic()) {
       metal();
     } else if (type_ == kTypes[1]) {
@@ -244,6 +261,38 @@ class SurfaceImporter {
     result_.efficiency.clear();
     result_.toml = "model = \"thin_film\"\nthin_film = { layers = [{ index = " + curve(index) +
                    fmt::format(", thickness = \"{:.9g} mm\" }}] }}\n", *thickness_mm);
+  }
+
+  /// Geant4's tables: type dielectric_LUT with a finish of LBNL, dielectric_LUTDAVIS with one of Davis. They
+  /// are used in the direction of the light, whatever the side.
+  void tabulated() {
+    const bool davis = type_ == kTypes[3];
+    const std::optional<std::string> stem = tables::data_stem(finish_);
+    if (!stem || davis != tables::is_davis_finish(finish_)) {
+      note("type \"" + type_ + "\" with finish \"" + finish_ + "\", for which Geant4 has no table");
+      return;
+    }
+    note(
+        "its table " + *stem +
+        " is read from Geant4's data RealSurface when the scene is: set G4REALSURFACEDATA, or write folder = "
+        "\"...\" beside its finish");
+    const EnergyTable reflectivity_table = table("REFLECTIVITY"), transmittance = table("TRANSMITTANCE");
+    std::string keys = "finish = \"" + finish_ + "\", from_outside = \"same\"";
+    if (davis && !result_.efficiency.empty()) keys += ", unreflected = \"absorbed\"";
+    std::string before;
+    if (!davis && !reflectivity_table.empty() && most(reflectivity_table) <= 0.0) return paint(true);
+    if (!davis && !reflectivity_table.empty()) {
+      const bool constant_share = most(reflectivity_table) - least(reflectivity_table) <= 1e-9;
+      if (constant_share && most(transmittance) <= 0.0) {
+        keys += fmt::format(", reflectance = {:.9g}", std::min(1.0, most(reflectivity_table)));
+      } else {
+        note(
+            "its REFLECTIVITY is drawn once a reflection; Geant4 draws it again with every direction that "
+            "does not leave the surface");
+        before = admission();
+      }
+    }
+    result_.toml = "model = \"geant4_table\"\n" + before + "geant4_table = { " + keys + " }\n";
   }
 
   void note_others() {

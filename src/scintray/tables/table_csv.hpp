@@ -5,7 +5,7 @@
 
 #include "scintray/optics/table.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Writes every node of both sides and all wavelengths (0: not stated): wavelength (nm), side, incidence,
 /// way, middle of the cell in polar angle and |azimuth| (deg), probability density of the outgoing direction
@@ -15,4 +15,4 @@ namespace scintray::exchange {
 /// table is for.
 void write_table_csv(const std::filesystem::path& path, const optics::SurfaceTable& table);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

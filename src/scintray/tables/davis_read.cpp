@@ -4,9 +4,9 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/exchange/davis.hpp"
+#include "scintray/tables/davis.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -175,4 +175,4 @@ optics::SurfaceTable read_davis(const std::filesystem::path& directions, const I
   return davis_table(pair, settings, files.directions.filename().string());
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

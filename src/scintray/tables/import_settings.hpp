@@ -7,7 +7,7 @@
 #include "scintray/core/words.hpp"
 #include "scintray/optics/table.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Treatment of light incident on an imported surface from outside, which the files do not describe.
 enum class FromOutside {
@@ -50,4 +50,4 @@ std::vector<optics::TableNode> outside_nodes(const optics::IndexPair& index, Fro
 std::vector<optics::TableNode> stepped_nodes(const std::vector<double>& edges_rad,
                                              const std::vector<optics::TableNode>& steps);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

@@ -1,4 +1,4 @@
-#include "scintray/exchange/table_csv.hpp"
+#include "scintray/tables/table_csv.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/exchange/table_side.hpp"
+#include "scintray/tables/table_side.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -82,4 +82,4 @@ void write_table_csv(const std::filesystem::path& path, const optics::SurfaceTab
   file.commit();
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

@@ -1,4 +1,4 @@
-#include "scintray/exchange/import_settings.hpp"
+#include "scintray/tables/import_settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/vec.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::vector<optics::TableNode> stepped_nodes(const std::vector<double>& edges_ra
   return nodes;
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

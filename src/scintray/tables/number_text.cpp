@@ -1,4 +1,4 @@
-#include "scintray/exchange/number_text.hpp"
+#include "scintray/tables/number_text.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "scintray/core/input_file.hpp"
 #include "scintray/core/zlib_stream.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -161,4 +161,4 @@ std::string load_number_file(const std::filesystem::path& path, NumberCount coun
   return *std::move(content);
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

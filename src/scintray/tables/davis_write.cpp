@@ -7,9 +7,9 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/exchange/davis.hpp"
+#include "scintray/tables/davis.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -148,4 +148,4 @@ std::vector<std::string> write_davis(const std::filesystem::path& directions,
   return losses(side, settings.side);
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

@@ -1,4 +1,4 @@
-#include "scintray/exchange/lbnl.hpp"
+#include "scintray/tables/lbnl.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -143,4 +143,4 @@ optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSe
   return lbnl_table(parse_lbnl(content, path.string(), layout), settings, path.filename().string());
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

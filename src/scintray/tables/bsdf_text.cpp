@@ -1,4 +1,4 @@
-#include "scintray/exchange/bsdf_text.hpp"
+#include "scintray/tables/bsdf_text.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "scintray/core/vec.hpp"
 #include "scintray/core/version.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -160,4 +160,4 @@ void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optic
   file.commit();
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

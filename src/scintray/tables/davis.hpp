@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "scintray/exchange/import_settings.hpp"
-#include "scintray/exchange/number_text.hpp"
-#include "scintray/exchange/table_side.hpp"
+#include "scintray/tables/import_settings.hpp"
+#include "scintray/tables/number_text.hpp"
+#include "scintray/tables/table_side.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 inline constexpr int kDavisDegrees = 90;  ///< reflectances: incidence rounded down to 0 ... 89 deg
 inline constexpr int kDavisBlocks = 91;   ///< blocks of directions, reflected and again transmitted
@@ -79,4 +79,4 @@ optics::SurfaceTable davis_table(const DavisPair& pair, const ImportSettings& se
 /// The table of a pair of files: both of the above.
 optics::SurfaceTable read_davis(const std::filesystem::path& directions, const ImportSettings& settings);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

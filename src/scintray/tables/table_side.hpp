@@ -6,7 +6,7 @@
 
 #include "scintray/optics/table.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Ways in which light leaves a surface.
 enum class Leaving { reflected, transmitted };
@@ -60,4 +60,4 @@ CubePoint cube_point(std::uint64_t k, const CubePoint& shift);
 /// A random shift for `cube_point`, from a seed and two numbers that identify its use.
 CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

@@ -1,4 +1,4 @@
-#include "scintray/exchange/table_side.hpp"
+#include "scintray/tables/table_side.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "scintray/core/philox.hpp"
 #include "scintray/core/text.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 namespace {
 
@@ -141,4 +141,4 @@ CubePoint random_shift(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
   return {u, v, rng.uniform()};
 }
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

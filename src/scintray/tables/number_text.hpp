@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Limits of the count of numbers in a file.
 struct NumberCount {
@@ -25,4 +25,4 @@ std::vector<float> parse_numbers(std::string_view content, const std::string& fi
 /// number.
 std::string load_number_file(const std::filesystem::path& path, NumberCount count);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

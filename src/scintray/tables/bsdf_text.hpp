@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "scintray/exchange/table_side.hpp"
+#include "scintray/tables/table_side.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Angles of the table, deg. `specular` are the angles of the reflected or refracted ray, the format's
 /// AngleOfIncidence. The azimuth is measured about that ray from the side of the normal, 0 to 180; the radial
@@ -49,4 +49,4 @@ std::vector<double> projected_cells(const BsdfAngles& angles, double specular_ra
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,
                 const BsdfSettings& settings);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

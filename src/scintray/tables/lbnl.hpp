@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scintray/exchange/import_settings.hpp"
-#include "scintray/exchange/number_text.hpp"
+#include "scintray/tables/import_settings.hpp"
+#include "scintray/tables/number_text.hpp"
 
-namespace scintray::exchange {
+namespace scintray::tables {
 
 /// Sizes of a table. Geant4 has only these; other numbers of incidences are for tests.
 struct LbnlLayout {
@@ -43,4 +43,4 @@ optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSe
 /// finishes, for which no data exist, states this.
 optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSettings& settings);
 
-}  // namespace scintray::exchange
+}  // namespace scintray::tables

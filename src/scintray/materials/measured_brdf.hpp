@@ -1,0 +1,30 @@
+#pragma once
+/// A reflector that scatters by a measured BRDF.
+
+#include <memory>
+
+#include "scintray/optics/opaque_face.hpp"
+#include "scintray/tables/brdf_table.hpp"
+
+namespace scintray::materials {
+
+/// Reflects by a table of a BRDF; the rest is absorbed. Between two wavelengths one of the tables is drawn
+/// with the weights of linear interpolation. The light is unpolarised: a polarised ray has a new
+/// polarisation.
+class MeasuredBrdfSurface : public optics::OpaqueFace {
+ public:
+  /// @param gap_index  as of OpaqueFace
+  MeasuredBrdfSurface(std::shared_ptr<const tables::MeasuredBrdf> brdf, double gap_index)
+      : OpaqueFace(gap_index), brdf_(std::move(brdf)) {}
+
+  const tables::MeasuredBrdf& brdf() const { return *brdf_; }
+
+ protected:
+  bool reflect_light(optics::Ray& ray, const core::Vec3& normal, double index,
+                     optics::SurfaceInteraction& at) const override;
+
+ private:
+  std::shared_ptr<const tables::MeasuredBrdf> brdf_;
+};
+
+}  // namespace scintray::materials
