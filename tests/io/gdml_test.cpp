@@ -226,7 +226,8 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
 <property name="REFLECTIVITY" ref="R95"/><property name="TRANSMITTANCE" ref="T04"/></opticalsurface>
 <opticalsurface name="white" model="unified" finish="ground" type="dielectric_metal" value="0.1">
 <property name="REFLECTIVITY" ref="R95"/><property name="TRANSMITTANCE" ref="T04"/></opticalsurface>
-<opticalsurface name="davis" model="3" finish="30" type="3" value="0"/>)";
+<opticalsurface name="davis" model="3" finish="30" type="3" value="0"/>
+<opticalsurface name="edge" model="4" finish="0" type="dielectric_dichroic" value="0"/>)";
   text.structure = gdml_volume("a", "it") + gdml_volume("b", "it") + gdml_volume("c", "it") +
                    gdml_volume("d", "it") +
                    R"(<skinsurface name="s1" surfaceproperty="rough"><volumeref ref="a"/></skinsurface>
@@ -261,12 +262,21 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   }
   CHECK_NOTHROW(built(scene));
 
+  const std::string without_skin = text.structure;
   text.structure += R"(<skinsurface name="s5" surfaceproperty="davis"><volumeref ref="d"/></skinsurface>)";
+  const SceneDraft tabulated = draft(text);
+  CHECK(tabulated.missing.empty());
+  const TomlNodePtr davis = written(tabulated).surfaces.at("davis");
+  CHECK(davis->find("model")->text == "geant4_table");
+  CHECK(davis->find("geant4_table")->find("finish")->text == "Rough_LUT");  // number 30 of G4SurfaceFinish
+
+  text.structure =
+      without_skin + R"(<skinsurface name="s5" surfaceproperty="edge"><volumeref ref="d"/></skinsurface>)";
   const SceneDraft table = draft(text);
   REQUIRE(table.missing.size() == 1);
-  check_contains(table.missing[0], "--surface davis=DATABASE_SURFACE");
+  check_contains(table.missing[0], "--surface edge=DATABASE_SURFACE");
   gdml::GdmlImport options;
-  options.surfaces["davis"] = "polished";
+  options.surfaces["edge"] = "polished";
   CHECK(written(draft(text, options)).parts[3].surface.name == "polished");
 }
 
