@@ -116,11 +116,13 @@ type = "count"
 name = "top"
 at = "detected"
 face = "eye:+z"
+way = "in"
 [[tally]]
 type = "count"
 name = "rest"
 at = "detected"
 face = "eye:other"
+way = "in"
 [[tally]]
 type = "exit_angle"
 face = "left:+x"
