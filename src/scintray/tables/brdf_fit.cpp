@@ -168,7 +168,7 @@ MeasuredBrdf fit_brdf(const std::vector<BrdfPoint>& points, const std::string& f
   for (const BrdfPoint& point : points) by_wavelength[point.wavelength_nm].push_back(point);
   MeasuredBrdf brdf;
   for (const auto& [nm, own] : by_wavelength) {
-    const auto refuse = [&](const std::string& what, const std::string& hint) {
+    const auto refuse = [&, nm = nm](const std::string& what, const std::string& hint) {
       throw core::InputError({{file}, fmt::format("at {:g} nm: {}", nm, what), hint});
     };
     try {
