@@ -146,7 +146,8 @@ TEST_CASE(
 
 TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width 1, summed and per photon") {
   const auto runs = runs_of(kBlackCrystal + kTallies, kRuns);
-  for (const auto& [tally, bin] : {std::pair{0, 0}, {0, 1}, {1, 0}}) {
+  for (const auto& place : {std::pair{0, 0}, {0, 1}, {1, 0}}) {
+    const int tally = place.first, bin = place.second;
     CAPTURE(tally);
     CAPTURE(bin);
     const auto number = static_cast<std::size_t>(tally);
