@@ -2,6 +2,7 @@
 # [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
 # Headers are included as "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not
 # installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
+# A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
 # NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
@@ -58,6 +59,9 @@ function(scintray_module name)
   add_library(${target} STATIC ${sources})
   add_library(scintray::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON UNITY_BUILD_BATCH_SIZE ${MODULE_JOIN})
+  if(name IN_LIST SCINTRAY_APART)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  endif()
   if(MODULE_NOT_TRACING)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
