@@ -309,7 +309,13 @@ TEST_CASE("a mirror scatters what its law has within a distance of the specular 
     for (std::size_t k = 0; k < kRadii.size(); ++k) {
       CAPTURE(law);
       CAPTURE(kRadii[k]);
-      CHECK(sigmas(binomial_estimate(inside_of[k], kRays), {within(kRadii[k]), 0.0}) < kSigmas);
+      const Estimate share = binomial_estimate(inside_of[k], kRays);
+      const double expected = within(kRadii[k]);
+      CHECK(sigmas(share, {expected, 0.0}) < kSigmas);
+      evidence("scatter_laws",
+               {law.substr(0, law.find(' ')), fmt::format("{:g}", kRadii[k]), fmt::format("{:.5f}", expected),
+                fmt::format("{:.5f} ± {:.5f}", share.value, share.error),
+                fmt::format("{:.1f}", sigmas(share, {expected, 0.0}))});
     }
   };
   check(kAbg, abg_within);

@@ -1,5 +1,7 @@
 // Laws of the surface models that are named in definitions: metals, surfaces by angle, slightly rough faces.
 // Those of optics have theirs in tests/physics/surface_laws_test.cpp.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -9,6 +11,7 @@
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/optics/coherent_layers.hpp"
 #include "support/agreement.hpp"
+#include "support/evidence.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -160,4 +163,57 @@ TEST_CASE(
   CHECK(equilibrium(surface_of(kEvenSplitter), 200'000).p_value > 6.3e-5);
   // It scatters a share that falls with the angle by Lambert's law, which no reciprocal surface can.
   CHECK(equilibrium(surface_of(kSlightlyRough), 200'000).p_value < 1e-6);
+}
+
+TEST_CASE("Law of DETECT's finishes: what each does with unpolarised light of an angle") {
+  // What a user of DETECT2000 described (gate-users, April 2009): METAL mirrors, PAINT scatters by Lambert's
+  // law, both whatever the next medium is; POLISH and GROUND are Fresnel's, reflecting as a mirror and by
+  // Lambert's law.
+  struct Finish {
+    std::string name, definition;
+    bool fresnel, diffuse;
+  };
+  constexpr double kCoefficient = 0.9;
+  std::uint64_t seed = 90;
+  constexpr std::uint64_t kRays = 100'000;
+  const std::string reflects = fmt::format("reflectance = {}\n", kCoefficient);
+  for (const Finish& finish :
+       {Finish{"METAL", "detect_metal", false, false}, Finish{"PAINT", "detect_paint", false, true},
+        Finish{"POLISH", "detect_polish", true, false}, Finish{"GROUND", "detect_ground", true, true}})
+    for (const double angle_deg : {20.0, 50.0}) {
+      const Surface surface =
+          surface_of("base = \"" + finish.definition + "\"\n" + (finish.fresnel ? "" : reflects));
+      const double cosine = std::cos(angle_deg * kDegree), sine = std::sin(angle_deg * kDegree);
+      const FresnelCoefficients law = fresnel(cosine, kIndex.inside, kIndex.outside);
+      const Vec3 incident = cosine * Vec3::UnitZ() + sine * Vec3::UnitX();
+      ++seed;
+      std::uint64_t reflected = 0;
+      Moments out;
+      for (std::uint64_t i = 0; i < kRays; ++i) {
+        Rng rng(seed, StreamKind::other, i);
+        Ray ray{incident, Vec3::Zero()};
+        const SurfaceOutcome outcome = surface.interact(ray, Side::inside, Vec3::UnitZ(), kIndex, kNm, rng);
+        if (outcome == SurfaceOutcome::inside) {
+          ++reflected;
+          out.add(-ray.direction.z());
+        } else if (outcome == SurfaceOutcome::outside) {
+          REQUIRE(finish.fresnel);
+          REQUIRE(std::abs(ray.direction.z() - law.cos_refracted) < 1e-6);
+        }
+      }
+      CAPTURE(finish.name);
+      CAPTURE(angle_deg);
+      const double share = finish.fresnel ? law.unpolarised() : kCoefficient;
+      const Estimate measured = binomial_estimate(reflected, kRays);
+      CHECK(sigmas(measured, {share, 0.0}) < test::kSigmas);
+      const double mean_cosine = finish.diffuse ? 2.0 / 3.0 : cosine;
+      const Estimate mean = finish.diffuse ? out.mean() : Estimate{out.mean().value, 1e-7};
+      CHECK(sigmas(mean, {mean_cosine, 0.0}) < test::kSigmas);
+      test::evidence("detect_finishes",
+                     {finish.name, fmt::format("{:g}", angle_deg), fmt::format("{:.4f}", share),
+                      fmt::format("{:.4f} ± {:.4f}", measured.value, measured.error),
+                      fmt::format("{:.1f}", sigmas(measured, {share, 0.0})),
+                      fmt::format("{:.4f}", mean_cosine), fmt::format("{:.4f}", out.mean().value),
+                      finish.diffuse ? fmt::format("{:.1f}", sigmas(mean, {mean_cosine, 0.0})) : "exact"});
+    }
 }
