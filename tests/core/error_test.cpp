@@ -46,6 +46,9 @@ TEST_CASE("The nearest word is found within a third of the length, at least two 
   CHECK(nearest_word("kitten", {"sitting"}).empty());  // distance 3, the textbook example
   CHECK(nearest_word("wavelengt", {"wavel", "wavelength"}) == "wavelength");
   CHECK(nearest_word("x", {}).empty());
+  // Characters count, not bytes: one dash of a word processor is one character of three bytes.
+  CHECK(nearest_word("crystal", {"cr\u2014ystal"}) == "cr\u2014ystal");
+  CHECK(nearest_word("\u00b5m", {"\u03bcm"}) == "\u03bcm");
 }
 
 TEST_CASE("Case and separators do not make a word another one, and a replaced word is no near one") {

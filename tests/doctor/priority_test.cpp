@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <regex>
+
 #include "doctor/doctor_scenes.hpp"
 #include "support/words.hpp"
 
@@ -124,4 +128,30 @@ TEST_CASE("Coaxial cylinders cut each other whatever their numbers of sides") {
     CHECK(scene.parts[PartId(0)].volume_mm3 ==
           doctest::Approx(30.0 * (area(outer, 0.75) - area(inner, 0.5))).epsilon(1e-6));
   }
+}
+
+TEST_CASE("Where tangent solids cannot be cut, the change of the scene that is advised makes it succeed") {
+  // The inner prism has a corner on the outer one's: nothing is left between them there.
+  const auto rods = [](double radius, double x) {
+    return lit_scene(
+        fmt::format(
+            "[[part]]\nname = \"glue\"\ncylinder = {{ radius = \"2 mm\", height = \"30 mm\", segments = 32 "
+            "}}\nmedium = \"n15\"\nsurface = \"flat\"\n[[part]]\nname = \"clad\"\ncylinder = {{ radius = "
+            "\"{} mm\", height = \"60 mm\", segments = 24 }}\ntranslate = [\"{} mm\", \"0 mm\", \"-15 "
+            "mm\"]\nmedium = \"lso\"\nsurface = \"flat\"\npriority = 3\n",
+            radius, x),
+        "clad", 10);
+  };
+  const std::string refused = refusal(rods(1.8, 0.2));
+  check_contains(refused, {"\"glue\"", "cannot be cut by \"clad\""});
+  std::smatch words;
+  double radius = 1.8, x = 0.2;
+  if (std::regex_search(refused, words, std::regex("moved by ([-+0-9.e]+) mm along x")))
+    x += std::stod(words[1]);
+  else if (std::regex_search(refused, words, std::regex("([0-9.e-]+) mm (larger|smaller) in radius")))
+    radius += (words[2] == "larger" ? 1.0 : -1.0) * std::stod(words[1]);
+  else
+    FAIL("no change is advised: " << refused);
+  CAPTURE(refused);
+  CHECK_NOTHROW(SceneBuilder().build(scene_spec(rods(radius, x))));
 }

@@ -129,25 +129,35 @@ TEST_CASE(
   CHECK(read.mesh.groups == std::vector<std::string>{"crystal:paint"});
 }
 
-TEST_CASE("COLLADA: <skew> turns its first axis towards the second, along which points move") {
+TEST_CASE("COLLADA: <skew> moves points along its first axis, in proportion to the way along the second") {
   const auto skewed = [](const std::string& numbers) {
     std::string text = collada_text("<unit meter=\"0.001\" name=\"millimeter\"/>");
     const std::string from = "<translate>10 0 0</translate>";
     text.replace(text.find(from), from.size(), "<skew>" + numbers + "</skew>");
     return mesh_file("skew.dae", text);
   };
-  // The box of 1 x 2 x 3 mm: y turned towards x by 45 deg moves points by y along x; then in the plane of two
-  // axes 45 deg apart, of which 15 deg leave 30: cot 30 deg - cot 45 deg.
-  for (const auto& [numbers, shear] :
-       {std::pair{"45 0 1 0 1 0 0", 1.0}, {"15 1 1 0 1 0 0", std::sqrt(3.0) - 1.0}, {"0 0 2 0 3 0 0", 0.0}}) {
-    CAPTURE(numbers);
-    const MeshImport read = import_mesh(skewed(numbers), 0.0);
-    const MeshDiagnosis diagnosis = diagnose(read.mesh);
+  // The box of 1 x 2 x 3 mm. The second to fifth are those of the COLLADA Conformance Test Suite
+  // (node_skew_cube.dae to node_skew_cube3.dae); its picture of the first of them shows which axis is which.
+  const double s = std::sqrt(0.5);
+  struct Skew {
+    const char* numbers;
+    Vec3 low, high;
+    double volume;
+  };
+  for (const Skew& skew : {Skew{"45 1 0 0 0 1 0", {0, 0, 0}, {3, 2, 3}, 6},
+                           {"45 1 1 0 0 0 1", {0, 0, 0}, {1 + 3 * s, 2 + 3 * s, 3}, 6},
+                           {"-45 1 1 0 0 0 1", {-3 * s, -3 * s, 0}, {1, 2, 3}, 6},
+                           {"45 0 1 1 0 0 1", {0, 0, 0}, {1, 2 + 3 * s, 3 + 3 * s}, 6 * (1 + s)},
+                           {"45 1 1 0 1 0 0", {0, 0, 0}, {1 + s, 2 + s, 3}, 6 * (1 + s)},
+                           {"0 0 2 0 3 0 0", {0, 0, 0}, {1, 2, 3}, 6}}) {
+    CAPTURE(skew.numbers);
+    const MeshDiagnosis diagnosis = diagnose(import_mesh(skewed(skew.numbers), 0.0).mesh);
     CHECK(diagnosis.sound());
-    CHECK(diagnosis.volume_mm3 == doctest::Approx(6.0));
-    CHECK(diagnosis.bounds.min().norm() < 1e-9);
-    CHECK((diagnosis.bounds.max() - Vec3(1.0 + 2.0 * shear, 2.0, 3.0)).norm() < 1e-9);
+    CHECK(diagnosis.volume_mm3 == doctest::Approx(skew.volume));
+    CHECK((diagnosis.bounds.min() - skew.low).norm() < 1e-6);
+    CHECK((diagnosis.bounds.max() - skew.high).norm() < 1e-6);
   }
-  for (const char* numbers : {"45 1 1 0 1 0 0", "90 0 1 0 1 0 0", "-90 0 1 0 1 0 0", "0 0 0 0 1 0 0"})
+  for (const char* numbers :
+       {"90 0 1 0 1 0 0", "-90 0 1 0 1 0 0", "120 0 1 0 1 0 0", "45 0 0 0 1 0 0", "-45 1 0 0 1 0 0"})
     check_refused(skewed(numbers), 0.0, "<skew>");
 }

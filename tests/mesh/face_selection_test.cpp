@@ -104,3 +104,46 @@ TEST_CASE("Conditions combine, and nearest is one triangle") {
   CHECK(count(kBox, nearest) == 1);
   CHECK(groups_where(kBox, nearest) == std::set<std::string>{"-z"});
 }
+
+TEST_CASE("A smooth region goes around a wall and over fillets, and stops at edges") {
+  // 24 segments: facets 15 degrees apart; the ends at 90 degrees.
+  const TriMesh cylinder = subdivide_faces(make_cylinder(1.0, 2.0, 24), 2);
+  FaceSelector selector;
+  selector.smooth_region = Vec3(5.0, 0.1, 1.0);
+  CHECK(groups_where(cylinder, selector) == std::set<std::string>{"side"});
+  CHECK(count(cylinder, selector) == 24 * 2 * 4);
+  selector.edge_angle_rad = 14.0 * kDegree;
+  CHECK(count(cylinder, selector) == 2 * 4);
+  selector.edge_angle_rad = 91.0 * kDegree;
+  CHECK(count(cylinder, selector) == static_cast<std::ptrdiff_t>(cylinder.triangles.size()));
+  selector.edge_angle_rad = -1.0;
+  CHECK_THROWS_AS(select_triangles(cylinder, selector), InputError);
+}
+
+TEST_CASE("A smooth region grows around a group, and combines with other conditions") {
+  const TriMesh two =
+      joined(make_cylinder(1.0, 2.0, 24),
+             transformed(make_cylinder(1.0, 2.0, 24), Eigen::Affine3d(Eigen::Translation3d(5, 0, 0))));
+  FaceSelector selector;
+  selector.smooth_around = "side";
+  CHECK(groups_where(two, selector) == std::set<std::string>{"side"});
+  CHECK(count(two, selector) == 2 * 48);  // both bodies have the group
+  selector.box = Eigen::AlignedBox3d(Vec3(3, -2, -1), Vec3(7, 2, 3));
+  CHECK(count(two, selector) == 48);
+  selector.smooth_around = "roof";
+  CHECK(count(two, selector) == 0);
+}
+
+TEST_CASE("Smooth regions end at groups where that is asked for") {
+  TriMesh box = subdivide_faces(kBox, 2);
+  const std::vector<std::uint32_t> apart = smooth_regions(box, 30.0 * kDegree);
+  CHECK(std::set(apart.begin(), apart.end()).size() == 6);
+  const std::vector<std::uint32_t> all = smooth_regions(box, 90.5 * kDegree);
+  CHECK(std::set(all.begin(), all.end()).size() == 1);
+  const std::vector<std::uint32_t> by_group = smooth_regions(box, 90.5 * kDegree, true);
+  CHECK(std::set(by_group.begin(), by_group.end()).size() == 6);
+  std::vector<char> mask(box.triangles.size(), 0);
+  mask[3] = 1;
+  const std::vector<char> whole = whole_regions(mask, by_group);
+  CHECK(std::count(whole.begin(), whole.end(), 1) == 8);
+}

@@ -2,6 +2,7 @@
 #include "scintray/mesh/import/mesh_format.hpp"
 
 #include "mesh/toy_format.hpp"
+#include "scintray/mesh/import/mesh_files.hpp"
 
 using namespace scintray;
 using namespace scintray::mesh;
@@ -34,6 +35,49 @@ TEST_CASE("Body and scale of the options hold for a mesh format from outside") {
   CHECK(lid.mesh.triangles.size() == 4);
   CHECK(lid.mesh.volume() == doctest::Approx(125.0));  // a sixth of 1 x 2 x 3 cm^3, halved in length
   CHECK(lid.bodies == std::vector<std::string>{"crystal", "lid"});
+}
+
+TEST_CASE("A file of several bodies is read once for all announced imports of it") {
+  static int reads = 0;
+  reads = 0;
+  MeshFormats formats;
+  formats.add({.extension = ".toy", .states_unit = true, .read = [](const MeshFile& file) {
+                 ++reads;
+                 return read_lines_of_toy(file);
+               }});
+  ImportOptions options;
+  options.formats = &formats;
+  const auto two = mesh_file("two.toy", kToyBox + "solid lid\nf 0 2 1\nf 0 1 4\nf 0 4 2\nf 1 2 4\n");
+  MeshFiles files;
+  for (int i = 0; i < 4; ++i) files.announce(two);
+  for (const char* body : {"lid", "crystal", "2", ""}) {
+    CAPTURE(body);
+    options.body = body;
+    const MeshImport alone = import_mesh(two, options);
+    reads = 0;
+    const MeshImport shared = files.import(two, options);
+    CHECK(reads == (options.body == "lid" ? 1 : 0));
+    CHECK(shared.mesh.vertices == alone.mesh.vertices);
+    CHECK(shared.mesh.triangles == alone.mesh.triangles);
+    CHECK(shared.mesh.group == alone.mesh.group);
+    CHECK(shared.mesh.groups == alone.mesh.groups);
+    CHECK(shared.bodies == alone.bodies);
+    CHECK(shared.notes == alone.notes);
+  }
+  // Nothing is kept for imports that nobody announced, nor for another tessellation or scale.
+  options.body = "lid";
+  reads = 0;
+  (void)files.import(two, options);
+  files.announce(two);
+  files.announce(two);
+  (void)files.import(two, options);
+  options.scale = 2.0;
+  CHECK(files.import(two, options).mesh.volume() == doctest::Approx(8000.0));
+  CHECK(reads == 3);
+  options.body = "roof";
+  files.announce(two);
+  files.announce(two);
+  check_contains(complaint_of([&] { files.import(two, options); }), {"no body \"roof\""});
 }
 
 TEST_CASE("A mesh format is known only where it was added") {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -41,12 +42,14 @@ std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
 void analyze(const AnalyzeOptions& options) {
   const JsonAnswer answer(options.json);
   const std::filesystem::path results = result_to_analyze(options);
-  const tally::RunResult run = results::read_results(results);
+  const tally::RunResult run =
+      with_progress("reading " + results.string(), [&] { return results::read_results(results); });
   const scene_file::AnalysisSpec settings =
       options.settings.empty()
           ? scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file)
           : scene_file::analysis_of_text(config::read_text_file(options.settings), options.settings.string());
-  const std::vector<analysis::EventAnalysis> analyses = simulation::analyze_results(results, run, settings);
+  const std::vector<analysis::EventAnalysis> analyses = with_progress(
+      "analysing the events", [&] { return simulation::analyze_results(results, run, settings); });
   if (analyses.empty())
     throw core::InputError(
         core::Problem{{results.string()},

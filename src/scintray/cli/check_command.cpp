@@ -90,6 +90,7 @@ void check_scene(const CheckOptions& options) {
   if (!options.picture.empty()) expect_picture_name(options.picture);
   const scene_file::SceneFile file = load_or_draw(options);
   ProgressLine line(true);
+  const ActivityWatch watch(line);
   simulation::SimulationOptions run;
   run.surface_hooks = watched_surfaces(line);
   simulation::Simulation simulation(file, run);
@@ -105,11 +106,14 @@ void check_scene(const CheckOptions& options) {
       throw;
     }
     simulation.release(point);
-    line.clear();
-    if (!shown) continue;
+    if (!shown) {
+      line.clear();
+      continue;
+    }
     const scene_file::SceneSpec& spec = ready->spec();
     const scene::BuiltScene& built = *ready->built();
     const GapFindings gaps = find_gaps(*ready, options.all);
+    line.clear();
     if (point == 0 && !options.picture.empty()) draw_scene(options.picture, built.placed, gaps.warnings);
     if (file.points() > 1) {
       std::cout << (point > 0 ? "\n" : "") << "point " << point + 1 << " of " << file.points() << ":";

@@ -81,6 +81,7 @@ void run_fit(const FitOptions& options) {
   if (output.empty()) output = options.scene.stem().string() + "_fit.h5";
   simulation::check_fit_path(output);
   ProgressLine line(!options.quiet);
+  const ActivityWatch watch(line);
   simulation::SceneFitOptions fit = fit_options(options, line);
   if (const auto spec = file.spec(0).fit; spec && !options.quiet)
     fit.step = [&line, spec](const analysis::CurveFitStep& step) {

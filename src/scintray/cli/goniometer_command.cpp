@@ -150,6 +150,7 @@ void run_goniometer(const GoniometerOptions& options) {
 
   const InterruptGuard guard;
   ProgressLine line(true);
+  const ActivityWatch watch(line);
   materials::SurfaceFactory factory = watched_factory(line);
   const analysis::SamplePlace place = place_of(options.sample, options.surface, options.outside);
   settings.wavelength_nm = place.wavelength_nm;
@@ -157,9 +158,9 @@ void run_goniometer(const GoniometerOptions& options) {
   add_file_surface(database, options.surface);
   const analysis::SampleSurface sample =
       analysis::make_sample_surface(database, factory, place, options.on_the_spot);
-  line.clear();
   settings.stop = [] { return InterruptGuard::requested().load(); };
   const auto readings = analysis::sweep_incidence(sample.surface, sample.index, settings, angles);
+  line.clear();
 
   std::cout << fmt::format(
       "surface      {}\nbetween      {}\nrays         {} an angle, seed {}, unpolarised\n", options.surface,

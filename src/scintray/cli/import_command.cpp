@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/scene_draft.hpp"
@@ -99,8 +100,9 @@ exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::
 void import_scene(const SceneImportArguments& arguments) {
   const JsonAnswer answer(arguments.json);
   const std::filesystem::path scene = exchange::scene_file_of(arguments.output);
-  const exchange::SceneDraft draft = draft_of(arguments, scene);
-  exchange::write_scene_draft(draft, scene);
+  const exchange::SceneDraft draft =
+      with_progress("reading " + arguments.file.string(), [&] { return draft_of(arguments, scene); });
+  with_progress("writing " + scene.string(), [&] { exchange::write_scene_draft(draft, scene); });
   for (const std::string& note : draft.notes) std::cout << "not carried over, or different: " << note << "\n";
   std::cout << "wrote " << scene.string();
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <vector>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/core/words.hpp"
@@ -96,7 +97,8 @@ topography::ReadOptions read_options(const MapOptions& options) {
 }
 
 topography::HeightMap read_map(const MapOptions& options) {
-  return topography::read_height_map(options.map, read_options(options));
+  return with_progress("reading " + options.map,
+                       [&] { return topography::read_height_map(options.map, read_options(options)); });
 }
 
 void add_preparation_options(CLI::App& app, PreparationOptions& options) {

@@ -7,6 +7,7 @@
 #include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/map_numbers.hpp"
 
@@ -38,7 +39,7 @@ void prepare_map(const PrepareArguments& arguments) {
   topography::HeightMap before = read_map(arguments.map);
   topography::prepare(before, cropping);
   topography::HeightMap after = before;
-  topography::prepare(after, preparation);
+  with_progress("preparing the map", [&] { topography::prepare(after, preparation); });
   print_before_and_after(before, after);
   std::cout << "\n";
   for (const std::string& step : after.steps) std::cout << step << "\n";

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
@@ -50,7 +51,9 @@ void merge(const MergeOptions& options) {
   }
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::ResultsFile results(output);
-  const tally::RunResult result = simulation::merge_ranges(files, results, options.partial);
+  const tally::RunResult result = with_progress(
+      "reading the parts", [&] { return simulation::merge_ranges(files, results, options.partial); },
+      !options.quiet);
   const report::RunAnalysis analyses =
       show_results(output, result, {!options.quiet, !options.no_report, !options.no_view});
   answer.print_text([&] { return report::result_json(result, analyses); });

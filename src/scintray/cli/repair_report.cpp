@@ -5,6 +5,7 @@
 #include <iostream>
 #include <set>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/mesh/export/gltf_writer.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
@@ -68,10 +69,12 @@ bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& opt
     throw core::InputError({{},
                             "a repaired mesh cannot be written as \"" + out.string() + "\"",
                             "choose a name that ends in .stl or .ply or, to keep groups, in .glb"});
-  mesh::MeshImport imported = mesh::import_mesh(in, options);
+  mesh::MeshImport imported =
+      with_progress("reading " + in.string(), [&] { return mesh::import_mesh(in, options); });
   std::cout << in.string() << (options.body.empty() ? "" : ", body \"" + options.body + "\"") << "\n";
   for (const std::string& note : imported.notes) std::cout << "  on reading: " << note << "\n";
-  const mesh::RepairedMesh repaired = mesh::repair_mesh(std::move(imported.mesh), settings);
+  const mesh::RepairedMesh repaired = with_progress(
+      "repairing " + in.string(), [&] { return mesh::repair_mesh(std::move(imported.mesh), settings); });
   print_state("found", repaired.before);
   for (const mesh::RepairStep& step : repaired.steps)
     std::cout << fmt::format("  done: {}: {}{}\n", step.what, step.where.count, places(step.where));
@@ -79,8 +82,9 @@ bool repair_file(const std::filesystem::path& in, const mesh::ImportOptions& opt
   for (const std::string& reason : repaired.refused) std::cout << "  not done: " << reason << "\n";
 
   write(out, options.body.empty() ? out.stem().string() : options.body, repaired.mesh);
-  const mesh::MeshDiagnosis written =
-      mesh::diagnose(mesh::import_mesh(out, ending == ".glb" ? 0.0 : 1.0).mesh);
+  const mesh::MeshDiagnosis written = with_progress("examining what was written", [&] {
+    return mesh::diagnose(mesh::import_mesh(out, ending == ".glb" ? 0.0 : 1.0).mesh);
+  });
   print_state("written to " + out.string(), written);
   if (written.bodies > 1)
     std::cout << fmt::format(

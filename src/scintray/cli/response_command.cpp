@@ -99,6 +99,7 @@ void build(const BuildOptions& options) {
   simulation::check_response_path(options.output);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
+  const ActivityWatch watch(line);
   map_options.simulation.threads = options.threads;
   map_options.simulation.seed = options.seed;
   map_options.simulation.surface_hooks = watched_surfaces(line);
@@ -127,6 +128,7 @@ void run(const MappedRunOptions& options) {
   const JsonAnswer answer(options.json);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
+  const ActivityWatch watch(line);
   simulation::SimulationOptions simulation;
   simulation.threads = options.threads;
   simulation.seed = options.seed;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/units.hpp"
@@ -213,7 +214,7 @@ void reweight(const ReweightOptions& options) {
   const std::vector<simulation::PropertyScan> scans = scans_of(options);
   const tally::RunResult run = results::read_results(options.results);
   const std::vector<simulation::ReweightedPoint> points =
-      simulation::reweight_results(options.results, run, scans);
+      with_progress("reweighting", [&] { return simulation::reweight_results(options.results, run, scans); });
   if (!run.complete()) std::cout << "partial result: " << run.partial_reason << "\n";
   print(run, scans, points);
   answer.print([&] { return json_of_points(run, scans, points); });

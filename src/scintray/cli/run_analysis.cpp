@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/cli/scene_view.hpp"
 #include "scintray/report/acceptance.hpp"
 #include "scintray/report/pages/html_report.hpp"
@@ -27,8 +28,9 @@ void check_criteria(const scene_file::SceneFile& scene) {
 report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run) {
   const scene_file::AnalysisSpec analysis =
       scene_file::analysis_of_text(run.header.scene_text, run.header.scene_file);
-  return {simulation::analyze_results(results, run, analysis), analysis.reference,
-          scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
+  return {with_progress("analysing the events",
+                        [&] { return simulation::analyze_results(results, run, analysis); }),
+          analysis.reference, scene_file::criteria_of_text(run.header.scene_text, run.header.scene_file),
           results::read_surfaces(results)};
 }
 

@@ -167,6 +167,7 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
   check_criteria(file);
   ProgressLine line(!options.quiet);
+  const ActivityWatch watch(line);
   const std::filesystem::path output = output_path(options, scene, file);
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::Simulation simulation(file, simulation_options(options, line));

@@ -55,9 +55,12 @@ double closing_tolerance(double gap_mm) {
   return digit * std::ceil(1.05 * gap_mm / digit - 1e-6);
 }
 
-core::Problem warning_of(const GapGroup& group, const std::string& ambient, double tolerance_mm) {
+core::Problem warning_of(const GapGroup& group, const std::vector<contact::PlacedMesh>& placed,
+                         const std::string& ambient, double tolerance_mm) {
   const contact::SmallGap& first = group.gaps.front();
   core::Problem warning;
+  for (const contact::PlacedMesh& part : placed)
+    if (part.name == first.b) warning.where = part.where;
   const std::string place =
       fmt::format("({:.5g}, {:.5g}, {:.5g}) mm", first.place.x(), first.place.y(), first.place.z());
   warning.what = group.gaps.size() == 1
@@ -120,7 +123,7 @@ GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one) 
     if (one_builder(group.gaps.front()))
       findings.intended.push_back(intended_text(group, spec.ambient.name));
     else
-      findings.warnings.push_back(warning_of(group, spec.ambient.name, tolerance_mm));
+      findings.warnings.push_back(warning_of(group, point.built()->placed, spec.ambient.name, tolerance_mm));
   return findings;
 }
 
@@ -137,7 +140,9 @@ void print_gaps(std::ostream& out, const GapFindings& gaps) {
   for (const std::string& note : gaps.intended) out << "note: " << note << "\n";
   for (std::size_t i = 0; i < gaps.warnings.size(); ++i) {
     out << "warning" << (gaps.warnings.size() > 1 ? fmt::format(" {}", i + 1) : "") << ": "
-        << gaps.warnings[i].what << "\n  hint: " << gaps.warnings[i].hint << "\n";
+        << gaps.warnings[i].what
+        << (gaps.warnings[i].where.file.empty() ? "" : "; the latter is at " + gaps.warnings[i].where.text())
+        << "\n  hint: " << gaps.warnings[i].hint << "\n";
   }
 }
 

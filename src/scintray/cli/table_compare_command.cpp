@@ -41,6 +41,7 @@ std::vector<double> incidences() {
 std::vector<analysis::SampleSurface> make_all(const CompareOptions& options, const std::string& outside,
                                               bool on_the_spot) {
   ProgressLine line(true);
+  const ActivityWatch watch(line);
   materials::SurfaceFactory factory = watched_factory(line);
   const materials::MaterialDatabase database = database_of(options.sample);
   std::vector<analysis::SampleSurface> all;

@@ -120,6 +120,7 @@ void run_list(const ListOptions& options) {
   const JsonAnswer answer(options.json);
   const InterruptGuard guard;
   ProgressLine line(true);
+  const ActivityWatch watch(line);
   materials::SurfaceFactory factory = watched_factory(line);
   const materials::MaterialDatabase database = database_of(options.sample);
   const analysis::SamplePlace place = place_of(options.sample, "", options.outside);

@@ -107,6 +107,7 @@ std::shared_ptr<const optics::SurfaceTable> table_with_progress(
     const std::optional<materials::CacheEntry>& entry, const BuildTable& build) {
   const InterruptGuard guard;
   ProgressLine line(true);
+  const ActivityWatch watch(line);
   const auto traced = [&] {
     return build([&](double share) {
       line.show("table", 100.0 * share, 100.0, "percent");

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/scene_view.hpp"
 #include "scintray/core/output_file.hpp"
@@ -25,11 +26,15 @@ void view_scene(const ViewOptions& options) {
   simulation::SimulationOptions settings;
   settings.seed = options.seed;
   simulation::Simulation simulation(scene_file::SceneFile::load(options.scene), settings);
-  const auto point = simulation.point(options.point);
-  report::SceneView view{point->spec().title,
-                         view_parts(point->built()->placed),
-                         simulation::photon_paths(*point, options.paths),
-                         {}};
+  std::shared_ptr<const simulation::SimulationPoint> point;
+  report::SceneView view = with_progress("building the scene", [&]() -> report::SceneView {
+    point = simulation.point(options.point);
+    core::report_activity("tracing paths");
+    return {point->spec().title,
+            view_parts(point->built()->placed),
+            simulation::photon_paths(*point, options.paths),
+            {}};
+  });
   if (view.title.empty()) view.title = options.scene.filename().string();
   for (const core::Problem& warning : find_gaps(*point).warnings) {
     report::ViewMark mark{warning.what, {}};

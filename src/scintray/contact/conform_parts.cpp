@@ -7,6 +7,7 @@
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/facing.hpp"
 #include "scintray/contact/detail/stitch.hpp"
+#include "scintray/core/activity.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 
 namespace scintray::contact {
@@ -153,6 +154,7 @@ void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<Conformi
     };
     const auto first = named(spec.first), second = named(spec.second);
     if (first == parts.end() || second == parts.end()) continue;  // reported where names are looked up
+    core::report_activity("closing curved contacts: " + spec.first + ", " + spec.second);
     conform(*first, *second, spec, difference_axes({*first, *second}), flat_mm, problems);
   }
 }

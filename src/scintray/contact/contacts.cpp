@@ -11,6 +11,7 @@
 #include "scintray/contact/detail/clusters.hpp"
 #include "scintray/contact/detail/nesting.hpp"
 #include "scintray/contact/detail/overlay.hpp"
+#include "scintray/core/activity.hpp"
 #include "scintray/core/error.hpp"
 
 namespace scintray::contact {
@@ -97,7 +98,10 @@ class Resolver {
     for (std::uint32_t b = 0; b < bodies_.size(); ++b)
       for (std::uint32_t t = 0; t < bodies_[b].triangles.size(); ++t)
         if (!id_of_.contains({b, t})) pass({b, t});
-    for (const auto& group : groups_) resolve(group);
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      core::report_activity("overlaying faces that touch", i, groups_.size());
+      resolve(groups_[i]);
+    }
     return std::move(result_);
   }
 
@@ -351,6 +355,7 @@ std::string also_at(const std::string& name, const core::FileLocation& where,
 std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm) {
   const double rounding = rounding_length(parts);
   check_tolerance(tolerance_mm, rounding);
+  core::report_activity("looking for parts that touch");
   const Eigen::Matrix3d axes = natural_axes(parts);
   std::vector<Body> bodies;
   for (const PlacedPart& part : parts) bodies.emplace_back(part, axes);
@@ -361,6 +366,7 @@ std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& p
   const std::vector<BodyPair> pairs = near_pairs(bodies, 8.0 * tolerance_mm);
   const Clusters clusters = find_clusters(bodies, parts, pairs, tolerance_mm);
   snap(bodies, clusters, tolerance_mm, rounding);
+  core::report_activity("looking for parts inside others");
   const Nesting nesting = find_nesting(bodies, pairs, tolerance_mm);
   refuse_overlaps(parts, nesting.overlaps, tolerance_mm);
   return Resolver(bodies, nesting, clusters, pairs, rounding).run();

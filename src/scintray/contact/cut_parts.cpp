@@ -6,7 +6,9 @@
 
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/nesting.hpp"
+#include "scintray/core/activity.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::contact {
 
@@ -40,6 +42,51 @@ std::uint32_t cut_face(PlacedMesh& part, const PlacedMesh& by) {
   return static_cast<std::uint32_t>(part.faces.size() - 1);
 }
 
+/// True when the difference is a solid that a part can be.
+bool can_cut(const PlacedMesh& part, const mesh::TriMesh& tool, const Eigen::Matrix3d& axes,
+             double tolerance_mm) {
+  const auto cut = difference_on_grid(part.mesh, tool, axes, tolerance_mm);
+  return cut && !cut->mesh.triangles.empty() &&
+         mesh::mesh_problems(mesh::diagnose_in_place(cut->mesh), part.name).empty();
+}
+
+/// The smallest change of the part that cuts, of those tried, with which the cut succeeds: where solids are
+/// tangent, or their facets cross at small angles, what is left has edges without thickness.
+std::string change_that_helps(const PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes,
+                              double tolerance_mm) {
+  const Eigen::AlignedBox3d& box = by.diagnosis.bounds;
+  const double half_size = 0.5 * box.sizes().minCoeff();
+  constexpr std::size_t kMostTriangles = 100'000;
+  if (part.mesh.triangles.size() + by.mesh.triangles.size() > kMostTriangles || !(half_size > 0.0)) return "";
+  for (const double factor : {10.0, 30.0, 100.0, 300.0, 1000.0}) {
+    const double step = factor * tolerance_mm;
+    if (step > 0.2 * half_size) break;
+    for (const double sign : {1.0, -1.0}) {
+      const double scale = 1.0 + sign * step / half_size;
+      const Eigen::Affine3d sized = Eigen::Translation3d(box.center()) * Eigen::Scaling(scale) *
+                                    Eigen::Translation3d(core::Vec3(-box.center()));
+      if (can_cut(part, mesh::transformed(by.mesh, sized), axes, tolerance_mm))
+        return fmt::format(
+            "the cut succeeds when \"{}\" is {:.3g} mm {} in radius, or half its smallest side: change its "
+            "radius or sides so, or the scale of its mesh to {:.6g} of what it is",
+            by.name, step, sign > 0.0 ? "larger" : "smaller", scale);
+      for (int axis = 0; axis < 3; ++axis) {
+        core::Vec3 shift = core::Vec3::Zero();
+        shift[axis] = sign * step;
+        mesh::TriMesh moved = by.mesh;
+        mesh::translate(moved, shift);
+        if (can_cut(part, moved, axes, tolerance_mm))
+          return fmt::format(
+              "the cut succeeds when \"{}\" is moved by {:+.3g} mm along {}: add that to its translate, or "
+              "to the "
+              "places in its shape",
+              by.name, sign * step, "xyz"[axis]);
+      }
+    }
+  }
+  return "";
+}
+
 void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, double tolerance_mm,
          core::Problems& problems) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
@@ -51,18 +98,21 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
         hint, {{at.x(), at.y(), at.z()}});
   };
   const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
-  const std::string other_sides =
-      "their triangles cross at angles too small for this tolerance: give one of the round parts other "
-      "sides, "
-      "as segments = 48 in place of 64 or a tessellation deviation smaller by a fifth";
-  if (!cut) return refuse("the result would not be a proper solid", other_sides);
+  const auto advice = [&] {
+    const std::string change = change_that_helps(part, by, axes, tolerance_mm);
+    return "the parts are tangent, or their triangles cross at angles too small for this tolerance: " +
+           (change.empty() ? "give one of the round parts other sides, as segments = 48 in place of 64 or a "
+                             "tessellation deviation smaller by a fifth"
+                           : change);
+  };
+  if (!cut) return refuse("the result would not be a proper solid", advice());
   if (cut->mesh.triangles.empty())
     return refuse("nothing of it would be left", "remove the part, or change the priorities");
   if (part.surface.empty() && part.needs_surface)
     return refuse("the faces made by the cut have no surface", "give the part a surface = \"...\"");
   const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
   const auto unsound = mesh::mesh_problems(diagnosis, part.name);
-  if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, other_sides);
+  if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, advice());
 
   std::vector<std::uint32_t> face_of;
   const std::uint32_t face = cut_face(part, by);
@@ -83,8 +133,12 @@ void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Pro
   });
   if (equal) return;
   const Eigen::Matrix3d axes = difference_axes(parts);
-  for (const Cut& c : find_cuts(parts, axes, tolerance_mm))
-    cut(parts[c.part], parts[c.by], axes, tolerance_mm, problems);
+  core::report_activity("looking for parts to cut");
+  const std::vector<Cut> cuts = find_cuts(parts, axes, tolerance_mm);
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    core::report_activity("cutting parts: " + parts[cuts[i].part].name, i, cuts.size());
+    cut(parts[cuts[i].part], parts[cuts[i].by], axes, tolerance_mm, problems);
+  }
 }
 
 }  // namespace scintray::contact

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <string_view>
 
 #include "scintray/core/text.hpp"
 
@@ -12,15 +13,29 @@ namespace {
 
 /// How much a substitution of one character by another costs: letters that differ in case only, and the
 /// characters that separate words in names, are the same to a reader.
-std::size_t substitution_cost(char a, char b) {
-  const auto folded = [](char c) {
-    return c == ' ' || c == '-' || c == '.' ? '_'
-                                            : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+std::size_t substitution_cost(std::string_view a, std::string_view b) {
+  const auto folded = [](std::string_view c) {
+    if (c == " " || c == "-" || c == ".") return std::string("_");
+    return c.size() > 1 ? std::string(c)
+                        : std::string(1, static_cast<char>(std::tolower(static_cast<unsigned char>(c[0]))));
   };
   return folded(a) == folded(b) ? 0 : 1;
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
+/// The characters of a text in UTF-8.
+std::vector<std::string_view> characters_of(std::string_view text) {
+  std::vector<std::string_view> characters;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i + 1;
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
+    characters.push_back(text.substr(i, end - i));
+    i = end;
+  }
+  return characters;
+}
+
+std::size_t edit_distance(const std::string& one, const std::string& other) {
+  const std::vector<std::string_view> a = characters_of(one), b = characters_of(other);
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -81,13 +96,13 @@ void Problems::throw_if_any() {
 }
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
+  const std::size_t length = characters_of(word).size(), limit = std::max<std::size_t>(2, length / 3);
   std::string best;
   std::size_t best_distance = limit + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
     // All of a short word replaced is another word.
-    if (distance > limit || distance >= std::max(word.size(), candidate.size())) continue;
+    if (distance > limit || distance >= std::max(length, characters_of(candidate).size())) continue;
     const bool nearer =
         distance < best_distance ||
         (distance == best_distance && common_beginning(word, candidate) > common_beginning(word, best));

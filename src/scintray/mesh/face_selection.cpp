@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/detail/edges.hpp"
@@ -151,6 +152,30 @@ void apply_flat_region(const TriMesh& mesh, const core::Vec3& point, double tole
   keep_where(mask, [&](std::size_t t) { return labels[t] == 0; });
 }
 
+void apply_smooth_region(const TriMesh& mesh, const FaceSelector& selector, std::vector<char>& mask) {
+  const std::vector<std::uint32_t> labels = smooth_regions(mesh, selector.edge_angle_rad);
+  const auto keep_regions_of = [&](const std::vector<char>& seeds) {
+    const std::vector<char> regions = whole_regions(seeds, labels);
+    keep_where(mask, [&](std::size_t t) { return regions[t]; });
+  };
+  if (selector.smooth_region) {
+    std::vector<char> seed(mask.size(), 0);
+    seed[nearest_triangle(mesh, *selector.smooth_region)] = 1;
+    keep_regions_of(seed);
+  }
+  if (selector.smooth_around) {
+    std::vector<char> seeds(mask.size(), 1);
+    apply_group(mesh, *selector.smooth_around, seeds);
+    keep_regions_of(seeds);
+  }
+}
+
+/// The least member of the set of `t`, which it halves the way to.
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t t) {
+  while (parent[t] != t) t = parent[t] = parent[parent[t]];
+  return t;
+}
+
 }  // namespace
 
 std::size_t nearest_triangle(const TriMesh& mesh, const core::Vec3& point) {
@@ -180,6 +205,43 @@ std::vector<std::uint32_t> flat_regions(const TriMesh& mesh, double angle_tolera
   return labels;
 }
 
+std::vector<std::uint32_t> smooth_regions(const TriMesh& mesh, double edge_angle_rad, bool by_group) {
+  if (!(edge_angle_rad >= 0.0))
+    throw core::InputError(core::Problem{
+        {}, "a negative angle at the edges of a smooth region", "give an angle such as 30 deg"});
+  std::vector<core::Vec3> area(mesh.triangles.size());
+  for (std::size_t t = 0; t < area.size(); ++t) area[t] = mesh.area_vector(t);
+  const auto group_of = [&](std::uint32_t t) { return t < mesh.group.size() ? mesh.group[t] : 0; };
+  std::vector<std::uint32_t> parent(area.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for_each_edge(sorted_edge_uses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
+    for (const EdgeUse* one = first; one != last; ++one)
+      for (const EdgeUse* other = one + 1; other != last; ++other) {
+        const std::uint32_t a = one->triangle, b = other->triangle;
+        if (by_group && group_of(a) != group_of(b)) continue;
+        if (angle_between(area[a], area[b]) > edge_angle_rad) continue;
+        const std::uint32_t root_a = root_of(parent, a), root_b = root_of(parent, b);
+        parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+      }
+  });
+  std::vector<std::uint32_t> labels(area.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t t = 0; t < labels.size(); ++t) {
+    const std::uint32_t root = root_of(parent, t);
+    labels[t] = root == t ? next++ : labels[root];
+  }
+  return labels;
+}
+
+std::vector<char> whole_regions(const std::vector<char>& mask, const std::vector<std::uint32_t>& labels) {
+  std::vector<char> selected(labels.size(), 0);
+  for (std::size_t t = 0; t < mask.size(); ++t)
+    if (mask[t]) selected[labels[t]] = 1;
+  std::vector<char> result(mask.size());
+  for (std::size_t t = 0; t < mask.size(); ++t) result[t] = selected[labels[t]];
+  return result;
+}
+
 std::vector<char> select_triangles(const TriMesh& mesh, const FaceSelector& selector) {
   std::vector<char> mask(mesh.triangles.size(), 1);
   if (selector.normal) apply_normal(mesh, *selector.normal, selector.normal_tolerance_rad, mask);
@@ -189,6 +251,8 @@ std::vector<char> select_triangles(const TriMesh& mesh, const FaceSelector& sele
   if (selector.flat_region && !mask.empty()) {
     apply_flat_region(mesh, *selector.flat_region, selector.flat_tolerance_rad, mask);
   }
+  if ((selector.smooth_region || selector.smooth_around) && !mask.empty())
+    apply_smooth_region(mesh, selector, mask);
   if (selector.nearest && !mask.empty()) {
     const std::size_t nearest = nearest_triangle(mesh, *selector.nearest);
     keep_where(mask, [nearest](std::size_t t) { return t == nearest; });

@@ -5,12 +5,14 @@
 #include <map>
 #include <optional>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/recognize.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/scene_file/placement.hpp"
+#include "scintray/scene_file/shape_files.hpp"
 
 namespace scintray::scene {
 
@@ -182,7 +184,10 @@ void add_problems(const std::vector<core::Problem>& found, const scene_file::Par
 class PartPlacer {
  public:
   PartPlacer(const scene_file::SceneSpec& spec, core::Problems& problems, const mesh::MeshFormats& formats)
-      : spec_(spec), formats_(formats), problems_(problems) {}
+      : spec_(spec), formats_(formats), problems_(problems) {
+    for (const scene_file::PartSpec& part : spec.parts)
+      if (const auto* file = std::get_if<scene_file::MeshFileSpec>(&part.shape)) files_.announce(file->path);
+  }
 
   std::vector<contact::PlacedMesh> place_all() {
     auto group = spec_.groups.begin();
@@ -190,6 +195,8 @@ class PartPlacer {
       const bool starts_group = group != spec_.groups.end() && group->first == i;
       const std::size_t count = starts_group ? group->count : 1;
       const scene_file::PartSpec* parts = &spec_.parts[i];
+      core::report_activity("placing parts: " + (starts_group ? group->name.name : parts->name.name), i,
+                            spec_.parts.size());
       try {
         if (starts_group)
           place_group(*group, parts);
@@ -206,7 +213,7 @@ class PartPlacer {
 
  private:
   /// A part in its own frame, rotated only.
-  contact::PlacedMesh loaded(const scene_file::PartSpec& part) const {
+  contact::PlacedMesh loaded(const scene_file::PartSpec& part) {
     const bool needs_surface = spec_.contacts_default != scene_file::ContactKind::each_side;
     contact::PlacedMesh result;
     result.name = part.name.name;
@@ -217,7 +224,7 @@ class PartPlacer {
     result.priority = part.priority;
     result.needs_surface =
         needs_surface && !part.liquid && part.sensor.empty() && part.medium.name != scene_file::kOpaqueMedium;
-    scene_file::ShapeMesh shape = scene_file::shape_mesh(part.shape, formats_);
+    scene_file::ShapeMesh shape = scene_file::shape_mesh(part.shape, files_, formats_);
     result.notes = std::move(shape.notes);
     if (mesh::orient_outwards(shape.mesh)) result.notes.push_back("faces turned to point outwards");
     result.mesh = std::move(shape.mesh);
@@ -346,6 +353,7 @@ class PartPlacer {
   const scene_file::SceneSpec& spec_;
   const mesh::MeshFormats& formats_;
   core::Problems& problems_;
+  mesh::MeshFiles files_;
   std::vector<contact::PlacedMesh> placed_;
   std::map<std::string, Eigen::AlignedBox3d> bounds_;  ///< of parts and groups, world
 };

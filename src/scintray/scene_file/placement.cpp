@@ -45,9 +45,11 @@ TouchSpec read_touch(const config::TomlTable& table, const std::vector<std::stri
   TouchSpec touch;
   touch.where = table.where();
   touch.part = read_name(table, "touch", true);
+  const std::string near = core::nearest_word(touch.part.name, earlier);
   table.expect("touch", std::find(earlier.begin(), earlier.end(), touch.part.name) != earlier.end(),
                "the part \"" + touch.part.name + "\" to be touched does not stand before this one",
-               "name a part that stands earlier in the file");
+               near.empty() ? "name a part that stands earlier in the file"
+                            : "did you mean \"" + near + "\"? name a part that stands earlier in the file");
   touch.side = read_side(table);
   touch.gap_mm = table.quantity("gap", core::Dimension::length, 0.0);
   table.expect("gap", touch.gap_mm >= 0.0, "a gap below 0 would make the parts overlap",

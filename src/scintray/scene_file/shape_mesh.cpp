@@ -1,6 +1,5 @@
-#include "scintray/mesh/import/import.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
-#include "scintray/scene_file/shape.hpp"
+#include "scintray/scene_file/shape_files.hpp"
 
 namespace scintray::scene_file {
 
@@ -8,10 +7,11 @@ namespace {
 
 /// Makes the mesh of each kind of shape.
 struct MeshMaker {
+  mesh::MeshFiles& files;
   const mesh::MeshFormats& formats;
 
   ShapeMesh operator()(const MeshFileSpec& file) const {
-    mesh::MeshImport imported = mesh::import_mesh(
+    mesh::MeshImport imported = files.import(
         file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation, &formats});
     return {std::move(imported.mesh), std::move(imported.notes)};
   }
@@ -49,7 +49,12 @@ core::FileLocation shape_location(const ShapeSpec& shape) {
 }
 
 ShapeMesh shape_mesh(const ShapeSpec& shape, const mesh::MeshFormats& formats) {
-  return std::visit(MeshMaker{formats}, shape);
+  mesh::MeshFiles files;
+  return shape_mesh(shape, files, formats);
+}
+
+ShapeMesh shape_mesh(const ShapeSpec& shape, mesh::MeshFiles& files, const mesh::MeshFormats& formats) {
+  return std::visit(MeshMaker{files, formats}, shape);
 }
 
 }  // namespace scintray::scene_file

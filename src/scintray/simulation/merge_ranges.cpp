@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/simulation/range_file.hpp"
 
@@ -27,6 +28,7 @@ std::vector<RangeReader> open_all(const std::vector<std::filesystem::path>& file
   std::vector<RangeReader> readers;
   readers.reserve(files.size());
   for (const std::filesystem::path& file : files) {
+    core::report_activity("reading parts: " + file.string(), readers.size(), files.size());
     try {
       readers.emplace_back(file);
     } catch (const core::InputError& error) {
@@ -167,6 +169,7 @@ tally::RunResult merge_ranges(const std::vector<std::filesystem::path>& files, R
   result.header = run.header;
   auto piece = pieces.begin();
   for (std::size_t point = 0; point < run.points.size() && piece != pieces.end(); ++point) {
+    core::report_activity("merging points", point, run.points.size());
     const auto first = piece;
     while (piece != pieces.end() && piece->range.point == point) ++piece;
     const bool complete =

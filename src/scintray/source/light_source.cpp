@@ -135,11 +135,15 @@ std::string cherenkov_note(const scene::Scene& scene) {
 }
 
 /// A note on photons that start outside every part.
-void note_outside(const PhotonSource& source, const scene::Scene& scene, std::vector<std::string>& notes) {
+void note_outside(const PhotonSource& source, const scene_file::SceneSpec& spec, const scene::Scene& scene,
+                  std::vector<std::string>& notes) {
   const std::vector<core::RegionId> regions = source.regions();
   if (std::find(regions.begin(), regions.end(), scene::kAmbientRegion) == regions.end()) return;
   notes.push_back("the photons start outside every part, in the ambient medium (" +
-                  scene.media[scene.regions[scene::kAmbientRegion].medium].medium().name + ")");
+                  scene.media[scene.regions[scene::kAmbientRegion].medium].medium().name +
+                  "), by [source] at " + spec.source.where.text() +
+                  ": for light from inside a part give a position within one, or region = { part = \"" +
+                  (spec.parts.empty() ? "NAME" : spec.parts.front().name.name) + "\" }");
 }
 
 }  // namespace
@@ -148,7 +152,7 @@ std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec
                                                std::vector<std::string>* notes) {
   if (!spec.energy_source) {
     auto photons = std::make_unique<PhotonSource>(spec.source, scene);
-    if (notes) note_outside(*photons, scene, *notes);
+    if (notes) note_outside(*photons, spec, scene, *notes);
     return photons;
   }
   const scene_file::GammaSpec& source = *spec.energy_source;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/cancelled.hpp"
 #include "scintray/core/error.hpp"
 
@@ -151,6 +152,7 @@ std::vector<GoniometerReading> sweep_incidence(const optics::Surface& surface, c
   std::vector<GoniometerReading> readings;
   const std::uint64_t first = settings.stream;
   for (std::size_t k = 0; k < incidence_rad.size(); ++k) {
+    core::report_activity("measuring angles", k, incidence_rad.size());
     settings.incidence_rad = incidence_rad[k];
     settings.stream = first + k;
     readings.push_back(read_goniometer(surface, index, settings));

@@ -20,21 +20,6 @@ std::string number_text(double value) {
   return text;
 }
 
-RawMesh read_raw(const std::filesystem::path& path, const MeshFormat& format,
-                 const Tessellation& tessellation) {
-  const std::string content = read_mesh_file(path);
-  check_stated_sizes(path, format.extension, content);
-  RawMesh raw = format.read({path, content, tessellation});
-  for (std::string& group : raw.mesh.groups) group = plain_name(group);
-  for (FaceTags& tags : raw.mesh.group_tags) {
-    FaceTags plain;
-    for (const auto& [key, value] : tags) plain[plain_name(key)] = plain_name(value);
-    tags = std::move(plain);
-  }
-  for (std::string& note : raw.notes) note = plain_name(note);
-  return raw;
-}
-
 void check_vertices(const std::filesystem::path& path, const TriMesh& mesh) {
   // Beyond this, areas and volumes in single-precision ray tracing overflow.
   constexpr double kLargest_mm = 1e12;
@@ -71,6 +56,10 @@ MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit) {
 }
 
 MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
+  return import_raw(path, read_raw(path, options), options);
+}
+
+RawMesh read_raw(const std::filesystem::path& path, const ImportOptions& options) {
   const std::string extension = lower_extension(path);
   const MeshFormat* format = options.formats->find(extension);
   if (!format) {
@@ -83,7 +72,20 @@ MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& o
     reject_file(path, "the mesh's scale is not a positive number", "give a factor above 0");
   Tessellation tessellation = options.tessellation;
   tessellation.deviation_mm /= options.scale;
-  RawMesh raw = read_raw(path, *format, tessellation);
+  const std::string content = read_mesh_file(path);
+  check_stated_sizes(path, format->extension, content);
+  RawMesh raw = format->read({path, content, tessellation});
+  for (std::string& group : raw.mesh.groups) group = plain_name(group);
+  for (FaceTags& tags : raw.mesh.group_tags) {
+    FaceTags plain;
+    for (const auto& [key, value] : tags) plain[plain_name(key)] = plain_name(value);
+    tags = std::move(plain);
+  }
+  for (std::string& note : raw.notes) note = plain_name(note);
+  return raw;
+}
+
+MeshImport import_raw(const std::filesystem::path& path, RawMesh raw, const ImportOptions& options) {
   std::vector<std::string> unit_notes;
   const double scale = options.scale * resolve_unit(path, options.mm_per_unit, raw.unit, unit_notes);
   raw.notes.insert(raw.notes.begin(), unit_notes.begin(), unit_notes.end());

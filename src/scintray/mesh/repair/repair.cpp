@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/mesh/boolean.hpp"
 #include "scintray/mesh/detail/cgal_checks.hpp"
 #include "scintray/mesh/detail/edges.hpp"
@@ -29,21 +30,28 @@ class Repairer {
   Repairer(TriMesh mesh, const RepairSettings& settings) : settings_(settings) {
     result_.mesh = std::move(mesh);
     result_.mesh.group.resize(result_.mesh.triangles.size(), 0);
+    core::report_activity("repairing: examining the mesh");
     result_.before = diagnose(result_.mesh);
   }
 
   RepairedMesh run() {
     result_.after = result_.before;
     if (result_.before.sound() && settings_.weld_mm == 0.0) return std::move(result_);
+    constexpr std::size_t kSteps = 6;
     weld();
     remove_flat();
+    core::report_activity("repairing: edges", 1, kSteps);
     clear_edges();
+    core::report_activity("repairing: holes", 2, kSteps);
     fill();
     clear_edges();  // covers of adjacent holes can touch
+    core::report_activity("repairing: bodies and triangles that cross", 3, kSteps);
     resolve_crossings();
+    core::report_activity("repairing: orientation", 4, kSteps);
     remove_flat();
     orient("");
     weld_vertices(mesh(), rounding_length(mesh()));  // removes vertices that nothing uses
+    core::report_activity("repairing: examining the result", 5, kSteps);
     result_.after = diagnose(mesh());
     return std::move(result_);
   }

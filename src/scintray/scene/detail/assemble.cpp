@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
 
@@ -293,6 +294,7 @@ Scene assemble(const Assembly& assembly) {
   problems.throw_if_any();
   const PartBodies bodies = find_part_bodies(assembly, triangles);
   if (!bodies.empty()) describe_curves(assembly, bodies, triangles, interface_of, scene);
+  core::report_activity("preparing the ray search");
   build_regions(assembly, triangles, interface_of, bodies, scene);
   return scene;
 }

@@ -54,11 +54,10 @@ void warn_of_empty_gaps(const scene_file::SceneSpec& spec, std::vector<std::stri
   for (const scene_file::PartSpec& part : spec.parts) {
     const std::optional<scene_file::TouchSpec>& touch = part.placement.touch;
     if (part.sensor.empty() || !touch || !(touch->gap_mm > 0.0) || !touch->fill.empty()) continue;
-    warnings.push_back(
-        fmt::format("sensor \"{}\" is {:g} mm from \"{}\", and the gap holds the ambient medium ({}), which "
-                    "reflects light back: "
-                    "fill = \"optical_grease\" beside the gap couples it",
-                    part.name.name, touch->gap_mm, touch->part.name, spec.ambient.name));
+    warnings.push_back(fmt::format(
+        "sensor \"{}\" is {:g} mm from \"{}\", by the gap at {}, which holds the ambient medium ({}) "
+        "and reflects light back: write fill = \"optical_grease\" beside the gap to couple it",
+        part.name.name, touch->gap_mm, touch->part.name, touch->where.text(), spec.ambient.name));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "scintray/core/error.hpp"
@@ -82,6 +83,47 @@ void choose_body(const std::filesystem::path& path, RawMesh& raw, const std::str
     return;
   }
   keep_body(raw.mesh, raw.body_of, static_cast<std::uint32_t>(find_body(path, raw, wanted)));
+}
+
+RawMesh copy_of_body(const std::filesystem::path& path, const RawMesh& raw, const std::string& wanted) {
+  const std::size_t body = find_body(path, raw, wanted);
+  RawMesh copy;
+  copy.unit = raw.unit;
+  copy.notes = raw.notes;
+  copy.points_and_lines = raw.points_and_lines;
+  copy.crossing_polygons = raw.crossing_polygons;
+  copy.deviation_mm = raw.deviation_mm;
+  std::vector<std::uint32_t> vertices;  // of the body, ascending
+  for (std::size_t t = 0; t < raw.mesh.triangles.size(); ++t) {
+    if (raw.body_of[t] != body) continue;
+    const auto& triangle = raw.mesh.triangles[t];
+    copy.mesh.triangles.push_back(triangle);
+    copy.mesh.group.push_back(raw.mesh.group[t]);
+    if (!raw.mesh.support.empty()) copy.mesh.support.push_back(raw.mesh.support[t]);
+    vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const std::uint32_t v : vertices) copy.mesh.vertices.push_back(raw.mesh.vertices[v]);
+  for (auto& triangle : copy.mesh.triangles)
+    for (std::uint32_t& v : triangle)
+      v = static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                                     vertices.begin());
+
+  std::unordered_map<std::uint32_t, std::uint32_t> groups, supports;
+  for (std::uint32_t& group : copy.mesh.group) {
+    const auto [entry, is_new] = groups.try_emplace(group, 0);
+    if (is_new) entry->second = copy.mesh.group_index(raw.mesh.groups[group], raw.mesh.tags_of(group));
+    group = entry->second;
+  }
+  for (std::uint32_t& support : copy.mesh.support) {
+    if (support == kNoSupport) continue;
+    const auto [entry, is_new] = supports.try_emplace(support, 0);
+    if (is_new) entry->second = copy.mesh.support_index(raw.mesh.supports[support]);
+    support = entry->second;
+  }
+  if (copy.mesh.supports.empty()) copy.mesh.support.clear();
+  return copy;
 }
 
 }  // namespace scintray::mesh

@@ -24,17 +24,16 @@ constexpr core::Word<Transform> kTransforms[] = {
     {"scale", {Transform::Kind::scale, 3}},         {"matrix", {Transform::Kind::matrix, 16}},
     {"lookat", {Transform::Kind::look_at, 9}},      {"skew", {Transform::Kind::skew, 7}}};
 
-/// Displacement along `along` in proportion to the distance from it, which turns `turned` by the angle
-/// towards it (COLLADA follows Pixar, The RenderMan Interface, version 3.2, section 4.3, RiSkew). Nothing
-/// when the angle reaches the one between the axes, or 180 deg less that one to the other side.
-std::optional<Eigen::Matrix3d> skew(double angle_rad, const core::Vec3& turned, const core::Vec3& along) {
-  const double between = std::atan2(turned.cross(along).norm(), turned.dot(along));
-  if (!(angle_rad < between) || !(angle_rad > between - core::kPi) || !(between < core::kPi))
-    return std::nullopt;
-  const core::Vec3 direction = along.normalized();
-  const core::Vec3 across = (turned - turned.dot(direction) * direction).normalized();
-  const double shear = 1.0 / std::tan(between - angle_rad) - 1.0 / std::tan(between);
-  return Eigen::Matrix3d(Eigen::Matrix3d::Identity() + shear * direction * across.transpose());
+/// Displacement along `moved`, by the tangent of the angle times the distance along `across`. Nothing when
+/// the angle or an axis is out of range, or all points would fall into a plane. The order of the axes is that
+/// of the picture which Khronos' COLLADA Conformance Test Suite (2012) has for node_skew_cube.dae, where the
+/// cube skewed by "45 1 1 0 0 0 1" is displaced along (1, 1, 0) in proportion to z.
+std::optional<Eigen::Matrix3d> skew(double angle_rad, const core::Vec3& moved, const core::Vec3& across) {
+  constexpr double kLeast = 1e-6;
+  if (!(std::cos(angle_rad) > kLeast) || !(moved.norm() > 0.0) || !(across.norm() > 0.0)) return std::nullopt;
+  const Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity() +
+                                 std::tan(angle_rad) * moved.normalized() * across.normalized().transpose();
+  return std::abs(matrix.determinant()) > kLeast ? std::optional(matrix) : std::nullopt;
 }
 
 /// Calls `take` for each word of the text of an element.
@@ -180,7 +179,9 @@ Eigen::Affine3d ColladaDocument::transform_of(Node node) const {
         const std::optional<Eigen::Matrix3d> shear =
             skew(v[0] * core::kDegree, core::Vec3(v[1], v[2], v[3]), core::Vec3(v[4], v[5], v[6]));
         if (!shear)
-          reject("a <skew> by an angle that is not below the one between its axes, or to their other side");
+          reject(
+              "a <skew> by 90 deg or more, with an axis of no length, or such that all points fall into a "
+              "plane");
         transform.linear() = transform.linear() * *shear;
         break;
       }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/mesh/import/import.hpp"
 #include "scintray/mesh/import/raw_mesh.hpp"
 
 namespace scintray::mesh {
@@ -14,6 +15,16 @@ namespace scintray::mesh {
 /// nor the user states a unit, and when the user's contradicts that of the file itself.
 double resolve_unit(const std::filesystem::path& path, double given_mm, const FileUnit& unit,
                     std::vector<std::string>& notes);
+
+/// Triangles of a file, with plain names, of a format of `options`. Throws InputError as import_mesh().
+RawMesh read_raw(const std::filesystem::path& path, const ImportOptions& options);
+
+/// The import of what read_raw() returned.
+MeshImport import_raw(const std::filesystem::path& path, RawMesh raw, const ImportOptions& options);
+
+/// A copy of the body named `wanted`, or with that number, as choose_body() keeps it, without the list of
+/// bodies. Throws InputError, which names the bodies, when none matches.
+RawMesh copy_of_body(const std::filesystem::path& path, const RawMesh& raw, const std::string& wanted);
 
 /// Keeps the body named `wanted`, or with that number from 1 on, with its vertices and groups. Empty keeps
 /// all bodies, with a note when there are several. Throws InputError, which names the bodies, when none

@@ -42,6 +42,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <unordered_map>
 
 #include "scintray/core/child_process.hpp"
 #include "scintray/core/error.hpp"
@@ -230,7 +231,12 @@ class ShapeReader {
     raw_.mesh.group_tags.push_back(std::move(tags));
 
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, own_place);
-    const SurfacePatch patch = refined(surface, *triangles);
+    // Instances of a product share the triangles of its faces.
+    const auto known = patches_.find(triangles.get());
+    const SurfacePatch& patch =
+        known != patches_.end()
+            ? known->second
+            : patches_.emplace(triangles.get(), refined(surface, *triangles)).first->second;
     const gp_Trsf transform = (place * own_place).Transformation();
     const std::optional<SupportSurface> support = support_of(surface, transform);
     const std::uint32_t number_of_support = support ? raw_.mesh.support_index(*support) : kNoSupport;
@@ -286,6 +292,7 @@ class ShapeReader {
   Tessellation tessellation_;
   RawMesh raw_;
   std::size_t faces_ = 0, loose_faces_ = 0, uncut_faces_ = 0;
+  std::unordered_map<const Poly_Triangulation*, SurfacePatch> patches_;
   std::size_t coarsest_face_ = 0;  ///< number of the face with the largest deviation
 };
 
