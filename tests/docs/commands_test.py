@@ -23,6 +23,10 @@ name = "crystal"
 box = { low = ["-1 mm", "-1 mm", "0 mm"], high = ["1 mm", "1 mm", "4 mm"] }
 medium = "LSO"
 surface = "wrapped"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
 [[part]]
 name = "sipm"
 box = ["2 mm", "2 mm", "0.3 mm"]
@@ -44,6 +48,8 @@ region = { part = "crystal" }
 energy = "10 keV"
 [readout]
 sampling = "1 GHz"
+before = "50 ns"
+threshold = 3.0
 window = "300 ns"
 pulses = true
 [run]
