@@ -119,6 +119,22 @@ class Commands(unittest.TestCase):
         for line in ELSEWHERE:
             self.assertIn(line, text)
 
+    def test_lengths_of_the_same_array_here_and_in_gate_are_those_of_the_page(self):
+        examples = SOURCE / 'docs/examples'
+
+        def lines(text, comment='#'):
+            text = re.sub(r'<!--.*?-->', '', text, flags=re.DOTALL)
+            return sum(1 for line in text.splitlines() if line.strip() and not line.strip().startswith(comment))
+        notebook = (examples / 'lyso_array.py').read_text()
+        scene = next(cell for cell in notebook.split('# %%') if 'scene = scintray.Scene' in cell)
+        counted = {'here: the scene in Python': lines(scene),
+                   'here: with the run, the analysis and the plots': lines(notebook)}
+        for name in ('lyso_array.mac', 'Materials.xml', 'Surfaces.xml'):
+            counted[f'GATE: `{name}`'] = lines((examples / 'gate' / name).read_text())
+        page = (SOURCE / 'docs/howto/geant4_gate.md').read_text()
+        for what, count in counted.items():
+            self.assertIn(f'| {what} | {count} |', page)
+
     def scintray(self, folder, *arguments):
         run = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True,
                              env={**os.environ, 'SCINTRAY_DATA': str(SOURCE)})
