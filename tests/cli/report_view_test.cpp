@@ -31,6 +31,14 @@ wavelength = "emission"
 photons = 2000
 [run]
 paths = 30
+[[tally]]
+type = "ledger"
+[[tally]]
+type = "irradiance"
+name = "at the window"
+face = "pmt:+z"
+way = "in"
+pixel = "0.5 mm"
 )";
 
 const char* const kCube = R"(v 0 0 0
@@ -67,6 +75,8 @@ TEST_CASE("The page of a run has its scene and recorded paths, and one line wher
   if (draws) {
     check_contains(page_in(folder), "2 parts and the paths of 30 photons");
     check_contains(page_in(folder), "\"detected by pmt\"");
+    for (const char* painted : {"detected, by sensor face", "ledger: returned", "\"n\":\"at the window\""})
+      check_contains(page_in(folder), painted);
   } else {
     check_contains(page_in(folder), "built without three.js");
   }
@@ -81,4 +91,36 @@ TEST_CASE("The page of a run has its scene and recorded paths, and one line wher
   REQUIRE_MESSAGE(missing.exit_code == cli::kSuccess, missing.output);
   check_contains(page_in(folder), "The scene is not shown: ");
   CHECK_FALSE(contains(page_in(folder), "view-open\""));
+}
+
+TEST_CASE("A scene with overlapping parts is shown with the places of its problems, before they are errors") {
+  const auto folder = scratch_folder("view_problems");
+  std::ofstream(folder / "scene.toml") << R"(
+ambient = "air"
+contacts_default = "bonded"
+[[part]]
+name = "crystal"
+box = { low = ["0 mm", "0 mm", "0 mm"], high = ["2 mm", "2 mm", "2 mm"] }
+medium = "LSO"
+surface = "polished"
+[[part]]
+name = "intruder"
+box = { low = ["1 mm", "1 mm", "1 mm"], high = ["3 mm", "3 mm", "3 mm"] }
+medium = "glass"
+surface = "polished"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "emission"
+photons = 10
+)";
+  const Ended ended = run_program({"view", "scene.toml"}, folder);
+  CHECK(ended.exit_code == cli::kBadInput);
+  check_contains(ended.output, "intruder");
+  std::ifstream file(folder / "scene_view.html");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  if (page.empty()) return;  // built without three.js
+  const std::size_t marks = page.find("\"marks\":[{");
+  REQUIRE(marks != std::string::npos);
+  check_contains(page.substr(marks, 400), "\"p\":[[");
 }

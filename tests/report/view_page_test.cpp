@@ -1,6 +1,7 @@
 // Pages of scenes in three dimensions.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scintray/mesh/shapes/primitives.hpp"
@@ -42,6 +43,9 @@ TEST_CASE("a page holds parts, faces, paths and findings, equal shapes once, and
        Fate::not_detected,
        {{{0.5, 1, 1}, 0.0, 420.0, "emitted in a"}, {{0.5, 1, 0}, 0.01, 420.0, "not detected by c"}}});
   view.marks.push_back({"a gap", {{1, 2, 3}}});
+  view.tallies.push_back({"returned", "share", {0.5, std::nan(""), 0.25}, std::nullopt, {}});
+  view.tallies.push_back(
+      {"map", "share", {}, ViewGrid{{{{1, 0, 0}, {0, 1, 0}}}, {0, 1}, {2, 3}, {1, 2}, {4, 5}}, {2}});
   const std::string page = view_page(view);
 
   const nlohmann::json data = data_of(page);
@@ -59,6 +63,12 @@ TEST_CASE("a page holds parts, faces, paths and findings, equal shapes once, and
   CHECK(data["paths"][0]["k"] == 2);
   CHECK(data["paths"][0]["w"] == nlohmann::json({{0, 420.0}}));
   CHECK(data["marks"][0]["p"][0] == nlohmann::json({1.0, 2.0, 3.0}));
+
+  REQUIRE(data["tallies"].size() == 2);
+  CHECK(data["tallies"][0]["v"].get<std::string>().size() == 16);  // three numbers of four bytes
+  CHECK_FALSE(data["tallies"][0].contains("g"));
+  CHECK(data["tallies"][1]["g"]["b"] == nlohmann::json({0.0, 2.0, 1.0, 3.0}));
+  CHECK(data["tallies"][1]["g"]["n"] == nlohmann::json({1, 2}));
 
   CHECK(contains(page, "two crystals &lt;/script&gt;&lt;b&gt;"));
   CHECK(contains(page, "WebGLRenderer"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scintray/core/error.hpp"
+#include "scintray/report/view/view_tallies.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene_file/read_scene.hpp"
@@ -25,10 +26,9 @@ std::string reason_of(const core::Problem& problem) {
   return (file.empty() ? "" : file + ": ") + what;
 }
 
-std::vector<contact::PlacedMesh> placed_parts(const tally::RunHeader& header) {
+std::vector<contact::PlacedMesh> placed_parts(const scene_file::SceneSpec& spec) {
   core::Problems problems;
-  const scene_file::SceneFile file = scene_file::SceneFile::from_text(header.scene_text, header.scene_file);
-  std::vector<contact::PlacedMesh> placed = scene::place_parts(file.spec(0), problems);
+  std::vector<contact::PlacedMesh> placed = scene::place_parts(spec, problems);
   problems.throw_if_any();
   return placed;
 }
@@ -62,8 +62,13 @@ std::vector<report::ViewPart> view_parts(const std::vector<contact::PlacedMesh>&
 
 SceneOfResults scene_of_results(const std::filesystem::path& results, const tally::RunResult& run) {
   SceneOfResults scene;
+  std::vector<scene_file::TallySpec> tallies;
   try {
-    scene.placed = placed_parts(run.header);
+    const scene_file::SceneFile file =
+        scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file);
+    const scene_file::SceneSpec spec = file.spec(0);
+    tallies = spec.tallies;
+    scene.placed = placed_parts(spec);
     scene.view.missing = other_parts(scene.placed, run.header);
   } catch (const core::InputError& error) {
     scene.view.missing = reason_of(error.problems().front());
@@ -75,6 +80,8 @@ SceneOfResults scene_of_results(const std::filesystem::path& results, const tall
   view.title = run.header.title;
   view.parts = view_parts(scene.placed);
   view.paths = results::read_paths(results, 0);
+  if (!run.points.empty())
+    view.tallies = report::view_tallies(run.header, run.points.front(), tallies, view.parts);
   return scene;
 }
 

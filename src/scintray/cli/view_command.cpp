@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/check.hpp"
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/scene_notes.hpp"
 #include "scintray/cli/scene_view.hpp"
@@ -22,25 +23,18 @@ struct ViewOptions {
   std::optional<std::uint64_t> seed;
 };
 
-void view_scene(const ViewOptions& options) {
-  simulation::SimulationOptions settings;
-  settings.seed = options.seed;
-  simulation::Simulation simulation(scene_file::SceneFile::load(options.scene), settings);
-  std::shared_ptr<const simulation::SimulationPoint> point;
-  report::SceneView view = with_progress("building the scene", [&]() -> report::SceneView {
-    point = simulation.point(options.point);
-    core::report_activity("tracing paths");
-    return {point->spec().title,
-            view_parts(point->built()->placed),
-            simulation::photon_paths(*point, options.paths),
-            {}};
-  });
-  if (view.title.empty()) view.title = options.scene.filename().string();
-  for (const core::Problem& warning : find_gaps(*point).warnings) {
-    report::ViewMark mark{warning.what, {}};
-    for (const auto& [x, y, z] : warning.places_mm) mark.places.emplace_back(x, y, z);
-    view.marks.push_back(std::move(mark));
+std::vector<report::ViewMark> marks_of(const std::vector<core::Problem>& problems) {
+  std::vector<report::ViewMark> marks;
+  for (const core::Problem& problem : problems) {
+    report::ViewMark mark{problem.what, {}};
+    for (const auto& [x, y, z] : problem.places_mm) mark.places.emplace_back(x, y, z);
+    marks.push_back(std::move(mark));
   }
+  return marks;
+}
+
+void write_view(const ViewOptions& options, report::SceneView view) {
+  if (view.title.empty()) view.title = options.scene.filename().string();
   const std::filesystem::path page = options.page.empty()
                                          ? std::filesystem::path(options.scene.stem().string() + "_view.html")
                                          : options.page;
@@ -48,6 +42,30 @@ void view_scene(const ViewOptions& options) {
   core::write_whole_file(page, content);
   std::cout << fmt::format("{}: {} parts, {} photon paths, {:.1f} MB\n", page.string(), view.parts.size(),
                            view.paths.size(), 1e-6 * static_cast<double>(content.size()));
+}
+
+void view_scene(const ViewOptions& options) {
+  simulation::SimulationOptions settings;
+  settings.seed = options.seed;
+  const scene_file::SceneFile file = scene_file::SceneFile::load(options.scene);
+  simulation::Simulation simulation(file, settings);
+  std::shared_ptr<const simulation::SimulationPoint> point;
+  try {
+    point = with_progress("building the scene", [&] { return simulation.point(options.point); });
+  } catch (const core::InputError& error) {
+    // The parts as far as they can be placed, with the problems that have a place, before these are thrown.
+    const scene_file::SceneSpec spec = file.spec(options.point);
+    const std::vector<contact::PlacedMesh> placed = placed_for_picture(spec);
+    if (!placed.empty())
+      write_view(options, {spec.title, view_parts(placed), {}, marks_of(error.problems()), {}});
+    throw;
+  }
+  write_view(options, {point->spec().title,
+                       view_parts(point->built()->placed),
+                       with_progress("tracing paths",
+                                     [&] { return simulation::photon_paths(*point, options.paths); }),
+                       marks_of(find_gaps(*point).warnings),
+                       {}});
 }
 
 }  // namespace

@@ -215,6 +215,27 @@ ViewJson paths_json(const SceneView& view, ViewJson& data) {
   return paths;
 }
 
+ViewJson tallies_json(const SceneView& view) {
+  ViewJson list = ViewJson::array();
+  for (const ViewTally& tally : view.tallies) {
+    const std::vector<double>& values = tally.grid ? tally.grid->values : tally.of_faces;
+    ViewJson entry{{"n", tally.name},
+                   {"u", tally.unit},
+                   {"v", packed(std::vector<float>(values.begin(), values.end()))}};
+    if (tally.grid) {
+      const ViewGrid& grid = *tally.grid;
+      const PackedIntegers faces = packed_integers(tally.faces);
+      entry["g"] = {{"a", grid.along},
+                    {"b", {grid.low_mm[0], grid.high_mm[0], grid.low_mm[1], grid.high_mm[1]}},
+                    {"n", grid.bins}};
+      entry["f"] = faces.text;
+      entry["fw"] = faces.width;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 /// What the first point of a run counted at parts, faces, surfaces and in media.
 ViewJson ledger_json(const tally::RunResult& run) {
   const tally::PointResult& point = run.points.front();
@@ -263,6 +284,7 @@ std::string view_data(const SceneView& view, const tally::RunResult* run) {
     for (const core::Vec3& place : mark.places) places.push_back(triple(place));
     data["marks"].push_back({{"t", mark.text}, {"p", std::move(places)}});
   }
+  data["tallies"] = tallies_json(view);
   if (run && !run->points.empty() && run->points.front().photons > 0) data["ledger"] = ledger_json(*run);
   return script_safe(data.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
 }

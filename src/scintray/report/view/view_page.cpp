@@ -12,7 +12,7 @@
 SCINTRAY_EMBED(scintray_view_page, SCINTRAY_VIEW_FOLDER "/view_page.html");
 SCINTRAY_EMBED(scintray_view_section, SCINTRAY_VIEW_FOLDER "/scene_view.html");
 SCINTRAY_EMBED(scintray_view_style, SCINTRAY_VIEW_FOLDER "/scene_view.css");
-SCINTRAY_EMBED(scintray_view_script, SCINTRAY_VIEW_FOLDER "/scene_view.js");
+SCINTRAY_EMBED(scintray_view_script, SCINTRAY_VIEW_SCRIPT);
 #ifdef SCINTRAY_THREE_JS
 SCINTRAY_EMBED(scintray_three, SCINTRAY_THREE_JS);
 SCINTRAY_EMBED(scintray_three_controls, SCINTRAY_ORBIT_CONTROLS_JS);

@@ -2,6 +2,7 @@
 /// A scene in three dimensions: parts, faces with their surfaces, paths of photons. On a self-contained page
 /// of its own, or as a section of another page.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,11 +35,29 @@ struct ViewMark {
   std::vector<core::Vec3> places;  ///< mm
 };
 
+/// Values over a grid across faces: positions along two directions.
+struct ViewGrid {
+  std::array<std::array<double, 3>, 2> along{};  ///< unit vectors of the axes of measurement
+  std::array<double, 2> low_mm{}, high_mm{};     ///< ends of the positions along them
+  std::array<std::size_t, 2> bins{};
+  std::vector<double> values;  ///< per bin, the second axis fastest
+};
+
+/// What a run counted on faces (view_tallies.hpp).
+struct ViewTally {
+  std::string name, unit;
+  /// Per face, over the parts in their order; not a number for a face without a value. Empty with a grid.
+  std::vector<double> of_faces;
+  std::optional<ViewGrid> grid;
+  std::vector<std::uint32_t> faces;  ///< with a grid: the faces that it lies on, by the same numbers
+};
+
 struct SceneView {
   std::string title;
   std::vector<ViewPart> parts;
   std::vector<tally::PhotonPath> paths;
   std::vector<ViewMark> marks;
+  std::vector<ViewTally> tallies{};
 };
 
 /// What the page of a run has of its scene: a view of it, or why there is none, or (both empty) nothing.
