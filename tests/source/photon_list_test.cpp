@@ -36,7 +36,8 @@ PhotonListSource list_of(const std::string& source, const Scene& scene) {
   return {std::get<scene_file::PhotonListSpec>(spec.kind), spec.events, spec.unpolarised, scene};
 }
 
-Photon photon_of(const PhotonListSource& list, const Scene& scene, std::uint64_t event, std::uint64_t number) {
+Photon photon_of(const PhotonListSource& list, const Scene& scene, std::uint64_t event,
+                 std::uint64_t number) {
   EventLight light;
   Rng rng(1, StreamKind::other, event, number);
   list.begin(scene, event, rng, light);
@@ -71,14 +72,17 @@ std::string npy_of(const std::string& descr, const std::string& shape, const std
 
 TEST_CASE("photons of a list become events in the order of their numbers, in our units") {
   const Scene scene = lso_cube(10.0);
-  const auto csv = file_with("a.csv",
-                             "id,px,py,pz,mx,my,mz,e,t,ex,ey,ez\n"
-                             "7,0.1,0,0,0,0,2,2.5,3,1,0,0.5\n3,0,0.2,0,1,0,0,3,4,0,0,0\n7,0,0,0.3,0,1,0,2,5,0,0,1\n");
+  const auto csv =
+      file_with("a.csv",
+                "id,px,py,pz,mx,my,mz,e,t,ex,ey,ez\n"
+                "7,0.1,0,0,0,0,2,2.5,3,1,0,0.5\n3,0,0.2,0,1,0,0,3,4,0,0,0\n7,0,0,0.3,0,1,0,2,5,0,0,1\n");
   const PhotonListSource list = list_of(
       "type = \"photon_list\"\nfile = \"" + csv.string() +
           "\"\nlength_unit = \"cm\"\nenergy_unit = \"eV\"\ntime_unit = \"us\"\npolarisation = \"listed\"\n"
-          "columns = { event = \"id\", x = \"px\", y = \"py\", z = \"pz\", direction_x = \"mx\", direction_y = \"my\", "
-          "direction_z = \"mz\", energy = \"e\", time = \"t\", polarisation_x = \"ex\", polarisation_y = \"ey\", "
+          "columns = { event = \"id\", x = \"px\", y = \"py\", z = \"pz\", direction_x = \"mx\", direction_y "
+          "= \"my\", "
+          "direction_z = \"mz\", energy = \"e\", time = \"t\", polarisation_x = \"ex\", polarisation_y = "
+          "\"ey\", "
           "polarisation_z = \"ez\" }",
       scene);
   REQUIRE(list.events() == 2);
@@ -114,11 +118,13 @@ TEST_CASE("photons without events are grouped, and events can be limited") {
 }
 
 TEST_CASE("a photon on a face starts in the part into which it moves; elsewhere it is counted or refused") {
-  const Scene scene = scene_of(box_part("crystal", "LSO", Vec3::Constant(10.0)) +
-                               box_part("shield", "opaque", Vec3(2.0, 2.0, 2.0), "translate = [\"20 mm\", \"0 mm\", \"0 mm\"]"));
-  const auto csv = file_with("faces.csv", std::string(kHead) +
-                                              "0,0,0,5,0,0,1,420\n0,0,0,5,0,0,-1,420\n0,0,0,5.0000000001,0,0,-1,420\n"
-                                              "0,0,0,8,0,0,1,420\n0,0,0,4,0,0,1,420\n");
+  const Scene scene = scene_of(
+      box_part("crystal", "LSO", Vec3::Constant(10.0)) +
+      box_part("shield", "opaque", Vec3(2.0, 2.0, 2.0), "translate = [\"20 mm\", \"0 mm\", \"0 mm\"]"));
+  const auto csv =
+      file_with("faces.csv", std::string(kHead) +
+                                 "0,0,0,5,0,0,1,420\n0,0,0,5,0,0,-1,420\n0,0,0,5.0000000001,0,0,-1,420\n"
+                                 "0,0,0,8,0,0,1,420\n0,0,0,4,0,0,1,420\n");
   const PhotonListSource list = list_of(source_of(csv), scene);
   const auto region = [&](std::uint64_t number) {
     return scene.region_names[photon_of(list, scene, 0, number).region];
@@ -142,7 +148,8 @@ TEST_CASE("a photon on a face starts in the part into which it moves; elsewhere 
   CHECK(left_out.photons() == 1);
   CHECK(says(left_out.notes().front(), "1 of 2 photons"));
   const auto none = file_with("none.csv", std::string(kHead) + "0,20,0,0,0,0,1,420\n");
-  CHECK(says(complaint([&] { list_of(source_of(none, "misplaced = \"leave_out\"\n"), scene); }), "all 1 photons"));
+  CHECK(says(complaint([&] { list_of(source_of(none, "misplaced = \"leave_out\"\n"), scene); }),
+             "all 1 photons"));
 }
 
 TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
@@ -158,15 +165,19 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
   h5::File file = h5::File::create(h5);
   h5::Group group = file.root().create_group("light");
   const std::vector<std::pair<const char*, std::vector<double>>> columns{
-      {"event", {0, 1}},        {"x", {0, 1}},           {"y", {0, 2}},           {"z", {0, 3}},
-      {"direction_x", {0, 0}}, {"direction_y", {0, -1}}, {"direction_z", {1, 0}}, {"wavelength", {420, 430}}};
+      {"event", {0, 1}},       {"x", {0, 1}},
+      {"y", {0, 2}},           {"z", {0, 3}},
+      {"direction_x", {0, 0}}, {"direction_y", {0, -1}},
+      {"direction_z", {1, 0}}, {"wavelength", {420, 430}}};
   for (const auto& [name, values] : columns) group.write<double>(name, values);
   file.commit();
   same(list_of(source_of(h5, "group = \"light\"\n"), scene));
 
   // A structured array of mixed numbers, the last of them with its bytes in the other order.
   std::string rows;
-  const auto put = [&](const auto& value) { rows.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto put = [&](const auto& value) {
+    rows.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   std::string descr = "[('event', '<i8'), ('', '|V2')";
   for (std::size_t k = 1; k < 7; ++k) descr += std::string(", ('") + columns[k].first + "', '<f4')";
   descr += ", ('wavelength', '>i2')]";
@@ -177,22 +188,26 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
     const auto nm = static_cast<std::uint16_t>(columns[7].second[i]);
     put(static_cast<std::uint16_t>(nm << 8 | nm >> 8));
   }
-  same(list_of(source_of(file_with("structured.npy", npy_of(descr, "2,", std::vector<char>(rows.begin(), rows.end())))),
+  same(list_of(source_of(file_with("structured.npy",
+                                   npy_of(descr, "2,", std::vector<char>(rows.begin(), rows.end())))),
                scene));
 
   // Numbered columns: (2, 2, 4) as Opticks writes photons, and (2, 8) in Fortran's order.
   const std::string numbered =
-      "photons_per_event = 1\ncolumns = { x = \"0\", y = \"1\", z = \"2\", direction_x = \"4\", direction_y = \"5\", "
+      "photons_per_event = 1\ncolumns = { x = \"0\", y = \"1\", z = \"2\", direction_x = \"4\", direction_y "
+      "= \"5\", "
       "direction_z = \"6\", wavelength = \"7\" }\n";
-  same(list_of(source_of(file_with("opticks.npy", npy_of<float>("'<f4'", "2, 2, 4",
-                                                                {0, 0, 0, 9, 0, 0, 1, 420, 1, 2, 3, 9, 0, -1, 0, 430})),
+  same(list_of(source_of(file_with("opticks.npy",
+                                   npy_of<float>("'<f4'", "2, 2, 4",
+                                                 {0, 0, 0, 9, 0, 0, 1, 420, 1, 2, 3, 9, 0, -1, 0, 430})),
                          numbered),
                scene));
-  same(list_of(source_of(file_with("fortran.npy",
-                                   npy_of<double>("'<f8'", "2, 8", {0, 1, 0, 2, 0, 3, 9, 9, 0, 0, 0, -1, 1, 0, 420, 430},
-                                                  true)),
-                         numbered),
-               scene));
+  same(list_of(
+      source_of(file_with("fortran.npy",
+                          npy_of<double>("'<f8'", "2, 8",
+                                         {0, 1, 0, 2, 0, 3, 9, 9, 0, 0, 0, -1, 1, 0, 420, 430}, true)),
+                numbered),
+      scene));
 
   std::vector<std::pair<std::string, std::string>> entries;
   for (const auto& [name, values] : columns)
@@ -202,7 +217,8 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
 
 TEST_CASE("damaged NumPy files are refused") {
   const Scene scene = lso_cube(10.0);
-  const auto says_of = [&](const std::string& content, const std::string& words, const std::string& more = "") {
+  const auto says_of = [&](const std::string& content, const std::string& words,
+                           const std::string& more = "") {
     return says(complaint([&] { list_of(source_of(file_with("bad.npy", content), more), scene); }), words);
   };
   CHECK(says_of("hello, this is text", "not an array of NumPy"));
@@ -215,7 +231,8 @@ TEST_CASE("damaged NumPy files are refused") {
   CHECK(says_of(good, "no column \"event\""));
   CHECK(says_of(npy_of<double>("[('x', '<f8')]", "1,", {0.0}), "\"event\""));
   for (std::size_t length = 0; length < good.size(); length += 7)
-    CHECK_FALSE(complaint([&] { list_of(source_of(file_with("cut.npy", good.substr(0, length))), scene); }).empty());
+    CHECK_FALSE(
+        complaint([&] { list_of(source_of(file_with("cut.npy", good.substr(0, length))), scene); }).empty());
 }
 
 TEST_CASE("lists of photons that are wrong are refused with their rows") {
@@ -225,10 +242,11 @@ TEST_CASE("lists of photons that are wrong are refused with their rows") {
   CHECK(says(refused(head + "0,0,0,0,0,0,1,0.42\n"), "10 to 100,000 nm"));
   CHECK(says(refused(head + "0,0,0,0,0,0,1,-5\n"), "-5"));
   CHECK(says(refused("event,x\n0,0\n"), "no column \"y\""));
-  CHECK(says(refused("event,x,y,z,direction_x,direction_y,direction_z,wavelength,polarisation_x,polarisation_y,"
-                     "polarisation_z\n0,0,0,0,0,0,1,420,0,0,1\n",
-                     "polarisation = \"listed\"\n"),
-             "along the direction"));
+  CHECK(
+      says(refused("event,x,y,z,direction_x,direction_y,direction_z,wavelength,polarisation_x,polarisation_y,"
+                   "polarisation_z\n0,0,0,0,0,0,1,420,0,0,1\n",
+                   "polarisation = \"listed\"\n"),
+           "along the direction"));
   const auto key = [](const std::string& more) {
     return complaint([&] { gamma_spec(source_of(file_with("key.csv", "x\n1\n"), more)); });
   };
@@ -238,8 +256,9 @@ TEST_CASE("lists of photons that are wrong are refused with their rows") {
   CHECK(says(key("energy_unit = \"eV\""), "energy_unit"));
   CHECK(says(key("cherenkov = true"), "cherenkov"));
   CHECK(says(key("group = \"a\""), "groups"));
-  CHECK(says(complaint([&] { gamma_spec("type = \"photon_list\"\nfile = \"a.root\"\nlength_unit = \"mm\"\n"); }),
-             "a.root"));
+  CHECK(says(
+      complaint([&] { gamma_spec("type = \"photon_list\"\nfile = \"a.root\"\nlength_unit = \"mm\"\n"); }),
+      "a.root"));
 }
 
 TEST_CASE("photons in memory are those of a file, and wrong columns are refused") {

@@ -13,9 +13,9 @@ namespace scintray::config {
 
 namespace {
 
-constexpr core::Word<ColumnFormat> kFormats[] = {
-    {".csv", ColumnFormat::csv},  {".h5", ColumnFormat::hdf5},   {".hdf5", ColumnFormat::hdf5},
-    {".lh5", ColumnFormat::hdf5}, {".npy", ColumnFormat::numpy}, {".npz", ColumnFormat::npz}};
+constexpr core::Word<ColumnFormat> kFormats[] = {{".csv", ColumnFormat::csv},   {".h5", ColumnFormat::hdf5},
+                                                 {".hdf5", ColumnFormat::hdf5}, {".lh5", ColumnFormat::hdf5},
+                                                 {".npy", ColumnFormat::numpy}, {".npz", ColumnFormat::npz}};
 
 Columns read_csv_columns(const ColumnFile& file, const std::vector<std::string>& names) {
   const CsvTable table = read_csv(file.path);

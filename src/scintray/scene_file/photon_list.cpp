@@ -54,10 +54,10 @@ void check_lengths(const PhotonColumns& photons, const PhotonListSpec& spec) {
     throw core::InputError({spec.where, "there are no photons in " + spec.origin(), "give one row at least"});
   for (const core::Word<PhotonColumn>& column : kPhotonColumns) {
     const std::size_t length = (photons.*column_member(column.value)).size();
-    const bool optional = column.value == PhotonColumn::time ||
-                          (column.value >= PhotonColumn::polarisation_x &&
-                           column.value <= PhotonColumn::polarisation_z) ||
-                          (column.value == PhotonColumn::event && spec.photons_per_event > 0);
+    const bool optional =
+        column.value == PhotonColumn::time ||
+        (column.value >= PhotonColumn::polarisation_x && column.value <= PhotonColumn::polarisation_z) ||
+        (column.value == PhotonColumn::event && spec.photons_per_event > 0);
     if (length == rows || (length == 0 && optional)) continue;
     throw core::InputError({spec.where,
                             std::string("the column ") + column.word + " of the photons has " +
@@ -130,8 +130,7 @@ void read_columns(const config::TomlTable& table, bool polarised, PhotonListSpec
   for (const auto& [key, column] : kPhotonColumns) {
     const bool read = is_read(column);
     std::string name = columns ? columns->string(key, read ? key : "") : read ? key : "";
-    if (columns && !read)
-      columns->expect(key, name.empty(), "a column that is not read", remedy(column));
+    if (columns && !read) columns->expect(key, name.empty(), "a column that is not read", remedy(column));
     if (read) list.names[at(column)] = std::move(name);
   }
 }
@@ -155,8 +154,9 @@ core::FileLocation PhotonListSpec::place_of(std::size_t row) const {
 
 const PhotonColumns& PhotonListContent::of(const PhotonListSpec& spec) {
   if (spec.arrays && !spec.columns)
-    throw core::InputError({spec.where, "the photons of this scene come from a program, which did not set them",
-                            "run the scene from Python with run(photon_list=...), or name a file of photons"});
+    throw core::InputError(
+        {spec.where, "the photons of this scene come from a program, which did not set them",
+         "run the scene from Python with run(photon_list=...), or name a file of photons"});
   const std::lock_guard lock(mutex_);
   if (!columns_) {
     PhotonColumns photons = spec.arrays ? *spec.columns : read_file(spec);
@@ -177,7 +177,8 @@ PhotonListSpec read_photon_list(const config::TomlTable& table, bool& unpolarise
   list.arrays = table.boolean("arrays", false);
   if (list.arrays) {
     list.where = table.where("arrays");
-    if (table.has("file")) table.report("file", "a file of photons beside arrays = true", "remove one of them");
+    if (table.has("file"))
+      table.report("file", "a file of photons beside arrays = true", "remove one of them");
     return list;
   }
   list.where = table.where("file");

@@ -32,19 +32,20 @@ enum class PhotonColumn {
   energy,      ///< in place of the wavelength
   time
 };
-inline constexpr core::Word<PhotonColumn> kPhotonColumns[] = {{"event", PhotonColumn::event},
-                                                              {"x", PhotonColumn::x},
-                                                              {"y", PhotonColumn::y},
-                                                              {"z", PhotonColumn::z},
-                                                              {"direction_x", PhotonColumn::direction_x},
-                                                              {"direction_y", PhotonColumn::direction_y},
-                                                              {"direction_z", PhotonColumn::direction_z},
-                                                              {"polarisation_x", PhotonColumn::polarisation_x},
-                                                              {"polarisation_y", PhotonColumn::polarisation_y},
-                                                              {"polarisation_z", PhotonColumn::polarisation_z},
-                                                              {"wavelength", PhotonColumn::wavelength},
-                                                              {"energy", PhotonColumn::energy},
-                                                              {"time", PhotonColumn::time}};
+inline constexpr core::Word<PhotonColumn> kPhotonColumns[] = {
+    {"event", PhotonColumn::event},
+    {"x", PhotonColumn::x},
+    {"y", PhotonColumn::y},
+    {"z", PhotonColumn::z},
+    {"direction_x", PhotonColumn::direction_x},
+    {"direction_y", PhotonColumn::direction_y},
+    {"direction_z", PhotonColumn::direction_z},
+    {"polarisation_x", PhotonColumn::polarisation_x},
+    {"polarisation_y", PhotonColumn::polarisation_y},
+    {"polarisation_z", PhotonColumn::polarisation_z},
+    {"wavelength", PhotonColumn::wavelength},
+    {"energy", PhotonColumn::energy},
+    {"time", PhotonColumn::time}};
 /// One of each column, by PhotonColumn.
 template <typename T>
 using PerPhotonColumn = std::array<T, std::size(kPhotonColumns)>;
@@ -56,7 +57,7 @@ struct PhotonColumns {
   std::vector<double> direction_x, direction_y, direction_z;
   std::vector<double> polarisation_x, polarisation_y, polarisation_z;  ///< empty: drawn at random
   std::vector<double> wavelength_nm;
-  std::vector<double> time_ns;       ///< empty: all 0
+  std::vector<double> time_ns;      ///< empty: all 0
   std::vector<std::uint64_t> rows;  ///< line of a CSV file, else number from 0; empty: numbers from 0
 };
 

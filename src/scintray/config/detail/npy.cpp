@@ -110,7 +110,8 @@ class HeaderText {
       const std::string name = string();
       expect(',');
       add_field(name, string(), array);
-      if (next(',') && !next(')')) fail("a field " + core::in_quotes(name) + " of several numbers, which is not read");
+      if (next(',') && !next(')'))
+        fail("a field " + core::in_quotes(name) + " of several numbers, which is not read");
       next(')');
       next(',');
     }
@@ -120,7 +121,8 @@ class HeaderText {
     NumpyField field;
     field.name = name;
     field.offset = array.item_bytes;
-    const bool ordered = type.size() > 2 && (type[0] == '<' || type[0] == '>' || type[0] == '|' || type[0] == '=');
+    const bool ordered =
+        type.size() > 2 && (type[0] == '<' || type[0] == '>' || type[0] == '|' || type[0] == '=');
     const char* first = type.data() + (ordered ? 1 : 0);
     field.big_endian = type[0] == '>';
     field.kind = type.size() > (ordered ? 1U : 0U) ? *first : '?';
@@ -132,7 +134,8 @@ class HeaderText {
     // Padding of an aligned type is of the kind V and without a name.
     const bool padding = field.kind == 'V' && name.empty() && n <= kMostHeader;
     if (status != std::errc{} || end != type.data() + type.size() || !(known || padding))
-      fail("the type " + core::in_quotes(type) + "; expected whole or floating-point numbers of 1 to 8 bytes");
+      fail("the type " + core::in_quotes(type) +
+           "; expected whole or floating-point numbers of 1 to 8 bytes");
     array.item_bytes += n;
     if (!padding) array.fields.push_back(field);
   }
@@ -174,12 +177,11 @@ std::vector<double> numbers_at(std::string_view bytes, const NumpyField& field, 
 }  // namespace
 
 NumpyArray read_numpy_header(std::string_view bytes, const core::FileLocation& where) {
-  const auto refuse = [&](const std::string& what) {
-    throw core::InputError({where, what, kDamaged});
-  };
+  const auto refuse = [&](const std::string& what) { throw core::InputError({where, what, kDamaged}); };
   if (!bytes.starts_with(kMagic) || bytes.size() < 10) refuse("this is not an array of NumPy");
   const int version = static_cast<unsigned char>(bytes[6]);
-  if (version < 1 || version > 3) refuse("a NumPy array of version " + std::to_string(version) + "; 1 to 3 are read");
+  if (version < 1 || version > 3)
+    refuse("a NumPy array of version " + std::to_string(version) + "; 1 to 3 are read");
   const std::size_t width = version == 1 ? 2 : 4, start = 8 + width;
   const std::uint64_t length = bytes.size() < start ? bytes.size() : little_endian(bytes.substr(8, width));
   if (length > kMostHeader || length > bytes.size() - std::min(start, bytes.size()))
@@ -188,7 +190,8 @@ NumpyArray read_numpy_header(std::string_view bytes, const core::FileLocation& w
   array.data = start + length;
   std::size_t needed = array.item_bytes;
   for (const std::size_t n : array.shape) {
-    if (n > 0 && needed > std::numeric_limits<std::size_t>::max() / n) refuse("a NumPy array of impossible shape");
+    if (n > 0 && needed > std::numeric_limits<std::size_t>::max() / n)
+      refuse("a NumPy array of impossible shape");
     needed *= n;
   }
   if (needed > bytes.size() - array.data)
@@ -199,7 +202,8 @@ NumpyArray read_numpy_header(std::string_view bytes, const core::FileLocation& w
 
 NumpyFile::NumpyFile(const ColumnFile& file) : file_(file) {
   std::optional<std::string> content = core::read_whole_file(file.path);
-  if (!content) throw core::InputError({file.where, "cannot read " + file.path.string(), "check its name and rights"});
+  if (!content)
+    throw core::InputError({file.where, "cannot read " + file.path.string(), "check its name and rights"});
   if (column_format(file.path) == ColumnFormat::npz) {
     const core::ZipArchive archive(*content, file.path.string());
     for (const std::string& entry : archive.names())
@@ -243,16 +247,16 @@ std::vector<double> NumpyFile::column(const std::string& name) const {
   std::size_t number = columns;
   const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), number);
   if (status != std::errc{} || end != name.data() + name.size() || number >= columns)
-    throw core::InputError({file_.where,
-                            "the array of " + file_.path.string() + " has no column \"" + name + "\"",
-                            "it has no fields: its columns are the numbers 0 to " + std::to_string(columns - 1)});
+    throw core::InputError(
+        {file_.where, "the array of " + file_.path.string() + " has no column \"" + name + "\"",
+         "it has no fields: its columns are the numbers 0 to " + std::to_string(columns - 1)});
   if (array.fortran_order && array.shape.size() > 2)
     throw core::InputError({file_.where, "an array of several axes in Fortran's order is not read",
                             "save numpy.ascontiguousarray(a)"});
   const std::size_t size = array.item_bytes;
-  return array.fortran_order ? numbers_at(bytes, array.fields.front(), array.data + number * rows * size, size, rows)
-                             : numbers_at(bytes, array.fields.front(), array.data + number * size,
-                                          columns * size, rows);
+  return array.fortran_order
+             ? numbers_at(bytes, array.fields.front(), array.data + number * rows * size, size, rows)
+             : numbers_at(bytes, array.fields.front(), array.data + number * size, columns * size, rows);
 }
 
 }  // namespace scintray::config

@@ -12,11 +12,11 @@ namespace scintray::config {
 
 /// Numbers at equal steps within the bytes of an array.
 struct NumpyField {
-  std::string name;         ///< empty: the array has no fields
-  char kind = 'f';          ///< f, i, u or b
-  std::size_t bytes = 8;    ///< of a number
+  std::string name;       ///< empty: the array has no fields
+  char kind = 'f';        ///< f, i, u or b
+  std::size_t bytes = 8;  ///< of a number
   bool big_endian = false;
-  std::size_t offset = 0;   ///< of the first within a row
+  std::size_t offset = 0;  ///< of the first within a row
 };
 
 /// An array of a .npy file, of versions 1 to 3 (NumPy Enhancement Proposal 1 and numpy.lib.format).
@@ -28,8 +28,8 @@ struct NumpyArray {
   std::size_t data = 0;  ///< position of the first byte
 };
 
-/// Header of an array. Throws InputError at `where` for other content, for objects, strings and nested fields,
-/// and when there are fewer bytes than the shape requires.
+/// Header of an array. Throws InputError at `where` for other content, for objects, strings and nested
+/// fields, and when there are fewer bytes than the shape requires.
 NumpyArray read_numpy_header(std::string_view bytes, const core::FileLocation& where);
 
 /// Arrays of a .npy or .npz file, in memory.

@@ -99,9 +99,10 @@ std::string energy_lines(const tally::PointResult& point) {
   std::string text = std::to_string(energy.events) + " events";
   // A list of photons has no energies.
   if (energy.silent > 0 || energy.deposited > 0.0 || energy.non_scintillating > 0.0)
-    text += ", " + std::to_string(energy.silent) + " of them without energy in a scintillator; keV deposited " +
-            compact(energy.deposited, 6) + ", escaped " + compact(energy.escaped, 6) +
-            ", in non-scintillating parts " + compact(energy.non_scintillating, 6);
+    text += ", " + std::to_string(energy.silent) +
+            " of them without energy in a scintillator; keV deposited " + compact(energy.deposited, 6) +
+            ", escaped " + compact(energy.escaped, 6) + ", in non-scintillating parts " +
+            compact(energy.non_scintillating, 6);
   text += "\n";
   if (energy.detected.count > 0)
     text += "detected per event " + with_error(energy.detected.mean()) + " photons\n";

@@ -58,8 +58,7 @@ PhotonListSource::PhotonListSource(const scene_file::PhotonListSpec& spec, std::
     : origin_(spec.origin()), unpolarised_(unpolarised) {
   const scene_file::PhotonColumns& photons = spec.photons();
   const EventOrder order = order_of(photons, std::max<std::uint64_t>(1, spec.photons_per_event));
-  const std::size_t events =
-      most == 0 ? order.first.size() : std::min<std::size_t>(most, order.first.size());
+  const std::size_t events = most == 0 ? order.first.size() : std::min<std::size_t>(most, order.first.size());
   const std::size_t last = events < order.first.size() ? order.first[events] : order.rows.size();
   photons_.reserve(last);
   for (std::size_t i = 0, event = 0; i < last; ++i) {
@@ -79,10 +78,9 @@ PhotonListSource::PhotonListSource(const scene_file::PhotonListSpec& spec, std::
          "check length_unit, and that both programs place the parts alike; misplaced = \"leave_out\" counts "
          "such photons in a note and traces the others"});
   if (photons_.empty())
-    throw core::InputError({spec.where,
-                            fmt::format("all {} photons of {} start in parts that absorb all light", last,
-                                        origin_),
-                            "check length_unit, and that both programs place the parts alike"});
+    throw core::InputError(
+        {spec.where, fmt::format("all {} photons of {} start in parts that absorb all light", last, origin_),
+         "check length_unit, and that both programs place the parts alike"});
   core::IdVector<core::RegionId, bool> used(scene.regions.size(), false);
   for (const Listed& listed : photons_) used[listed.region] = true;
   for (const core::RegionId region : scene.regions.ids())

@@ -23,9 +23,9 @@ struct PhotonListReport {
   Count polarised_here;  ///< of zero polarisation in a list of polarisations: drawn at random
 };
 
-/// Events of the photons of a list, in the order of their numbers there. Positions, directions, polarisations,
-/// wavelengths and times are those of the list; a polarisation is made exactly perpendicular to its direction.
-/// Immutable.
+/// Events of the photons of a list, in the order of their numbers there. Positions, directions,
+/// polarisations, wavelengths and times are those of the list; a polarisation is made exactly perpendicular
+/// to its direction. Immutable.
 class PhotonListSource : public LightSource {
  public:
   /// A photon within this distance of a face, along its direction, is on it: Geant4 ends steps at faces, on
