@@ -18,18 +18,18 @@ using namespace scintray::test;
 
 namespace {
 
-std::filesystem::path file_with(const std::string& name, const std::string& content) {
+std::filesystem::path list_file(const std::string& name, const std::string& content) {
   const std::filesystem::path file = scratch_folder("photon_list") / name;
   std::ofstream(file, std::ios::binary) << content;
   return file;
 }
 
-std::string source_of(const std::filesystem::path& file, const std::string& more = "") {
+std::string list_source(const std::filesystem::path& file, const std::string& more = "") {
   return "type = \"photon_list\"\nfile = \"" + file.string() +
          "\"\nlength_unit = \"mm\"\nwavelength_unit = \"nm\"\n" + more;
 }
 
-constexpr const char* kHead = "event,x,y,z,direction_x,direction_y,direction_z,wavelength\n";
+constexpr const char* kListHead = "event,x,y,z,direction_x,direction_y,direction_z,wavelength\n";
 
 PhotonListSource list_of(const std::string& source, const Scene& scene) {
   const scene_file::GammaSpec spec = gamma_spec(source);
@@ -44,9 +44,9 @@ Photon photon_of(const PhotonListSource& list, const Scene& scene, std::uint64_t
   return list.emit(scene, light, number, rng);
 }
 
-std::string refused(const std::string& csv, const std::string& more = "") {
+std::string list_refused(const std::string& csv, const std::string& more = "") {
   const Scene scene = lso_cube(10.0);
-  return complaint([&] { list_of(source_of(file_with("bad.csv", csv), more), scene); });
+  return complaint([&] { list_of(list_source(list_file("bad.csv", csv), more), scene); });
 }
 
 /// A .npy file of version 1.
@@ -73,7 +73,7 @@ std::string npy_of(const std::string& descr, const std::string& shape, const std
 TEST_CASE("photons of a list become events in the order of their numbers, in our units") {
   const Scene scene = lso_cube(10.0);
   const auto csv =
-      file_with("a.csv",
+      list_file("a.csv",
                 "id,px,py,pz,mx,my,mz,e,t,ex,ey,ez\n"
                 "7,0.1,0,0,0,0,2,2.5,3,1,0,0.5\n3,0,0.2,0,1,0,0,3,4,0,0,0\n7,0,0,0.3,0,1,0,2,5,0,0,1\n");
   const PhotonListSource list = list_of(
@@ -107,13 +107,13 @@ TEST_CASE("photons without events are grouped, and events can be limited") {
   const Scene scene = lso_cube(10.0);
   std::string csv = "x,y,z,direction_x,direction_y,direction_z,wavelength\n";
   for (int i = 0; i < 7; ++i) csv += "0,0," + std::to_string(0.1 * i) + ",0,0,1,420\n";
-  const auto file = file_with("grouped.csv", csv);
-  const PhotonListSource list = list_of(source_of(file, "photons_per_event = 3\n"), scene);
+  const auto file = list_file("grouped.csv", csv);
+  const PhotonListSource list = list_of(list_source(file, "photons_per_event = 3\n"), scene);
   REQUIRE(list.events() == 3);
   CHECK(photon_of(list, scene, 2, 0).position.vec().isApprox(Vec3(0, 0, 0.6)));
-  CHECK(list_of(source_of(file, "photons_per_event = 3\nevents = 2\n"), scene).photons() == 6);
+  CHECK(list_of(list_source(file, "photons_per_event = 3\nevents = 2\n"), scene).photons() == 6);
   const PhotonListSource unpolarised =
-      list_of(source_of(file, "photons_per_event = 3\npolarisation = \"unpolarised\"\n"), scene);
+      list_of(list_source(file, "photons_per_event = 3\npolarisation = \"unpolarised\"\n"), scene);
   CHECK(photon_of(unpolarised, scene, 0, 0).ray.polarisation.vec().isZero());
 }
 
@@ -122,10 +122,10 @@ TEST_CASE("a photon on a face starts in the part into which it moves; elsewhere 
       box_part("crystal", "LSO", Vec3::Constant(10.0)) +
       box_part("shield", "opaque", Vec3(2.0, 2.0, 2.0), "translate = [\"20 mm\", \"0 mm\", \"0 mm\"]"));
   const auto csv =
-      file_with("faces.csv", std::string(kHead) +
+      list_file("faces.csv", std::string(kListHead) +
                                  "0,0,0,5,0,0,1,420\n0,0,0,5,0,0,-1,420\n0,0,0,5.0000000001,0,0,-1,420\n"
                                  "0,0,0,8,0,0,1,420\n0,0,0,4,0,0,1,420\n");
-  const PhotonListSource list = list_of(source_of(csv), scene);
+  const PhotonListSource list = list_of(list_source(csv), scene);
   const auto region = [&](std::uint64_t number) {
     return scene.region_names[photon_of(list, scene, 0, number).region];
   };
@@ -140,15 +140,16 @@ TEST_CASE("a photon on a face starts in the part into which it moves; elsewhere 
   CHECK(says(list.notes().front(), "5 photons"));
   CHECK(list.regions().size() == 2);
 
-  const auto inside = file_with("shield.csv", std::string(kHead) + "0,20,0,0,0,0,1,420\n0,0,0,0,0,0,1,420\n");
-  const std::string complains = complaint([&] { list_of(source_of(inside), scene); });
+  const auto inside =
+      list_file("shield.csv", std::string(kListHead) + "0,20,0,0,0,0,1,420\n0,0,0,0,0,0,1,420\n");
+  const std::string complains = complaint([&] { list_of(list_source(inside), scene); });
   CHECK(says(complains, "1 of 2 photons"));
   CHECK(says(complains, "row 2 (at 20, 0, 0 mm)"));
-  const PhotonListSource left_out = list_of(source_of(inside, "misplaced = \"leave_out\"\n"), scene);
+  const PhotonListSource left_out = list_of(list_source(inside, "misplaced = \"leave_out\"\n"), scene);
   CHECK(left_out.photons() == 1);
   CHECK(says(left_out.notes().front(), "1 of 2 photons"));
-  const auto none = file_with("none.csv", std::string(kHead) + "0,20,0,0,0,0,1,420\n");
-  CHECK(says(complaint([&] { list_of(source_of(none, "misplaced = \"leave_out\"\n"), scene); }),
+  const auto none = list_file("none.csv", std::string(kListHead) + "0,20,0,0,0,0,1,420\n");
+  CHECK(says(complaint([&] { list_of(list_source(none, "misplaced = \"leave_out\"\n"), scene); }),
              "all 1 photons"));
 }
 
@@ -171,7 +172,7 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
       {"direction_z", {1, 0}}, {"wavelength", {420, 430}}};
   for (const auto& [name, values] : columns) group.write<double>(name, values);
   file.commit();
-  same(list_of(source_of(h5, "group = \"light\"\n"), scene));
+  same(list_of(list_source(h5, "group = \"light\"\n"), scene));
 
   // A structured array of mixed numbers, the last of them with its bytes in the other order.
   std::string rows;
@@ -188,8 +189,8 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
     const auto nm = static_cast<std::uint16_t>(columns[7].second[i]);
     put(static_cast<std::uint16_t>(nm << 8 | nm >> 8));
   }
-  same(list_of(source_of(file_with("structured.npy",
-                                   npy_of(descr, "2,", std::vector<char>(rows.begin(), rows.end())))),
+  same(list_of(list_source(list_file("structured.npy",
+                                     npy_of(descr, "2,", std::vector<char>(rows.begin(), rows.end())))),
                scene));
 
   // Numbered columns: (2, 2, 4) as Opticks writes photons, and (2, 8) in Fortran's order.
@@ -197,29 +198,29 @@ TEST_CASE("lists of photons in HDF5 and NumPy files are those of CSV files") {
       "photons_per_event = 1\ncolumns = { x = \"0\", y = \"1\", z = \"2\", direction_x = \"4\", direction_y "
       "= \"5\", "
       "direction_z = \"6\", wavelength = \"7\" }\n";
-  same(list_of(source_of(file_with("opticks.npy",
-                                   npy_of<float>("'<f4'", "2, 2, 4",
-                                                 {0, 0, 0, 9, 0, 0, 1, 420, 1, 2, 3, 9, 0, -1, 0, 430})),
-                         numbered),
+  same(list_of(list_source(list_file("opticks.npy",
+                                     npy_of<float>("'<f4'", "2, 2, 4",
+                                                   {0, 0, 0, 9, 0, 0, 1, 420, 1, 2, 3, 9, 0, -1, 0, 430})),
+                           numbered),
                scene));
   same(list_of(
-      source_of(file_with("fortran.npy",
-                          npy_of<double>("'<f8'", "2, 8",
-                                         {0, 1, 0, 2, 0, 3, 9, 9, 0, 0, 0, -1, 1, 0, 420, 430}, true)),
-                numbered),
+      list_source(list_file("fortran.npy",
+                            npy_of<double>("'<f8'", "2, 8",
+                                           {0, 1, 0, 2, 0, 3, 9, 9, 0, 0, 0, -1, 1, 0, 420, 430}, true)),
+                  numbered),
       scene));
 
   std::vector<std::pair<std::string, std::string>> entries;
   for (const auto& [name, values] : columns)
     entries.emplace_back(std::string(name) + ".npy", npy_of<double>("'<f8'", "2,", values));
-  same(list_of(source_of(file_with("list.npz", zipped(entries))), scene));
+  same(list_of(list_source(list_file("list.npz", zipped(entries))), scene));
 }
 
 TEST_CASE("damaged NumPy files are refused") {
   const Scene scene = lso_cube(10.0);
   const auto says_of = [&](const std::string& content, const std::string& words,
                            const std::string& more = "") {
-    return says(complaint([&] { list_of(source_of(file_with("bad.npy", content), more), scene); }), words);
+    return says(complaint([&] { list_of(list_source(list_file("bad.npy", content), more), scene); }), words);
   };
   CHECK(says_of("hello, this is text", "not an array of NumPy"));
   const std::string good = npy_of<double>("'<f8'", "3, 8", std::vector<double>(24, 0.0));
@@ -231,24 +232,25 @@ TEST_CASE("damaged NumPy files are refused") {
   CHECK(says_of(good, "no column \"event\""));
   CHECK(says_of(npy_of<double>("[('x', '<f8')]", "1,", {0.0}), "\"event\""));
   for (std::size_t length = 0; length < good.size(); length += 7)
-    CHECK_FALSE(
-        complaint([&] { list_of(source_of(file_with("cut.npy", good.substr(0, length))), scene); }).empty());
+    CHECK_FALSE(complaint([&] {
+                  list_of(list_source(list_file("cut.npy", good.substr(0, length))), scene);
+                }).empty());
 }
 
 TEST_CASE("lists of photons that are wrong are refused with their rows") {
-  const std::string head = kHead;
-  CHECK(says(refused(head + "0.5,0,0,0,0,0,1,420\n"), "bad.csv:2"));
-  CHECK(says(refused(head + "0,0,0,0,0,0,0,420\n"), "direction is zero"));
-  CHECK(says(refused(head + "0,0,0,0,0,0,1,0.42\n"), "10 to 100,000 nm"));
-  CHECK(says(refused(head + "0,0,0,0,0,0,1,-5\n"), "-5"));
-  CHECK(says(refused("event,x\n0,0\n"), "no column \"y\""));
-  CHECK(
-      says(refused("event,x,y,z,direction_x,direction_y,direction_z,wavelength,polarisation_x,polarisation_y,"
+  const std::string head = kListHead;
+  CHECK(says(list_refused(head + "0.5,0,0,0,0,0,1,420\n"), "bad.csv:2"));
+  CHECK(says(list_refused(head + "0,0,0,0,0,0,0,420\n"), "direction is zero"));
+  CHECK(says(list_refused(head + "0,0,0,0,0,0,1,0.42\n"), "10 to 100,000 nm"));
+  CHECK(says(list_refused(head + "0,0,0,0,0,0,1,-5\n"), "-5"));
+  CHECK(says(list_refused("event,x\n0,0\n"), "no column \"y\""));
+  CHECK(says(
+      list_refused("event,x,y,z,direction_x,direction_y,direction_z,wavelength,polarisation_x,polarisation_y,"
                    "polarisation_z\n0,0,0,0,0,0,1,420,0,0,1\n",
                    "polarisation = \"listed\"\n"),
-           "along the direction"));
+      "along the direction"));
   const auto key = [](const std::string& more) {
-    return complaint([&] { gamma_spec(source_of(file_with("key.csv", "x\n1\n"), more)); });
+    return complaint([&] { gamma_spec(list_source(list_file("key.csv", "x\n1\n"), more)); });
   };
   CHECK(says(key("columns = { time = \"t\" }"), "time_unit"));
   CHECK(says(key("columns = { polarisation_x = \"p\" }"), "listed"));

@@ -12,7 +12,7 @@ namespace scintray::source {
 
 namespace {
 
-constexpr std::size_t kNamed = 5;
+constexpr std::size_t kDescribed = 5;
 
 core::Vec3 vector_at(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z,
                      std::size_t row) {
@@ -41,7 +41,7 @@ EventOrder order_of(const scene_file::PhotonColumns& photons, std::uint64_t phot
 
 void count(PhotonListReport::Count& counted, const scene_file::PhotonColumns& photons, std::size_t row) {
   ++counted.photons;
-  if (counted.first.size() < kNamed)
+  if (counted.first.size() < kDescribed)
     counted.first.push_back(fmt::format("row {} (at {:.6g}, {:.6g}, {:.6g} mm)",
                                         photons.rows.empty() ? row : photons.rows[row], photons.x_mm[row],
                                         photons.y_mm[row], photons.z_mm[row]));

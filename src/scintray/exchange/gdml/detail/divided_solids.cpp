@@ -22,7 +22,7 @@ Node filled(Node element, std::initializer_list<std::pair<const char*, double>> 
 }
 
 /// The middle of copy n, from the low end.
-double middle(const Division& division, int number) {
+double middle_of_copy(const Division& division, int number) {
   return division.offset + (number + 0.5) * division.width;
 }
 
@@ -83,7 +83,7 @@ VolumeCopy DividedSolid::copy(const Division& division, int number, Node origin)
 VolumeCopy DividedSolid::box(const Division& division, int number, Node origin) const {
   core::Vec3 sides(length("x"), length("y"), length("z"));
   const auto axis = static_cast<Eigen::Index>(division.axis);
-  const double at = -0.5 * sides[axis] + middle(division, number);
+  const double at = -0.5 * sides[axis] + middle_of_copy(division, number);
   sides[axis] = division.width;
   const Node solid =
       filled(solids_.new_element("box"), {{"x", sides.x()}, {"y", sides.y()}, {"z", sides.z()}});
@@ -93,7 +93,7 @@ VolumeCopy DividedSolid::box(const Division& division, int number, Node origin) 
 VolumeCopy DividedSolid::para(const Division& division, int number, Node origin) const {
   core::Vec3 sides(length("x"), length("y"), length("z"));
   const auto axis = static_cast<Eigen::Index>(division.axis);
-  const double at = -0.5 * sides[axis] + middle(division, number);
+  const double at = -0.5 * sides[axis] + middle_of_copy(division, number);
   sides[axis] = division.width;
   const double alpha = angle("alpha"), theta = angle("theta"), phi = angle("phi");
   const core::Vec3 along[] = {core::Vec3::UnitX(),
@@ -123,7 +123,7 @@ VolumeCopy DividedSolid::trd(const Division& division, int number, Node origin) 
   }
   const bool along_x = division.axis == DivisionAxis::x;
   const double low = along_x ? x1 : y1, high = along_x ? x2 : y2, mean = 0.5 * (low + high);
-  const double share = middle(division, number) / mean - 0.5;  // of the width, from the middle
+  const double share = middle_of_copy(division, number) / mean - 0.5;  // of the width, from the middle
   const double shift = share * (high - low);
   const double width_low = division.width * low / mean, width_high = division.width * high / mean;
   const Node solid = filled(solids_.new_element("trap"), {{"z", z},
@@ -164,7 +164,7 @@ VolumeCopy DividedSolid::cone(const Division& division, int number, Node origin)
       radii[0] = start + slope * low;
       radii[1] = start + slope * (low + division.width);
     }
-    copy.in_mother = moved(core::Vec3::UnitZ() * (middle(division, number) - 0.5 * z));
+    copy.in_mother = moved(core::Vec3::UnitZ() * (middle_of_copy(division, number) - 0.5 * z));
     z = division.width;
   }
   const Node solid =
