@@ -1,12 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "cli/program.hpp"
 #include "io/gdml_texts.hpp"
+#include "scintray/core/h5.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
 
+using namespace scintray;
 using namespace scintray::test;
 
 namespace {
@@ -72,6 +75,83 @@ TEST_CASE("export writes a scene as GDML that import reads, and refuses other en
   check_contains(run_program({"check", "two.toml"}, folder), 0, "no errors");
   check_contains(run_program({"export", "one.toml", "-o", "one.step"}, folder), 1,
                  {"one.step", "exported as GDML"});
+}
+
+TEST_CASE("export writes the rows of a result as CSV, NumPy and LH5, which a list of photons reads") {
+  const auto folder = scratch_folder("cli_export_rows");
+  const std::string scene = R"(ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO"
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "R6231"
+[run]
+photon_list = true
+)";
+  write(folder / "a.toml", scene + R"([source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 500
+)");
+  REQUIRE(run_program({"run", "a.toml", "-o", "a.h5", "--no-report"}, folder).exit_code == 0);
+  for (const char* name : {"rows.csv", "rows.npy", "rows.lh5"})
+    check_contains(run_program({"export", "a.h5", "-o", name}, folder), 0, {"rows of photons", name});
+  const std::string csv = read(folder / "rows.csv");
+  CHECK(csv.starts_with("point,event,photon,part,face,x_mm,y_mm,z_mm,direction_x"));
+  const auto rows = std::count(csv.begin(), csv.end(), '\n') - 1;
+  CHECK(rows > 10);
+  CHECK(contains(read(folder / "rows.npy"), "'shape': (" + std::to_string(rows) + ",)"));
+  const core::h5::File lh5 = core::h5::File::open(folder / "rows.lh5");
+  const core::h5::Group photons = lh5.root().open_group("photons");
+  CHECK(photons.string_attribute("", "datatype").starts_with("table{point,event,photon,"));
+  CHECK(photons.string_attribute("time_ns", "datatype") == "array<1>{real}");
+  CHECK(photons.string_attribute("time_ns", "units") == "ns");
+  CHECK_FALSE(photons.has_attribute("event", "units"));
+  CHECK(photons.shape("x_mm") == core::h5::Shape{static_cast<std::uint64_t>(rows)});
+  // The three are one source.
+  std::string first;
+  for (const std::string more :
+       {"file = \"rows.csv\"", "file = \"rows.npy\"", "file = \"rows.lh5\"\ngroup = \"photons\""}) {
+    write(folder / "b.toml", R"(ambient = "air"
+[[part]]
+name = "guide"
+box = { low = ["-1 mm", "-1 mm", "-8 mm"], high = ["1 mm", "1 mm", "0 mm"] }
+medium = "LSO"
+surface = "polished"
+[[part]]
+name = "pmt"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "guide", side = "-z" }
+sensor = "R6231"
+[run]
+photon_list = true
+[source]
+type = "photon_list"
+)" + more + R"(
+length_unit = "mm"
+wavelength_unit = "nm"
+time_unit = "ns"
+columns = { x = "x_mm", y = "y_mm", z = "z_mm", wavelength = "wavelength_nm", time = "time_ns" }
+)");
+    check_contains(run_program({"run", "b.toml", "-o", "b.h5", "--no-report"}, folder), 0, "1 events");
+    const core::h5::File result = core::h5::File::open(folder / "b.h5");
+    std::string times;
+    for (const double ns : result.root().open_group("photons").read<double>("time_ns"))
+      times += std::to_string(ns) + "\n";
+    if (first.empty()) first = times;
+    CHECK(times == first);
+    remove(folder / "b.h5");
+  }
+  check_contains(run_program({"export", "a.h5", "-o", "a.root"}, folder), 1,
+                 {"a.root", ".csv, .npy or .lh5"});
+  check_contains(run_program({"export", "a.h5", "--table", "hits", "-o", "a.csv"}, folder), 1,
+                 {"no table \"hits\"", "photons"});
 }
 
 TEST_CASE("import explains options that do not fit") {

@@ -79,6 +79,9 @@ TEST_CASE("GDML: every solid that is made is closed, outward, and has the volume
       {R"(<torus name="it" rmin="0.5" rmax="1" rtor="5" deltaphi="twopi"/>)", 2 * kPi * kPi * 5 * 0.75,
        0.006},
       {R"(<torus name="it" rmax="1" rtor="5" startphi="1" deltaphi="pi"/>)", kPi * kPi * 5, kRound},
+      // Hollow, and not all round: G4Torus, by Pappus' theorem.
+      {R"(<torus name="it" rmin="0.5" rmax="1" rtor="5" startphi="1" deltaphi="pi"/>)", kPi * kPi * 5 * 0.75,
+       0.006},
       {R"(<ellipsoid name="it" ax="2" by="3" cz="4"/>)", 4.0 / 3.0 * kPi * 24, kRound},
       {R"(<ellipsoid name="it" ax="2" by="3" cz="4" zcut1="-4" zcut2="0.000001"/>)", 2.0 / 3.0 * kPi * 24,
        kRound},
@@ -88,6 +91,40 @@ TEST_CASE("GDML: every solid that is made is closed, outward, and has the volume
       {R"(<paraboloid name="it" rlo="1" rhi="3" dz="5"/>)", kPi * 10 * 5, kRound},
       {R"(<hype name="it" rmin="1" rmax="3" inst="0" outst="0.5" z="10"/>)",
        kPi * (8 * 10 + std::pow(std::tan(0.5), 2) * 1000.0 / 12.0), kRound},
+      // Planes through the middles of the ends leave the volume of a whole tube as it is.
+      {R"(<cutTube name="it" rmin="3" rmax="5" z="20" deltaphi="360" aunit="deg" lowX="0.3" lowY="0.1" lowZ="-0.9"
+          highX="0" highY="-0.5" highZ="0.8"/>)",
+       kPi * 16 * 20, kRound},
+      // Of half a tube the heights are 20 + c rho sin(phi), c = 0.5 / 0.8, rho from 3 to 5, phi from 0 to pi.
+      {R"(<cutTube name="it" rmin="3" rmax="5" z="20" deltaphi="180" aunit="deg" lowX="0" lowY="0" lowZ="-1"
+          highX="0" highY="-0.5" highZ="0.8"/>)",
+       kPi * 8 * 20 + 0.625 * 2 * (125 - 27) / 3, kRound},
+      // Twisted bodies have the areas of their untwisted cross-sections (G4VTwistedFaceted::GetCubicVolume).
+      {R"(<twistedbox name="it" PhiTwist="1" x="3" y="4" z="5"/>)", 60, 0.003},
+      {R"(<twistedtrd name="it" PhiTwist="-40" aunit="deg" x1="4" x2="2" y1="6" y2="3" z="10"/>)",
+       ((4 + 2) * (6 + 3) + (2 - 4) * (3 - 6) / 3.0) * 10 / 4.0, 0.003},
+      {R"(<twistedtrap name="it" PhiTwist="30" aunit="deg" z="10" Theta="10" Phi="20" y1="6" x1="4" x2="5" y2="3"
+          x3="2" x4="2.5" Alph="15"/>)",
+       ((2 + 2.5 + 1 + 1.25) * (3 + 1.5) + (1.25 + 1 - 2.5 - 2) * (1.5 - 3) / 3.0) * 5, 0.003},
+      // Between two hyperboloids: G4TwistedTubs::GetCubicVolume, with the radii of the ends and of the
+      // middle.
+      {R"(<twistedtubs name="it" twistedangle="1" endinnerrad="4" endouterrad="6" zlen="10" phi="0.8"/>)",
+       0.8 / 6.0 * 10 * (2 * 20 * std::pow(std::cos(0.5), 2) + 20), 0.004},
+      {R"(<twistedtubs name="it" twistedangle="-60" aunit="deg" midinnerrad="4" midouterrad="6" negativeEndz="-3"
+          positiveEndz="6" nseg="6" totphi="360"/>)",
+       kPi / 3 / 6.0 * (2 * 9 * 20 + 20.0 * (6 * (1 + 1.0 / 3) + 3 * (1 + 1.0 / 12))), 0.004},
+      {R"(<box name="b" x="2" y="2" z="2"/><orb name="o" r="1"/><multiUnion name="it">
+          <multiUnionNode name="n1"><solid ref="b"/></multiUnionNode>
+          <multiUnionNode name="n2"><solid ref="b"/><position x="1" y="1"/></multiUnionNode>
+          <multiUnionNode name="n3"><solid ref="b"/><position x="10"/><rotation z="45" unit="deg"/></multiUnionNode>
+          </multiUnion>)",
+       8 + 8 - 2 + 8, flat},
+      {R"(<trd name="t" x1="2" x2="4" y1="2" y2="2" z="3"/>
+          <reflectedSolid name="it" solid="t" sx="1" sy="1" sz="-1" rx="90" ry="0" rz="0" dx="1" dy="2" dz="3"
+          aunit="deg"/>)",
+       18, flat},
+      {R"(<orb name="o" r="2"/><scaledSolid name="it"><solidref ref="o"/><scale x="1" y="2" z="3"/></scaledSolid>)",
+       4.0 / 3.0 * kPi * 8 * 6, kRound},
   };
   for (const Case& c : cases) {
     CAPTURE(c.text);
@@ -118,6 +155,27 @@ TEST_CASE("GDML: booleans turn and move their solids as Geant4 does") {
   CHECK(volume(R"(<union name="u"><first ref="a"/><second ref="b"/></union>
 <subtraction name="it"><first ref="u"/><second ref="a"/><firstposition z="1"/></subtraction>)") ==
         doctest::Approx(88.0 - 64.0 + 12.0));
+}
+
+TEST_CASE("GDML: twisted and cut solids lie as Geant4 places them") {
+  const auto bounds = [](const TriMesh& mesh) { return diagnose(mesh).bounds; };
+  // Its upper end is turned by half the twist: the corner (1.5, 2) of the box at 30 degrees.
+  const TriMesh box = solid(R"(<twistedbox name="it" PhiTwist="60" aunit="deg" x="3" y="4" z="5"/>)");
+  double highest = -9.0;
+  for (const Vec3& v : box.vertices)
+    if (v.z() > 2.4999) highest = std::max(highest, v.y());
+  CHECK(highest == doctest::Approx(1.5 * std::sin(kPi / 6) + 2 * std::cos(kPi / 6)));
+  // G4CutTubs: the plane through (0, 0, 10) with the normal (0, -0.5, 0.8) is at z = 10 + 0.625 y.
+  const TriMesh cut = solid(
+      R"(<cutTube name="it" rmax="4" z="20" deltaphi="360" aunit="deg" lowX="0" lowY="0" lowZ="-1" highX="0"
+highY="-0.5" highZ="0.8"/>)");
+  CHECK(bounds(cut).max().z() == doctest::Approx(10 + 0.625 * 4));
+  CHECK(bounds(cut).min().z() == doctest::Approx(-10));
+  // Turned by +90 deg about x after the reflection of z: (x, y, z) goes to (x, z, y), then moves.
+  const TriMesh reflected = solid(R"(<trd name="t" x1="2" x2="4" y1="2" y2="2" z="3"/>
+<reflectedSolid name="it" solid="t" sx="1" sy="1" sz="-1" rx="90" ry="0" rz="0" dx="1" dy="2" dz="3" aunit="deg"/>)");
+  for (const Vec3& v : reflected.vertices) CHECK(std::abs(v.x() - 1) == doctest::Approx(v.y() > 2 ? 2 : 1));
+  CHECK(bounds(reflected).min().z() == doctest::Approx(2));
 }
 
 TEST_CASE("GDML: round solids are known as round, prisms of many sides are not") {

@@ -147,12 +147,155 @@ TEST_CASE("GDML: replicas about z and divisions of a box lie where Geant4 has th
   const RotationSpec& turn = part("sector_v_1").placement.rotate.at(0);
   CHECK(turn.axis.z() * turn.angle_rad == doctest::Approx(135.0 * kDegree));
   CHECK(built(draft(text)).parts.size() == 9);
-  std::string wrong = text.structure;
-  text.structure.replace(text.structure.find("width=\"3\""), 9, "width=\"2\"");
-  check_contains(complaint(text), {"2.000000 mm wide", "3.000000 mm"});
-  text.structure = wrong;
+  const std::string before = text.structure;
+  text.structure.replace(text.structure.find("width=\"3\""), 9, "width=\"4\"");
+  check_contains(complaint(text), {"extend to 15.000000", "12.000000"});
+  text.structure = before;
   text.structure.replace(text.structure.find("kXAxis"), 6, "kPhi");
   check_contains(complaint(text), {"divisions other than along kXAxis"});
+}
+
+TEST_CASE("GDML: the copies of a division have its dimensions, whatever their own solid has") {
+  // Each row: the mother's solid, the axis with number and offset, and the volume of a copy.
+  struct Case {
+    const char* solid;
+    const char* division;
+    double first, last;
+    int number;
+  };
+  const double round = 0.004;
+  const Case cases[] = {
+      {R"(<box name="it" x="12" y="3" z="4"/>)", R"(axis="kXAxis" number="4" unit="mm")", 36, 36, 4},
+      {R"(<box name="it" x="12" y="3" z="4"/>)", R"(axis="kZAxis" width="0.15" offset="0.1" unit="cm")", 54,
+       54, 2},
+      {R"(<tube name="it" rmin="2" rmax="6" z="10" deltaphi="360" aunit="deg"/>)",
+       R"(axis="kRho" number="2" unit="mm")", kPi * (16 - 4) * 10, kPi * (36 - 16) * 10, 2},
+      {R"(<tube name="it" rmin="2" rmax="6" z="10" startphi="20" deltaphi="180" aunit="deg"/>)",
+       R"(axis="kPhi" number="3" unit="deg")", kPi * 32 * 10 / 6, kPi * 32 * 10 / 6, 3},
+      {R"(<cone name="it" rmin1="0" rmax1="2" rmin2="0" rmax2="6" z="8" deltaphi="360" aunit="deg"/>)",
+       R"(axis="kZAxis" number="2" unit="mm")", kPi * 4 / 3 * (4 + 16 + 8), kPi * 4 / 3 * (16 + 36 + 24), 2},
+      {R"(<trd name="it" x1="2" x2="4" y1="3" y2="3" z="6"/>)", R"(axis="kZAxis" number="2" unit="mm")",
+       2.5 * 9, 3.5 * 9, 2},
+      {R"(<trd name="it" x1="2" x2="4" y1="3" y2="3" z="6"/>)", R"(axis="kXAxis" number="3" unit="mm")", 18,
+       18, 3},
+      {R"(<para name="it" x="6" y="4" z="3" alpha="10" theta="20" phi="30" aunit="deg"/>)",
+       R"(axis="kYAxis" number="4" unit="mm")", 18, 18, 4},
+      {R"(<polycone name="it" deltaphi="360" aunit="deg"><zplane z="0" rmin="0" rmax="4"/>
+<zplane z="5" rmin="0" rmax="4"/></polycone>)",
+       R"(axis="kPhi" number="4" unit="deg")", kPi * 20, kPi * 20, 4},
+      {R"(<polyhedra name="it" numsides="4" deltaphi="360" aunit="deg"><zplane z="0" rmax="2"/>
+<zplane z="7" rmax="2"/></polyhedra>)",
+       R"(axis="kRho" number="2" unit="mm")", 4 * 7, 12 * 7, 2},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.solid);
+    CAPTURE(c.division);
+    GdmlText text;
+    text.solids = std::string(c.solid) + R"(<box name="other" x="1" y="1" z="1"/>)";
+    text.structure =
+        gdml_volume("piece", "other") +
+        gdml_volume("mother", "it", "Vacuum",
+                    "<divisionvol " + std::string(c.division) + "><volumeref ref=\"piece\"/></divisionvol>");
+    text.daughters = gdml_placed("m", "mother");
+    const BuiltScene scene = built(draft(text));
+    REQUIRE(scene.scene.parts.size() == 1 + static_cast<std::size_t>(c.number));
+    CHECK(scene.placed[1].mesh.volume() == doctest::Approx(c.first).epsilon(round));
+    CHECK(scene.placed[static_cast<std::size_t>(c.number)].mesh.volume() ==
+          doctest::Approx(c.last).epsilon(round));
+    // The copies lie in the mother, side by side: no part overlaps another, or the scene would not be built.
+    CHECK(scene.scene.regions.size() >= scene.scene.parts.size());
+  }
+}
+
+TEST_CASE("GDML: replicas along rho are rings, and parameterised volumes have dimensions of their own") {
+  GdmlText text;
+  text.define = "<variable name=\"i\" value=\"0\"/>";
+  text.solids = R"(<tube name="disc" rmax="9" z="4" deltaphi="360" aunit="deg"/>
+<tube name="ring" rmax="3" z="4" deltaphi="360" aunit="deg"/><box name="tray" x="40" y="40" z="10"/>
+<box name="cell" x="1" y="1" z="1"/>)";
+  text.structure = gdml_volume("ring_v", "ring") + gdml_volume("cell_v", "cell") +
+                   gdml_volume("disc_v", "disc", "Vacuum",
+                               R"(<replicavol number="3"><volumeref ref="ring_v"/><replicate_along_axis>
+<direction rho="1"/><width value="3" unit="mm"/><offset value="0" unit="mm"/></replicate_along_axis></replicavol>)") +
+                   gdml_volume("tray_v", "tray", "Vacuum", R"(<paramvol ncopies="4"><volumeref ref="cell_v"/>
+<parameterised_position_size><loop for="i" to="2" step="1"><parameters number="i"><position x="10*i-10" y="-5"/>
+<box_dimensions x="i+1" y="2" z="3" lunit="mm"/></parameters></loop>
+<parameters number="3"><position y="10"/><rotation z="90" unit="deg"/><box_dimensions x="1.2" y="0.2" z="0.4" lunit="cm"/>
+</parameters></parameterised_position_size></paramvol>)");
+  text.daughters = gdml_placed("d", "disc_v") + gdml_placed("t", "tray_v", R"(<position z="50"/>)");
+  const BuiltScene scene = built(draft(text));
+  const auto volume = [&](const std::string& name) {
+    for (const PartInfo& part : scene.scene.parts)
+      if (part.name == name) return part.volume_mm3;
+    return 0.0;
+  };
+  for (int copy = 0; copy < 3; ++copy)
+    CHECK(volume("ring_v_" + std::to_string(copy)) ==
+          doctest::Approx(kPi * 9 * (2 * copy + 1) * 4).epsilon(0.004));
+  for (int copy = 0; copy < 3; ++copy)
+    CHECK(volume("cell_v_" + std::to_string(copy)) == doctest::Approx(6.0 * (copy + 1)));
+  CHECK(volume("cell_v_3") == doctest::Approx(12 * 2 * 4));
+  const SceneSpec spec = written(draft(text));
+  const auto last = std::find_if(spec.parts.begin(), spec.parts.end(),
+                                 [](const PartSpec& part) { return part.name.name == "cell_v_3"; });
+  CHECK(last->placement.translate.isApprox(Vec3(0, 10, 50)));
+  CHECK(last->placement.rotate.at(0).axis.z() * last->placement.rotate.at(0).angle_rad ==
+        doctest::Approx(-0.5 * kPi));
+  text.structure.replace(text.structure.find("<box_dimensions x=\"i+1\""), 23, "<box_dimensions x=\"i-1\"");
+  check_contains(complaint(text), {"(box)", "above 0"});
+}
+
+TEST_CASE("GDML: boxes made in a loop have the dimensions of their step; facets and tetrahedra take a unit") {
+  GdmlText text;
+  text.define =
+      R"(<variable name="i" value="0"/><position name="a"/><position name="b" x="30"/><position name="c" y="20"/>
+<position name="d" z="30"/>)";
+  text.solids = R"(<loop for="i" from="1" to="2" step="1"><box name="b[i]" x="i" y="2*i" z="3"/></loop>
+<tet name="t" lunit="cm" vertex1="a" vertex2="b" vertex3="c" vertex4="d"/>)";
+  text.structure = gdml_volume("one", "b_1") + gdml_volume("two", "b_2") + gdml_volume("three", "t");
+  text.daughters = gdml_placed("p1", "one") + gdml_placed("p2", "two", R"(<position x="20"/>)") +
+                   gdml_placed("p3", "three", R"(<position x="50"/>)");
+  const BuiltScene scene = built(draft(text));
+  REQUIRE(scene.scene.parts.size() == 3);
+  CHECK(scene.scene.parts[PartId(0)].volume_mm3 == doctest::Approx(1 * 2 * 3));
+  CHECK(scene.scene.parts[PartId(1)].volume_mm3 == doctest::Approx(2 * 4 * 3));
+  // Positions are in mm already; Geant4 multiplies them by the unit of the solid.
+  CHECK(scene.scene.parts[PartId(2)].volume_mm3 == doctest::Approx(3000.0 * 1000.0));
+}
+
+TEST_CASE("GDML: tables of other programs' properties are listed, whatever their energies are") {
+  GdmlText text = gdml_solid(R"(<box name="it" x="3" y="3" z="3"/>)");
+  text.define = R"(<matrix name="own" coldim="2" values="0 6 1 7"/>)";
+  text.materials = R"(<material name="Argon"><property name="RINDEX" ref="N15"/>
+<property name="GammaFASTTIMECONSTANT" ref="own"/><D value="1.4"/></material>)";
+  text.structure = gdml_volume("body", "it", "Argon");
+  const SceneDraft scene = draft(text);
+  CHECK(std::any_of(scene.notes.begin(), scene.notes.end(), [](const std::string& note) {
+    return contains(note, "no counterpart here: GammaFASTTIMECONSTANT");
+  }));
+  text.materials.replace(text.materials.find("GammaFAST"), 21, "ABSLENGTH");
+  check_contains(complaint(text), {"ABSLENGTH", "not above 0"});
+}
+
+TEST_CASE("GDML: corners of a facet of the type RELATIVE count from its first") {
+  GdmlText text =
+      gdml_solid(R"(<tessellated name="it"><triangular type="RELATIVE" vertex1="o" vertex2="b" vertex3="c"/>
+<triangular type="RELATIVE" vertex1="o" vertex2="c" vertex3="d"/>
+<triangular type="RELATIVE" vertex1="o" vertex2="d" vertex3="b"/>
+<triangular vertex1="ob" vertex2="oc" vertex3="od"/></tessellated>)");
+  text.define =
+      R"(<position name="o" x="5" y="6" z="7"/><position name="b" x="30"/><position name="c" y="20"/>
+<position name="d" z="10"/><position name="ob" x="35" y="6" z="7"/><position name="oc" x="5" y="26" z="7"/>
+<position name="od" x="5" y="6" z="17"/>)";
+  CHECK(draft(text).meshes.begin()->second.volume() == doctest::Approx(1000.0));
+}
+
+TEST_CASE("GDML: a world without volumes is named, with the volumes that are placed nowhere") {
+  GdmlText text = gdml_solid(R"(<box name="it" x="3" y="3" z="3"/>)");
+  text.daughters.clear();
+  const SceneDraft scene = draft(text);
+  REQUIRE_FALSE(scene.missing.empty());
+  check_contains(scene.missing.front(), {"no parts", "\"World\"", "body"});
 }
 
 TEST_CASE(
@@ -282,8 +425,15 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
 
 TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   const auto of = [](const std::string& solid_text) { return complaint(gdml_solid(solid_text)); };
-  check_contains(of(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)"),
-                 {"test.gdml:14:2: error:", "solid \"it\" (twistedbox)", "cannot be made"});
+  check_contains(of(R"(<knot name="it" x="3" y="3" z="3"/>)"),
+                 {"test.gdml:14:2: error:", "solid \"it\" (knot)", "cannot be made"});
+  check_contains(of(R"(<twistedbox name="it" PhiTwist="2" x="3" y="3" z="3"/>)"),
+                 {"solid \"it\" (twistedbox)", "-90 and 90"});
+  check_contains(
+      of(R"(<cutTube name="it" rmax="5" z="2" deltaphi="360" aunit="deg" lowX="0" lowY="0" lowZ="-1"
+highX="-1" highY="0" highZ="1"/>)"),
+      "meet within the tube");
+  check_contains(of(R"(<multiUnion name="it"/>)"), "no <multiUnionNode>");
   check_contains(of(R"(<box name="it" x="3" y="3"/>)"), {"\"z\"", "missing", "above 0"});
   check_contains(of(R"(<box name="it" x="3*(" y="3" z="3"/>)"), "cannot evaluate \"3*(\"");
   check_contains(of(R"(<box name="it" x="LENGTH" y="3" z="3"/>)"), "cannot evaluate \"LENGTH\"");
@@ -327,7 +477,7 @@ TEST_CASE("GDML: what cannot be done is refused with its name and line") {
 }
 
 TEST_CASE("GDML: volumes with solids that cannot be made are left out on demand, with a note") {
-  GdmlText text = gdml_solid(R"(<twistedbox name="it" PhiTwist="1" x="3" y="3" z="3"/>)");
+  GdmlText text = gdml_solid(R"(<knot name="it" x="3" y="3" z="3"/>)");
   text.solids += R"(<box name="other" x="3" y="3" z="3"/>)";
   text.structure += gdml_volume("kept", "other");
   text.daughters += gdml_placed("kept_phys", "kept");
@@ -335,7 +485,7 @@ TEST_CASE("GDML: volumes with solids that cannot be made are left out on demand,
   options.skip_unsupported = true;
   const SceneDraft scene = draft(text, options);
   REQUIRE(scene.notes.size() == 1);
-  check_contains(scene.notes[0], "volume body: solid \"it\" (twistedbox)");
+  check_contains(scene.notes[0], "volume body: solid \"it\" (knot)");
   CHECK(written(scene).parts.size() == 1);
 }
 

@@ -42,7 +42,8 @@ std::set<std::string> read_keys() {
         "}\n[[matter]]\npart = "
         "\"crystal\"\nmass_fractions = { H = 1 }",
         "type = \"gammas\"\nemission = \"pair\"\nposition = [1, 2, 3]",
-        "type = \"hits\"\nfile = \"README.md\"\ncolumns = { }\ngroup = \"x\"\ntime_unit = \"ns\""}) {
+        "type = \"hits\"\nfile = \"README.md\"\ncolumns = { }\ngroup = \"x\"\ntime_unit = \"ns\"",
+        "type = \"photon_list\"\nfile = \"README.md\"\ncolumns = { }\ngroup = \"x\"\ntime_unit = \"ns\""}) {
     Problems ignored;
     const TomlTable table(parse_toml(text, scene_path()), ignored);
     read_gamma_source(table, {"crystal"});

@@ -6,6 +6,7 @@
 #include "scintray/core/output_file.hpp"
 #include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
+#include "scintray/results/export_rows.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {
@@ -14,8 +15,15 @@ namespace {
 
 struct ExportArguments {
   std::filesystem::path scene, output;
+  std::string table = "photons";
   std::uint64_t point = 0;
 };
+
+void export_table(const ExportArguments& arguments) {
+  const std::uint64_t rows = results::export_rows(arguments.scene, arguments.table, arguments.output);
+  std::cout << "wrote " << rows << " rows of " << arguments.table << " to " << arguments.output.string()
+            << "\n";
+}
 
 void export_scene(const ExportArguments& arguments) {
   if (mesh::lower_extension(arguments.output) != ".gdml")
@@ -34,12 +42,27 @@ void export_scene(const ExportArguments& arguments) {
 
 void add_export_command(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command = app.add_subcommand("export", "Write a scene as GDML, for Geant4");
-  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  command->add_option("-o,--output", arguments->output, "GDML file to write")->required();
+  CLI::App* command =
+      app.add_subcommand("export", "Write a scene as GDML, or rows of a result as CSV, NumPy or LH5");
+  command->add_option("FILE", arguments->scene, "scene file (TOML), or results file (HDF5)")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "file to write: .gdml of a scene; .csv, .npy, .lh5 of a result")
+      ->required();
   command->add_option("--point", arguments->point, "point of the sweep, from 0 (default: 0)");
-  command->footer("Example: scintray export quickstart.toml -o quickstart.gdml");
-  command->callback([arguments] { export_scene(*arguments); });
+  command->add_option("--table", arguments->table,
+                      "rows of a result: photons, events, signals, paths, path_steps (default: photons)");
+  command->footer(
+      "Examples:\n"
+      "  scintray export quickstart.toml -o quickstart.gdml\n"
+      "  scintray export quickstart.h5 --table events -o events.npy");
+  command->callback([arguments] {
+    const std::string extension = mesh::lower_extension(arguments->scene);
+    if (extension == ".h5" || extension == ".hdf5" || extension == ".hdf")
+      export_table(*arguments);
+    else
+      export_scene(*arguments);
+  });
 }
 
 }  // namespace scintray::cli

@@ -107,13 +107,6 @@ void import_scene(const SceneImportArguments& arguments) {
   std::cout << "wrote " << scene.string();
   if (!draft.meshes.empty()) std::cout << " and " << draft.meshes.size() << " meshes beside it";
   std::cout << "\n";
-  const bool definitions_only = draft.toml.find("\n[source]") == std::string::npos && !draft.missing.empty();
-  if (!definitions_only && draft.toml.find("\n[[part]]") == std::string::npos &&
-      !draft.toml.starts_with("[[part]]"))
-    std::cout
-        << "the scene has no parts: no volume of the file is bounded by a surface that light reaches, as "
-           "materials without RINDEX are opaque; give transparent ones a medium with "
-           "--medium MATERIAL=DATABASE_MEDIUM\n";
   if (!draft.size.empty()) std::cout << "size " << draft.size << ": a wrong --unit shows here\n";
   for (const std::string& missing : draft.missing) std::cout << "to be filled in: " << missing << "\n";
   answer.print([&] {

@@ -14,6 +14,7 @@ namespace {
 
 using Text = std::string;
 using HitsPtr = std::shared_ptr<const scene_file::HitColumns>;
+using PhotonsPtr = std::shared_ptr<const scene_file::PhotonColumns>;
 
 /// Keeps a run in memory: events in columns.
 class ColumnSink : public simulation::ResultSink {
@@ -60,14 +61,15 @@ class Session {
   /// Sets the deposits of a scene whose source takes arrays.
   void set_hits(HitsPtr hits) {
     const Lock lock(*this);
-    const scene_file::SceneSpec spec = file_.spec(0);
-    const auto* source =
-        spec.energy_source ? std::get_if<scene_file::HitsSpec>(&spec.energy_source->kind) : nullptr;
-    if (source == nullptr || !source->arrays)
-      throw core::InputError(core::Problem{spec.energy_source ? spec.energy_source->where : spec.source.where,
-                                           "the source of this scene takes no hits",
-                                           "write type = \"hits\" and arrays = true in [source]"});
+    expect_arrays<scene_file::HitsSpec>("hits", "hits");
     hits_ = std::move(hits);
+    simulation_.reset();
+  }
+  /// Sets the photons of a scene whose source takes arrays.
+  void set_photons(PhotonsPtr photons) {
+    const Lock lock(*this);
+    expect_arrays<scene_file::PhotonListSpec>("photons", "photon_list");
+    photons_ = std::move(photons);
     simulation_.reset();
   }
 
@@ -159,6 +161,17 @@ class Session {
     Session& session_;
   };
 
+  /// Throws InputError unless the source is of a type and takes arrays.
+  template <typename Spec>
+  void expect_arrays(const Text& rows, const Text& type) const {
+    const scene_file::SceneSpec spec = file_.spec(0);
+    const auto* source = spec.energy_source ? std::get_if<Spec>(&spec.energy_source->kind) : nullptr;
+    if (source != nullptr && source->arrays) return;
+    throw core::InputError(core::Problem{spec.energy_source ? spec.energy_source->where : spec.source.where,
+                                         "the source of this scene takes no " + rows,
+                                         "write type = \"" + type + "\" and arrays = true in [source]"});
+  }
+
   void expect_point(std::size_t point) const {
     if (point >= points())
       throw core::InputError(core::Problem{
@@ -177,11 +190,13 @@ class Session {
     work_ = &work;
     if (!simulation_) {
       simulation::SimulationOptions options = options_;
-      if (hits_)
-        options.change = [hits = hits_](scene_file::SceneSpec& spec) {
-          if (spec.energy_source)
-            if (auto* source = std::get_if<scene_file::HitsSpec>(&spec.energy_source->kind))
-              source->columns = hits;
+      if (hits_ || photons_)
+        options.change = [hits = hits_, photons = photons_](scene_file::SceneSpec& spec) {
+          if (!spec.energy_source) return;
+          if (auto* source = std::get_if<scene_file::HitsSpec>(&spec.energy_source->kind))
+            source->columns = hits;
+          if (auto* source = std::get_if<scene_file::PhotonListSpec>(&spec.energy_source->kind))
+            source->columns = photons;
         };
       options.surface_hooks.stop = [this] { return work_->stop.load(); };
       options.surface_hooks.table_progress = [this](const Text& surface, double done) {
@@ -205,6 +220,7 @@ class Session {
   scene_file::SceneFile file_;
   simulation::SimulationOptions options_;
   HitsPtr hits_;
+  PhotonsPtr photons_;
   std::optional<simulation::Simulation> simulation_;
   WatchedWork* work_ = nullptr;  ///< of the present call
   bool busy_ = false;            ///< read and written with the interpreter's lock
@@ -235,6 +251,18 @@ HitsPtr hits_of(const Column& event, const Column& position_mm, const Column& en
   return hits;
 }
 
+/// @param columns  by their names, in mm, nm and ns
+PhotonsPtr photons_of(const std::map<std::string, Column>& columns) {
+  auto photons = std::make_shared<scene_file::PhotonColumns>();
+  for (const auto& [name, column] : columns) {
+    const auto known = core::find_word(scene_file::kPhotonColumns, name);
+    if (!known || *known == scene_file::PhotonColumn::energy)
+      throw core::unknown_name({}, "column of photons", name, core::word_list(scene_file::kPhotonColumns));
+    (*photons).*scene_file::column_member(*known) = values_of(column);
+  }
+  return photons;
+}
+
 }  // namespace
 
 void add_run(py::module_& module) {
@@ -260,6 +288,10 @@ void add_run(py::module_& module) {
            [](Session& session, const Column& event, const Column& position, const Column& energy,
               const Column& time, const std::map<std::string, Column>& steps) {
              session.set_hits(hits_of(event, position, energy, time, steps));
+           })
+      .def("set_photons",
+           [](Session& session, const std::map<std::string, Column>& columns) {
+             session.set_photons(photons_of(columns));
            })
       .def("run", &Session::run);
 }

@@ -1,6 +1,7 @@
 #include "scintray/scene_file/gamma_source.hpp"
 
 #include "scintray/materials/material_forms.hpp"
+#include "scintray/scene_file/detail/column_keys.hpp"
 #include "scintray/scene_file/detail/names.hpp"
 
 namespace scintray::scene_file {
@@ -122,18 +123,6 @@ EmitterSpec read_emitter(const config::TomlTable& table, const std::vector<std::
   return source;
 }
 
-/// Value of a unit in internal units; reported when it is not a unit.
-double read_unit(const config::TomlTable& table, const std::string& key, core::Dimension dimension) {
-  const std::string unit = table.string(key);
-  if (!table.good(key)) return 1.0;
-  try {
-    return core::unit_factor(unit, dimension);
-  } catch (const core::InputError& error) {
-    table.report(key, error.problems().front().what, error.problems().front().hint);
-    return 1.0;
-  }
-}
-
 HitsSpec read_hits(const config::TomlTable& table) {
   HitsSpec hits;
   hits.arrays = table.boolean("arrays", false);
@@ -144,12 +133,7 @@ HitsSpec read_hits(const config::TomlTable& table) {
   }
   hits.where = table.where("file");
   hits.file = table.existing_file("file");
-  const std::string kind = hits.file.extension().string();
-  const bool hdf5 = kind == ".h5" || kind == ".hdf5";
-  table.expect("file", kind == ".csv" || hdf5, "a file of hits ends in .csv, .h5 or .hdf5",
-               "docs/gamma_sources.md says how to convert a ROOT file");
-  if (hdf5 || table.has("group")) hits.group = table.string("group", "");
-  table.expect("group", hdf5, "a CSV file has no groups", "remove group");
+  hits.group = read_column_group(table, hits.file, "hits");
   hits.length_mm = read_unit(table, "length_unit", core::Dimension::length);
   hits.energy_keV = read_unit(table, "energy_unit", core::Dimension::energy);
   if (table.has("time_unit")) hits.time_ns = read_unit(table, "time_unit", core::Dimension::time);
@@ -190,11 +174,16 @@ GammaSpec read_gamma_source(const config::TomlTable& source, const std::vector<s
   GammaSpec spec;
   spec.where = source.where();
   const GammaSourceType type = source.choice("type", kGammaSourceTypes);
-  read_cherenkov(source, spec);
+  if (type == GammaSourceType::photons) {
+    spec.kind = read_photon_list(source, spec.unpolarised);
+  } else {
+    spec.unpolarised = source.choice("polarisation", kUnpolarised, false);
+    read_cherenkov(source, spec);
+  }
   if (const auto quick = source.optional_integer("quick_events"))
     spec.quick_events = positive_count(source, "quick_events", *quick);
-  if (type == GammaSourceType::hits) {
-    spec.kind = read_hits(source);
+  if (type == GammaSourceType::hits || type == GammaSourceType::photons) {
+    if (type == GammaSourceType::hits) spec.kind = read_hits(source);
     if (const auto events = source.optional_integer("events"))
       spec.events = positive_count(source, "events", *events);
     return spec;

@@ -1,5 +1,5 @@
 #pragma once
-/// Event sources in a scene file: [source] of the types "gamma_events", "gammas" and "hits".
+/// Event sources in a scene file: [source] of the types "gamma_events", "gammas", "hits" and "photon_list".
 
 #include <array>
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/curve.hpp"
 #include "scintray/optics/composition.hpp"
+#include "scintray/scene_file/photon_list.hpp"
 #include "scintray/scene_file/source.hpp"
 
 namespace scintray::scene_file {
@@ -130,7 +131,7 @@ struct HitColumns {
 
 /// type = "hits": deposits of another program, from a file or in memory.
 struct HitsSpec {
-  std::filesystem::path file;  ///< .csv, .h5 or .hdf5; empty with `arrays`
+  std::filesystem::path file;  ///< of config::ColumnFile; empty with `arrays`
   bool arrays = false;         ///< the calling program sets `columns`
   /// In place of a file; null until the calling program has set it (simulation::SimulationOptions::change).
   std::shared_ptr<const HitColumns> columns;
@@ -144,8 +145,8 @@ struct HitsSpec {
 };
 
 struct GammaSpec {
-  std::variant<SpectrumSpec, EmitterSpec, HitsSpec> kind;
-  std::uint64_t events = 0;                   ///< of a file of hits: 0 for all, else the largest number
+  std::variant<SpectrumSpec, EmitterSpec, HitsSpec, PhotonListSpec> kind;
+  std::uint64_t events = 0;                   ///< of a list: 0 for all, else the largest number
   std::optional<std::uint64_t> quick_events;  ///< replaces `events` in a quick run
   bool cherenkov = false;                     ///< Cherenkov light in addition to scintillation
   /// Shortest and longest wavelength of Cherenkov light; nothing: those of the scintillation.
@@ -154,19 +155,23 @@ struct GammaSpec {
   core::FileLocation where;
 };
 
-/// Types of [source] with energy deposits.
+/// Types of [source] with events: of energy deposits, or of photons of another program.
 enum class GammaSourceType {
   spectrum,  ///< SpectrumSpec
   emitter,   ///< EmitterSpec
   hits,      ///< HitsSpec
+  photons    ///< PhotonListSpec
 };
 /// Values of `source.type` that read_gamma_source reads.
 inline constexpr core::Word<GammaSourceType> kGammaSourceTypes[] = {
     {"gamma_events", GammaSourceType::spectrum},
     {"gammas", GammaSourceType::emitter},
-    {"hits", GammaSourceType::hits}};
+    {"hits", GammaSourceType::hits},
+    {"photon_list", GammaSourceType::photons}};
+/// Values of `source.polarisation` of the other types.
+inline constexpr core::Word<bool> kUnpolarised[] = {{"random", false}, {"unpolarised", true}};
 
-/// Event source of the table [source], of one of the three types (docs/gamma_sources.md); further and unknown
+/// Event source of the table [source], of one of the types (docs/gamma_sources.md); further and unknown
 /// keys are left to the caller. Adds errors to the collector of the table.
 /// @param source  its `type` is one of kGammaSourceTypes
 /// @param parts   names of the scene's parts

@@ -22,7 +22,7 @@ std::vector<double> usual_incidence() {
 
 bool is_incidence(double angle_rad) { return angle_rad >= 0.0 && angle_rad < 0.5 * std::numbers::pi; }
 
-std::vector<config::NameRef> read_names(const config::TomlTable& table, const std::string& key) {
+std::vector<config::NameRef> names_of_list(const config::TomlTable& table, const std::string& key) {
   std::vector<config::NameRef> names;
   for (const std::string& name : table.strings(key)) names.push_back({name, table.where(key)});
   return names;
@@ -32,9 +32,9 @@ GoniometerSpec read_goniometer_table(const config::TomlTable& table) {
   GoniometerSpec goniometer;
   goniometer.where = table.where();
   goniometer.title = table.string("title", "Surfaces");
-  goniometer.surfaces = read_names(table, "surfaces");
+  goniometer.surfaces = names_of_list(table, "surfaces");
   goniometer.inside = {table.string("inside"), table.where("inside")};
-  goniometer.outside = read_names(table, "outside");
+  goniometer.outside = names_of_list(table, "outside");
   goniometer.wavelength_nm = table.quantity("wavelength", core::Dimension::wavelength);
   table.expect("wavelength", goniometer.wavelength_nm > 0.0, "a wavelength must be positive");
 

@@ -18,7 +18,6 @@ using Kind = config::TomlNode::Kind;
 
 /// The type of a [source] of photons.
 constexpr const char* kPhotonSource = "photons";
-constexpr core::Word<bool> kUnpolarised[] = {{"random", false}, {"unpolarised", true}};
 
 InlineTables read_definitions(const config::TomlTable& scene, const std::string& key) {
   InlineTables definitions;
@@ -56,13 +55,12 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
     table.skip();
     return;
   }
-  const bool unpolarised = table.choice("polarisation", kUnpolarised, false);
   if (type == kPhotonSource) {
+    const bool unpolarised = table.choice("polarisation", kUnpolarised, false);
     scene.source = read_photon_source(table, parts);
     scene.source.unpolarised = unpolarised;
   } else {
     scene.energy_source = read_gamma_source(table, parts);
-    scene.energy_source->unpolarised = unpolarised;
   }
 }
 

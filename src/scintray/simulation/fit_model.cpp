@@ -143,6 +143,9 @@ class SceneCurve : public FitModel {
   }
 
   void check_quantity(const scene_file::SceneSpec& spec) const {
+    if (spec.energy_source && std::holds_alternative<scene_file::PhotonListSpec>(spec.energy_source->kind))
+      throw core::InputError({fit_.where, "a fit, but [source] is a list of photons",
+                              "use an event source with energies, or type = \"photons\" in [source]"});
     if (energy() == spec.energy_source.has_value()) return;
     throw core::InputError(
         {fit_.where,

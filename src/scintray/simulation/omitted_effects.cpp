@@ -127,7 +127,9 @@ std::vector<tally::OmittedEffect> SimulationPoint::omitted() const {
       sensors.push_back(channel.sensor);
   if (source_->has_energy()) {
     std::vector<core::MediumId> media;
-    for (const core::RegionId region : source_->regions()) {
+    // The light of a list of photons was made elsewhere.
+    const bool listed = std::holds_alternative<scene_file::PhotonListSpec>(spec_.energy_source->kind);
+    for (const core::RegionId region : listed ? std::vector<core::RegionId>{} : source_->regions()) {
       const core::MediumId medium = scene().regions[region].medium;
       if (std::find(media.begin(), media.end(), medium) != media.end()) continue;
       media.push_back(medium);

@@ -28,6 +28,10 @@ void require_energy(const scene_file::SceneSpec& spec) {
     throw core::InputError({spec.source.where,
                             "response maps are for event sources, and this is a source of photons",
                             "use type = \"gamma_events\", \"gammas\" or \"hits\" (docs/gamma_sources.md)"});
+  if (std::holds_alternative<scene_file::PhotonListSpec>(spec.energy_source->kind))
+    throw core::InputError({spec.energy_source->where,
+                            "a response map is of scintillation light, and this is a list of photons",
+                            "trace the scene with `scintray run`"});
   if (spec.energy_source->cherenkov)
     throw core::InputError(
         {spec.energy_source->where,

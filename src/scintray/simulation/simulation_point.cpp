@@ -43,6 +43,7 @@ std::optional<tally::LightTiming> light_timing(const scene::Scene& scene, const 
                                                const tally::TallyPlan& plan) {
   if (!source.has_energy() || spec.energy_source->cherenkov || plan.readout.empty() || any_shifts(scene))
     return std::nullopt;
+  if (std::holds_alternative<scene_file::PhotonListSpec>(spec.energy_source->kind)) return std::nullopt;
   if (decay_by_deposit(scene, *spec.energy_source)) return std::nullopt;
   const std::vector<core::RegionId> regions = source.regions();
   if (regions.empty()) return std::nullopt;

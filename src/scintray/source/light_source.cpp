@@ -9,6 +9,7 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/decay_time.hpp"
 #include "scintray/source/detail/origin.hpp"
+#include "scintray/source/detail/photon_list_source.hpp"
 #include "scintray/source/detail/scintillation_source.hpp"
 
 namespace scintray::source {
@@ -157,6 +158,12 @@ std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec
   }
   const scene_file::GammaSpec& source = *spec.energy_source;
   if (notes && source.cherenkov && !source.cherenkov_nm) notes->push_back(cherenkov_note(scene));
+  if (const auto* list = std::get_if<scene_file::PhotonListSpec>(&source.kind)) {
+    auto photons = std::make_unique<PhotonListSource>(*list, source.events, source.unpolarised, scene);
+    const std::vector<std::string> said = photons->notes();
+    if (notes) notes->insert(notes->end(), said.begin(), said.end());
+    return photons;
+  }
   try {
     return std::make_unique<ScintillationSource>(
         make_event_source(source, scene, notes), scene,

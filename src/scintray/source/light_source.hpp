@@ -45,13 +45,14 @@ struct PhotonSpan {
 /// The light of one event. Set by a LightSource and, apart from `event`, used by it alone.
 struct EventLight {
   std::uint64_t photons = 0;
-  Event event;  ///< whose deposits emit the light; empty for a source of photons
+  Event event;  ///< whose deposits emit the light; empty for photons that have none
   /// Photons of a deposit: scintillation first, then Cherenkov light. Both are numbered from the event's
   /// first photon.
   struct DepositEnd {
     std::uint64_t scintillation = 0, all = 0;
   };
   std::vector<DepositEnd> deposits;  ///< per deposit: one past its last photons
+  std::uint64_t first_listed = 0;    ///< of a list of photons: number of the event's first
 };
 
 /// Source of the photons of a scene's [source]. Immutable; an event depends on its own random stream, and a
@@ -61,7 +62,7 @@ class LightSource {
   virtual ~LightSource() = default;
   /// Number of events.
   virtual std::uint64_t events() const = 0;
-  /// True when light is emitted by energy deposits: events then have records of their own.
+  /// True for events of energy deposits, or of a list of photons: they have records of their own.
   virtual bool has_energy() const = 0;
   /// Number of blocks of work. Blocks make results reproducible: they are fixed by the source, not by the
   /// machine.

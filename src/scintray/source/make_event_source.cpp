@@ -9,8 +9,9 @@ std::unique_ptr<EventSource> make_event_source(const scene_file::GammaSpec& spec
     return std::make_unique<SpectrumEventSource>(*spectrum, spec.events, spec.cherenkov, scene);
   if (const auto* emitter = std::get_if<scene_file::EmitterSpec>(&spec.kind))
     return std::make_unique<GammaEventSource>(*emitter, spec.events, scene);
-  auto hits = std::make_unique<HitsEventSource>(std::get<scene_file::HitsSpec>(spec.kind), spec.events, scene,
-                                                spec.cherenkov);
+  const auto* list = std::get_if<scene_file::HitsSpec>(&spec.kind);
+  if (!list) throw core::InternalError("a list of photons has no energy deposits");
+  auto hits = std::make_unique<HitsEventSource>(*list, spec.events, scene, spec.cherenkov);
   if (notes) {
     const std::vector<std::string> said = hits->notes();
     notes->insert(notes->end(), said.begin(), said.end());

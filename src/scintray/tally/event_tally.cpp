@@ -24,7 +24,8 @@ void EventTally::begin(std::uint64_t event, std::uint32_t point, const source::E
   }
   record.energy_keV = static_cast<float>(energy);
   ++balance_.events;
-  balance_.silent += energy > 0.0 ? 0 : 1;
+  has_light_ = energy > 0.0 || (light.event.deposits.empty() && light.photons > 0);
+  balance_.silent += has_light_ ? 0 : 1;
   balance_.started += light.event.energy_keV;
   balance_.deposited += energy;
   balance_.escaped += light.event.escaped_keV;
@@ -72,8 +73,7 @@ void EventTally::read_out(std::uint32_t channel, core::Rng rng) {
 
 void EventTally::end(const std::function<core::Rng(std::uint32_t)>& stream) {
   for (std::uint32_t channel = 0; channel < arrivals_.size(); ++channel) read_out(channel, stream(channel));
-  const EventRecord& record = events_.back();
-  if (record.energy_keV > 0.0f) balance_.detected.add(static_cast<double>(record.detected));
+  if (has_light_) balance_.detected.add(static_cast<double>(events_.back().detected));
 }
 
 }  // namespace scintray::tally

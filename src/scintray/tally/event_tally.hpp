@@ -46,6 +46,7 @@ class EventTally {
   std::vector<std::vector<detector::Arrival>>
       arrivals_;  ///< per channel, of that event; empty without [readout]
   EnergyBalance balance_;
+  bool has_light_ = false;  ///< of that event: it deposited energy, or is of a list of photons
 };
 
 }  // namespace scintray::tally

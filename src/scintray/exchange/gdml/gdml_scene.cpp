@@ -35,7 +35,7 @@ class SceneMaker {
         definitions_(file),
         tables_(file, definitions_),
         solids_(file, definitions_, options.tessellation),
-        structure_(read_structure(file, definitions_)) {}
+        structure_(read_structure(file, definitions_, solids_)) {}
 
   SceneDraft make(const std::string& file_name) {
     read_media();
@@ -48,6 +48,7 @@ class SceneMaker {
     for (const std::string& differs : definitions_.notes()) note(differs);
     for (const std::string& note : structure_.notes) draft.notes.push_back(note);
     for (const std::string& before : options_.notes) note(before);
+    if (structure_.placed.empty()) draft.missing.push_back(empty_world());
     const std::string source_table = source();
     std::string notes;
     for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
@@ -65,6 +66,24 @@ class SceneMaker {
   void note(const std::string& text) {
     if (std::find(draft_.notes.begin(), draft_.notes.end(), text) == draft_.notes.end())
       draft_.notes.push_back(text);
+  }
+
+  /// Why the scene has no parts.
+  std::string empty_world() const {
+    constexpr std::size_t kNamed = 5;
+    std::string unplaced;
+    std::size_t named = 0;
+    for (const std::string& volume : structure_.volumes) {
+      if (volume == structure_.world_volume) continue;
+      if (named < kNamed) unplaced += (named > 0 ? ", \"" : "\"") + volume + "\"";
+      ++named;
+    }
+    return "the scene has no parts: the world of the file, \"" + structure_.world_volume +
+           "\", contains no volume" +
+           (named == 0 ? "; place one in it with <physvol>"
+                       : ", and these are placed nowhere: " + unplaced +
+                             (named > kNamed ? " and " + std::to_string(named - kNamed) + " more" : "") +
+                             "; name the volume that holds the others in <setup>, in a <world> around them");
   }
 
   void read_media() {
@@ -116,11 +135,9 @@ class SceneMaker {
   /// Keys of the shape: a box as it is, everything else as a mesh beside the scene.
   std::string shape(const PlacedVolume& placed, bool mirrored) {
     const mesh::TriMesh& mesh = solids_.mesh(placed.solid, placed.element);
-    const Node solid = solids_.element(placed.solid, placed.element);
-    if (std::string(solid.name()) == "box" && !mirrored) {
-      const core::Vec3 half =
-          0.5 * core::Vec3(definitions_.length(solid, "x"), definitions_.length(solid, "y"),
-                           definitions_.length(solid, "z"));
+    if (const std::optional<core::Vec3> sides = solids_.box_sides(placed.solid, placed.element);
+        sides && !mirrored) {
+      const core::Vec3 half = 0.5 * *sides;
       return "box = { low = " + lengths(-half) + ", high = " + lengths(half) + " }\n";
     }
     mesh::TriMesh own = mesh;

@@ -5,6 +5,7 @@
 
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/shapes/polygon.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/mesh/shapes/shape_error.hpp"
 #include "scintray/mesh/weld.hpp"
 
@@ -31,7 +32,8 @@ void add_walls(TriMesh& mesh, const std::vector<std::uint32_t>& ring,
   }
 }
 
-/// Merges coincident corners, removes walls without area, and orients the triangles outwards.
+/// Merges coincident corners, removes walls without area, and orients the triangles outwards: they agree by
+/// construction, so that the sign of the volume decides.
 TriMesh finished(TriMesh mesh) {
   mesh.groups = {"default"};
   mesh.group.assign(mesh.triangles.size(), 0);
@@ -39,7 +41,7 @@ TriMesh finished(TriMesh mesh) {
   weld_vertices(mesh, length_mm);
   remove_degenerate(mesh, length_mm);
   mesh.group.assign(mesh.triangles.size(), 0);
-  orient_outwards(mesh);
+  if (mesh.volume() < 0.0) reverse_orientation(mesh);
   return mesh;
 }
 
@@ -105,6 +107,47 @@ TriMesh lofted(const std::vector<std::vector<core::Vec3>>& outlines) {
   for (std::size_t i = 0; i + 1 < rings.size(); ++i) add_walls(mesh, rings[i], rings[i + 1]);
   add_end(mesh, {rings.front().rbegin(), rings.front().rend()});
   add_end(mesh, rings.back());
+  return finished(std::move(mesh));
+}
+
+TriMesh mapped_cube(const std::array<int, 3>& steps, const std::array<bool, 3>& closed,
+                    const std::function<core::Vec3(const core::Vec3&)>& map) {
+  double triangles = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (steps[axis] < (closed[axis] ? 3 : 1)) reject_shape("a body in fewer steps than make one", "");
+    if (!closed[axis]) triangles += 4.0 * steps[(axis + 1) % 3] * steps[(axis + 2) % 3];
+  }
+  if (triangles > static_cast<double>(kMostSweptTriangles)) check_size(kMostSweptTriangles, 2);
+  TriMesh mesh;
+  const auto add_face = [&](std::size_t axis, double end) {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::vector<std::uint32_t> below;
+    for (int j = 0; j <= steps[v]; ++j) {
+      std::vector<core::Vec3> row;
+      for (int i = 0; i <= steps[u]; ++i) {
+        core::Vec3 at;
+        at[static_cast<Eigen::Index>(axis)] = end;
+        // The ends of a closed axis are one point, in every bit.
+        at[static_cast<Eigen::Index>(u)] =
+            closed[u] && i == steps[u] ? 0.0 : static_cast<double>(i) / steps[u];
+        at[static_cast<Eigen::Index>(v)] =
+            closed[v] && j == steps[v] ? 0.0 : static_cast<double>(j) / steps[v];
+        row.push_back(map(at));
+      }
+      std::vector<std::uint32_t> ring = add_ring(mesh, row);
+      for (std::size_t i = 0; j > 0 && i + 1 < ring.size(); ++i) {
+        mesh.triangles.push_back({below[i], below[i + 1], ring[i + 1]});
+        mesh.triangles.push_back({below[i], ring[i + 1], ring[i]});
+        if (end == 0.0)
+          for (std::size_t k = mesh.triangles.size() - 2; k < mesh.triangles.size(); ++k)
+            std::swap(mesh.triangles[k][1], mesh.triangles[k][2]);
+      }
+      below = std::move(ring);
+    }
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double end : {0.0, 1.0})
+      if (!closed[axis]) add_face(axis, end);
   return finished(std::move(mesh));
 }
 

@@ -2,6 +2,8 @@
 /// Closed bodies swept from outlines. Lengths in mm.
 
 #include <Eigen/Core>
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "scintray/mesh/tessellation.hpp"
@@ -30,6 +32,15 @@ TriMesh revolved(const std::vector<Eigen::Vector2d>& outline, const Turn& turn);
 /// @throws InputError for fewer than 2 outlines, or outlines of fewer than 3 or of different numbers of
 /// corners.
 TriMesh lofted(const std::vector<std::vector<core::Vec3>>& outlines);
+
+/// The image of the unit cube: its faces are cut in steps along each axis, two triangles for each piece, and
+/// their corners mapped. An axis is closed when the map has the same point at both its ends: a ring, which
+/// has no faces there.
+/// @param steps   along each axis, 1 or more, and 3 or more of a closed one
+/// @param closed  not all of the three
+/// @throws InputError for fewer steps, and for more triangles than kMostSweptTriangles
+TriMesh mapped_cube(const std::array<int, 3>& steps, const std::array<bool, 3>& closed,
+                    const std::function<core::Vec3(const core::Vec3&)>& map);
 
 /// Corners of (r, z) along an ellipse about (r0, z0) with half axes a (along r) and b (along z), from one
 /// angle to the other (0 on the +r side, counter-clockwise towards +z), both ends included, as finely as the

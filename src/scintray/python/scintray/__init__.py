@@ -27,18 +27,19 @@ from .errors import (Cancelled, ClosedError, Error, InputError, InternalError, M
                      SystemFailure)
 from .mapping import Fit, ResponseMap, fit, reweight
 from .results import Events, Point, Results, open_results
+from .root import read_root_hits, write_root_photons
 from .scene import Mesh, Scene, quantity
-from .simulation import Deposits, ProgressBar, Simulation
+from .simulation import Deposits, PhotonList, ProgressBar, Simulation
 from .surfaces import Goniometer, HeightMap, Medium, SurfaceTable, goniometer, media, names, surfaces
 from .tallies import Tally
 
 __version__: str = _version()
 
 __all__ = ["Analysis", "Cancelled", "ClosedError", "Deposits", "Error", "Estimate", "Events", "Fit", "Goniometer",
-           "HeightMap", "InputError", "InternalError", "Medium", "Mesh", "MissingPackage", "Point", "Problem",
+           "HeightMap", "InputError", "InternalError", "Medium", "Mesh", "MissingPackage", "PhotonList", "Point", "Problem",
            "ProgressBar", "ResponseMap", "Results", "Scene", "Simulation", "SurfaceTable", "SystemFailure", "Tally",
-           "data_folder", "errors", "fit", "goniometer", "media", "names", "open_results", "quantity", "reweight",
-           "surfaces"]
+           "data_folder", "errors", "fit", "goniometer", "media", "names", "open_results", "quantity",
+           "read_root_hits", "reweight", "surfaces", "write_root_photons"]
 
 
 def data_folder() -> str:

@@ -235,7 +235,7 @@ class Results:
         entry = self._open().events(point % len(self))
         if entry is None:
             raise InputError("the run has no events: its source emits photons",
-                             'use a source of the type "gamma_events", "gammas" or "hits"')
+                             'use a source of the type "gamma_events", "gammas", "hits" or "photon_list"')
         return Events(entry, self.parts)
 
     def analyze(self, point: int = 0, settings: Optional[str] = None) -> Any:

@@ -305,10 +305,11 @@ class Scene:
         from .simulation import Simulation
         return Simulation(self, **options)
 
-    def run(self, *, progress: Any = None, output: Any = None, deposits: Any = None, **options: Any) -> Any:
+    def run(self, *, progress: Any = None, output: Any = None, deposits: Any = None, photon_list: Any = None,
+            **options: Any) -> Any:
         """Runs the scene: ``Simulation(scene, **options).run(...)``. Returns ``Results``."""
         with self.simulation(**options) as simulation:
-            return simulation.run(progress=progress, output=output, deposits=deposits)
+            return simulation.run(progress=progress, output=output, deposits=deposits, photon_list=photon_list)
 
     def check(self) -> List[str]:
         """Builds the scene and returns its warnings. Raises InputError with every mistake of it."""

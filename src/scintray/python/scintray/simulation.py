@@ -15,7 +15,7 @@ from .errors import Cancelled, ClosedError, InputError, Problem
 from .results import Results
 from .scene import Scene
 
-__all__ = ["Deposits", "ProgressBar", "Simulation"]
+__all__ = ["Deposits", "PhotonList", "ProgressBar", "Simulation"]
 
 Progress = Union[None, bool, Callable[[int, int, str], Any]]
 
@@ -29,6 +29,8 @@ def _factor(units: Dict[str, float], unit: str, what: str) -> float:
         raise InputError(f"{unit!r} is not a unit of {what}", "it is one of " + ", ".join(units))
     return units[unit]
 
+
+_HC_EV_NM = 1239.8419843320026  # exact SI values, CODATA 2018
 
 _STEP_COLUMNS = ("beta", "beta_end", "charge", "particle", "kinetic", "scintillation_photons", "cherenkov_photons",
                  "decay", "rise")
@@ -90,6 +92,65 @@ class Deposits:
     def __repr__(self) -> str:
         return (f"Deposits({len(self)} in {len(np.unique(self.event))} events, "
                 f"{self.energy_keV.sum():.6g} keV)")
+
+
+class PhotonList:
+    """Photons of another program: one row each, rows of one event number are one event.
+
+    Parameters
+    ----------
+    position : (n, 3) in ``length_unit``, in the coordinates of the scene
+    direction : (n, 3), of any length above 0
+    wavelength : (n,) in ``wavelength_unit``, in vacuum; or ``energy`` in its place
+    energy : (n,) in ``energy_unit``
+    event : (n,) whole numbers from 0; None: the scene's source has ``photons_per_event``
+    time : (n,) in ``time_unit``; None: all at 0
+    polarisation : (n, 3), of any length; a row of zeros, and None: drawn at random across the direction
+
+    Raises InputError for other shapes, numbers that are not finite, and unknown units; what else is wrong is found,
+    with its row, when the scene is built (docs/gamma_sources.md).
+    """
+
+    def __init__(self, position: Any, direction: Any, wavelength: Any = None, *, energy: Any = None, event: Any = None,
+                 time: Any = None, polarisation: Any = None, length_unit: str = "mm", wavelength_unit: str = "nm",
+                 energy_unit: str = "eV", time_unit: str = "ns") -> None:
+        position = numbers(position, "position", (-1, 3), length_unit) * _factor(_LENGTHS_MM, length_unit, "length")
+        rows = len(position)
+        if rows == 0:
+            raise InputError("there are no photons", "give one row at least")
+        if (wavelength is None) == (energy is None):
+            raise InputError("photons have a wavelength or an energy", "give one of both")
+        self.columns: Dict[str, Any] = {}
+
+        def set_vector(name: str, values: Any) -> None:
+            for axis, letter in enumerate("xyz"):
+                self.columns[f"{name}{letter}"] = np.ascontiguousarray(values[:, axis])
+
+        set_vector("", position)
+        set_vector("direction_", numbers(direction, "direction", (rows, 3)))
+        if polarisation is not None:
+            set_vector("polarisation_", numbers(polarisation, "polarisation", (rows, 3)))
+        if wavelength is not None:
+            factor = _factor(_LENGTHS_MM, wavelength_unit, "wavelength")
+            self.columns["wavelength"] = numbers(wavelength, "wavelength", (rows,), wavelength_unit) * (factor * 1e6)
+        else:
+            electronvolts = numbers(energy, "energy", (rows,), energy_unit) \
+                * (_factor(_ENERGIES_KEV, energy_unit, "energy") * 1e3)
+            wrong = np.flatnonzero(electronvolts <= 0)
+            if len(wrong):
+                raise InputError(f"energy[{wrong[0]}] is {electronvolts[wrong[0]]} eV; expected one above 0")
+            self.columns["wavelength"] = _HC_EV_NM / electronvolts
+        if event is not None:
+            self.columns["event"] = numbers(event, "event", (rows,))
+        if time is not None:
+            self.columns["time"] = numbers(time, "time", (rows,), time_unit) * _factor(_TIMES_NS, time_unit, "time")
+
+    def __len__(self) -> int:
+        return len(self.columns["x"])
+
+    def __repr__(self) -> str:
+        nm = self.columns["wavelength"]
+        return f"PhotonList({len(self)} photons of {nm.min():.6g} to {nm.max():.6g} nm)"
 
 
 class ProgressBar:
@@ -206,7 +267,7 @@ class Simulation:
         return self._guard(lambda: core.parts(_index(point)))
 
     def run(self, *, progress: Progress = None, output: Union[str, "os.PathLike[str]", None] = None,
-            deposits: Optional[Deposits] = None) -> Results:
+            deposits: Optional[Deposits] = None, photon_list: Optional[PhotonList] = None) -> Results:
         """Traces all points and returns the results.
 
         Parameters
@@ -216,6 +277,7 @@ class Simulation:
         output : path of a results file (HDF5); lists of photons and events are then read from it when they are
             used, in place of being kept in memory
         deposits : of a scene whose source is ``{"type": "hits", "arrays": True}``
+        photon_list : of a scene whose source is ``{"type": "photon_list", "arrays": True}``
 
         Raises InputError; SystemFailure; Cancelled on Ctrl-C, with the partial results; and what the function
         for progress raised.
@@ -227,6 +289,11 @@ class Simulation:
                                  "give Deposits(event, position, energy, time)")
             self._guard(lambda: core.set_hits(deposits.event, deposits.position_mm, deposits.energy_keV,
                                               deposits.time_ns, deposits.steps))
+        if photon_list is not None:
+            if not isinstance(photon_list, PhotonList):
+                raise InputError(f"photon_list is of the type {type(photon_list).__name__}",
+                                 "give PhotonList(position, direction, wavelength)")
+            self._guard(lambda: core.set_photons(photon_list.columns))
         path = None if output is None else os.fspath(output)
         data, raised = self._guard(lambda: watched(progress, lambda call: core.run(call, path)))
         results = Results(data)

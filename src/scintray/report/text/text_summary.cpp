@@ -96,10 +96,14 @@ std::string until_lines(const tally::RunResult& run) {
 std::string energy_lines(const tally::PointResult& point) {
   const tally::EnergyBalance& energy = point.energy;
   if (energy.events_requested == 0) return "";
-  std::string text = std::to_string(energy.events) + " events, " + std::to_string(energy.silent) +
-                     " of them without energy in a scintillator; keV deposited " +
-                     compact(energy.deposited, 6) + ", escaped " + compact(energy.escaped, 6) +
-                     ", in non-scintillating parts " + compact(energy.non_scintillating, 6) + "\n";
+  std::string text = std::to_string(energy.events) + " events";
+  // A list of photons has no energies.
+  if (energy.silent > 0 || energy.deposited > 0.0 || energy.non_scintillating > 0.0)
+    text += ", " + std::to_string(energy.silent) +
+            " of them without energy in a scintillator; keV deposited " + compact(energy.deposited, 6) +
+            ", escaped " + compact(energy.escaped, 6) + ", in non-scintillating parts " +
+            compact(energy.non_scintillating, 6);
+  text += "\n";
   if (energy.detected.count > 0)
     text += "detected per event " + with_error(energy.detected.mean()) + " photons\n";
   return text;

@@ -37,7 +37,11 @@ core::IdVector<core::RegionId, bool> lit_regions(const Scene& scene,
 /// Regions in which light of the source may start.
 std::vector<core::RegionId> starting_regions(const scene_file::SceneSpec& spec, const Scene& scene) {
   std::vector<core::RegionId> regions;
-  if (spec.energy_source) {
+  if (spec.energy_source && std::holds_alternative<scene_file::PhotonListSpec>(spec.energy_source->kind)) {
+    // Photons of a list may start anywhere: a part in which none starts is lit by others.
+    for (const core::RegionId region : scene.regions.ids())
+      if (!scene.media[scene.regions[region].medium].is_opaque()) regions.push_back(region);
+  } else if (spec.energy_source) {
     for (const core::RegionId region : scene.regions.ids())
       if (scene.media[scene.regions[region].medium].medium().yield_per_keV > 0.0) regions.push_back(region);
   } else if (const auto* region = std::get_if<scene_file::RegionSpec>(&spec.source.origin)) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "scintray/core/curve.hpp"
@@ -74,6 +75,17 @@ WavelengthRange emission_of(const scene_file::SceneSpec& spec, const std::vector
 WavelengthRange wavelengths_of_source(const scene_file::SceneSpec& spec,
                                       const std::vector<contact::PlacedMesh>& placed,
                                       const materials::MaterialDatabase& database, core::Problems& problems) {
+  if (const auto* list =
+          spec.energy_source ? std::get_if<scene_file::PhotonListSpec>(&spec.energy_source->kind) : nullptr) {
+    try {
+      const std::vector<double>& nm = list->photons().wavelength_nm;
+      const auto [low, high] = std::minmax_element(nm.begin(), nm.end());
+      return {*low, *high, std::accumulate(nm.begin(), nm.end(), 0.0) / static_cast<double>(nm.size())};
+    } catch (const core::InputError& error) {
+      for (const core::Problem& problem : error.problems()) problems.add(problem);
+      return kNoLight;
+    }
+  }
   if (spec.energy_source) {
     WavelengthRange range = emission_of(spec, placed, {"*", {}}, database, problems);
     if (const auto& cherenkov_nm = spec.energy_source->cherenkov_nm) {

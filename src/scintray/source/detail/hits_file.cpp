@@ -6,8 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "scintray/config/csv.hpp"
-#include "scintray/core/h5.hpp"
+#include "scintray/config/columns.hpp"
 
 namespace scintray::source {
 
@@ -36,41 +35,11 @@ std::vector<std::string> names_of(const scene_file::HitsSpec& spec) {
   return names;
 }
 
-Columns read_csv_columns(const scene_file::HitsSpec& spec) {
-  const config::CsvTable table = config::read_csv(spec.file);
-  const std::vector<std::string> names = names_of(spec);
-  std::vector<std::optional<std::size_t>> at;
-  for (const std::string& name : names)
-    at.push_back(name.empty() ? std::nullopt : std::optional(table.column(name, 0, spec.where)));
+Columns columns_of_file(const scene_file::HitsSpec& spec) {
+  config::Columns read = config::read_columns({spec.file, spec.group, spec.where}, names_of(spec));
   Columns columns;
-  for (const config::CsvTable::Row& row : table.rows) {
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (at[i]) columns.values[i].push_back(row.values[*at[i]]);
-    columns.rows.push_back(static_cast<std::uint64_t>(row.line));
-  }
-  return columns;
-}
-
-Columns read_hdf5_columns(const scene_file::HitsSpec& spec) {
-  const core::h5::File file = core::h5::File::open(spec.file);
-  const core::h5::Group root = file.root();
-  if (!spec.group.empty() && !root.has(spec.group))
-    throw core::unknown_name(spec.where, "group of the file", spec.group, root.members());
-  const core::h5::Group group = spec.group.empty() ? root : root.open_group(spec.group);
-  const std::vector<std::string> names = names_of(spec);
-  Columns columns;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].empty()) continue;
-    if (!group.has(names[i])) throw core::unknown_name(spec.where, "dataset", names[i], group.members());
-    core::h5::Shape shape = group.shape(names[i]);
-    if (shape.size() != 1 || (i > 0 && shape[0] != columns.values[0].size()))
-      throw core::InputError({spec.where,
-                              fmt::format("the dataset \"{}\" of {} is not a column as long as \"{}\"",
-                                          names[i], spec.file.string(), names[0]),
-                              "give one-dimensional datasets of equal length, one a column"});
-    columns.values[i] = group.read<double>(names[i]);
-  }
-  for (std::uint64_t row = 0; row < columns.values[0].size(); ++row) columns.rows.push_back(row);
+  std::move(read.values.begin(), read.values.end(), columns.values.begin());
+  columns.rows = std::move(read.rows);
   return columns;
 }
 
@@ -236,10 +205,8 @@ std::string origin_of_hits(const scene_file::HitsSpec& spec) {
 }
 
 std::vector<Hit> read_hits(const scene_file::HitsSpec& spec) {
-  const bool csv = !spec.arrays && spec.file.extension() == ".csv";
-  const Columns columns = spec.arrays ? columns_in_memory(spec)
-                          : csv       ? read_csv_columns(spec)
-                                      : read_hdf5_columns(spec);
+  const bool csv = !spec.arrays && config::column_format(spec.file) == config::ColumnFormat::csv;
+  const Columns columns = spec.arrays ? columns_in_memory(spec) : columns_of_file(spec);
   const Units units =
       spec.arrays ? Units{} : Units{spec.length_mm, spec.energy_keV, spec.time_ns.value_or(0.0)};
   core::Problems problems;

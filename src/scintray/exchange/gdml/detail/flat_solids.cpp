@@ -104,8 +104,10 @@ class FlatSolid : public SolidReader {
     return mesh::lofted(outlines);
   }
 
+  /// A <position> by its name, times the unit of the element, as Geant4 reads it.
   core::Vec3 vertex(Node node, const char* attribute) const {
-    return definitions_.position_named(definitions_.name(node.attribute(attribute).value(), node), node);
+    return definitions_.number(node, "lunit", 1.0) *
+           definitions_.position_named(definitions_.name(node.attribute(attribute).value(), node), node);
   }
 
   mesh::TriMesh tet() const {
@@ -117,12 +119,14 @@ class FlatSolid : public SolidReader {
   mesh::TriMesh tessellated() const {
     std::vector<std::vector<core::Vec3>> facets;
     definitions_.for_each_child(solid_, [&](Node facet) {
-      if (std::string_view(facet.attribute("type").value()) == "RELATIVE")
-        mesh::reject_shape("a facet with corners relative to its first is not read",
-                           "write them with type=\"ABSOLUTE\"");
+      // Corners of G4TriangularFacet and G4QuadrangularFacet of the type RELATIVE count from the first.
+      const bool relative = std::string_view(facet.attribute("type").value()) == "RELATIVE";
       facets.emplace_back();
-      for (const char* name : {"vertex1", "vertex2", "vertex3", "vertex4"})
-        if (facet.attribute(name)) facets.back().push_back(vertex(facet, name));
+      for (const char* name : {"vertex1", "vertex2", "vertex3", "vertex4"}) {
+        if (!facet.attribute(name)) continue;
+        const core::Vec3 corner = vertex(facet, name);
+        facets.back().push_back(relative && !facets.back().empty() ? facets.back().front() + corner : corner);
+      }
       if (facets.back().size() < 3) mesh::reject_shape("a facet of fewer than 3 corners");
     });
     if (facets.empty()) mesh::reject_shape("a tessellated solid without facets");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "scintray/core/text.hpp"
 #include "scintray/core/units.hpp"
@@ -94,14 +95,46 @@ EnergyTable per_wavelength(const EnergyTable& table) {
   return result;
 }
 
+namespace {
+
+/// True for tables over the energy of photons: the vectors of Geant4's G4MaterialPropertiesIndex, and their
+/// names before 11.0, less those over the energy of particles. Of others, which a file may have for programs
+/// of its own, nothing is known.
+bool is_over_photon_energy(const std::string& name) {
+  static const std::set<std::string> others{"RINDEX",
+                                            "REFLECTIVITY",
+                                            "REALRINDEX",
+                                            "IMAGINARYRINDEX",
+                                            "EFFICIENCY",
+                                            "TRANSMITTANCE",
+                                            "SPECULARLOBECONSTANT",
+                                            "SPECULARSPIKECONSTANT",
+                                            "BACKSCATTERCONSTANT",
+                                            "GROUPVEL",
+                                            "MIEHG",
+                                            "RAYLEIGH",
+                                            "WLSCOMPONENT",
+                                            "WLSABSLENGTH",
+                                            "WLSCOMPONENT2",
+                                            "WLSABSLENGTH2",
+                                            "ABSLENGTH",
+                                            "FASTCOMPONENT",
+                                            "SLOWCOMPONENT",
+                                            "COATEDRINDEX"};
+  return others.contains(name) || name.starts_with("SCINTILLATIONCOMPONENT");
+}
+
+}  // namespace
+
 OpticalTables::OpticalTables(const GdmlFile& file, const Definitions& definitions)
     : file_(file), definitions_(definitions) {
   for (const char* section : {"materials", "solids"})
     definitions_.for_each_child(file_.section(section), [&](Node owner) {
       for (const Node child : owner.children("property")) {
         const std::string name = child.attribute("name").value();
+        if (!is_over_photon_energy(name)) continue;
         const EnergyTable table = property(owner, name);
-        if (table.value.size() < 2 || is_of_particles(name)) continue;
+        if (table.value.size() < 2) continue;
         const double low = core::kHc_eV_nm / table.energy_eV.back(),
                      high = core::kHc_eV_nm / table.energy_eV.front();
         low_nm_ = low_nm_ == 0.0 ? low : std::min(low_nm_, low);

@@ -23,6 +23,7 @@ class RoundSolid : public SolidReader {
       mesh::TriMesh (RoundSolid::*make)() const;
     };
     static constexpr Kind kKinds[] = {{"tube", &RoundSolid::tube},
+                                      {"cutTube", &RoundSolid::cut_tube},
                                       {"cone", &RoundSolid::cone},
                                       {"polycone", &RoundSolid::polycone},
                                       {"genericPolycone", &RoundSolid::generic_polycone},
@@ -75,6 +76,30 @@ class RoundSolid : public SolidReader {
     const double inner = length("rmin"), outer = size("rmax"), half = 0.5 * size("z");
     if (!(inner >= 0.0 && inner < outer)) mesh::reject_shape("rmin is not between 0 and rmax");
     return revolve({{inner, -half}, {outer, -half}, {outer, half}, {inner, half}});
+  }
+
+  /// A tube whose ends are cut by planes through (0, 0, -half) and (0, 0, half) with the given outward
+  /// normals.
+  mesh::TriMesh cut_tube() const {
+    const double half = 0.5 * size("z");
+    const auto normal = [&](const char* x, const char* y, const char* z, double side) {
+      const core::Vec3 n(definitions_.number(solid_, x, 0.0), definitions_.number(solid_, y, 0.0),
+                         definitions_.number(solid_, z, 0.0));
+      if (!(n.z() * side > 0.0)) mesh::reject_shape("the normal of an end does not point outwards");
+      return n;
+    };
+    const core::Vec3 low = normal("lowX", "lowY", "lowZ", -1.0),
+                     high = normal("highX", "highY", "highZ", 1.0);
+    const auto height = [&](const core::Vec3& v, const core::Vec3& n, double z) {
+      return z - (n.x() * v.x() + n.y() * v.y()) / n.z();
+    };
+    mesh::TriMesh mesh = tube();
+    for (core::Vec3& v : mesh.vertices) {
+      const double bottom = height(v, low, -half), top = height(v, high, half);
+      if (!(bottom < top)) mesh::reject_shape("the planes of its ends meet within the tube");
+      v.z() = v.z() < 0.0 ? bottom : top;
+    }
+    return mesh;
   }
 
   mesh::TriMesh cone() const {
@@ -138,15 +163,25 @@ class RoundSolid : public SolidReader {
     if (!(swept > outer)) mesh::reject_shape("rtor is not above rmax: the torus would cross itself");
     Outline circle = mesh::arc({swept, 0.0}, outer, outer, 0.0, core::kTwoPi, tessellation_);
     circle.pop_back();
+    if (inner > 0.0 && turn(swept).extent_rad < core::kTwoPi) return hollow_bend(inner, outer, swept);
     mesh::TriMesh body = revolve(circle);
     if (inner <= 0.0) return body;
-    if (turn(swept).extent_rad < core::kTwoPi)
-      mesh::reject_shape("a hollow torus that is not a full circle is not made");
     Outline hole = mesh::arc({swept, 0.0}, inner, inner, 0.0, core::kTwoPi, tessellation_);
     hole.pop_back();
     mesh::TriMesh hollow = mesh::revolved(hole, turn(swept + outer));
     mesh::reverse_orientation(hollow);
     return mesh::joined(body, hollow);
+  }
+
+  /// Part of a hollow torus.
+  mesh::TriMesh hollow_bend(double inner, double outer, double swept) const {
+    const mesh::Turn along = turn(swept + outer);
+    const int around = mesh::arc_segments(outer, core::kTwoPi, tessellation_, 3);
+    return mesh::mapped_cube({along.segments, around, 1}, {false, true, false}, [&](const core::Vec3& at) {
+      const double phi = along.start_rad + at.x() * along.extent_rad, angle = core::kTwoPi * at.y();
+      const double r = inner + at.z() * (outer - inner), rho = swept + r * std::cos(angle);
+      return core::Vec3(rho * std::cos(phi), rho * std::sin(phi), r * std::sin(angle));
+    });
   }
 
   mesh::TriMesh ellipsoid() const {

@@ -59,4 +59,8 @@ std::optional<mesh::TriMesh> make_flat_solid(Node solid, const Definitions& defi
 std::optional<mesh::TriMesh> make_round_solid(Node solid, const Definitions& definitions,
                                               const mesh::Tessellation& tessellation);
 
+/// The same for twisted solids.
+std::optional<mesh::TriMesh> make_twisted_solid(Node solid, const Definitions& definitions,
+                                                const mesh::Tessellation& tessellation);
+
 }  // namespace scintray::exchange::gdml

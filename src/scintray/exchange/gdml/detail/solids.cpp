@@ -14,10 +14,14 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
+/// Kinds of solids that are made of others.
+enum class Composition { boolean, unions, moved };
+constexpr core::Word<Composition> kCompositions[] = {
+    {"union", Composition::unions},         {"subtraction", Composition::boolean},
+    {"intersection", Composition::boolean}, {"multiUnion", Composition::unions},
+    {"reflectedSolid", Composition::moved}, {"scaledSolid", Composition::moved}};
 constexpr core::Word<mesh::BooleanOperation> kBooleans[] = {
-    {"union", mesh::BooleanOperation::unite},
-    {"subtraction", mesh::BooleanOperation::subtract},
-    {"intersection", mesh::BooleanOperation::intersect}};
+    {"subtraction", mesh::BooleanOperation::subtract}, {"intersection", mesh::BooleanOperation::intersect}};
 
 /// Solids whose sides are flat however many they are.
 constexpr core::Word<bool> kFlatSided[] = {
@@ -31,7 +35,20 @@ constexpr double kCornersOnSurface_mm = 1e-4;
 std::optional<mesh::TriMesh> make_simple_solid(Node solid, const Definitions& definitions,
                                                const mesh::Tessellation& tessellation) {
   std::optional<mesh::TriMesh> made = make_flat_solid(solid, definitions, tessellation);
-  return made ? std::move(made) : make_round_solid(solid, definitions, tessellation);
+  if (!made) made = make_round_solid(solid, definitions, tessellation);
+  return made ? std::move(made) : make_twisted_solid(solid, definitions, tessellation);
+}
+
+/// True for solids of revolution whose walls cannot cross, by the dimensions that their makers accept: a
+/// search for triangles that cross would take the square of their number where a disc is cut in thousands of
+/// sectors.
+bool is_sound_by_construction(Node solid, const Definitions& definitions) {
+  const std::string_view kind = solid.name();
+  if (kind != "cone")
+    return kind == "tube" || kind == "cutTube" || kind == "sphere" || kind == "orb" || kind == "torus";
+  const auto length = [&](const char* attribute) { return definitions.length(solid, attribute); };
+  return length("rmin1") >= 0.0 && length("rmin1") < length("rmax1") && length("rmin2") >= 0.0 &&
+         length("rmin2") < length("rmax2");
 }
 
 /// The placement of the second solid of a boolean in Geant4: rotated by the rotation itself, then moved.
@@ -63,7 +80,38 @@ Node Solids::optical_surface(const std::string& name) const {
   return found == surfaces_.end() ? Node() : found->second.node;
 }
 
-Node Solids::element(const std::string& name, Node where) const { return find(name, where).node; }
+std::optional<core::Vec3> Solids::box_sides(const std::string& name, Node where) const {
+  const auto& [solid, variables] = find(name, where);
+  if (std::string_view(solid.name()) != "box") return std::nullopt;
+  const LoopScope scope(definitions_, variables);
+  return core::Vec3(definitions_.length(solid, "x"), definitions_.length(solid, "y"),
+                    definitions_.length(solid, "z"));
+}
+
+Node Solids::new_element(const std::string& kind) {
+  Node element = added_.append_child(kind.c_str());
+  element.append_attribute("lunit") = "mm";
+  element.append_attribute("aunit") = "rad";
+  return element;
+}
+
+std::string Solids::add(Node element, Node origin) {
+  const std::string base = std::string(element.name()) + "_of_a_copy_";
+  std::string name;
+  do name = base + std::to_string(origins_.size());
+  while (solids_.contains(name) || origins_.contains(name));
+  Node own = element.parent() == added_ ? element : Node(added_.append_copy(element));
+  own.remove_attribute("name");
+  own.append_attribute("name") = name.c_str();
+  solids_.emplace(name, LoopedNode{own, definitions_.loop_variables()});
+  origins_.emplace(name, origin);
+  return name;
+}
+
+core::FileLocation Solids::where(const std::string& name, Node solid) const {
+  const auto added = origins_.find(name);
+  return file_.where(added == origins_.end() ? solid : added->second);
+}
 
 const LoopedNode& Solids::find(const std::string& name, Node where) const {
   const auto found = solids_.find(name);
@@ -76,11 +124,7 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
   if (const auto done = made_.find(name); done != made_.end()) return done->second;
   const auto& [solid, variables] = find(name, where);
   const LoopScope scope(definitions_, variables);
-  if (std::find(in_the_making_.begin(), in_the_making_.end(), name) != in_the_making_.end())
-    file_.reject(solid, "solid \"" + name + "\" contains itself");
-  constexpr std::size_t kDeepest = 500;
-  if (in_the_making_.size() >= kDeepest) file_.reject(solid, "booleans are nested more than 500 deep");
-  in_the_making_.push_back(name);
+  const Entered entered(*this, name, solid);
   mesh::TriMesh mesh;
   try {
     mesh = make(solid);
@@ -88,13 +132,21 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems) {
       if (!problem.where.file.empty()) continue;
-      problem.where = file_.where(solid);
+      problem.where = this->where(name, solid);
       problem.what = "solid \"" + name + "\" (" + solid.name() + "): " + problem.what;
     }
     throw core::InputError(std::move(problems));
   }
-  in_the_making_.pop_back();
   return made_.emplace(name, std::move(mesh)).first->second;
+}
+
+Solids::Entered::Entered(Solids& solids, const std::string& name, Node solid)
+    : making_(solids.in_the_making_) {
+  if (std::find(making_.begin(), making_.end(), name) != making_.end())
+    solids.file_.reject(solid, "solid \"" + name + "\" contains itself");
+  constexpr std::size_t kDeepest = 500;
+  if (making_.size() >= kDeepest) solids.file_.reject(solid, "booleans are nested more than 500 deep");
+  making_.push_back(name);
 }
 
 bool Solids::is_round(const std::string& name, Node where) {
@@ -109,15 +161,31 @@ bool Solids::is_round(const std::string& name, Node where) {
 
 bool Solids::has_flat_sides(Node solid) const {
   if (core::find_word(kFlatSided, solid.name())) return true;
-  for (const char* tag : {"first", "second"})
-    if (const Node operand = solid.child(tag))
-      if (has_flat_sides(element(definitions_.name(file_.required(operand, "ref"), operand), operand)))
-        return true;
+  for (const std::string& operand : operands(solid))
+    if (has_flat_sides(element(operand, solid))) return true;
   return false;
 }
 
+std::vector<std::string> Solids::operands(Node solid) const {
+  std::vector<std::string> names;
+  const auto add = [&](Node node, const char* attribute) {
+    if (node) names.push_back(definitions_.name(file_.required(node, attribute), node));
+  };
+  const std::optional<Composition> kind = core::find_word(kCompositions, solid.name());
+  for (const char* tag : {"first", "second"}) add(solid.child(tag), "ref");
+  for (const Node node : solid.children("multiUnionNode")) add(node.child("solid"), "ref");
+  if (kind == Composition::moved && solid.attribute("solid"))
+    add(solid, "solid");
+  else if (kind == Composition::moved)
+    add(solid.child("solidref"), "ref");
+  return names;
+}
+
 mesh::TriMesh Solids::make(Node solid) {
-  if (core::find_word(kBooleans, solid.name())) return make_boolean(solid);
+  if (const std::optional<Composition> kind = core::find_word(kCompositions, solid.name()))
+    return kind == Composition::boolean  ? make_boolean(solid)
+           : kind == Composition::unions ? make_union(solid)
+                                         : make_transformed(solid);
   std::optional<mesh::TriMesh> mesh = make_simple_solid(solid, definitions_, tessellation_);
   if (!mesh)
     throw core::InputError(
@@ -125,6 +193,7 @@ mesh::TriMesh Solids::make(Node solid) {
                       "solids of this kind cannot be made",
                       "write it as a tessellated solid, or leave out the volumes that use it with "
                       "--skip-unsupported"});
+  if (is_sound_by_construction(solid, definitions_)) return std::move(*mesh);
   if (const std::vector<core::Problem> problems =
           mesh::mesh_problems(mesh::diagnose(*mesh), solid.attribute("name").value());
       !problems.empty())
@@ -132,11 +201,88 @@ mesh::TriMesh Solids::make(Node solid) {
   return std::move(*mesh);
 }
 
+mesh::TriMesh Solids::referred(Node reference) {
+  return mesh(definitions_.name(file_.required(reference, "ref"), reference), reference);
+}
+
+void Solids::add_bodies(Node solid, const Eigen::Affine3d& to, std::vector<mesh::TriMesh>& bodies) {
+  const auto add = [&](Node reference, const Eigen::Affine3d& own) {
+    const std::string name = definitions_.name(file_.required(reference, "ref"), reference);
+    const auto& [operand, variables] = find(name, reference);
+    if (std::string_view(operand.name()) != "union" || made_.contains(name)) {
+      bodies.push_back(mesh::transformed(mesh(name, reference), to * own));
+      return;
+    }
+    const LoopScope scope(definitions_, variables);
+    const Entered entered(*this, name, operand);
+    add_bodies(operand, to * own, bodies);
+  };
+  for (const Node node : solid.children("multiUnionNode")) {
+    const Node reference = node.child("solid");
+    if (!reference) file_.reject(node, "<multiUnionNode> has no <solid>");
+    add(reference, placement(definitions_.position(node), definitions_.rotation(node)));
+  }
+  if (std::string_view(solid.name()) != "union") return;
+  const auto operand = [&](const char* tag) {
+    const Node reference = solid.child(tag);
+    if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
+    return reference;
+  };
+  add(operand("first"), placement(definitions_.position(solid, "firstposition"),
+                                  definitions_.rotation(solid, "firstrotation")));
+  add(operand("second"), placement(definitions_.position(solid), definitions_.rotation(solid)));
+}
+
+/// The union of several bodies, always of the two with the fewest triangles, so that large ones are cut few
+/// times. Programs write a union of many as a chain of unions of two, in which the first is cut by all.
+mesh::TriMesh Solids::make_union(Node solid) {
+  std::vector<mesh::TriMesh> bodies;
+  add_bodies(solid, Eigen::Affine3d::Identity(), bodies);
+  if (bodies.empty()) file_.reject(solid, "<multiUnion> has no <multiUnionNode>");
+  const auto larger = [](const mesh::TriMesh& a, const mesh::TriMesh& b) {
+    return a.triangles.size() > b.triangles.size();
+  };
+  std::stable_sort(bodies.begin(), bodies.end(), larger);
+  while (bodies.size() > 1) {
+    const mesh::TriMesh last = std::move(bodies.back());
+    bodies.pop_back();
+    mesh::TriMesh both = mesh::combine(bodies.back(), last, mesh::BooleanOperation::unite);
+    bodies.pop_back();
+    bodies.insert(std::upper_bound(bodies.begin(), bodies.end(), both, larger), std::move(both));
+  }
+  return std::move(bodies.front());
+}
+
+/// reflectedSolid: scaled by sx, sy, sz, then rotated, then moved by dx, dy, dz. scaledSolid: scaled by
+/// <scale>.
+mesh::TriMesh Solids::make_transformed(Node solid) {
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  core::Vec3 scale;
+  std::string name;
+  if (solid.attribute("solid")) {
+    const auto angle = [&](const char* attribute) { return definitions_.angle(solid, attribute); };
+    const auto factor = [&](const char* attribute) { return definitions_.number(solid, attribute, 1.0); };
+    transform = placement({definitions_.length(solid, "dx"), definitions_.length(solid, "dy"),
+                           definitions_.length(solid, "dz")},
+                          {angle("rx"), angle("ry"), angle("rz")});
+    scale = {factor("sx"), factor("sy"), factor("sz")};
+    name = definitions_.name(solid.attribute("solid").value(), solid);
+  } else {
+    const Node reference = solid.child("solidref");
+    if (!reference) file_.reject(solid, std::string("<") + solid.name() + "> refers to no solid");
+    scale = definitions_.scale(solid);
+    name = definitions_.name(file_.required(reference, "ref"), reference);
+  }
+  transform.linear() *= scale.asDiagonal();
+  if (!(transform.linear().determinant() != 0.0)) mesh::reject_shape("a scale is 0");
+  return mesh::transformed(mesh(name, solid), transform);
+}
+
 mesh::TriMesh Solids::make_boolean(Node solid) {
   const auto operand = [&](const char* tag) {
     const Node reference = solid.child(tag);
     if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
-    return mesh(definitions_.name(file_.required(reference, "ref"), reference), reference);
+    return referred(reference);
   };
   const mesh::TriMesh first =
       mesh::transformed(operand("first"), placement(definitions_.position(solid, "firstposition"),

@@ -1,7 +1,9 @@
 #pragma once
 /// The solids of a GDML file as closed meshes.
 
+#include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,12 @@ namespace scintray::exchange::gdml {
 
 /// Solids by name. Each is built once, on request.
 ///
-/// Supported are: box, tube, cone, trd, trap, para, arb8, tet, tessellated, xtru, polycone, genericPolycone,
-/// polyhedra, genericPolyhedra, sphere, orb, torus, ellipsoid, eltube, elcone, paraboloid, hype, and union,
-/// subtraction, intersection of these. Curved walls have their corners on the true surface and the segments
-/// that the tessellation requires, in steps of factors of two, so that bodies that touch along a cylinder
-/// mostly get the same.
+/// All that G4GDMLReadSolids of Geant4 11.4 reads are made: box, tube, cutTube, cone, trd, trap, para, arb8,
+/// tet, tessellated, xtru, polycone, genericPolycone, polyhedra, genericPolyhedra, sphere, orb, torus,
+/// ellipsoid, eltube, elcone, paraboloid, hype, twistedbox, twistedtrd, twistedtrap, twistedtubs, and union,
+/// subtraction, intersection, multiUnion, reflectedSolid and scaledSolid of these. Curved walls have their
+/// corners on the true surface and the segments that the tessellation requires, in steps of factors of two,
+/// so that bodies that touch along a cylinder mostly get the same.
 class Solids {
  public:
   /// Throws InputError when two solids have one name.
@@ -34,19 +37,49 @@ class Solids {
 
   /// The <opticalsurface> of this name, an element of <solids>; empty when there is none.
   Node optical_surface(const std::string& name) const;
-  /// The element of a solid; throws when there is none of this name.
-  Node element(const std::string& name, Node where) const;
+  /// Lengths of the sides of a box; empty for other solids. Throws when there is no solid of this name.
+  std::optional<core::Vec3> box_sides(const std::string& name, Node where) const;
+  /// The element of a solid, with the loop variables at its place; throws when there is none of this name.
+  const LoopedNode& find(const std::string& name, Node where) const;
+
+  /// Adds a solid, a copy of an element whose place is `origin`, for a copy of a volume that has dimensions
+  /// of its own. Its expressions are evaluated with the present loop variables. Returns its name.
+  std::string add(Node element, Node origin);
+  /// An element without attributes, to be filled and added: lengths in mm, angles in rad.
+  Node new_element(const std::string& kind);
 
  private:
-  const LoopedNode& find(const std::string& name, Node where) const;
+  Node element(const std::string& name, Node where) const { return find(name, where).node; }
   mesh::TriMesh make(Node solid);
   mesh::TriMesh make_boolean(Node solid);
+  mesh::TriMesh make_union(Node solid);
+  /// Adds the bodies of a union: its operands, those of operands that are unions in their place.
+  void add_bodies(Node solid, const Eigen::Affine3d& placement, std::vector<mesh::TriMesh>& bodies);
+  /// A solid while it is made of others. Throws InputError where it contains itself, or is nested too deep.
+  class Entered {
+   public:
+    Entered(Solids& solids, const std::string& name, Node solid);
+    Entered(const Entered&) = delete;
+    Entered& operator=(const Entered&) = delete;
+    ~Entered() { making_.pop_back(); }
+
+   private:
+    std::vector<std::string>& making_;
+  };
+  mesh::TriMesh make_transformed(Node solid);
+  /// The solid that an element refers to.
+  mesh::TriMesh referred(Node reference);
+  /// Names of the solids that one is made of; none of a simple one.
+  std::vector<std::string> operands(Node solid) const;
   bool has_flat_sides(Node solid) const;
+  core::FileLocation where(const std::string& name, Node solid) const;
 
   const GdmlFile& file_;
   const Definitions& definitions_;
   mesh::Tessellation tessellation_;
   std::map<std::string, LoopedNode> solids_, surfaces_;
+  pugi::xml_document added_;             ///< elements of solids that were added
+  std::map<std::string, Node> origins_;  ///< of these by name
   std::map<std::string, mesh::TriMesh> made_;
   std::map<std::string, bool> round_;
   std::vector<std::string> in_the_making_;

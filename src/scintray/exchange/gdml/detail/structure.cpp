@@ -1,11 +1,10 @@
 #include "scintray/exchange/gdml/detail/structure.hpp"
 
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "scintray/core/words.hpp"
-#include "scintray/exchange/gdml/detail/solids.hpp"
+#include "scintray/exchange/gdml/detail/copies.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -22,8 +21,8 @@ std::optional<Element> element_of(Node node) { return core::find_word(kElements,
 
 class StructureReader {
  public:
-  StructureReader(const GdmlFile& file, const Definitions& definitions)
-      : file_(file), definitions_(definitions) {}
+  StructureReader(const GdmlFile& file, const Definitions& definitions, Solids& solids)
+      : file_(file), definitions_(definitions), copies_(file, definitions, solids) {}
 
   Structure read() {
     definitions_.for_each_child(file_.section("structure"), [this](Node node) { remember(node); });
@@ -36,6 +35,7 @@ class StructureReader {
     structure_.world_material = reference(child(volume, "materialref"));
     structure_.world_solid = reference(child(volume, "solidref"));
     place_daughters(volume, Eigen::Affine3d::Identity(), std::nullopt);
+    for (const auto& [name, element] : volumes_) structure_.volumes.push_back(name);
     return std::move(structure_);
   }
 
@@ -99,11 +99,9 @@ class StructureReader {
     definitions_.for_each_child(volume, [&](Node node) {
       const std::optional<Element> element = element_of(node);
       if (element == Element::placement) place(node, to_world, mother);
-      if (element == Element::replica) replicate(node, to_world, mother);
-      if (element == Element::division) divide(node, volume, to_world, mother);
-      if (element == Element::parameterised)
-        file_.reject(node, std::string("<") + node.name() + "> is not read",
-                     "write its copies as <physvol>s");
+      if (element == Element::replica) add_copies(node, copies_.replicas(node, volume), to_world, mother);
+      if (element == Element::division) add_copies(node, copies_.divisions(node, volume), to_world, mother);
+      if (element == Element::parameterised) add_copies(node, copies_.parameterised(node), to_world, mother);
     });
   }
 
@@ -121,12 +119,13 @@ class StructureReader {
       file_.reject(physvol, "a placement that leaves no volume: its scale is 0 or not finite");
     const std::string name =
         physvol.attribute("name") ? definitions_.name(physvol.attribute("name").value(), physvol) : volume;
-    add({name, placement_of(physvol)}, volume, reference_node, mother_to_world * own, mother);
+    add({name, placement_of(physvol), ""}, volume, reference_node, mother_to_world * own, mother);
   }
 
   struct Physvol {
     std::string name;
     std::size_t placement;
+    std::string solid;  ///< of this copy; empty: that of its volume
   };
 
   void add(const Physvol& physvol, const std::string& volume, Node where, const Eigen::Affine3d& to_world,
@@ -144,7 +143,7 @@ class StructureReader {
       PlacedVolume placed{physvol.name,
                           volume,
                           reference(child(element, "materialref")),
-                          reference(child(element, "solidref")),
+                          physvol.solid.empty() ? reference(child(element, "solidref")) : physvol.solid,
                           element,
                           to_world,
                           mother,
@@ -159,93 +158,24 @@ class StructureReader {
     inside_.erase(volume);
   }
 
-  /// Copies of a volume in its mother, named by their numbers.
-  template <typename Shift>
-  void add_copies(Node element, int count, const Eigen::Affine3d& mother_to_world,
-                  std::optional<std::size_t> mother, const Shift& shift) {
+  /// Copies of a volume in its mother, with the name of the element, or named by their numbers.
+  void add_copies(Node element, const VolumeCopies& copies, const Eigen::Affine3d& mother_to_world,
+                  std::optional<std::size_t> mother) {
     const Node reference_node = child(element, "volumeref");
     const std::string volume = reference(reference_node);
-    for (int copy = 0; copy < count; ++copy)
-      add({volume + "_" + std::to_string(copy), placement_of(element)}, volume, reference_node,
-          mother_to_world * shift(copy), mother);
-  }
-
-  int copy_count(Node element, double count) const {
-    if (!(count >= 1.0 && count <= static_cast<double>(kMostPlaced)))
-      file_.reject(element, std::string("<") + element.name() + "> has no number of copies from 1 on",
-                   "give number=\"...\"");
-    return static_cast<int>(count);
-  }
-
-  /// Copies side by side along an axis of the mother, centred in it, whose number * width is its extent; or,
-  /// about its z axis, side by side from the offset on (G4PVReplica: the middle of copy n is at offset + (n +
-  /// 1/2) width).
-  void replicate(Node replica, const Eigen::Affine3d& mother_to_world, std::optional<std::size_t> mother) {
-    const int count = copy_count(replica, definitions_.number(replica, "number"));
-    const Node along = child(replica, "replicate_along_axis"), direction = child(along, "direction");
-    const Node width_node = child(along, "width"), offset_node = along.child("offset");
-    const core::Vec3 axis(definitions_.number(direction, "x", 0.0), definitions_.number(direction, "y", 0.0),
-                          definitions_.number(direction, "z", 0.0));
-    const bool about_z = definitions_.number(direction, "phi", 0.0) == 1.0;
-    if (direction.attribute("rho") || (about_z ? axis.norm() != 0.0 : axis.norm() != 1.0))
-      file_.reject(replica, "replicas other than along x, y, z or phi are not read",
-                   "write them as <physvol>s");
-    const double width =
-        definitions_.number(width_node, "value") * definitions_.number(width_node, "unit", 1.0);
-    const double offset = offset_node ? definitions_.number(offset_node, "value", 0.0) *
-                                            definitions_.number(offset_node, "unit", 1.0)
-                                      : 0.0;
-    add_copies(replica, count, mother_to_world, mother, [&](int copy) {
-      if (about_z)
-        return Eigen::Affine3d(Eigen::AngleAxisd(offset + (copy + 0.5) * width, core::Vec3::UnitZ()));
-      return Eigen::Affine3d(Eigen::Translation3d(axis * (width * (copy - 0.5 * (count - 1)))));
-    });
-  }
-
-  /// The length of a box along an axis; rejects other solids.
-  double box_length(Node division, Node volume, const char* axis) const {
-    const std::string name = reference(child(volume, "solidref"));
-    const Node box = file_.section("solids").find_child_by_attribute("box", "name", name.c_str());
-    if (!box)
-      file_.reject(division, "divisions of other solids than boxes are not read: \"" + name + "\" is none",
-                   "write the copies as <physvol>s");
-    return definitions_.length(box, axis);
-  }
-
-  /// Divisions of a box along x, y or z (G4PVDivision): from the offset on, by number, width or both.
-  void divide(Node division, Node volume, const Eigen::Affine3d& mother_to_world,
-              std::optional<std::size_t> mother) {
-    static constexpr core::Word<int> kAxes[] = {{"kXAxis", 0}, {"kYAxis", 1}, {"kZAxis", 2}};
-    static constexpr const char* kLengths[] = {"x", "y", "z"};
-    const std::optional<int> axis = core::find_word(kAxes, division.attribute("axis").value());
-    if (!axis)
-      file_.reject(division, "divisions other than along kXAxis, kYAxis or kZAxis are not read",
-                   "write the copies as <physvol>s");
-    const double extent = box_length(division, volume, kLengths[*axis]);
-    const double unit = definitions_.number(division, "unit", 1.0);
-    const double offset = definitions_.number(division, "offset", 0.0) * unit;
-    double width = definitions_.number(division, "width", 0.0) * unit;
-    double number = definitions_.number(division, "number", 0.0);
-    constexpr double kRounding = 1e-9;
-    if (width > 0.0 && number == 0.0) number = std::floor((extent - offset) / width * (1.0 + kRounding));
-    const int count = copy_count(division, number);
-    if (width == 0.0) width = (extent - offset) / count;
-    const Node divided_node = child(division, "volumeref");
-    const double own =
-        box_length(division, find(reference(divided_node), divided_node).node, kLengths[*axis]);
-    if (!(std::abs(own - width) <= 1e-6 * extent))
-      file_.reject(division,
-                   "the copies of a division are " + std::to_string(width) + " mm wide, and their solid is " +
-                       std::to_string(own) + " mm: Geant4 gives it another length",
-                   "give the solid that length");
-    add_copies(division, count, mother_to_world, mother, [&](int copy) {
-      const double middle = -0.5 * extent + offset + (copy + 0.5) * width;
-      return Eigen::Affine3d(Eigen::Translation3d(core::Vec3::Unit(*axis) * middle));
-    });
+    for (std::size_t copy = 0; copy < copies.copies.size(); ++copy) {
+      const std::string name = element.attribute("name")
+                                   ? definitions_.name(element.attribute("name").value(), element)
+                                   : volume + "_" + std::to_string(copy);
+      add({name, placement_of(element), copies.copies[copy].solid}, volume, reference_node,
+          mother_to_world * copies.copies[copy].in_mother, mother);
+    }
+    for (const std::string& note : copies.notes) structure_.notes.push_back(note);
   }
 
   const GdmlFile& file_;
   const Definitions& definitions_;
+  CopyReader copies_;
   Structure structure_;
   std::map<std::string, LoopedNode> volumes_;
   std::map<std::pair<const void*, LoopVariables>, std::size_t> placements_;
@@ -254,8 +184,8 @@ class StructureReader {
 
 }  // namespace
 
-Structure read_structure(const GdmlFile& file, const Definitions& definitions) {
-  return StructureReader(file, definitions).read();
+Structure read_structure(const GdmlFile& file, const Definitions& definitions, Solids& solids) {
+  return StructureReader(file, definitions, solids).read();
 }
 
 }  // namespace scintray::exchange::gdml

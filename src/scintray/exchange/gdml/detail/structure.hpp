@@ -35,18 +35,22 @@ struct SurfacePlacement {
   Node element;
 };
 
+class Solids;
+
 struct Structure {
   std::string world_volume, world_material, world_solid;
+  std::vector<std::string> volumes;  ///< names of all <volume>s, by name
   std::vector<PlacedVolume> placed;  ///< mothers before their daughters, without the world
   std::vector<SurfacePlacement> surfaces;
   std::vector<std::string> notes;
 };
 
 /// Structure of the file from the world of <setup> on. A <physvol> is placed as in Geant4: rotated by the
-/// inverse of its rotation, moved by its position, after its scale. Assemblies are expanded; replicas along
-/// x, y, z or phi and divisions of boxes are placed one by one. Throws InputError for references without a
-/// target, a volume inside itself, volumes of other files, other replicas and divisions, parameterised
-/// volumes, and more than kMostPlaced volumes.
-Structure read_structure(const GdmlFile& file, const Definitions& definitions);
+/// inverse of its rotation, moved by its position, after its scale. Assemblies are expanded; replicas,
+/// divisions and parameterised volumes (CopyReader) are placed one by one. Throws InputError for references
+/// without a target, a volume inside itself, volumes of other files, divisions that are not read, and more
+/// than kMostPlaced volumes.
+/// @param solids  receives those of copies with dimensions of their own
+Structure read_structure(const GdmlFile& file, const Definitions& definitions, Solids& solids);
 
 }  // namespace scintray::exchange::gdml

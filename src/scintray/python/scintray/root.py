@@ -1,0 +1,126 @@
+"""Lists of hits in ROOT files in, detected photons out, through the package uproot where it is installed."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import os
+from typing import Any, Dict, List, Mapping, Optional, Union
+
+import numpy as np
+
+from .errors import InputError, MissingPackage
+from .results import Results
+from .simulation import Deposits
+
+__all__ = ["read_root_hits", "write_root_photons"]
+
+# Branches of GATE's trees of hits, with their units: those of GATE 9, and of GATE 10, whose own tools for tests compare
+# both with the factor 1e-9 for the time and 1 for positions and energies (opengate, tests/utility.py).
+_LAYOUTS: Dict[str, Dict[str, Any]] = {
+    "GATE 9": {"columns": {"event": "eventID", "x": "posX", "y": "posY", "z": "posZ", "energy": "edep", "time": "time"},
+               "run": "runID", "time_unit": "s"},
+    "GATE 10": {"columns": {"event": "EventID", "x": "PostPosition_X", "y": "PostPosition_Y", "z": "PostPosition_Z",
+                            "energy": "TotalEnergyDeposit", "time": "GlobalTime"},
+                "run": "RunID", "time_unit": "ns"},
+}
+_REQUIRED = ("event", "x", "y", "z", "energy")
+
+
+def _uproot(what: str) -> Any:
+    try:
+        return importlib.import_module("uproot")
+    except ImportError as error:
+        raise MissingPackage(f"{what} needs uproot, which is not installed; hint: pip install uproot "
+                             "(Debian 12 has no package of it)") from error
+
+
+def _branches(tree: Any) -> List[str]:
+    return [str(name) for name in tree.keys()]
+
+
+def _layout_of(branches: List[str], where: str) -> Dict[str, Any]:
+    for layout in _LAYOUTS.values():
+        if all(layout["columns"][name] in branches for name in _REQUIRED):
+            return layout
+    raise InputError(f"{where} has neither GATE 9's nor GATE 10's branches of hits; it has " + ", ".join(branches),
+                     'name them: columns={"event": "...", "x": "...", "y": "...", "z": "...", "energy": "..."}')
+
+
+def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
+                   columns: Optional[Mapping[str, str]] = None, run: Optional[str] = None, length_unit: str = "mm",
+                   energy_unit: str = "MeV", time_unit: Optional[str] = None) -> Deposits:
+    """Energy deposits of a tree of hits, for ``run(deposits=...)``.
+
+    Parameters
+    ----------
+    path : ROOT file
+    tree : name of its tree
+    columns : branch of each of ``event``, ``x``, ``y``, ``z``, ``energy``, and where there are such of ``time``,
+        ``dx``, ``dy``, ``dz`` and the other columns of steps of ``Deposits``; None: those of GATE 9 or GATE 10,
+        whichever the tree has
+    run : branch with the number of the run; events of one number in different runs are different events. None: GATE's,
+        where the tree has it
+    length_unit, energy_unit : of the tree; mm and MeV, as GATE and Geant4 write
+    time_unit : of the tree; None: s for GATE 9, ns for GATE 10 and for ``columns``
+
+    Raises MissingPackage without uproot; InputError for a tree or branches that are not there.
+    """
+    uproot = _uproot("read_root_hits()")
+    with uproot.open(os.fspath(path)) as file:
+        trees = sorted({str(name).split(";")[0] for name in file.keys()})
+        if tree not in trees:
+            near = difflib.get_close_matches(tree, trees, 1)
+            raise InputError(f"{os.fspath(path)} has no tree {tree!r}",
+                             (f"did you mean {near[0]!r}? " if near else "") + "it has " + ", ".join(trees))
+        hits = file[tree]
+        branches = _branches(hits)
+        where = f"the tree {tree!r} of {os.fspath(path)}"
+        if columns is None:
+            layout = _layout_of(branches, where)
+            names = {name: branch for name, branch in layout["columns"].items() if branch in branches}
+            run = run or (layout["run"] if layout["run"] in branches else None)
+            time_unit = time_unit or layout["time_unit"]
+        else:
+            names = dict(columns)
+            missing = [name for name in _REQUIRED if name not in names]
+            if missing:
+                raise InputError("columns names no branch for " + ", ".join(missing),
+                                 "event, x, y, z and energy are needed")
+        for branch in [*names.values(), *([run] if run else [])]:
+            if branch not in branches:
+                raise InputError(f"{where} has no branch {branch!r}", "it has " + ", ".join(branches))
+        read = hits.arrays([*names.values(), *([run] if run else [])], library="np")
+    data = {name: np.asarray(read[branch]) for name, branch in names.items()}
+    event = data.pop("event")
+    if run:
+        pairs = np.column_stack([np.asarray(read[run]), event])
+        event = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1)
+    position = np.column_stack([data.pop(axis) for axis in "xyz"])
+    moved = [data.pop(name, None) for name in ("dx", "dy", "dz")]
+    if any(column is None for column in moved) and not all(column is None for column in moved):
+        raise InputError("columns names one or two of dx, dy, dz", "name all three, or none")
+    return Deposits(event, position, data.pop("energy"), data.pop("time", None),
+                    displacement=None if moved[0] is None else np.column_stack(moved), length_unit=length_unit,
+                    energy_unit=energy_unit, time_unit=time_unit or "ns", **data)
+
+
+def write_root_photons(results: Results, path: Union[str, "os.PathLike[str]"], tree: str = "photons") -> int:
+    """Writes the detected photons of a run (``photon_list = true``) as a tree, a branch for each column: mm, nm, ns.
+
+    Returns the number of photons. Raises MissingPackage without uproot, and as ``Results.photons`` does.
+    """
+    uproot = _uproot("write_root_photons()")
+    photons = results.photons
+    branches: Dict[str, Any] = {}
+    for name in photons.dtype.names:
+        column = photons[name]
+        if column.ndim == 1:
+            branches[name] = np.ascontiguousarray(column)
+        else:
+            for axis, letter in enumerate("xyz"):
+                own = f"direction_{letter}" if name == "direction" else f"{letter}_mm"
+                branches[own] = np.ascontiguousarray(column[:, axis])
+    with uproot.recreate(os.fspath(path)) as file:
+        file[tree] = branches
+    return len(photons)
