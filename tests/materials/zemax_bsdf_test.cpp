@@ -156,3 +156,28 @@ TEST_CASE("Mistakes in a Zemax BRDF are found at their line") {
   wrong.tis_scale = 0.6;
   refused(wrong.text(), 17, "but TIS is");
 }
+
+TEST_CASE("A damaged Zemax BRDF is read or refused in words, whatever stands in it") {
+  const std::string sound = BsdfText().text();
+  constexpr std::string_view kBytes = "0159eE+-. \n\t#TI\xff";
+  int refused = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Rng rng(11, StreamKind::other, i);
+    std::string text = sound;
+    const auto below = [&](std::size_t count) {
+      return static_cast<std::size_t>(rng.uniform() * static_cast<double>(count));
+    };
+    for (int k = 0; k < 3; ++k) text[below(i % 2 == 0 ? text.size() : 300)] = kBytes[below(kBytes.size())];
+    if (i % 5 == 0) text.resize(below(text.size()));
+    try {
+      const Bsdf bsdf = parse_bsdf(text, "damaged.bsdf");
+      CHECK(bsdf.values.size() ==
+            bsdf.angles.specular.size() * bsdf.angles.azimuth.size() * bsdf.angles.radial.size());
+    } catch (const InputError& error) {
+      ++refused;
+      CHECK(!error.problems().front().what.empty());
+      CHECK(error.problems().front().where.line > 0);
+    }
+  }
+  CHECK(refused > 20);
+}
