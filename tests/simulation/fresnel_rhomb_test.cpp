@@ -12,15 +12,15 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr double kIndex = 1.5;
+constexpr double kRhombIndex = 1.5;
 
 /// Phase of p over s of one total reflection, from Fresnel's amplitudes with an imaginary cosine of
 /// refraction.
 double phase_of_reflection(double angle) {
-  const std::complex<double> cos_t(0.0, std::sqrt(std::pow(kIndex * std::sin(angle), 2) - 1.0));
+  const std::complex<double> cos_t(0.0, std::sqrt(std::pow(kRhombIndex * std::sin(angle), 2) - 1.0));
   const double cos_i = std::cos(angle);
-  const auto r_s = (kIndex * cos_i - cos_t) / (kIndex * cos_i + cos_t);
-  const auto r_p = (cos_i - kIndex * cos_t) / (cos_i + kIndex * cos_t);
+  const auto r_s = (kRhombIndex * cos_i - cos_t) / (kRhombIndex * cos_i + cos_t);
+  const auto r_p = (cos_i - kRhombIndex * cos_t) / (cos_i + kRhombIndex * cos_t);
   return std::arg(r_p / r_s);
 }
 
@@ -28,7 +28,7 @@ double phase_of_reflection(double angle) {
 /// across at about x = `length_mm` by a plane to whose normal light along x is at Brewster's angle from
 /// within. The plane of incidence there is turned about x by `turn` from that of the long faces.
 std::string rhomb_with_analyser(double angle, double length_mm, double turn) {
-  const double brewster = std::atan(1.0 / kIndex);
+  const double brewster = std::atan(1.0 / kRhombIndex);
   const Vec3 cut(std::cos(brewster), std::sin(brewster) * std::sin(turn),
                  std::sin(brewster) * std::cos(turn));
   const Vec3 along(std::sin(angle), 0.0, std::cos(angle));
@@ -83,7 +83,7 @@ polarisation = "{}"
                                                file, reflections + 2, state))
                                  .result;
   // The analyser reflects R of the light across its plane of incidence, and nothing of the light in it.
-  const double n2 = kIndex * kIndex, reflectance = std::pow((n2 - 1.0) / (n2 + 1.0), 2);
+  const double n2 = kRhombIndex * kRhombIndex, reflectance = std::pow((n2 - 1.0) / (n2 + 1.0), 2);
   const double phase = reflections * phase_of_reflection(angle);
   const double across = 0.5 * (1.0 - std::sin(2.0 * turn) * std::cos(phase));
   return {result.fraction(Fate::escaped), 1.0 - reflectance * across};

@@ -10,7 +10,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Sine squared of the angle of incidence below which the plane of incidence is numerically undefined.
-constexpr double kNormalIncidence = 1e-20;
+constexpr double kHeadOn_sin2 = 1e-20;
 
 /// Real and imaginary part of a field, in space.
 struct SpaceField {
@@ -82,7 +82,7 @@ FieldComponents total_reflection_amplitudes(double cos_i, double n1, double n2) 
 bool interact_with_phase(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
   const double cos_i = std::clamp(-ray.direction.dot(m), 0.0, 1.0);
   const Refraction refraction(cos_i, n1, n2);
-  if (refraction.sin2_i < kNormalIncidence) {
+  if (refraction.sin2_i < kHeadOn_sin2) {
     const double r = (n1 - n2) / (n1 + n2);
     const bool transmitted = rng.uniform() >= r * r;
     if (!transmitted) reflect(ray, m);

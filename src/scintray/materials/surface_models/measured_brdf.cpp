@@ -78,7 +78,7 @@ std::vector<tables::BrdfPoint> read_mueller_csv(const std::filesystem::path& pat
 }
 
 /// Values of a file of either format, by the ending of its name.
-std::vector<tables::BrdfPoint> read_points(const std::filesystem::path& path) {
+std::vector<tables::BrdfPoint> read_brdf_points(const std::filesystem::path& path) {
   if (!core::same_but_case(path.extension().string(), ".bsdf")) return read_mueller_csv(path);
   return tables::brdf_points(tables::parse_bsdf(config::read_text_file(path), path.string()));
 }
@@ -90,7 +90,7 @@ MicrosurfaceSpec read_measured_brdf(const config::TomlTable& surface) {
   if (path.empty() || (table.has("gap") && !table.good("gap")))
     return FixedMicrosurface(optics::SmoothSurface());
   try {
-    tables::MeasuredBrdf brdf = tables::fit_brdf(read_points(path), path.string());
+    tables::MeasuredBrdf brdf = tables::fit_brdf(read_brdf_points(path), path.string());
     std::vector<double> reflectances;
     for (const tables::BrdfTable& slice : brdf.tables) reflectances.push_back(slice.diffuse_reflectance());
     WavelengthTable cover{core::Curve(brdf.wavelengths_nm, std::move(reflectances)), "measured BRDFs",
