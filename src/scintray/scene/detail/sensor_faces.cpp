@@ -30,6 +30,21 @@ core::Vec3 middle_of(const FaceInfo& face, const SensorFaceFrame& frame) {
   return middle.x() * frame.x + middle.y() * frame.y + middle.z() * z;
 }
 
+/// The face itself, or where its area vectors cancel the face of its part whose vectors have the longest sum;
+/// null: every face of the part is closed.
+const FaceInfo* with_direction(const Scene& scene, const FaceInfo& face) {
+  const auto directed = [](const FaceInfo& f) {
+    return f.triangles > 0 && f.area_vector_mm2.norm() >= kLeastDirection * f.area_mm2;
+  };
+  if (directed(face)) return &face;
+  const FaceInfo* best = nullptr;
+  for (const FaceInfo& other : scene.faces)
+    if (other.part == face.part && directed(other) &&
+        (!best || other.area_vector_mm2.norm() > best->area_vector_mm2.norm()))
+      best = &other;
+  return best;
+}
+
 /// Mean factor over a face, by the middles of equal parts of its triangles.
 double mean_factor(const contact::PlacedPart& part, core::FaceId face, const detector::FaceResponse& response,
                    const SensorFaceFrame& frame) {
@@ -69,7 +84,8 @@ void place_sensor_faces(const Assembly& assembly, Scene& scene, core::Problems& 
     const core::SensorId own = assembly.faces[id].sensor;
     const core::SensorId sensor = own.has_value() ? own : part.sensor;
     if (!sensor.has_value() || !varies(assembly.sensors[sensor]) || face.triangles == 0) continue;
-    if (face.area_vector_mm2.norm() < kLeastDirection * face.area_mm2) {
+    const FaceInfo* const directed = with_direction(scene, face);
+    if (!directed) {
       problems.add(part.geometry.where,
                    "the efficiency of sensor \"" + assembly.sensors[sensor].name +
                        "\" depends on the place on its face, but \"" + face.name +
@@ -77,8 +93,8 @@ void place_sensor_faces(const Assembly& assembly, Scene& scene, core::Problems& 
                    "name the face at which light arrives by [[part.face]]");
       continue;
     }
-    SensorFaceFrame frame = axes_of(face, part.rotation);
-    frame.middle_mm = middle_of(face, frame);
+    SensorFaceFrame frame = axes_of(*directed, part.rotation);
+    frame.middle_mm = middle_of(*directed, frame);
     frame.mean_factor = mean_factor(part.geometry, id, *assembly.sensors[sensor].over_face, frame);
     scene.sensor_frames[id] = frame;
   }
