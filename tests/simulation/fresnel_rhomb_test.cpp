@@ -66,7 +66,8 @@ Analysed analyse(double angle, int reflections, double turn, const std::string& 
 ambient = "vacuum_n1"
 [[part]]
 name = "rhomb"
-mesh = {{ file = "{}", unit = "mm" }}
+mesh = "{}"
+unit = "mm"
 medium = "n15"
 surface = "flat"
 [source]

@@ -250,10 +250,14 @@ struct Scene : SceneRecords {
       return normal(region, triangle);
     return region.direction_to_world(accelerator(region).normal_at(triangle, region.point_to_local(point)));
   }
+  /// The face of a part on an interface of its. One of the two faces is.
+  core::FaceId sensor_face(const Interface& interface, core::PartId part) const {
+    const bool at_front = interface.front_face.has_value() && faces[interface.front_face].part == part;
+    return at_front ? interface.front_face : interface.back_face;
+  }
   /// Frame of the face, on an interface, of a sensor with a face response. @param part  of the sensor
   const SensorFaceFrame& sensor_frame(const Interface& interface, core::PartId part) const {
-    const bool at_front = interface.front_face.has_value() && faces[interface.front_face].part == part;
-    return sensor_frames[at_front ? interface.front_face : interface.back_face];
+    return sensor_frames[sensor_face(interface, part)];
   }
   /// A triangle of a region's boundary (world, mm).
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
