@@ -1,6 +1,7 @@
 // The tables of a sensor's definition beside its efficiency.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -212,15 +213,18 @@ TEST_CASE("a sensor with a base takes over the tables that it does not have, wit
 TEST_CASE("docs/materials.md has every key of a sensor, and no other") {
   Problems ignored;
   std::set<std::string> read;
-  for (const std::string& text : {kEveryTable, with_table("angle", "definition = \"external\"\n").text,
-                                  std::string("[window]\n[efficiency]\ndefinition = \"external\"\n")}) {
+  for (const std::string& text :
+       {kEveryTable, with_table("angle", "definition = \"external\"\n").text,
+        std::string(
+            "[window]\n[efficiency]\ndefinition = \"external\"\n[photocathode]\n[uniformity]\nmap = {}\n"),
+        std::string("[efficiency]\n[uniformity]\nradial = 1\n")}) {
     const TomlTable table(parse_toml(text, "scene.toml"), ignored);
     read_sensor(table, "mine", SourceRule::optional);
     for (const std::string& key : table.known_keys())
       if (key.find('.') != std::string::npos && key.find("factor.") == std::string::npos) read.insert(key);
   }
-  for (const char* block :
-       {"efficiency", "window", "angle", "transit_time", "single_electron", "microcells", "dark_counts"})
+  for (const char* block : {"efficiency", "window", "photocathode", "angle", "uniformity", "transit_time",
+                            "single_electron", "microcells", "dark_counts"})
     CHECK(read.erase(std::string(block) + ".source") == 1);  // one row for all of them
 
   const std::string text = read_text_file(test::source_file("docs/materials.md"));
@@ -270,4 +274,76 @@ reference_index = 1.0
         CHECK(largest > 0.85 * bound);  // and it is not far above
       }
     }
+}
+
+TEST_CASE("a photocathode has the probability of escape that its efficiency requires") {
+  const std::string film = "[photocathode]\nn = 2.7\nk = 1.5\nthickness = \"26 nm\"\n";
+  const std::string table =
+      "value = { wavelength = [400, 500], wavelength_unit = \"nm\", value = [0.25, 0.1] }\n";
+  const Sensor sensor =
+      sensor_of("[window]\nindex = 1.47\n[efficiency]\ndefinition = \"internal\"\n" + table + film);
+  REQUIRE(sensor.cathode.has_value());
+  CHECK(sensor.converts == ConvertedLight::absorbed);
+  for (const auto& [nm, efficiency] : {std::pair{400.0, 0.25}, std::pair{500.0, 0.1}})
+    CHECK(sensor.conversion_probability(nm) * film_absorptance(sensor.cathode->film, 1.47, 1.0, 1.0, nm) ==
+          doctest::Approx(efficiency).epsilon(1e-12));
+  double highest = 0.0;
+  for (double nm = 390.0; nm < 510.0; nm += 0.5)
+    highest = std::max(highest, sensor.conversion_probability(nm));
+  CHECK(sensor.conversion_bound(390.0, 510.0) == highest);
+  const Sensor absorbed = sensor_of("[efficiency]\ndefinition = \"absorbed\"\nvalue = 0.6\n" + film);
+  CHECK(absorbed.conversion_probability(420.0) == 0.6);
+
+  const std::string internal = "[efficiency]\nvalue = 0.25\ndefinition = \"internal\"\n";
+  const std::string window = "[window]\nindex = 1.47\n";
+  const auto refused = [](const std::string& text, long line, const std::string& words) {
+    CAPTURE(words);
+    CHECK(reports(mistakes_of(text), line, words));
+  };
+  refused(internal + film, 4, "needs the index of the window");
+  refused(internal + "[window]\nindex = \"matched\"\n" + film, 4, "lies on a window of a known index");
+  refused(window + "[efficiency]\nvalue = 0.25\ndefinition = \"absorbed\"\n", 5, "needs the film");
+  refused("converts = \"both\"\n" + window + internal + film, 1, "and no other");
+  refused(window + internal + "[photocathode]\nn = 2.7\nk = 0\nthickness = \"26 nm\"\n", 8, "lies above 0");
+  refused(window + internal + "[photocathode]\nn = 2.7\nk = 1\nthickness = \"26 um\"\n", 9, "up to 1 um");
+  refused(window + internal + film +
+              "[angle]\nfactor = { angle = [0, 60], angle_unit = \"deg\", value = [1, 0.9] }\nmeasured_in = "
+              "\"window\"\ndefinition = \"internal\"\n",
+          10, "follows from the film");
+  refused(window + "[efficiency]\nvalue = 0.5\ndefinition = \"internal\"\n" +
+              "[photocathode]\nn = 2.7\nk = 0.1\nthickness = \"5 nm\"\n",
+          4, "less than this efficiency");
+}
+
+TEST_CASE("an efficiency over the face is read, and bounds the efficiency") {
+  const auto path = test::scratch_folder("sensor_face") / "map.csv";
+  const auto grid = [&](const std::string& rows) {
+    std::ofstream(path) << rows;
+    return kConverter + "[uniformity]\nmap = { file = \"" + path.string() + "\", unit = \"cm\" }\n";
+  };
+  const Sensor sensor = sensor_of(grid("y,x,factor\n0,0,1\n0,2,0.5\n1,2,0.25\n1,0,2\n"));
+  REQUIRE(sensor.over_face.has_value());
+  CHECK(sensor.over_face->at(20.0, 0.0) == 0.5);
+  CHECK(sensor.over_face->at(0.0, 10.0) == 2.0);
+  CHECK(sensor.over_face->at(10.0, 5.0) == doctest::Approx((1.0 + 0.5 + 0.25 + 2.0) / 4.0));
+  CHECK(sensor.over_face->at(-50.0, 40.0) == 2.0);  // beyond the grid: its border
+  CHECK(sensor.conversion_bound(400.0, 500.0) == doctest::Approx(0.6));
+  const std::string radial = kConverter +
+                             "[uniformity]\nradial = { length = [0, 20], length_unit = \"mm\", value = [1.2, "
+                             "0.4] }\n";
+  CHECK(sensor_of(radial).over_face->at(3.0, 4.0) == doctest::Approx(1.0));
+  CHECK(sensor_of(radial).conversion_bound(400.0, 500.0) == doctest::Approx(0.36));
+
+  const auto refused = [](const std::string& text, const std::string& words) {
+    CAPTURE(words);
+    CHECK(reports(mistakes_of(text), 7, words));
+  };
+  refused(grid("x,y,factor\n0,0,1\n0,1,1\n1,0,1\n"), "has none at (1, 1)");
+  refused(grid("x,y,factor\n0,0,1\n0,1,1\n1,0,1\n1,1,1\n1,1,2\n"), "(1, 1) occurs twice");
+  refused(grid("x,y,factor\n0,0,1\n0,1,1\n1,0,-1\n1,1,1\n"), "map.csv:4: the factor is -1");
+  refused(grid("x,y,factor\n0,0,1\n0,1,1\n0,3,1\n1,0,1\n1,1,1\n1,3,1\n"), "not equally spaced");
+  refused(grid("x,y,factor\n0,0,1\n0,1,1\n"), "all values of \"x\" are the same");
+  refused(grid("x,y,factor\n0,0,4\n0,1,1\n1,0,1\n1,1,1\n"), "more photons are converted than arrive");
+  refused(grid("x,y,share\n0,0,4\n0,1,1\n1,0,1\n1,1,1\n"), "factor");
+  refused(kConverter + "[uniformity]\nradial = 0.9\n", "needs distances");
 }

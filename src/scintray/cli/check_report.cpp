@@ -198,11 +198,15 @@ class Printer {
     else if (interface.back_surface.has_value() && interface.front_surface.has_value())
       text += " | back: ";
     if (interface.front_surface.has_value()) text += scene_.surfaces[interface.front_surface].name;
-    const auto sensor = [&](core::SensorId id) {
-      if (id.has_value()) text += ", detected by " + scene_.sensors[id].name;
+    const auto sensor = [&](core::SensorId id, core::PartId part) {
+      if (!id.has_value()) return;
+      text += ", detected by " + scene_.sensors[id].name;
+      if (scene_.sensors[id].over_face)
+        text += fmt::format(" (efficiency times {:.3g} in the mean over the face)",
+                            scene_.sensor_frame(interface, part).mean_factor);
     };
-    sensor(interface.front_sensor);
-    sensor(interface.back_sensor);
+    sensor(interface.front_sensor, interface.front_sensor_part);
+    sensor(interface.back_sensor, interface.back_sensor_part);
     return text;
   }
 

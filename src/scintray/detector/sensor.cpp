@@ -8,6 +8,7 @@
 namespace scintray::detector {
 
 double Sensor::conversion_probability(double wavelength_nm) const {
+  if (cathode) return std::min(1.0, cathode->escape(wavelength_nm));
   const double published = efficiency(wavelength_nm);
   if (definition == EfficiencyDefinition::internal) return published;
   const double reflectance = optics::fresnel(1.0, reference_index, window_index).unpolarised();
@@ -21,11 +22,12 @@ double Sensor::conversion_probability(double wavelength_nm, double transverse_in
 
 double Sensor::conversion_bound(double low_nm, double high_nm) const {
   double bound = std::max(conversion_probability(low_nm), conversion_probability(high_nm));
-  for (const double nm : efficiency.x())
+  for (const double nm : cathode ? cathode->escape.x() : efficiency.x())
     if (nm > low_nm && nm < high_nm) bound = std::max(bound, conversion_probability(nm));
-  if (!angle) return bound;
+  if (over_face) bound *= over_face->greatest();
   // The transmission of unpolarised light into a window falls with angle.
-  return std::min(1.0, bound * angle->factor.max_y() * entrance_correction(largest_angle_rad()));
+  if (angle) bound *= angle->factor.max_y() * entrance_correction(largest_angle_rad());
+  return std::min(1.0, bound);
 }
 
 double Sensor::angle_factor(double transverse_index) const {

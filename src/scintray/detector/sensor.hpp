@@ -7,6 +7,8 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/detector/avalanche_model.hpp"
+#include "scintray/detector/face_response.hpp"
+#include "scintray/detector/photocathode.hpp"
 
 namespace scintray::detector {
 
@@ -15,6 +17,7 @@ enum class EfficiencyDefinition {
   internal,  ///< per photon that has entered the sensor's window or silicon
   external,  ///< per photon that arrives from a reference index: the Fresnel loss at the entrance is included
              ///< in the number and is divided out, since the tracer applies it
+  absorbed,  ///< per photon that is absorbed in the photocathode
 };
 
 /// Where the angle of a published dependence on angle was measured.
@@ -62,6 +65,9 @@ struct Sensor {
   double window_index = 1.5;     ///< index of the entrance window; not used when it is matched
   bool window_matched = false;   ///< the window has the index of what it touches: no Fresnel reflection
   std::optional<AngularEfficiency> angle;  ///< nothing: the same at every angle for light inside
+  /// Film whose absorbed light is converted; the sensor then converts absorbed light alone.
+  std::optional<Photocathode> cathode;
+  std::optional<FaceResponse> over_face;  ///< nothing: the same at every place
   double time_spread_ns = 0.0;  ///< standard deviation of the transit time (photomultiplier), or of the
                                 ///< single photon time resolution (silicon photomultiplier)
   SingleElectron single_electron;
@@ -72,14 +78,15 @@ struct Sensor {
   bool converts_entering() const { return converts != ConvertedLight::absorbed; }
   bool converts_absorbed() const { return converts != ConvertedLight::entering; }
 
-  /// Probability that a photon that has entered the sensor at normal incidence is converted, at a
-  /// wavelength (nm).
+  /// Probability that a photon that has entered the sensor at normal incidence, or with a photocathode that
+  /// was absorbed in it, is converted, at a wavelength (nm), where its face response is 1.
   double conversion_probability(double wavelength_nm) const;
   /// Probability that a photon that has entered the sensor at any angle is converted.
   /// @param transverse_index  refractive index times sine of the angle to the normal, which is the same
   ///                          on both sides of every face of the window
   double conversion_probability(double wavelength_nm, double transverse_index) const;
-  /// An upper bound of the conversion probability at every angle, for wavelengths (nm) of a range. At most 1.
+  /// An upper bound of the conversion probability at every angle and place, for wavelengths (nm) of a range.
+  /// At most 1.
   double conversion_bound(double low_nm, double high_nm) const;
   /// Conversion probability at an angle, relative to normal incidence, per photon inside the window. Requires
   /// `angle`. Constant beyond the last tabulated angle and beyond the range of refraction from the reference

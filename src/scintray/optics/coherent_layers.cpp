@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/optics/elliptical.hpp"
+
 namespace scintray::optics {
 
 namespace {
@@ -47,13 +49,15 @@ bool polarised(const Ray& ray) { return !ray.polarisation.isZero(0.0); }
 /// Share of the power in s, and the field's components along s and p; s across the plane of incidence.
 struct Components {
   core::Vec3 s;
-  double e_s = 0.0, e_p = 0.0;
+  FieldComponents field;
 
   Components(const Ray& ray, const core::Vec3& m) : s(ray.direction.cross(m).normalized()) {
-    e_s = ray.polarisation.dot(s);
-    e_p = ray.polarisation.dot(s.cross(ray.direction.vec()));
+    if (ray.keeps_phases)
+      field = field_of(ray, s);
+    else
+      field = {ray.polarisation.dot(s), ray.polarisation.dot(s.cross(ray.direction.vec()))};
   }
-  double share_of_s() const { return e_s * e_s / (e_s * e_s + e_p * e_p); }
+  double share_of_s() const { return std::norm(field.s) / (std::norm(field.s) + std::norm(field.p)); }
 };
 
 /// Amplitudes and power shares of s and p that leave a face.
@@ -62,14 +66,23 @@ struct Leaving {
   double power_s, power_p;
 };
 
-/// Sets the polarisation of a ray of its new direction. The sign between s and p is drawn so that its mean is
-/// the cosine of their phase.
+/// Sets the polarisation of a ray of its new direction. Where phases are not kept, the sign between s and p
+/// is drawn so that its mean is the cosine of their phase.
 void polarise(Ray& ray, const Components& before, const Leaving& out, core::Rng& rng) {
+  if (ray.keeps_phases) {
+    const auto with_phase_of = [](Complex amplitude, double power) {
+      return std::polar(std::sqrt(std::max(0.0, power)), std::arg(amplitude));
+    };
+    set_field(ray, before.s,
+              {with_phase_of(out.s, out.power_s) * before.field.s,
+               with_phase_of(out.p, out.power_p) * before.field.p});
+    return;
+  }
   const double size = std::abs(out.s) * std::abs(out.p);
   const double in_phase = size > 0.0 ? (out.p * std::conj(out.s)).real() / size : 1.0;
   const double sign = rng.uniform() < 0.5 * (1.0 + in_phase) ? 1.0 : -1.0;
-  const double out_s = std::sqrt(std::max(0.0, out.power_s)) * before.e_s;
-  const double out_p = sign * std::sqrt(std::max(0.0, out.power_p)) * before.e_p;
+  const double out_s = std::sqrt(std::max(0.0, out.power_s)) * before.field.s.real();
+  const double out_p = sign * std::sqrt(std::max(0.0, out.power_p)) * before.field.p.real();
   ray.polarisation = (out_s * before.s + out_p * before.s.cross(ray.direction.vec())).normalized();
 }
 

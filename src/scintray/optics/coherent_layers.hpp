@@ -51,10 +51,10 @@ struct CoatingLayer {
   double thickness_nm = 0.0;
 };
 
-/// A smooth face with thin films, from the inside to the outside, which interfere. A polarised photon keeps
-/// one linear polarisation: of the phase between s and p only the linear part is kept, drawn so that the mean
-/// over photons of the first three Stokes parameters is exact; what a retarding film makes circular is not
-/// carried.
+/// A smooth face with thin films, from the inside to the outside, which interfere. A polarised photon that
+/// does not keep phases has one linear polarisation: of the phase between s and p only the linear part is
+/// kept, drawn so that the mean over photons of the first three Stokes parameters is exact; what a retarding
+/// film makes circular is not carried.
 class ThinFilmSurface : public MicrosurfaceModel {
  public:
   explicit ThinFilmSurface(std::vector<CoatingLayer> layers) : layers_(std::move(layers)) {}

@@ -156,7 +156,9 @@ inline void FacetSurface::apply_lobe(Lobe chosen, Ray& ray, const Ray& before, c
       reflect(ray, against);
       return;
     case Lobe::backscatter:
-      ray = {-before.direction, before.polarisation};
+      ray = before;
+      ray.direction = -before.direction;
+      ray.ellipticity_rad = -before.ellipticity_rad;
       return;
     case Lobe::lambertian:
       ray.polarisation = before.polarisation;

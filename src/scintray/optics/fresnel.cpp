@@ -1,5 +1,7 @@
 #include "scintray/optics/fresnel.hpp"
 
+#include "scintray/optics/elliptical.hpp"
+
 namespace scintray::optics {
 
 namespace {
@@ -19,6 +21,8 @@ void refract(Ray& ray, const core::Vec3& m, double ratio, double cos_i, double c
 }  // namespace
 
 bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
+  if (ray.keeps_phases) [[unlikely]]
+    return interact_with_phase(ray, m, n1, n2, rng);
   const double cos_i = cos_incidence(ray, m);
   const Refraction refraction(cos_i, n1, n2);
   if (refraction.total()) {
@@ -76,6 +80,12 @@ bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2) {
   refract(ray, m, refraction.ratio, cos_i, refraction.cos_t());
   if (ray.polarisation.isZero(0.0) || refraction.sin2_i < kNormalIncidence) return true;
   const core::Vec3 s = before.cross(m).normalized();
+  if (ray.keeps_phases) [[unlikely]] {
+    Ray at_incidence = ray;
+    at_incidence.direction = before;
+    set_field(ray, s, field_of(at_incidence, s));
+    return true;
+  }
   const double e_s = ray.polarisation.dot(s), e_p = ray.polarisation.dot(s.cross(before));
   ray.polarisation = (e_s * s + e_p * s.cross(ray.direction.vec())).normalized();
   return true;

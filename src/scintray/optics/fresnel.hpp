@@ -57,10 +57,13 @@ inline FresnelCoefficients fresnel(double cos_i, double n1, double n2) {
 }
 
 /// A travelling photon's direction and linear polarisation. A zero polarisation vector means
-/// unpolarised light: Fresnel then uses the mean of the two reflectances.
+/// unpolarised light: Fresnel then uses the mean of the two reflectances. A ray that keeps phases is
+/// polarised elliptically (optics/elliptical.hpp); its polarisation is then the major axis.
 struct Ray {
   core::PlainVec3 direction;
   core::PlainVec3 polarisation;
+  double ellipticity_rad = 0.0;  ///< 0: linear; used where phases are kept
+  bool keeps_phases = false;     ///< between the two polarisations, at every interaction
 };
 static_assert(std::is_trivially_copyable_v<Ray>);
 
@@ -70,13 +73,20 @@ static_assert(std::is_trivially_copyable_v<Ray>);
 inline void reflect(Ray& ray, const core::Vec3& m) {
   ray.direction = core::mirror(ray.direction, m);
   ray.polarisation = -core::mirror(ray.polarisation, m);
+  ray.ellipticity_rad = -ray.ellipticity_rad;  // the field turns as before, the direction does not
+}
+
+/// A linear polarisation drawn evenly across the direction.
+inline void repolarise(Ray& ray, core::Rng& rng) {
+  ray.polarisation = core::sample_polarisation(ray.direction, rng);
+  ray.ellipticity_rad = 0.0;
 }
 
 /// Isotropic scattering: a new direction and, for a polarised ray, a new polarisation drawn across it.
 inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   ray.direction = core::sample_isotropic(rng);
-  if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+  if (polarised) repolarise(ray, rng);
 }
 
 /// Lambertian scattering to the side of the unit normal: the direction is new and, for a polarised ray, the
@@ -84,7 +94,7 @@ inline void scatter_isotropic(Ray& ray, core::Rng& rng) {
 inline void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
   const bool polarised = !ray.polarisation.isZero(0.0);
   ray.direction = core::sample_lambertian(normal, rng);
-  if (polarised) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+  if (polarised) repolarise(ray, rng);
 }
 
 /// Interaction with a smooth facet: reflects or refracts `ray` with the Fresnel probability of its

@@ -349,12 +349,14 @@ SurfaceOutcome HeightField::scatter(Ray& ray, Side side, const IndexPair& index,
 Side HeightField::scatter(Ray& ray, Side side, MapPlace& place, const IndexPair& index,
                           core::Rng& rng) const {
   const core::Frame& map = place.map;
-  Ray local{map.to_local(ray.direction), map.to_local(ray.polarisation)};
+  Ray local{map.to_local(ray.direction), map.to_local(ray.polarisation), ray.ellipticity_rad,
+            ray.keeps_phases};
   const HeightFieldExit exit = follow(local, side, place.x_um, place.y_um, index, rng);
   place.x_um = exit.x_um;
   place.y_um = exit.y_um;
   ray.direction = map.to_world(local.direction).normalized();
   ray.polarisation = map.to_world(local.polarisation);
+  ray.ellipticity_rad = local.ellipticity_rad;
   // The rotation into the world frame may, by rounding, carry a grazing direction through the mean plane.
   const double out = exit.side == Side::outside ? 1.0 : -1.0;
   const double rise = out * ray.direction.dot(map.z);

@@ -22,6 +22,7 @@ void scatter_as_geant4(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
   const core::Vec3 s = across.normalized();
   const double e_s = std::clamp(ray.polarisation.dot(s), -1.0, 1.0);
   ray.polarisation = e_s * s + std::sqrt(1.0 - e_s * e_s) * s.cross(ray.direction.vec());
+  ray.ellipticity_rad = 0.0;
 }
 
 /// Transmitted light: through, or back where it cannot enter the medium beyond.

@@ -215,7 +215,7 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
                          double cos_azimuth) {
     const double out = after == Side::outside ? 1.0 : -1.0;
     ray.direction = sin_polar * (cos_azimuth * forward + sin_azimuth * across) + out * cos_polar * normal;
-    if (!ray.polarisation.isZero(0.0)) ray.polarisation = core::sample_polarisation(ray.direction, rng);
+    if (!ray.polarisation.isZero(0.0)) repolarise(ray, rng);
     return outcome_on(after);
   };
   if (const ReciprocalKernel* kernel = slices_[slice].reciprocal.get()) {

@@ -8,6 +8,7 @@
 #include "scintray/core/pattern.hpp"
 #include "scintray/detector/channel.hpp"
 #include "scintray/materials/database.hpp"
+#include "scintray/materials/photocathode_surface.hpp"
 #include "scintray/materials/wavelength_cover.hpp"
 #include "scintray/scene/detail/assemble.hpp"
 #include "scintray/scene/detail/build_steps.hpp"
@@ -35,6 +36,7 @@ class AssemblyMaker {
     assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
     assembly_.accelerator = spec_.run.accelerator;
     assembly_.curved = spec_.run.curved;
+    assembly_.keeps_phases = spec_.run.polarisation == scene_file::PolarisationState::elliptical;
     check_contact_names();
     assembly_.make_surface = [this, &warnings](const std::string& name, core::MediumId inside,
                                                core::MediumId outside) {
@@ -77,6 +79,12 @@ class AssemblyMaker {
                              {sensor.efficiency, "sensor \"" + sensor.name + "\"", "an efficiency",
                               "extend its efficiency table, with zeros where it does not respond"},
                              wavelengths_.low_nm, wavelengths_.high_nm);
+      if (sensor.cathode)
+        for (const core::Curve& curve : {sensor.cathode->film.index, sensor.cathode->film.extinction})
+          materials::check_cover(problems_, ref.where,
+                                 {curve, "the photocathode of sensor \"" + sensor.name + "\"", "n and k",
+                                  "extend its tables of n and k, or narrow the wavelengths of the source"},
+                                 wavelengths_.low_nm, wavelengths_.high_nm);
       check_pulse(sensor);
     } catch (const core::InputError& error) {
       problems_.add(error);
@@ -95,6 +103,35 @@ class AssemblyMaker {
     }
   }
 
+  bool has_cathode(core::SensorId id) const {
+    return id.has_value() && assembly_.sensors[id].cathode.has_value();
+  }
+
+  /// Name of the surface of a sensor's photocathode.
+  std::string cathode_surface(core::SensorId id) {
+    materials::SurfaceSpec spec = materials::photocathode_surface(assembly_.sensors[id]);
+    const std::string name = spec.name;
+    surfaces_.try_emplace(name, std::move(spec));
+    return name;
+  }
+
+  /// A face of a part, whose surface is the photocathode of its sensor, or of its part's, where that has one.
+  AssemblyFace face_of(const contact::PlacedMesh& placed, const contact::PlacedFace& face,
+                       core::SensorId part_sensor) {
+    AssemblyFace made{placed.name + ":" + face.name, assembly_.parts.next_id(), face.surface.name,
+                      sensor_id(face.sensor)};
+    const bool of_part = has_cathode(part_sensor);
+    if (!of_part && !has_cathode(made.sensor)) return made;
+    if (!face.surface.empty() && (of_part || face.surface.name != placed.surface.name))
+      problems_.add(face.surface.where,
+                    "the face \"" + made.name + "\" has a surface, \"" + face.surface.name +
+                        "\", and a sensor with a photocathode, which is the surface itself",
+                    "leave out the surface");
+    made.surface = cathode_surface(of_part ? part_sensor : made.sensor);
+    made.is_cathode = true;
+    return made;
+  }
+
   /// The medium of a sensor part without one: its window, which has an index only. Light enters a matched
   /// window as it does an opaque part.
   core::MediumId window_medium(const detector::Sensor& sensor) {
@@ -111,6 +148,11 @@ class AssemblyMaker {
   void add_part(const contact::PlacedMesh& placed) {
     AssemblyPart part;
     part.sensor = sensor_id(placed.sensor);
+    if (placed.medium.empty() && has_cathode(part.sensor))
+      problems_.add(placed.where,
+                    "the sensor \"" + placed.name + "\" has a photocathode, but no medium behind it",
+                    "give it the vacuum of the tube, as medium = \"vacuum\", and place its window as a part "
+                    "before it; or give the sensor to the back face of the window");
     part.medium = placed.medium.empty() && part.sensor.has_value()
                       ? window_medium(assembly_.sensors[part.sensor])
                       : medium_id(placed.medium);
@@ -125,8 +167,7 @@ class AssemblyMaker {
     std::vector<core::FaceId> faces;  // as placed.faces
     for (const contact::PlacedFace& face : placed.faces) {
       if (!face.surface.empty()) find_surface(face.surface);
-      faces.push_back(assembly_.faces.push_back({placed.name + ":" + face.name, assembly_.parts.next_id(),
-                                                 face.surface.name, sensor_id(face.sensor)}));
+      faces.push_back(assembly_.faces.push_back(face_of(placed, face, part.sensor)));
     }
     for (const std::uint32_t face : placed.face_of) part.geometry.face.push_back(faces[face]);
     check_sheet(placed);

@@ -123,7 +123,7 @@ static_assert(std::is_trivially_copyable_v<Interface> && sizeof(Interface) == 48
 /// The interface of a boundary triangle, and the side of this region on it.
 struct BoundaryLink {
   core::InterfaceId interface;
-  core::MediumId smooth_to;  ///< medium behind a plain interface; none: not plain
+  core::MediumId smooth_to;  ///< medium behind a plain interface; none: not plain, or phases are kept
   bool from_back = true;
 };
 static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
@@ -202,6 +202,19 @@ struct FaceInfo {
   mesh::FacetDeviation deviation;   ///< largest of its triangles from that surface
 };
 
+/// Middle and axes of a sensor's face over which its efficiency varies.
+struct SensorFaceFrame {
+  core::Vec3 middle_mm = core::Vec3::Zero();                    ///< of the face's box along the axes, world
+  core::Vec3 x = core::Vec3::UnitX(), y = core::Vec3::UnitY();  ///< of unit length, world
+  double mean_factor = 1.0;                                     ///< over the area
+
+  /// Factor on the efficiency at a point of the face (world, mm).
+  double factor(const detector::FaceResponse& response, const core::Vec3& point) const {
+    const core::Vec3 from_middle = point - middle_mm;
+    return response.at(from_middle.dot(x), from_middle.dot(y));
+  }
+};
+
 /// A scene: its records for transport, and the objects to which these refer by index.
 struct Scene : SceneRecords {
   core::IdVector<core::MediumId, SceneMedium> media;
@@ -214,7 +227,12 @@ struct Scene : SceneRecords {
   core::IdVector<core::PartId, PartInfo> parts;
   core::IdVector<core::FaceId, FaceInfo> faces;
   core::IdVector<core::InterfaceId, double> interface_area_mm2;
+  /// Per face; empty where no sensor's efficiency depends on the place.
+  core::IdVector<core::FaceId, SensorFaceFrame> sensor_frames;
   double low_nm = 0.0, high_nm = 0.0;  ///< wavelengths in use
+  /// Photons keep the phase between the two polarisations. No link then has a smooth_to: total reflection,
+  /// which shifts that phase, is an interaction like any other.
+  bool keeps_phases = false;
 
   const Accelerator& accelerator(const Region& region) const { return *accelerators[region.accelerator]; }
   /// The point at which a ray inside a region leaves it.
@@ -231,6 +249,15 @@ struct Scene : SceneRecords {
     if (!region.curved) [[likely]]
       return normal(region, triangle);
     return region.direction_to_world(accelerator(region).normal_at(triangle, region.point_to_local(point)));
+  }
+  /// The face of a part on an interface of its. One of the two faces is.
+  core::FaceId sensor_face(const Interface& interface, core::PartId part) const {
+    const bool at_front = interface.front_face.has_value() && faces[interface.front_face].part == part;
+    return at_front ? interface.front_face : interface.back_face;
+  }
+  /// Frame of the face, on an interface, of a sensor with a face response. @param part  of the sensor
+  const SensorFaceFrame& sensor_frame(const Interface& interface, core::PartId part) const {
+    return sensor_frames[sensor_face(interface, part)];
   }
   /// A triangle of a region's boundary (world, mm).
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;

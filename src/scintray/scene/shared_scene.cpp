@@ -11,10 +11,10 @@ bool same_parts(const scene_file::SceneSpec& a, const scene_file::SceneSpec& b) 
   return a.ambient == b.ambient && a.contacts_default == b.contacts_default &&
          a.contacts_default_given == b.contacts_default_given && a.folder == b.folder &&
          a.run.contact_tolerance_mm == b.run.contact_tolerance_mm && a.run.accelerator == b.run.accelerator &&
-         a.run.curved == b.run.curved && a.readout == b.readout && a.parts == b.parts &&
-         a.groups == b.groups && a.contacts == b.contacts && same_definitions(a.media, b.media) &&
-         same_definitions(a.surfaces, b.surfaces) && same_definitions(a.sensors, b.sensors) &&
-         same_definitions(a.reflectors, b.reflectors);
+         a.run.curved == b.run.curved && a.run.polarisation == b.run.polarisation && a.readout == b.readout &&
+         a.parts == b.parts && a.groups == b.groups && a.contacts == b.contacts &&
+         same_definitions(a.media, b.media) && same_definitions(a.surfaces, b.surfaces) &&
+         same_definitions(a.sensors, b.sensors) && same_definitions(a.reflectors, b.reflectors);
 }
 
 }  // namespace

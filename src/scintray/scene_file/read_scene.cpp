@@ -44,6 +44,16 @@ void read_all_definitions(const config::TomlTable& root, SceneSpec& scene) {
   scene.reflectors = read_definitions(root, "reflectors");
 }
 
+/// The electric field of a source's photons; that of a beam must not lie along it.
+std::optional<core::Vec3> read_field(const config::TomlTable& table, const DirectionSpec& direction) {
+  const std::optional<core::Vec3> field = table.optional_direction("polarisation");
+  if (field && direction.kind == DirectionKind::beam)
+    table.expect("polarisation", field->cross(direction.axis).norm() > 1e-6,
+                 "the electric field lies along the direction of the beam",
+                 "give a vector across the direction; its part across it is the polarisation");
+  return field;
+}
+
 /// [source], of any type, into `scene`; `parts` are the names of its parts.
 void read_source(const config::TomlTable& root, const std::vector<std::string>& parts, SceneSpec& scene) {
   const config::TomlTable table = root.table("source");
@@ -56,12 +66,24 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
     return;
   }
   if (type == kPhotonSource) {
-    const bool unpolarised = table.choice("polarisation", kUnpolarised, false);
+    const config::TomlNode* state = table.node()->find("polarisation");
+    const bool field = state && state->kind == config::TomlNode::Kind::array;
+    const bool unpolarised = !field && table.choice("polarisation", kUnpolarised, false);
     scene.source = read_photon_source(table, parts);
     scene.source.unpolarised = unpolarised;
+    if (field) scene.source.polarisation = read_field(table, scene.source.direction);
   } else {
     scene.energy_source = read_gamma_source(table, parts);
   }
+}
+
+/// Reports phases that are to be kept of light that has none.
+void expect_polarised(const config::TomlTable& root, const SceneSpec& scene) {
+  const bool unpolarised = scene.energy_source ? scene.energy_source->unpolarised : scene.source.unpolarised;
+  if (unpolarised && scene.run.polarisation == PolarisationState::elliptical)
+    root.report("run",
+                "the polarisation of photons is elliptical, but the light of the source is unpolarised",
+                "write polarisation = \"random\" in [source], or remove it from [run]");
 }
 
 /// Reports a number of events to end by for a source that has none.
@@ -130,6 +152,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   read_source(root, names, scene);
   scene.run = read_run(root);
   expect_events(root, scene);
+  expect_polarised(root, scene);
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
   scene.criteria = read_criteria(root);

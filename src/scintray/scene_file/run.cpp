@@ -33,6 +33,7 @@ RunSpec read_run(const config::TomlTable& scene) {
   run.accelerator = table->choice("accelerator", kAcceleratorKinds, AcceleratorKind::automatic);
   run.efficiency_at_birth = table->boolean("efficiency_at_birth", true);
   run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
+  run.polarisation = table->choice("polarisation", kPolarisationStates, PolarisationState::linear);
   run.photon_list = table->boolean("photon_list", false);
   run.photon_history = table->boolean("photon_history", false);
   constexpr std::int64_t kMostPaths = 100'000;

@@ -31,6 +31,15 @@ enum class CurvedFaces {
 inline constexpr core::Word<CurvedFaces> kCurvedFaces[] = {{"exact", CurvedFaces::exact},
                                                            {"facets", CurvedFaces::facets}};
 
+/// State of polarisation that a photon carries.
+enum class PolarisationState {
+  linear,      ///< total reflection, films and metals leave no phase between the two polarisations
+  elliptical,  ///< phases are kept
+};
+
+inline constexpr core::Word<PolarisationState> kPolarisationStates[] = {
+    {"linear", PolarisationState::linear}, {"elliptical", PolarisationState::elliptical}};
+
 struct RunSpec {
   std::uint64_t seed = 1;
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
@@ -41,6 +50,7 @@ struct RunSpec {
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
   CurvedFaces curved = CurvedFaces::exact;
+  PolarisationState polarisation = PolarisationState::linear;
   bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
   std::uint64_t paths = 0;          ///< photons whose paths are recorded, per point
   bool photon_list = false;         ///< write every detected photon to the results

@@ -70,6 +70,7 @@ void add_response(const detector::Sensor& sensor, std::vector<OmittedEffect>& ef
 /// Effects on the share of the light that a sensor detects.
 void add_detection(const detector::Sensor& sensor, std::vector<OmittedEffect>& effects) {
   if (sensor.efficiency.min_y() >= 1.0) return;  // nothing is left to be reflected
+  if (sensor.cathode) return;                    // its film reflects, and converts by the angle
   effects.push_back(effect("reflection behind the sensor's window, back into the detector", sensor.name,
                            Figures::fraction, ""));
   if (!sensor.angle)

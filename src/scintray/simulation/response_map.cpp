@@ -95,6 +95,7 @@ class CellTracer {
     photon.ray.direction = core::sample_isotropic(rng);
     photon.ray.polarisation = map_.unpolarised ? core::Vec3(core::Vec3::Zero())
                                                : core::sample_polarisation(photon.ray.direction, rng);
+    photon.ray.keeps_phases = scene_.keeps_phases;
     photon.wavelength_nm = emission_.sample(rng.uniform());
     photon.optics = scene_.optics.at(medium_, photon.wavelength_nm);
     photon.optical_depth = core::sample_exponential(rng);

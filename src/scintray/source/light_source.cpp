@@ -48,13 +48,22 @@ class PhotonSource : public LightSource {
   double time_ns_ = 0.0;
   std::vector<optics::DecayComponent> decay_;
   bool unpolarised_ = false;
+  std::optional<core::Vec3> polarisation_;
   std::uint64_t photons_ = 0, photons_per_event_ = 1;
 };
+
+/// The part of a field across a direction, of unit length; drawn where there is none.
+core::Vec3 polarisation_across(const core::PlainVec3& direction, const core::Vec3& field, core::Rng& rng) {
+  constexpr double kLeast = 1e-9;
+  const core::Vec3 across = field - field.dot(direction.vec()) * direction.vec();
+  return across.norm() > kLeast ? core::Vec3(across.normalized()) : core::sample_polarisation(direction, rng);
+}
 
 PhotonSource::PhotonSource(const scene_file::SourceSpec& spec, const scene::Scene& scene)
     : origin_(spec.origin, scene),
       direction_(spec.direction),
       unpolarised_(spec.unpolarised),
+      polarisation_(spec.polarisation),
       photons_(spec.photons),
       photons_per_event_(spec.photons_per_event) {
   check_medium(spec, scene);
@@ -118,8 +127,10 @@ Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uin
   photon.position = place.position;
   photon.region = place.region;
   photon.ray.direction = sample_direction(direction_, rng);
-  photon.ray.polarisation =
-      unpolarised_ ? core::Vec3(core::Vec3::Zero()) : core::sample_polarisation(photon.ray.direction, rng);
+  photon.ray.polarisation = polarisation_  ? polarisation_across(photon.ray.direction, *polarisation_, rng)
+                            : unpolarised_ ? core::Vec3(core::Vec3::Zero())
+                                           : core::sample_polarisation(photon.ray.direction, rng);
+  photon.ray.keeps_phases = scene.keeps_phases;
   photon.wavelength_nm = emission_ ? emission_->sample(rng.uniform()) : wavelength_nm_;
   photon.time_ns = decay_.empty() ? time_ns_ : optics::sample_decay(decay_, rng);
   photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);

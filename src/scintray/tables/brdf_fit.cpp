@@ -169,7 +169,7 @@ MeasuredBrdf fit_brdf(const std::vector<BrdfPoint>& points, const std::string& f
   MeasuredBrdf brdf;
   for (const auto& [nm, own] : by_wavelength) {
     const auto refuse = [&, nm = nm](const std::string& what, const std::string& hint) {
-      throw core::InputError({{file}, fmt::format("at {:g} nm: {}", nm, what), hint});
+      throw core::InputError({{file}, nm > 0.0 ? fmt::format("at {:g} nm: {}", nm, what) : what, hint});
     };
     try {
       brdf.tables.push_back(BrdfTable::fitted(own));

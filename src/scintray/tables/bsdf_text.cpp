@@ -96,17 +96,16 @@ BsdfAngles default_bsdf_angles() {
   return angles;
 }
 
-std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad) {
+std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad, int parts) {
   const std::vector<double> azimuths = borders(angles.azimuth), radials = borders(angles.radial);
-  constexpr int kParts = 24;
   std::vector<double> result;
   for (std::size_t row = 0; row + 1 < azimuths.size(); ++row)
     for (std::size_t column = 0; column + 1 < radials.size(); ++column) {
-      const double wide = (azimuths[row + 1] - azimuths[row]) / kParts;
-      const double long_ = (radials[column + 1] - radials[column]) / kParts;
+      const double wide = (azimuths[row + 1] - azimuths[row]) / parts;
+      const double long_ = (radials[column + 1] - radials[column]) / parts;
       double sum = 0.0;
-      for (int i = 0; i < kParts; ++i)
-        for (int j = 0; j < kParts; ++j) {
+      for (int i = 0; i < parts; ++i)
+        for (int j = 0; j < parts; ++j) {
           const double azimuth = azimuths[row] + (i + 0.5) * wide,
                        radial = radials[column] + (j + 0.5) * long_;
           const double cosine = std::cos(specular_rad) * std::cos(radial) +

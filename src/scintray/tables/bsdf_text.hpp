@@ -44,7 +44,8 @@ Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
 
 /// Solid angle of each cell weighted by the cosine to the normal (sr), [azimuth][radial], on both sides of
 /// the plane of incidence and above the horizon: the sum of the values times this is the total.
-std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad);
+/// @param parts  subdivisions of each side of a cell
+std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad, int parts = 24);
 
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,
                 const BsdfSettings& settings);

@@ -71,6 +71,9 @@ class ChannelFaces {
       const scene::BoundaryLink& link = scene_.link(region, i);
       const core::Id<ReadoutChannel> channel = channels_.at_crossing[link.interface][link.from_back];
       if (!channel.has_value() || (&region == ambient_ && in_contact_[channel.index()])) continue;
+      // A photocathode on a face has light from beyond too, which adds no area.
+      const ReadoutChannel& own = channels_.list[channel.index()];
+      if (own.face.has_value() && region.part != own.part) continue;
       visit(std::size_t{channel.index()}, scene_.triangle(region, i));
     }
   }
@@ -93,9 +96,7 @@ ReadoutChannels::ReadoutChannels(const scene::Scene& scene) : at_crossing(scene.
       if (!sensor.has_value()) continue;
       const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
       const bool whole = scene.parts[part].sensor.has_value();
-      const core::FaceId face = whole       ? core::FaceId::none()
-                                : from_back ? interface.back_face
-                                            : interface.front_face;
+      const core::FaceId face = whole ? core::FaceId::none() : scene.sensor_face(interface, part);
       const auto [channel, is_new] = known.try_emplace({part, face}, core::Id<ReadoutChannel>(list.size()));
       if (is_new) {
         list.push_back({});

@@ -238,13 +238,24 @@ struct Arrival {
   double cosine = 1.0;  ///< of the angle to the normal
 };
 
+/// Conversion probability with the efficiency at the place of the photon.
+[[gnu::noinline, gnu::cold]] double at_place(const scene::Scene& scene, const scene::Interface& interface,
+                                             const source::Photon& photon, bool from_back,
+                                             double probability) {
+  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+  const core::SensorId sensor = from_back ? interface.front_sensor : interface.back_sensor;
+  return probability *
+         scene.sensor_frame(interface, part).factor(*scene.sensors[sensor].over_face, photon.position.vec());
+}
+
 /// The end of a photon at the sensor of an interface: converted or not.
 void reach_sensor(const scene::Scene& scene, const scene::Interface& interface, const source::Photon& photon,
                   const Arrival& arrival, Step& result) {
   const core::SensorId id = result.from_back ? interface.front_sensor : interface.back_sensor;
   const double sine = std::sqrt(std::max(0.0, 1.0 - arrival.cosine * arrival.cosine));
-  const double probability =
-      scene.sensors[id].conversion_probability(photon.wavelength_nm, arrival.index * sine);
+  double probability = scene.sensors[id].conversion_probability(photon.wavelength_nm, arrival.index * sine);
+  if (scene.sensors[id].over_face) [[unlikely]]
+    probability = at_place(scene, interface, photon, result.from_back, probability);
   result.event =
       photon.conversion_draw < probability ? core::StepEvent::detected : core::StepEvent::not_detected;
   result.sensor_part = result.from_back ? interface.front_sensor_part : interface.back_sensor_part;

@@ -43,7 +43,8 @@ inline constexpr double kGreatestIndex = 5.0;
 
 inline constexpr core::Word<detector::EfficiencyDefinition> kEfficiencyDefinitions[] = {
     {"internal", detector::EfficiencyDefinition::internal},
-    {"external", detector::EfficiencyDefinition::external}};
+    {"external", detector::EfficiencyDefinition::external},
+    {"absorbed", detector::EfficiencyDefinition::absorbed}};
 
 /// Reports unless a curve stays within 0 and 1.
 void expect_share(const config::TomlTable& block, const std::string& key, const core::Curve& curve,

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scintray/core/statistics.hpp"
+#include "scintray/materials/detail/sensor_parts.hpp"
 #include "scintray/materials/material_forms.hpp"
 
 namespace scintray::materials {
@@ -13,6 +14,9 @@ namespace {
 
 constexpr core::Word<detector::AngleMedium> kAngleMedia[] = {{"window", detector::AngleMedium::window},
                                                              {"outside", detector::AngleMedium::outside}};
+constexpr core::Word<detector::EfficiencyDefinition> kAngleDefinitions[] = {
+    {"internal", detector::EfficiencyDefinition::internal},
+    {"external", detector::EfficiencyDefinition::external}};
 constexpr core::Word<detector::ConvertedLight> kConvertedLight[] = {
     {"entering", detector::ConvertedLight::entering},
     {"absorbed", detector::ConvertedLight::absorbed},
@@ -68,7 +72,7 @@ void read_angle(const config::TomlTable& table, SourceRule rule, detector::Senso
   detector::AngularEfficiency angle;
   angle.factor = table.curve("factor", core::Dimension::dimensionless, core::Dimension::angle);
   angle.measured_in = table.choice("measured_in", kAngleMedia);
-  angle.definition = table.choice("definition", kEfficiencyDefinitions);
+  angle.definition = table.choice("definition", kAngleDefinitions);
   if (angle.measured_in == detector::AngleMedium::outside ||
       angle.definition == detector::EfficiencyDefinition::external || table.has("reference_index")) {
     angle.reference_index = table.number("reference_index");
@@ -158,9 +162,10 @@ void check_matched(const config::TomlTable& efficiency, const detector::Sensor& 
                   "a dependence on angle needs the index of the window, and a matched window has none", hint);
 }
 
-/// Reads the conversion of an arriving photon, apart from avalanches; `window` has been read.
-void read_efficiency(const config::TomlTable& efficiency, const config::TomlTable& window, SourceRule rule,
-                     detector::Sensor& sensor) {
+/// Reads the conversion of an arriving photon, apart from avalanches.
+/// @param window  that has been read; empty: absent
+void read_efficiency(const config::TomlTable& efficiency, const std::optional<config::TomlTable>& window,
+                     SourceRule rule, detector::Sensor& sensor) {
   read_source(efficiency, rule, sensor.sources);
   sensor.efficiency = efficiency.curve("value", core::Dimension::dimensionless);
   expect_share(efficiency, "value", sensor.efficiency, "an efficiency");
@@ -170,7 +175,8 @@ void read_efficiency(const config::TomlTable& efficiency, const config::TomlTabl
     efficiency.expect("reference_index",
                       sensor.reference_index >= 1.0 && sensor.reference_index <= kGreatestIndex,
                       "a refractive index lies between 1 and 5", "write 1.0 for a measurement in air");
-    if (!efficiency.good("reference_index") || !window.good("index") || sensor.window_matched) return;
+    if (!efficiency.good("reference_index") || !window || !window->good("index") || sensor.window_matched)
+      return;
     const double r =
         (sensor.window_index - sensor.reference_index) / (sensor.window_index + sensor.reference_index);
     efficiency.expect("value", sensor.efficiency.max_y() <= 1.0 - r * r,
@@ -180,6 +186,19 @@ void read_efficiency(const config::TomlTable& efficiency, const config::TomlTabl
   }
 }
 
+/// Reports an efficiency that needs what the definition does not have.
+void check_cathode(const config::TomlTable& table, const config::TomlTable& efficiency, bool has_window,
+                   const detector::Sensor& sensor) {
+  const bool of_film = sensor.definition == detector::EfficiencyDefinition::absorbed;
+  if (of_film && !sensor.cathode)
+    efficiency.report("definition", "an efficiency of absorbed light needs the film that absorbs it",
+                      "add [photocathode] with n, k and thickness, or write definition = \"internal\"");
+  if (!of_film && sensor.cathode && !has_window && efficiency.good("definition"))
+    table.report("photocathode",
+                 "an efficiency of light in the window, or before it, needs the index of the window",
+                 "add [window] index = 1.47, or write definition = \"absorbed\"");
+}
+
 }  // namespace
 
 detector::Sensor read_sensor(const config::TomlTable& table, const std::string& name, SourceRule rule,
@@ -187,18 +206,23 @@ detector::Sensor read_sensor(const config::TomlTable& table, const std::string& 
   detector::Sensor sensor;
   sensor.name = name;
   sensor.converts = table.choice("converts", kConvertedLight, detector::ConvertedLight::entering);
-  const config::TomlTable window = table.table("window");
-  if (table.has("window")) read_window(window, rule, sensor);
+  const bool has_cathode = table.has("photocathode");
+  std::optional<config::TomlTable> window = table.optional_table("window");
+  if (!window && !has_cathode) table.table("window");  // reported
+  if (window) read_window(*window, rule, sensor);
   const config::TomlTable efficiency = table.table("efficiency");
   if (table.has("efficiency")) read_efficiency(efficiency, window, rule, sensor);
   const std::optional<config::TomlTable> angle = table.optional_table("angle");
   if (angle) read_angle(*angle, rule, sensor);
+  if (has_cathode && table.has("efficiency")) read_photocathode(table, efficiency, rule, sensor);
+  check_cathode(table, efficiency, window.has_value(), sensor);
   check_matched(efficiency, sensor, angle);
   const auto block = [&](const std::string& key) {
     std::optional<config::TomlTable> found = table.optional_table(key);
     if (found) read_source(*found, rule, sensor.sources);
     return found;
   };
+  if (const auto uniformity = block("uniformity")) read_face_response(*uniformity, sensor);
   if (const auto time = block("transit_time")) sensor.time_spread_ns = read_time_spread(*time);
   if (const auto electron = block("single_electron"))
     sensor.single_electron = read_single_electron(*electron);

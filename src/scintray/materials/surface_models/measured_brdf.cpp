@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "scintray/config/csv.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/measured_brdf.hpp"
 #include "scintray/materials/surface_models.hpp"
 #include "scintray/materials/table_key.hpp"
+#include "scintray/tables/bsdf_read.hpp"
 
 namespace scintray::materials {
 
@@ -32,7 +34,7 @@ bool MeasuredBrdfSurface::reflect_light(optics::Ray& ray, const core::Vec3& norm
   const double turn = (at.rng.bits() & 1) != 0 ? exit->turn_rad : -exit->turn_rad;
   ray.direction =
       out * std::cos(turn) * forward + out * std::sin(turn) * normal.cross(forward) + cosine * normal;
-  if (!ray.polarisation.isZero(0.0)) ray.polarisation = core::sample_polarisation(ray.direction, at.rng);
+  if (!ray.polarisation.isZero(0.0)) optics::repolarise(ray, at.rng);
   return true;
 }
 
@@ -75,6 +77,12 @@ std::vector<tables::BrdfPoint> read_mueller_csv(const std::filesystem::path& pat
   return points;
 }
 
+/// Values of a file of either format, by the ending of its name.
+std::vector<tables::BrdfPoint> read_brdf_points(const std::filesystem::path& path) {
+  if (!core::same_but_case(path.extension().string(), ".bsdf")) return read_mueller_csv(path);
+  return tables::brdf_points(tables::parse_bsdf(config::read_text_file(path), path.string()));
+}
+
 MicrosurfaceSpec read_measured_brdf(const config::TomlTable& surface) {
   const config::TomlTable table = surface.table("measured_brdf");
   const std::filesystem::path path = table.existing_file("file");
@@ -82,7 +90,7 @@ MicrosurfaceSpec read_measured_brdf(const config::TomlTable& surface) {
   if (path.empty() || (table.has("gap") && !table.good("gap")))
     return FixedMicrosurface(optics::SmoothSurface());
   try {
-    tables::MeasuredBrdf brdf = tables::fit_brdf(read_mueller_csv(path), path.string());
+    tables::MeasuredBrdf brdf = tables::fit_brdf(read_brdf_points(path), path.string());
     std::vector<double> reflectances;
     for (const tables::BrdfTable& slice : brdf.tables) reflectances.push_back(slice.diffuse_reflectance());
     WavelengthTable cover{core::Curve(brdf.wavelengths_nm, std::move(reflectances)), "measured BRDFs",

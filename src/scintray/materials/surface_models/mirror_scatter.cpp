@@ -164,7 +164,7 @@ class MirrorScatterSurface : public optics::OpaqueFace {
     const double cosine = std::sqrt(cos2);
     if (law_->oblique() && at.rng.uniform() >= cos_in * cosine) return true;
     ray.direction = x * frame.x + y * frame.y + cosine * normal;
-    if (!ray.polarisation.isZero(0.0)) ray.polarisation = core::sample_polarisation(ray.direction, at.rng);
+    if (!ray.polarisation.isZero(0.0)) optics::repolarise(ray, at.rng);
     return true;
   }
 

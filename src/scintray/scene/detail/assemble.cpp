@@ -9,6 +9,7 @@
 #include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
+#include "scintray/scene/detail/sensor_faces.hpp"
 
 namespace scintray::scene {
 
@@ -61,7 +62,9 @@ class InterfaceMaker {
     result.back_face = t.back_face;
     result.front_face = t.front_face;
     bind_sensors(t, result);
-    if (t.back_face.has_value() && t.front_face.has_value())
+    if (is_cathode(t.back_face) || is_cathode(t.front_face))
+      make_cathode(t, result);
+    else if (t.back_face.has_value() && t.front_face.has_value())
       make_contact(t, result);
     else if (t.back_face.has_value() && t.front != contact::kAmbient)
       make_nested(t, result);
@@ -76,24 +79,49 @@ class InterfaceMaker {
   }
 
   /// A sensor part detects light that enters it, or that its surfaces absorb, also from its own side; a
-  /// sensor face light that leaves its part there.
+  /// sensor face light that leaves its part there, or with a photocathode light from either side.
   void bind_sensors(const contact::InterfaceTriangle& t, Interface& result) const {
     const auto bind = [&](core::PartId entered, core::PartId left, core::FaceId left_face,
-                          core::SensorId& sensor, core::PartId& part) {
+                          core::FaceId entered_face, core::SensorId& sensor, core::PartId& part) {
       if (entered != contact::kAmbient && assembly_.parts[entered].sensor.has_value()) {
         sensor = assembly_.parts[entered].sensor;
         part = entered;
       } else if (left_face.has_value() && assembly_.faces[left_face].sensor.has_value()) {
         sensor = assembly_.faces[left_face].sensor;
         part = left;
+      } else if (is_cathode(entered_face)) {
+        sensor = assembly_.faces[entered_face].sensor;
+        part = entered;
       } else if (left != contact::kAmbient && assembly_.parts[left].sensor.has_value() &&
                  assembly_.sensors[assembly_.parts[left].sensor].converts_absorbed()) {
         sensor = assembly_.parts[left].sensor;
         part = left;
       }
     };
-    bind(t.front, t.back, t.back_face, result.front_sensor, result.front_sensor_part);
-    bind(t.back, t.front, t.front_face, result.back_sensor, result.back_sensor_part);
+    bind(t.front, t.back, t.back_face, t.front_face, result.front_sensor, result.front_sensor_part);
+    bind(t.back, t.front, t.front_face, t.back_face, result.back_sensor, result.back_sensor_part);
+  }
+
+  bool is_cathode(core::FaceId id) const { return id.has_value() && face(id).is_cathode; }
+
+  /// An interface with a photocathode is bonded, and has no other surface.
+  void make_cathode(const contact::InterfaceTriangle& t, Interface& result) {
+    const bool of_back = is_cathode(t.back_face);
+    const AssemblyFace& own = face(of_back ? t.back_face : t.front_face);
+    if (of_back && is_cathode(t.front_face) && face(t.front_face).surface != own.surface)
+      problems_.add(part(t.back).geometry.where,
+                    "faces \"" + own.name + "\" and \"" + face(t.front_face).name +
+                        "\" touch, and each has a photocathode of its own",
+                    "give the sensor to one of them");
+    const bool between_parts = t.back != contact::kAmbient && t.front != contact::kAmbient;
+    const scene_file::ContactSpec* contact = between_parts ? find_contact(t).first : nullptr;
+    if (contact && !contact->by_builder &&
+        (contact->kind == scene_file::ContactKind::dry || !contact->surface.empty()))
+      problems_.add(contact->where,
+                    "this contact is at the photocathode of \"" + own.name +
+                        "\", which is bonded and the only surface there",
+                    "leave the contact out, or name other faces in it");
+    set_surface(t, result, of_back, own.surface);
   }
 
   void make_dry(const contact::InterfaceTriangle& t, const std::string& back, const std::string& front,
@@ -270,16 +298,18 @@ Scene assemble(const Assembly& assembly) {
   scene.media = assembly.media;
   for (const SceneMedium& medium : scene.media) scene.optics.add(medium, assembly.low_nm, assembly.high_nm);
   scene.sensors = assembly.sensors;
+  scene.keeps_phases = assembly.keeps_phases;
   scene.low_nm = assembly.low_nm;
   scene.high_nm = assembly.high_nm;
   describe_parts(assembly, scene);
+  core::Problems problems;
+  place_sensor_faces(assembly, scene, problems);
 
   std::vector<contact::PlacedPart> placed;
   for (const AssemblyPart& part : assembly.parts) placed.push_back(part.geometry);
   const std::vector<contact::InterfaceTriangle> triangles =
       contact::resolve_contacts(placed, assembly.contact_tolerance_mm);
 
-  core::Problems problems;
   InterfaceMaker maker(assembly, scene, problems);
   std::vector<core::InterfaceId> interface_of;
   for (const contact::InterfaceTriangle& triangle : triangles) {

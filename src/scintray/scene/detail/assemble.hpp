@@ -16,8 +16,9 @@ namespace scintray::scene {
 struct AssemblyFace {
   std::string name;  ///< "part:face"
   core::PartId part;
-  std::string surface;    ///< name; empty: smooth
-  core::SensorId sensor;  ///< light that leaves the part here is detected
+  std::string surface;      ///< name; empty: smooth
+  core::SensorId sensor;    ///< light that leaves the part here is detected
+  bool is_cathode = false;  ///< the surface is a photocathode, which is bonded to whatever it touches
 };
 
 /// Name of a surface for messages and results; the empty name is the smooth surface.
@@ -43,6 +44,7 @@ struct Assembly {
   double contact_tolerance_mm = 1e-4;
   scene_file::AcceleratorKind accelerator = scene_file::AcceleratorKind::automatic;
   scene_file::CurvedFaces curved = scene_file::CurvedFaces::exact;
+  bool keeps_phases = false;  ///< photons are polarised elliptically
   double low_nm = 0.0, high_nm = 0.0;
   /// The surface of a name between two media; for equal arguments the same surface may be returned. The empty
   /// name is the smooth surface.

@@ -123,7 +123,7 @@ double smooth_share(const Scene& scene, const Region& region) {
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
     const Interface& interface = scene.interfaces[link.interface];
-    if (interface.plain)
+    if (interface.plain && !scene.keeps_phases)
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
   }
   for (Region& region : scene.regions)

@@ -204,6 +204,7 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
   const core::MediumId medium = scene.regions[deposit.region].medium;
   Photon photon;
   photon.region = deposit.region;
+  photon.ray.keeps_phases = scene.keeps_phases;
   if (prompt && deposit.step) {
     emit_cherenkov(deposit, medium, photon, rng);
   } else {

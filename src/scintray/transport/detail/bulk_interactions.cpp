@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/optics/elliptical.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
@@ -17,17 +18,30 @@ void scatter_henyey_greenstein(optics::Ray& ray, double g, bool forward, core::R
   const double ratio = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
   const double cosine = std::abs(g) < 1e-6 ? 2.0 * u - 1.0 : (1.0 + g * g - ratio * ratio) / (2.0 * g);
   const core::Vec3 axis = forward ? ray.direction.vec() : core::Vec3(-ray.direction.vec());
-  ray.direction = core::turned(axis, std::clamp(cosine, -1.0, 1.0), core::kTwoPi * rng.uniform());
+  const core::Vec3 direction =
+      core::turned(axis, std::clamp(cosine, -1.0, 1.0), core::kTwoPi * rng.uniform());
+  if (ray.keeps_phases && optics::project_field(ray, direction)) return;
+  ray.direction = direction;
   if (ray.polarisation.isZero(0.0)) return;
+  ray.ellipticity_rad = 0.0;
   const core::Vec3 across =
       ray.polarisation - ray.polarisation.dot(ray.direction.vec()) * ray.direction.vec();
   ray.polarisation =
       across.norm() > 1e-9 ? core::Vec3(across.normalized()) : core::sample_polarisation(ray.direction, rng);
 }
 
+[[gnu::noinline, gnu::cold]] void scatter_elliptical(optics::Ray& ray, core::Rng& rng) {
+  for (;;) {
+    const core::Vec3 direction = core::sample_isotropic(rng);
+    if (rng.uniform() < optics::power_across(ray, direction) && optics::project_field(ray, direction)) return;
+  }
+}
+
 }  // namespace
 
 void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
+  if (ray.keeps_phases) [[unlikely]]
+    return scatter_elliptical(ray, rng);
   const bool polarised = !ray.polarisation.isZero(0.0);
   for (;;) {
     const core::Vec3 direction = core::sample_isotropic(rng);

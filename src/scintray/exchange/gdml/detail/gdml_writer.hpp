@@ -56,6 +56,7 @@ class GdmlWriter {
   /// At most two shifters, as Geant4's WLS and WLS2.
   void add_shifters(pugi::xml_node material, const optics::Medium& medium);
   void add_composition(pugi::xml_node material, const optics::Medium& medium);
+  void note_face_response(const detector::Sensor& sensor);
   void add_finish(pugi::xml_node node, const optics::Surface& surface, optics::Side from);
   void add_rough(pugi::xml_node node, const optics::Surface& surface);
   std::string new_name(const std::string& wanted);

@@ -35,8 +35,17 @@ std::string GdmlWriter::surface(const optics::Surface& surface, optics::Side fro
   known->second = new_name(wanted);
   pugi::xml_node node = append_surface(section("solids"), known->second);
   add_finish(node, surface, from);
-  if (sensor) add_table(node, "EFFICIENCY", sensor->efficiency);
+  if (sensor) {
+    add_table(node, "EFFICIENCY", sensor->cathode ? sensor->cathode->escape : sensor->efficiency);
+    note_face_response(*sensor);
+  }
   return known->second;
+}
+
+void GdmlWriter::note_face_response(const detector::Sensor& sensor) {
+  if (sensor.over_face)
+    note("sensor " + sensor.name +
+         ": its efficiency over the face is left out: it is the same at every place");
 }
 
 std::string GdmlWriter::absorbing_surface(const detector::Sensor& sensor) {
@@ -47,6 +56,7 @@ std::string GdmlWriter::absorbing_surface(const detector::Sensor& sensor) {
   set_kind(node, "dielectric_metal", "polished");
   add_table(node, "REFLECTIVITY", core::Curve::constant(0.0));
   add_table(node, "EFFICIENCY", sensor.efficiency);
+  note_face_response(sensor);
   if (sensor.angle)
     note("sensor " + sensor.name +
          ": its dependence on angle is left out: it detects as at normal incidence");
