@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
+#include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/report/text/result_json.hpp"
@@ -26,6 +28,8 @@ struct BuildOptions {
   std::string pitch = "1 mm";
   std::uint32_t photons = simulation::ResponseSettings{}.photons_per_cell;
   std::uint32_t delays = simulation::ResponseSettings{}.delays_kept;
+  simulation::MapDirection direction = simulation::MapDirection::automatic;
+  std::uint64_t channel_photons = simulation::ResponseSettings{}.photons_per_channel;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;
   bool quiet = false;
@@ -52,50 +56,67 @@ double pitch_of(const std::string& text) {
   throw CLI::ValidationError("--pitch", "\"" + text + "\" is not above zero");
 }
 
-/// Counts of all cells of a grid.
-struct GridCounts {
-  std::uint64_t emitted = 0, detected = 0, filled = 0;
+/// Sums over the cells of a grid.
+struct GridTotals {
+  std::uint64_t filled = 0;  ///< cells that are not empty
+  double detected = 0.0;     ///< mean probability of detection by any channel
+  double variance = 0.0;     ///< mean variance of the probability of one channel
 };
 
-GridCounts counts_of(const simulation::ResponseGrid& grid) {
-  GridCounts counts;
-  for (const std::uint32_t photons : grid.photons) {
-    counts.emitted += photons;
-    counts.filled += photons > 0 ? 1 : 0;
+GridTotals totals_of(const simulation::ResponseGrid& grid) {
+  GridTotals totals;
+  const std::size_t channels = grid.detected.size() / grid.photons.size();
+  for (std::size_t cell = 0; cell < grid.photons.size(); ++cell) {
+    if (grid.photons[cell] == 0) continue;
+    ++totals.filled;
+    for (std::size_t i = cell * channels; i < (cell + 1) * channels; ++i) {
+      const core::Estimate estimate = grid.estimate(cell, i);
+      totals.detected += estimate.value;
+      totals.variance += estimate.error * estimate.error;
+    }
   }
-  for (const std::uint32_t photons : grid.detected) counts.detected += photons;
-  return counts;
+  totals.detected /= static_cast<double>(totals.filled);
+  totals.variance /= static_cast<double>(totals.filled * channels);
+  return totals;
 }
 
 Json json_of_map(const simulation::ResponseMap& map) {
   Json grids = Json::array();
   for (const simulation::ResponseGrid& grid : map.grids) {
-    const GridCounts counts = counts_of(grid);
+    const GridTotals totals = totals_of(grid);
     grids.push_back({{"part", grid.part},
                      {"cells", {grid.cells[0], grid.cells[1], grid.cells[2]}},
                      {"pitch_mm", {grid.pitch.x(), grid.pitch.y(), grid.pitch.z()}},
-                     {"cells_filled", counts.filled},
-                     {"photons", counts.emitted},
-                     {"detected", counts.detected}});
+                     {"cells_filled", totals.filled},
+                     {"detected_fraction", totals.detected},
+                     {"rms_probability_error", std::sqrt(totals.variance)}});
   }
-  return {{"grids", grids}};
+  return {{"direction", map.backward() ? "backward" : "forward"},
+          {"photons_per_cell", map.photons_per_cell},
+          {"photons_per_channel", map.photons_per_channel},
+          {"grids", grids}};
 }
 
 void print_map(const simulation::ResponseMap& map) {
+  std::cout << (map.backward()
+                    ? fmt::format("traced backward, {} photons from each of {} channels\n",
+                                  map.photons_per_channel, map.channels.size())
+                    : fmt::format("traced forward, {} photons from each cell\n", map.photons_per_cell));
   for (const simulation::ResponseGrid& grid : map.grids) {
-    const auto [emitted, detected, filled] = counts_of(grid);
+    const auto [filled, detected, variance] = totals_of(grid);
     std::cout << fmt::format(
-        "{}: {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} mm, {} of them filled; {} photons, {:.4f} "
-        "detected\n",
+        "{}: {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} mm, {} of them filled; detected {:.4f}, standard "
+        "error of one channel's probability {:.2g}\n",
         grid.part, grid.cells[0], grid.cells[1], grid.cells[2], grid.pitch.x(), grid.pitch.y(),
-        grid.pitch.z(), filled, emitted, static_cast<double>(detected) / static_cast<double>(emitted));
+        grid.pitch.z(), filled, detected, std::sqrt(variance));
   }
 }
 
 void build(const BuildOptions& options) {
   const JsonAnswer answer(options.json);
   simulation::MapOptions map_options;
-  map_options.settings = {pitch_of(options.pitch), options.photons, options.delays};
+  map_options.settings = {pitch_of(options.pitch), options.photons, options.delays, options.direction,
+                          options.channel_photons};
   simulation::check_response_path(options.output);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
@@ -109,6 +130,8 @@ void build(const BuildOptions& options) {
   };
   const simulation::ResponseFile file = simulation::build_map(scene, map_options);
   line.clear();
+  if (!options.quiet && !file.forward_because.empty())
+    std::cout << "not traced backward: " << file.forward_because << "\n";
   if (file.map.grids.empty()) {
     std::cerr << "stopped: a map requires all its cells, so none was written\n";
     throw CLI::RuntimeError(kInterrupted);
@@ -165,7 +188,15 @@ void add_build(CLI::App& response) {
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("-o,--output", options->output, "the map (HDF5)")->required();
   command->add_option("--pitch", options->pitch, "largest edge of a cell (default: \"1 mm\")");
-  command->add_option("--photons", options->photons, "photons from each cell (default: 10000)")
+  add_word_option(
+      *command, "--direction", options->direction, simulation::kMapDirections,
+      "trace forward from the cells, or backward from the channels, which needs surfaces that pass "
+      "light both ways alike; automatic: backward where that is so");
+  command->add_option("--photons", options->photons, "photons from each cell, forward (default: 10000)")
+      ->check(above_zero());
+  command
+      ->add_option("--channel-photons", options->channel_photons,
+                   "photons from each channel, backward (default: 200000)")
       ->check(above_zero());
   command
       ->add_option("--delays", options->delays,

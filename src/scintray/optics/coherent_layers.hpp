@@ -61,6 +61,7 @@ class ThinFilmSurface : public MicrosurfaceModel {
   const std::vector<CoatingLayer>& layers() const { return layers_; }
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
+  bool reciprocal() const override { return true; }
 
  private:
   std::vector<CoatingLayer> layers_;  ///< from the inside to the outside

@@ -51,6 +51,7 @@ class HeightField : public MicrosurfaceModel {
   /// The same at the place of the interaction, which is drawn when it has none yet.
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
+  bool reciprocal() const override { return true; }
   /// A place drawn uniformly on the height map, with its x along `along` (see map_frame).
   MapPlace random_place(const core::Vec3& normal, const core::Vec3& along, core::Rng& rng) const;
 

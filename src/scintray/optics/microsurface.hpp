@@ -92,6 +92,11 @@ class MicrosurfaceModel {
   /// True when no light from inside is transmitted to the outside.
   virtual bool opaque() const { return false; }
 
+  /// True when light passes along every path as it would in the opposite direction: the probability per
+  /// projected solid angle, times the square of the index of incidence, is symmetric in the two directions
+  /// (Helmholtz reciprocity). A model for which this is not known is not reciprocal.
+  virtual bool reciprocal() const { return false; }
+
   MicrosurfaceKind kind() const { return kind_; }
 
  protected:
@@ -118,6 +123,7 @@ class SmoothSurface : public MicrosurfaceModel {
   }
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
+  bool reciprocal() const override { return true; }
 };
 
 /// No microsurface: the reflector is painted or evaporated onto the face, nothing is refracted.
@@ -126,6 +132,7 @@ class PaintedSurface : public MicrosurfaceModel {
   PaintedSurface() : MicrosurfaceModel(MicrosurfaceKind::painted) {}
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
+  bool reciprocal() const override { return true; }
 };
 
 }  // namespace scintray::optics

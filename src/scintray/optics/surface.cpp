@@ -187,6 +187,18 @@ bool Surface::mixture_shifts() const {
                      [](const SurfaceShare& part) { return part.surface->shifts(); });
 }
 
+std::string Surface::why_not_reciprocal() const {
+  for (const SurfaceShare& part : mixture)
+    if (std::string why = part.surface->why_not_reciprocal(); !why.empty()) return why;
+  if (!mixture.empty()) return {};
+  if (!microsurface->reciprocal()) return "its model is not reciprocal";
+  if (gap_shifter) return "its coating shifts wavelengths";
+  if (admission && admission->undeflected.max_y() > 0.0) return "it lets light through without refraction";
+  if (reflector && reflector->polarisation != PaintPolarisation::random)
+    return "its paint keeps the polarisation as Geant4 does";
+  return {};
+}
+
 bool Surface::opaque() const {
   if (!mixture.empty())
     return std::all_of(mixture.begin(), mixture.end(),

@@ -104,6 +104,9 @@ struct Surface : SurfaceStack {
     return mixture.empty() && microsurface->kind() == MicrosurfaceKind::smooth && !reflector &&
            !gap_thickness_um && !admission;
   }
+  /// Why light does not pass the surface along every path as it would in the opposite direction
+  /// (MicrosurfaceModel::reciprocal); empty: it does.
+  std::string why_not_reciprocal() const;
   /// True when light may leave the surface at another wavelength.
   bool shifts() const { return mixture.empty() ? gap_shifter != nullptr : mixture_shifts(); }
 

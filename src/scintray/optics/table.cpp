@@ -163,6 +163,11 @@ void SurfaceTable::check_grid() {
   }
 }
 
+bool SurfaceTable::reciprocal() const {
+  return std::all_of(slices_.begin(), slices_.end(),
+                     [](const TableSlice& slice) { return slice.reciprocal != nullptr; });
+}
+
 double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {
   if (const auto& kernel = slices_[slice].reciprocal)
     return kernel->reflectance(side, std::pow(std::sin(incidence_rad), 2));

@@ -95,6 +95,8 @@ class SurfaceTable : public MicrosurfaceModel {
   const TableProvenance& provenance() const { return provenance_; }
   bool absorbs() const { return absorbs_; }         ///< true when a node has an absorptance above 0
   bool opaque() const override { return opaque_; }  ///< no light from inside is transmitted
+  /// True when every slice has a reciprocal kernel. Others are reciprocal only within their noise.
+  bool reciprocal() const override;
 
  private:
   /// Wavelengths and azimuths of the slices; throws InputError when they do not form a grid.

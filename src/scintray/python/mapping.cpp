@@ -65,6 +65,10 @@ py::dict grid_of(const MapPtr& file, std::size_t number) {
   entry["photons"] = view(grid.photons.data(), shape, owner);
   shape.push_back(static_cast<py::ssize_t>(map.channels.size()));
   entry["detected"] = view(grid.detected.data(), shape, owner);
+  if (map.backward()) {
+    entry["probability"] = view(grid.probabilities.data(), shape, owner);
+    entry["probability_error"] = view(grid.probability_errors.data(), shape, owner);
+  }
   return entry;
 }
 
@@ -171,6 +175,7 @@ void add_mapping(py::module_& module) {
   py::class_<simulation::ResponseFile, MapPtr>(module, "ResponseMap")
       .def("channels", [](const MapPtr& file) { return file->map.channels; })
       .def("photons_per_cell", [](const MapPtr& file) { return file->map.photons_per_cell; })
+      .def("photons_per_channel", [](const MapPtr& file) { return file->map.photons_per_channel; })
       .def("grids", [](const MapPtr& file) { return file->map.grids.size(); })
       .def("grid", &grid_of)
       .def("write",
@@ -185,9 +190,15 @@ void add_mapping(py::module_& module) {
   using Number = std::optional<std::uint64_t>;
   using Text = std::string;
   module.def("build_response", [](const Text& text, const Text& file, double pitch_mm, std::uint32_t photons,
-                                  std::uint32_t delays, const Threads& threads, const Number& seed,
-                                  const py::object& progress) {
-    return build_map({text, file}, {pitch_mm, photons, delays}, options_of(threads, seed, {}, {}), progress);
+                                  std::uint32_t delays, const Text& direction, std::uint64_t channel_photons,
+                                  const Threads& threads, const Number& seed, const py::object& progress) {
+    const auto known = core::find_word(simulation::kMapDirections, direction);
+    if (!known)
+      throw core::InputError({{},
+                              "direction is \"" + direction + "\"",
+                              "use " + core::join(core::word_list(simulation::kMapDirections), ", ")});
+    return build_map({text, file}, {pitch_mm, photons, delays, *known, channel_photons},
+                     options_of(threads, seed, {}, {}), progress);
   });
   module.def("run_mapped", [](const Text& text, const Text& file, const Text& map, const Threads& threads,
                               const Number& seed, const Number& events, const Text& output, bool keep,

@@ -87,15 +87,18 @@ void MappedResponse::at(const core::Vec3& position, core::RegionId region,
   response.assign(channels, {});
   for (std::size_t i = 0; i < around.count; ++i) {
     const Corner& corner = around.list[i];
+    const bool backward = map_.backward();
     const double per_photon = corner.weight / static_cast<double>(grid.data->photons[corner.cell]);
     const float* delay = grid.data->delays_ns.data() + grid.first_delay[corner.cell];
     for (std::size_t channel = 0; channel < channels; ++channel) {
-      const std::uint32_t detected = grid.data->detected[corner.cell * channels + channel];
+      const std::size_t entry = corner.cell * channels + channel;
+      const std::uint32_t detected = grid.data->detected[entry];
       if (detected == 0) continue;
       const std::uint32_t kept = map_.kept(detected);
       PlaceResponse& seen = response[channel];
-      seen.probability_ += per_photon * detected;
-      seen.earliest_ = std::min(seen.earliest_, double{grid.earliest[corner.cell * channels + channel]});
+      seen.probability_ +=
+          backward ? corner.weight * grid.data->probabilities[entry] : per_photon * detected;
+      seen.earliest_ = std::min(seen.earliest_, double{grid.earliest[entry]});
       seen.cells_[seen.count_++] = {seen.probability_, {delay, kept}};
       delay += kept;
     }

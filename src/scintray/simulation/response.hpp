@@ -10,7 +10,7 @@
 namespace scintray::simulation {
 
 /// Version of the file's layout; grows when a reader of the older one would misread the newer.
-inline constexpr std::int64_t kResponseVersion = 1;
+inline constexpr std::int64_t kResponseVersion = 2;
 
 /// A map and its origin.
 struct ResponseFile {
@@ -18,6 +18,8 @@ struct ResponseFile {
   std::string version;     ///< of ScintRay
   std::string scene_file;  ///< name as given
   std::string scene_text;  ///< the complete scene file
+  /// Of a map just built with MapDirection::automatic: why it was traced forward; not in the file.
+  std::string forward_because = {};
 };
 
 /// Writes a map. Throws InputError when `path` is taken by a file that is not a response map, SystemError

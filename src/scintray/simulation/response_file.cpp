@@ -12,6 +12,9 @@ namespace scintray::simulation {
 
 namespace {
 
+/// Version before maps could be traced backward, which is read as well.
+constexpr std::int64_t kForwardVersion = 1;
+
 constexpr const char* kResponseFormat = "scintray-response";
 
 void describe(core::h5::Group& group, const std::string& name, const std::string& unit,
@@ -22,15 +25,15 @@ void describe(core::h5::Group& group, const std::string& name, const std::string
 
 std::vector<double> numbers_of(const core::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Probabilities follow from the counts: they are there for other programs to read.
+/// Probabilities of a map traced forward follow from the counts, and are there for other programs to read.
 void put_probability(core::h5::Group& group, const ResponseGrid& grid, std::size_t channels,
                      const core::h5::Shape& shape) {
   std::vector<float> values, errors;
   values.reserve(grid.detected.size());
   errors.reserve(grid.detected.size());
   for (std::size_t i = 0; i < grid.detected.size(); ++i) {
-    const core::Estimate estimate = core::binomial_estimate(grid.detected[i], grid.photons[i / channels]);
     const bool empty = grid.photons[i / channels] == 0;
+    const core::Estimate estimate = empty ? core::Estimate{} : grid.estimate(i / channels, i);
     values.push_back(empty ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(estimate.value));
     errors.push_back(empty ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(estimate.error));
   }
@@ -38,7 +41,7 @@ void put_probability(core::h5::Group& group, const ResponseGrid& grid, std::size
   describe(group, "probability", "1",
            "probability that a photon is detected, per cell and channel; NaN: empty");
   group.write("probability_error", errors, shape);
-  describe(group, "probability_error", "1", "binomial standard error of probability");
+  describe(group, "probability_error", "1", "standard error of probability");
 }
 
 void put_grid(core::h5::Group& group, const ResponseGrid& grid, std::size_t channels) {
@@ -50,9 +53,13 @@ void put_grid(core::h5::Group& group, const ResponseGrid& grid, std::size_t chan
   const core::h5::Shape cells{grid.cells[0], grid.cells[1], grid.cells[2]};
   const core::h5::Shape responses{cells[0], cells[1], cells[2], channels};
   group.write("photons_emitted", grid.photons, cells);
-  describe(group, "photons_emitted", "1", "photons emitted in each cell; 0: the part is not in the cell");
+  describe(
+      group, "photons_emitted", "1",
+      "photons emitted in each cell, or started at all channels of a map traced backward; 0: the part is "
+      "not in the cell");
   group.write("photons_detected", grid.detected, responses);
-  describe(group, "photons_detected", "1", "of them detected, per cell and channel");
+  describe(group, "photons_detected", "1",
+           "of them detected, per cell and channel; those that passed the cell in a map traced backward");
   put_probability(group, grid, channels, responses);
   group.write("delay_ns", grid.delays_ns);
   describe(group, "delay_ns", "ns",
@@ -98,6 +105,10 @@ class GridReader {
     require(responses == cells, "photons_detected does not match photons_emitted and the channels");
     grid.delays_ns = group.read<float>("delay_ns");
     check_counts(grid);
+    if (map_.backward()) {
+      grid.probabilities = probabilities(group, "probability", grid);
+      grid.probability_errors = probabilities(group, "probability_error", grid);
+    }
     for (const float delay : grid.delays_ns)
       require(std::isfinite(delay) && delay >= 0.0f, "delay_ns has a value that is not a time");
     return grid;
@@ -114,6 +125,20 @@ class GridReader {
     const auto values = group.read<double>(name);
     require(values.size() == 3, name + " does not have three numbers");
     return {values[0], values[1], values[2]};
+  }
+
+  /// Probabilities of cells that are not empty; 0 for those of empty ones.
+  std::vector<float> probabilities(const core::h5::Group& group, const std::string& name,
+                                   const ResponseGrid& grid) const {
+    std::vector<float> values = group.read<float>(name);
+    require(values.size() == grid.detected.size(), name + " does not match photons_detected");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (grid.photons[i / map_.channels.size()] == 0) values[i] = 0.0f;
+      require(values[i] >= 0.0f && std::isfinite(values[i]), name + " has a value that is no probability");
+      require((values[i] > 0.0f) == (grid.detected[i] > 0) || name != "probability",
+              "probability does not match photons_detected");
+    }
+    return values;
   }
 
   void check_counts(const ResponseGrid& grid) const {
@@ -137,9 +162,9 @@ class GridReader {
 };
 
 std::uint32_t count_attribute(const std::filesystem::path& path, const core::h5::Group& root,
-                              const std::string& name) {
+                              const std::string& name, std::int64_t least = 1) {
   const std::int64_t value = root.integer_attribute("", name);
-  if (value < 1 || value > std::numeric_limits<std::uint32_t>::max())
+  if (value < least || value > std::numeric_limits<std::uint32_t>::max())
     throw wrong_map(path, "this response map has " + std::to_string(value) + " as its " + name,
                     "build it again");
   return static_cast<std::uint32_t>(value);
@@ -164,6 +189,7 @@ void write_response(const std::filesystem::path& path, const ResponseFile& file)
   root.set_attribute("", "scintray_version", file.version);
   root.set_attribute("", "scene_file", file.scene_file);
   root.set_attribute("", "photons_per_cell", static_cast<std::int64_t>(map.photons_per_cell));
+  root.set_attribute("", "photons_per_channel", static_cast<std::int64_t>(map.photons_per_channel));
   root.set_attribute("", "delays_kept", static_cast<std::int64_t>(map.delays_kept));
   root.set_attribute("", "unpolarised", static_cast<std::int64_t>(map.unpolarised));
   root.write("seed", std::vector<std::uint64_t>{map.seed}, {});
@@ -188,11 +214,12 @@ ResponseFile read_response(const std::filesystem::path& path) {
     throw wrong_map(path, "this HDF5 file is not a response map",
                     "name a file that `scintray response build` wrote");
   const std::int64_t version = root.integer_attribute("", "version");
-  if (version != kResponseVersion)
+  if (version != kResponseVersion && version != kForwardVersion)
     throw wrong_map(path,
                     "this response map has format version " + std::to_string(version) +
                         " (written by ScintRay " + root.string_attribute("", "scintray_version") +
-                        "), but this program reads version " + std::to_string(kResponseVersion),
+                        "), but this program reads versions " + std::to_string(kForwardVersion) + " and " +
+                        std::to_string(kResponseVersion),
                     "build it again with this ScintRay");
   ResponseFile file;
   file.version = root.string_attribute("", "scintray_version");
@@ -204,7 +231,9 @@ ResponseFile read_response(const std::filesystem::path& path) {
   file.scene_text = scene.front();
   file.map.seed = seed.front();
   file.map.channels = root.read_strings("channel_name");
-  file.map.photons_per_cell = count_attribute(path, root, "photons_per_cell");
+  if (version == kResponseVersion)
+    file.map.photons_per_channel = count_attribute(path, root, "photons_per_channel", 0);
+  file.map.photons_per_cell = count_attribute(path, root, "photons_per_cell", file.map.backward() ? 0 : 1);
   file.map.delays_kept = count_attribute(path, root, "delays_kept");
   file.map.unpolarised = root.integer_attribute("", "unpolarised") != 0;
   const core::h5::Group grids = root.open_group("grids");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/simulation/detail/backward_response.hpp"
 #include "scintray/transport/in_order.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -46,7 +47,7 @@ class CellTracer {
   CellResponse trace(std::size_t cell, std::uint64_t address) const {
     CellResponse response{0, std::vector<std::uint32_t>(channels_.list.size()),
                           std::vector<std::vector<float>>(channels_.list.size())};
-    const Eigen::AlignedBox3d box = box_of(cell);
+    const Eigen::AlignedBox3d box = cell_box(grid_, cell);
     if (!holds_something(box, address)) return response;
     for (std::uint32_t photon = 0; photon < map_.photons_per_cell; ++photon)
       trace_photon(box, address, photon, response);
@@ -54,14 +55,6 @@ class CellTracer {
   }
 
  private:
-  Eigen::AlignedBox3d box_of(std::size_t cell) const {
-    const std::size_t z = cell % grid_.cells[2], rest = cell / grid_.cells[2];
-    const core::Vec3 at(static_cast<double>(rest / grid_.cells[1]),
-                        static_cast<double>(rest % grid_.cells[1]), static_cast<double>(z));
-    const core::Vec3 low = grid_.low + grid_.pitch.cwiseProduct(at);
-    return {low, core::Vec3(low + grid_.pitch)};
-  }
-
   static core::Vec3 point_in(const Eigen::AlignedBox3d& box, core::Rng& rng) {
     const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
     return box.min() + box.sizes().cwiseProduct(core::Vec3(x, y, z));
@@ -137,13 +130,20 @@ void refuse_multiplication(const scene::Scene& scene) {
                             "trace the scene without a map, or state statistics = \"single\""});
 }
 
-void refuse_too_large(const std::vector<ResponseGrid>& grids, std::size_t channels,
-                      const ResponseSettings& settings) {
+void refuse_too_large(const ResponseMap& map) {
+  const std::size_t channels = map.channels.size();
+  if (map.photons_per_channel > std::numeric_limits<std::uint32_t>::max() / channels)
+    throw core::InputError({{},
+                            std::to_string(map.photons_per_channel) + " photons from each of " +
+                                std::to_string(channels) + " channels are more than a map counts",
+                            "trace at most 4e9 in all"});
   double cells = 0.0;
-  for (const ResponseGrid& grid : grids) cells += static_cast<double>(grid.size());
+  for (const ResponseGrid& grid : map.grids) cells += static_cast<double>(grid.size());
   const double responses = cells * static_cast<double>(channels);
   // A photon is detected once, so no cell keeps more delays than it has photons.
-  const double delays = std::min(responses * settings.delays_kept, cells * settings.photons_per_cell);
+  const double photons = map.backward() ? responses * static_cast<double>(map.photons_per_channel)
+                                        : cells * map.photons_per_cell;
+  const double delays = std::min(responses * map.delays_kept, photons);
   if (responses <= static_cast<double>(kMostResponses) && delays <= static_cast<double>(kMostDelays)) return;
   throw core::InputError({{},
                           "the map would have " + std::to_string(static_cast<std::uint64_t>(cells)) +
@@ -153,7 +153,57 @@ void refuse_too_large(const std::vector<ResponseGrid>& grids, std::size_t channe
                           "choose a larger pitch, or keep fewer delays"});
 }
 
+/// Traces the cells of all grids; false when stopped.
+bool trace_forward(const scene::Scene& scene, const tally::ReadoutChannels& channels, const RunSettings& run,
+                   const ResponseHooks& hooks, ResponseMap& map) {
+  std::vector<CellTracer> tracers;
+  std::vector<std::uint64_t> first;  // address of the first cell of each grid, and the end
+  std::uint64_t total = 0;
+  for (const ResponseGrid& grid : map.grids) {
+    tracers.emplace_back(scene, channels, map, grid, run);
+    first.push_back(total);
+    total += grid.size();
+  }
+  const auto grid_of = [&](std::uint64_t address) {
+    return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), address) - first.begin()) -
+           1;
+  };
+  const auto trace = [&](std::uint64_t address) {
+    const std::size_t grid = grid_of(address);
+    return tracers[grid].trace(address - first[grid], address);
+  };
+  const auto collect = [&](std::uint64_t address, const CellResponse& response) {
+    append(map.grids[grid_of(address)], response);
+    if (hooks.progress) hooks.progress(address + 1, total);
+  };
+  return transport::work_in_order(total, run.threads, hooks.stop, trace, collect) == total;
+}
+
+/// Whether the map is traced backward. @throws InputError where that is requested and not exact
+bool traces_backward(const scene::Scene& scene, MapDirection direction) {
+  if (direction == MapDirection::forward) return false;
+  const std::string why = why_not_backward(scene);
+  if (why.empty()) return true;
+  if (direction == MapDirection::automatic) return false;
+  throw core::InputError({{},
+                          "light cannot be traced backward from the channels: " + why,
+                          "trace the map forward, from its cells"});
+}
+
 }  // namespace
+
+Eigen::AlignedBox3d cell_box(const ResponseGrid& grid, std::size_t cell) {
+  const std::size_t z = cell % grid.cells[2], rest = cell / grid.cells[2];
+  const core::Vec3 at(static_cast<double>(rest / grid.cells[1]), static_cast<double>(rest % grid.cells[1]),
+                      static_cast<double>(z));
+  const core::Vec3 low = grid.low + grid.pitch.cwiseProduct(at);
+  return {low, core::Vec3(low + grid.pitch)};
+}
+
+core::Estimate ResponseGrid::estimate(std::size_t cell, std::size_t response) const {
+  if (probabilities.empty()) return core::binomial_estimate(detected[response], photons[cell]);
+  return {double{probabilities[response]}, double{probability_errors[response]}};
+}
 
 std::vector<ResponseGrid> lay_grids(const scene::Scene& scene, const std::vector<core::RegionId>& regions,
                                     double pitch_mm) {
@@ -197,33 +247,17 @@ ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core
   ResponseMap map;
   for (const tally::ReadoutChannel& channel : channels.list) map.channels.push_back(channel.name);
   map.seed = run.seed;
-  map.photons_per_cell = settings.photons_per_cell;
+  if (traces_backward(scene, settings.direction))
+    map.photons_per_channel = settings.photons_per_channel;
+  else
+    map.photons_per_cell = settings.photons_per_cell;
   map.delays_kept = settings.delays_kept;
   map.unpolarised = unpolarised;
   map.grids = lay_grids(scene, regions, settings.pitch_mm);
-  refuse_too_large(map.grids, map.channels.size(), settings);
-
-  std::vector<CellTracer> tracers;
-  std::vector<std::uint64_t> first;  // address of the first cell of each grid, and the end
-  std::uint64_t total = 0;
-  for (const ResponseGrid& grid : map.grids) {
-    tracers.emplace_back(scene, channels, map, grid, run);
-    first.push_back(total);
-    total += grid.size();
-  }
-  const auto grid_of = [&](std::uint64_t address) {
-    return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), address) - first.begin()) -
-           1;
-  };
-  const auto trace = [&](std::uint64_t address) {
-    const std::size_t grid = grid_of(address);
-    return tracers[grid].trace(address - first[grid], address);
-  };
-  const auto collect = [&](std::uint64_t address, const CellResponse& response) {
-    append(map.grids[grid_of(address)], response);
-    if (hooks.progress) hooks.progress(address + 1, total);
-  };
-  if (transport::work_in_order(total, run.threads, hooks.stop, trace, collect) < total) map.grids.clear();
+  refuse_too_large(map);
+  const bool complete = map.backward() ? trace_backward(scene, channels, run, hooks, map)
+                                       : trace_forward(scene, channels, run, hooks, map);
+  if (!complete) map.grids.clear();
   return map;
 }
 

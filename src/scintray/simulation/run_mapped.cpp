@@ -57,11 +57,12 @@ class EventMaker {
                                   "\", which the response map does not cover",
                               "build a map with all parts that scintillate"});
     response_.at(deposit.position, deposit.region, seen);
-    double share = 1.0;  // of the photons not detected by the channels so far
+    // Of the photons not detected by the channels so far: the errors of a map may sum up to more than 1.
+    double share = 1.0;
     for (std::uint32_t channel = 0; channel < seen.size(); ++channel) {
       const double probability = seen[channel].probability();
-      if (probability <= 0.0) continue;
-      const std::uint64_t detected = core::sample_binomial(photons, probability / share, rng);
+      if (probability <= 0.0 || share <= 0.0) continue;
+      const std::uint64_t detected = core::sample_binomial(photons, std::min(1.0, probability / share), rng);
       photons -= detected;
       share -= probability;
       if (detected > 0) times_of(deposit, channel, detected, seen[channel], rng, tally);

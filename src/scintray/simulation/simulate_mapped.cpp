@@ -102,8 +102,10 @@ SimulationOptions without_photons(SimulationOptions options) {
 std::string origin_note(const std::filesystem::path& path, const ResponseFile& response) {
   const ResponseMap& map = response.map;
   return "events from the response map " + path.filename().string() + " (ScintRay " + response.version +
-         ", seed " + std::to_string(map.seed) + ", " + std::to_string(map.photons_per_cell) +
-         " photons in each cell); no photon was traced for them";
+         ", seed " + std::to_string(map.seed) + ", " +
+         (map.backward() ? std::to_string(map.photons_per_channel) + " photons backward from each channel"
+                         : std::to_string(map.photons_per_cell) + " photons in each cell") +
+         "); no photon was traced for them";
 }
 
 }  // namespace
@@ -114,9 +116,13 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
   Simulation simulation(file, without_photons(options.simulation));
   const auto point = simulation.point(0);
   const scene_file::SceneSpec& spec = point->spec();
-  return {build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
-                             options.settings, point->settings(), options.hooks),
-          core::version(), spec.file.string(), file.text()};
+  ResponseFile built{
+      build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
+                         options.settings, point->settings(), options.hooks),
+      core::version(), spec.file.string(), file.text()};
+  if (options.settings.direction == MapDirection::automatic && !built.map.backward())
+    built.forward_because = why_not_backward(point->scene());
+  return built;
 }
 
 void require_same_scene(const scene_file::SceneFile& file, const ResponseFile& response) {

@@ -350,6 +350,13 @@ Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, con
   return end_of_step(scene, propagate(scene, photon, limits), photon, rng, records);
 }
 
+Step interact_at(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon, core::Rng& rng) {
+  Propagation there;
+  there.end = PropagationEnd::boundary;
+  there.triangle = triangle;
+  return end_of_step(scene, there, photon, rng, nullptr);
+}
+
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records) {
   const core::RegionId from = photon.region;

@@ -59,4 +59,10 @@ struct PropagationLimits {
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng,
           const PropagationLimits& limits = {}, source::PhotonRecords* records = nullptr);
 
+/// The interaction of a photon that is on a triangle of its region's boundary and heads out of the region.
+/// The photon may also be in an opaque region, whose light starts at its boundary; photon.optics then has the
+/// index with which it arrives.
+/// @param triangle  of the region's boundary, on which photon.position lies
+Step interact_at(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon, core::Rng& rng);
+
 }  // namespace scintray::transport

@@ -35,8 +35,10 @@ def _guarded(scene: Scene, work: Any) -> Any:
 class ResponseMap:
     """Detection of light from each cell of the parts that scintillate, traced once (docs/response_maps.md).
 
-    ``channels`` (names), ``photons_per_cell``, ``parts`` (names); ``grids`` are dictionaries by part with ``low_mm``,
-    ``pitch_mm``, ``photons`` (x, y, z: emitted in each cell; 0: empty) and ``detected`` (x, y, z, channel).
+    ``channels`` (names), ``photons_per_cell`` (0: traced backward), ``photons_per_channel`` (0: traced forward),
+    ``parts`` (names); ``grids`` are dictionaries by part with ``low_mm``, ``pitch_mm``, ``photons`` (x, y, z: emitted
+    in each cell; 0: empty) and ``detected`` (x, y, z, channel); traced backward also with ``probability`` and
+    ``probability_error`` (x, y, z, channel).
     """
 
     def __init__(self, core: Any) -> None:
@@ -44,6 +46,7 @@ class ResponseMap:
         self._file: Optional[str] = None
         self.channels: List[str] = core.channels()
         self.photons_per_cell: int = core.photons_per_cell()
+        self.photons_per_channel: int = core.photons_per_channel()
         self.grids: Dict[str, Dict[str, Any]] = {}
         for i in range(core.grids()):
             grid = core.grid(i)
@@ -52,15 +55,20 @@ class ResponseMap:
 
     @classmethod
     def build(cls, scene: Union[Scene, PathLike], *, pitch_mm: float = 1.0, photons_per_cell: int = 10_000,
-              delays: int = 64, threads: Optional[int] = None, seed: Optional[int] = None,
+              delays: int = 64, direction: str = "automatic", photons_per_channel: int = 200_000,
+              threads: Optional[int] = None, seed: Optional[int] = None,
               progress: Progress = None) -> "ResponseMap":
-        """Traces the map of a scene, in cells of at most ``pitch_mm``. Raises InputError; Cancelled."""
+        """Traces the map of a scene, in cells of at most ``pitch_mm``: ``direction`` "forward" from the cells,
+        "backward" from the channels, which needs surfaces that pass light both ways alike, or "automatic": backward
+        where that is so. Raises InputError; Cancelled.
+        """
         pitch = float(numbers([pitch_mm], "pitch_mm", (1,), "mm")[0])
         if pitch <= 0:
             raise InputError(f"pitch_mm is {pitch}; expected above 0", "give the edge of a cell in mm")
         return cls(_guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.build_response(
             text, file, pitch, positive_integer(photons_per_cell, "photons_per_cell"),
-            positive_integer(delays, "delays"), positive_integer(threads, "threads"), seed, call))))
+            positive_integer(delays, "delays"), direction,
+            positive_integer(photons_per_channel, "photons_per_channel"), positive_integer(threads, "threads"), seed, call))))
 
     @classmethod
     def read(cls, path: PathLike) -> "ResponseMap":
@@ -77,6 +85,8 @@ class ResponseMap:
         """Share of the light of each cell that each channel detects (x, y, z, channel); nan in empty cells."""
         grid = self.grids[part]
         emitted = grid["photons"].astype(float)[..., np.newaxis]
+        if "probability" in grid:
+            return np.where(emitted > 0, grid["probability"], np.nan)
         return np.divide(grid["detected"], emitted, out=np.full(grid["detected"].shape, np.nan), where=emitted > 0)
 
     def run(self, scene: Union[Scene, PathLike], *, output: Optional[PathLike] = None, threads: Optional[int] = None,
