@@ -37,21 +37,21 @@ class Repairer {
   RepairedMesh run() {
     result_.after = result_.before;
     if (result_.before.sound() && settings_.weld_mm == 0.0) return std::move(result_);
-    constexpr std::size_t kSteps = 6;
+    constexpr std::size_t kRepairSteps = 6;
     weld();
     remove_flat();
-    core::report_activity("repairing: edges", 1, kSteps);
+    core::report_activity("repairing: edges", 1, kRepairSteps);
     clear_edges();
-    core::report_activity("repairing: holes", 2, kSteps);
+    core::report_activity("repairing: holes", 2, kRepairSteps);
     fill();
     clear_edges();  // covers of adjacent holes can touch
-    core::report_activity("repairing: bodies and triangles that cross", 3, kSteps);
+    core::report_activity("repairing: bodies and triangles that cross", 3, kRepairSteps);
     resolve_crossings();
-    core::report_activity("repairing: orientation", 4, kSteps);
+    core::report_activity("repairing: orientation", 4, kRepairSteps);
     remove_flat();
     orient("");
     weld_vertices(mesh(), rounding_length(mesh()));  // removes vertices that nothing uses
-    core::report_activity("repairing: examining the result", 5, kSteps);
+    core::report_activity("repairing: examining the result", 5, kRepairSteps);
     result_.after = diagnose(mesh());
     return std::move(result_);
   }
