@@ -194,9 +194,7 @@ void add_mapping(py::module_& module) {
                                   const Threads& threads, const Number& seed, const py::object& progress) {
     const auto known = core::find_word(simulation::kMapDirections, direction);
     if (!known)
-      throw core::InputError({{},
-                              "direction is \"" + direction + "\"",
-                              "use " + core::join(core::word_list(simulation::kMapDirections), ", ")});
+      throw core::unknown_name({}, "direction", direction, core::word_list(simulation::kMapDirections));
     return build_map({text, file}, {pitch_mm, photons, delays, *known, channel_photons},
                      options_of(threads, seed, {}, {}), progress);
   });
