@@ -53,7 +53,7 @@ void check_alike(const MappedScene& scene, const ResponseMap& forward, const Res
 }
 
 /// A slab of 8 x 8 x 4 mm with four sensors below it, behind `between` (another part, or nothing).
-std::string slab(const std::string& surface, double below_mm, const std::string& more) {
+std::string sensors_under_slab(const std::string& surface, double below_mm, const std::string& more) {
   std::string text = fmt::format(R"(
 ambient = "vacuum"
 [[part]]
@@ -90,12 +90,12 @@ factor = { angle = [0, 60], angle_unit = "deg", value = [1, 0.6] }
 }  // namespace
 
 TEST_CASE("Helmholtz reciprocity: channels of a white slab see its cells alike forward and backward") {
-  const MappedScene scene(slab("white", 0.0, ""));
+  const MappedScene scene(sensors_under_slab("white", 0.0, ""));
   check_alike(scene, scene.map({2.0, 20'000, 8}), scene.map(backward(2.0, 60'000, 8)));
 }
 
 TEST_CASE("Helmholtz reciprocity holds through grease, gaps and a grey wrapping") {
-  const MappedScene scene(slab("wrapped", 0.5, R"(
+  const MappedScene scene(sensors_under_slab("wrapped", 0.5, R"(
 [[part]]
 name = "grease"
 box = { low = ["-4 mm", "-4 mm", "-0.5 mm"], high = ["4 mm", "4 mm", "0 mm"] }
@@ -147,7 +147,7 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
 }
 
 TEST_CASE("Times of flight of a map traced backward have the mean of one traced forward") {
-  const MappedScene scene(slab("white", 0.0, ""));
+  const MappedScene scene(sensors_under_slab("white", 0.0, ""));
   const auto mean = [](const ResponseMap& map) {
     Moments times;
     for (const float delay : map.grids.front().delays_ns) times.add(double{delay});
@@ -162,7 +162,7 @@ TEST_CASE("Times of flight of a map traced backward have the mean of one traced 
 }
 
 TEST_CASE("A map traced backward has the same bits for 1, 2 and 7 threads") {
-  const MappedScene scene(slab("white", 0.0, ""));
+  const MappedScene scene(sensors_under_slab("white", 0.0, ""));
   const ResponseMap one = scene.map(backward(2.0, 500, 8), 1);
   for (const int threads : {2, 7}) {
     const ResponseMap other = scene.map(backward(2.0, 500, 8), threads);

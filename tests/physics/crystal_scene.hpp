@@ -51,7 +51,7 @@ photons = {5}
                      scene.source);
 }
 
-inline constexpr const char* kUnpolarised = "polarisation = \"unpolarised\"";
+inline constexpr const char* kUnpolarisedSource = "polarisation = \"unpolarised\"";
 
 struct RoughFace {
   std::string map;       ///< file
@@ -62,7 +62,7 @@ struct RoughFace {
 
 /// The crystal with a height map on its five free faces, light made about z_mm.
 inline std::string rough_crystal(double z_mm, const RoughFace& face, std::uint64_t photons) {
-  return crystal_scene({"lso_isotropic", "rough", slab(z_mm), photons, "", kUnpolarised}) +
+  return crystal_scene({"lso_isotropic", "rough", slab(z_mm), photons, "", kUnpolarisedSource}) +
          fmt::format(R"(
 [surfaces.rough]
 model = "height_map"

@@ -24,7 +24,7 @@ constexpr IndexPair kLsoToAir{1.82, 1.0};
 constexpr std::uint64_t kPhotons = 500'000;
 
 std::string crystal(double z_mm, const std::filesystem::path& table) {
-  return crystal_scene({"lso_isotropic", "tabulated", slab(z_mm), kPhotons, "", kUnpolarised}) +
+  return crystal_scene({"lso_isotropic", "tabulated", slab(z_mm), kPhotons, "", kUnpolarisedSource}) +
          fmt::format(R"(
 [surfaces.tabulated]
 model = "table"
