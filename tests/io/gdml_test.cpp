@@ -499,7 +499,7 @@ TEST_CASE("Geant4's own GDML files become scenes that are built, or that name wh
   cases[0] = {"tess.gdml", {}, 2};
   cases[0].options.media["AirinTest"] = "air";
   cases[1] = {"opticalsurfaces.gdml", {}, 2};
-  cases[2] = {"solids.gdml", {}, 22};
+  cases[2] = {"solids.gdml", {}, 26};  // its four twisted solids included
   cases[2].options.media = {{"Water", "glass"}, {"Air", "air"}};
   cases[2].options.skip_unsupported = true;
   cases[2].options.tessellation = {0.5, 15.0 * kDegree};
@@ -518,6 +518,5 @@ TEST_CASE("Geant4's own GDML files become scenes that are built, or that name wh
   }
   const auto solids = shared_file("data/meshes/geant4_gdml/solids.gdml");
   if (!solids) return;
-  check_contains(complaint_of([&] { gdml::draft_of_gdml(read_text(*solids), "solids.gdml", {}); }),
-                 "solid \"ttwistedbox\" (twistedbox)");
+  CHECK(complaint_of([&] { gdml::draft_of_gdml(read_text(*solids), "solids.gdml", {}); }).empty());
 }
