@@ -85,6 +85,27 @@ TEST_CASE("A response map comes back from its file as it was") {
   CHECK(std::isnan(probability[2]));
 }
 
+TEST_CASE("A response map traced backward comes back with its probabilities, and bad ones are refused") {
+  const auto path = scratch_folder("response_backward") / "map.h5";
+  ResponseFile file = made_up_map();
+  file.map.photons_per_cell = 0;
+  file.map.photons_per_channel = 25;
+  ResponseGrid& grid = file.map.grids[0];
+  grid.probabilities = {0.25f, 0.125f, 0.0f, 0.0f};
+  grid.probability_errors = {0.01f, 0.02f, 0.0f, 0.0f};
+  write_response(path, file);
+  const ResponseFile read = read_response(path);
+  CHECK(read.map.backward());
+  CHECK(read.map.photons_per_channel == 25);
+  CHECK(read.map.photons_per_cell == 0);
+  CHECK(read.map.grids[0].probabilities == grid.probabilities);
+  CHECK(read.map.grids[0].probability_errors == grid.probability_errors);
+  grid.probabilities[1] = 0.0f;
+  check_contains(refusal(path, file), {"probability", "photons_detected"});
+  grid.probabilities[1] = -1.0f;
+  check_contains(refusal(path, file), {"probability", "no probability"});
+}
+
 TEST_CASE("Response maps that contradict themselves, and files that are none, are refused with the reason") {
   const auto folder = scratch_folder("response_refused");
   const auto path = folder / "map.h5";
@@ -125,7 +146,7 @@ TEST_CASE("Response maps that contradict themselves, and files that are none, ar
     newer.commit();
   }
   check_contains(complaint_of([&] { read_response(folder / "newer.h5"); }),
-                 "format version 2 (written by ScintRay 9.8.7)");
+                 "format version 3 (written by ScintRay 9.8.7)");
 }
 
 TEST_CASE("A response map fits scenes that differ only in what does not affect light transport") {
