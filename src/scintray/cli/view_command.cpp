@@ -60,12 +60,12 @@ void view_scene(const ViewOptions& options) {
       write_view(options, {spec.title, view_parts(placed), {}, marks_of(error.problems()), {}});
     throw;
   }
-  write_view(options, {point->spec().title,
-                       view_parts(point->built()->placed),
-                       with_progress("tracing paths",
-                                     [&] { return simulation::photon_paths(*point, options.paths); }),
-                       marks_of(find_gaps(*point).warnings),
-                       {}});
+  write_view(options,
+             {point->spec().title,
+              view_parts(point->built()->placed),
+              with_progress("tracing paths", [&] { return simulation::photon_paths(*point, options.paths); }),
+              marks_of(find_gaps(*point).warnings),
+              {}});
 }
 
 }  // namespace

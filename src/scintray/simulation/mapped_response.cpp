@@ -96,8 +96,7 @@ void MappedResponse::at(const core::Vec3& position, core::RegionId region,
       if (detected == 0) continue;
       const std::uint32_t kept = map_.kept(detected);
       PlaceResponse& seen = response[channel];
-      seen.probability_ +=
-          backward ? corner.weight * grid.data->probabilities[entry] : per_photon * detected;
+      seen.probability_ += backward ? corner.weight * grid.data->probabilities[entry] : per_photon * detected;
       seen.earliest_ = std::min(seen.earliest_, double{grid.earliest[entry]});
       seen.cells_[seen.count_++] = {seen.probability_, {delay, kept}};
       delay += kept;
