@@ -130,10 +130,11 @@ TEST_CASE("Law: a listed photon arrives after its own time and its way over c / 
 }
 
 TEST_CASE("A list of photons gives the same bits for any number of threads, and in shards") {
-  std::string csv = "event,x,y,z,direction_x,direction_y,direction_z,wavelength\n";
+  std::string csv = "event,x,y,z,direction_x,direction_y,direction_z,wavelength,time\n";
   for (int i = 0; i < 3000; ++i)
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", i * 7 % 40, 0.1 * (i % 11), -0.2 * (i % 7),
-                       -1.0 + 0.4 * (i % 6), std::sin(i), std::cos(3 * i), std::sin(2 * i + 1), 400 + i % 50);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", i * 7 % 40, 0.1 * (i % 11), -0.2 * (i % 7),
+                       -1.0 + 0.4 * (i % 6), std::sin(i), std::cos(3 * i), std::sin(2 * i + 1), 400 + i % 50,
+                       0.01 * i);
   const std::string text = scene_with("divided.csv", csv, "[run]\nphoton_list = true\n");
   const auto run = [&](int threads) {
     SimulationOptions options;
