@@ -34,6 +34,7 @@ RunSpec read_run(const config::TomlTable& scene) {
   run.efficiency_at_birth = table->boolean("efficiency_at_birth", true);
   run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
   run.photon_list = table->boolean("photon_list", false);
+  run.photons = read_photon_list(*table, run.photon_list);
   run.photon_history = table->boolean("photon_history", false);
   constexpr std::int64_t kMostPaths = 100'000;
   const std::int64_t paths = table->integer("paths", 0);

@@ -45,12 +45,17 @@ std::vector<tally::OmittedEffect> get_omitted_effects(const core::h5::Group& poi
 
 tally::UntilResult get_until(const core::h5::Group& point) {
   const core::h5::Group group = point.open_group("until");
-  const std::string fate = group.string_attribute("", "share_of");
-  int index = 0;
-  while (index < core::kFateCount && fate != core::fate_name(core::fate_at(index))) ++index;
-  require_record(index < core::kFateCount, "until is of a fate that does not exist");
   tally::UntilResult until;
-  until.fate = core::fate_at(index);
+  if (group.has_attribute("", "error_of")) {
+    until.of = group.string_attribute("", "error_of");
+    until.unit = group.string_attribute("", "absolute_error_unit");
+  } else {
+    const std::string fate = group.string_attribute("", "share_of");
+    int index = 0;
+    while (index < core::kFateCount && fate != core::fate_name(core::fate_at(index))) ++index;
+    require_record(index < core::kFateCount, "until is of a fate that does not exist");
+    until.fate = core::fate_at(index);
+  }
   const auto names = group.read_strings("condition");
   const auto goal = group.read<double>("goal"), reached = group.read<double>("reached");
   const auto met = group.read<std::uint8_t>("met");

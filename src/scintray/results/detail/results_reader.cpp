@@ -95,6 +95,10 @@ class PointReader {
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
+    point.events_in_medium = core::IdVector<core::MediumId, tally::EventShare>(
+        event_shares("absorbed_in_medium", header_.media.size()));
+    point.events_at_surface = core::IdVector<core::SurfaceId, tally::EventShare>(
+        event_shares("absorbed_at_surface", header_.surfaces.size()));
     point.shifted_in_medium =
         core::IdVector<core::MediumId, optics::ShiftCount>(shifts("shifted_in_medium", header_.media.size()));
     point.shifted_at_surface = core::IdVector<core::SurfaceId, optics::ShiftCount>(
@@ -146,6 +150,18 @@ class PointReader {
       sum += count;
     }
     require(sum == total, what);
+  }
+
+  /// Sums over events of the photons absorbed at places; empty in files without them.
+  std::vector<tally::EventShare> event_shares(const std::string& name, std::size_t size) const {
+    std::vector<tally::EventShare> shares;
+    if (!group_.has(name + "_event_squares")) return shares;
+    const auto squares = group_.read<std::uint64_t>(name + "_event_squares"),
+               products = group_.read<std::uint64_t>(name + "_event_products");
+    require(squares.size() == size && products.size() == size,
+            "the sums over events of " + name + " do not match it");
+    for (std::size_t i = 0; i < size; ++i) shares.push_back({squares[i], products[i]});
+    return shares;
   }
 
   /// Every photon has one fate, and what is counted by fate is counted by place, too.
@@ -261,6 +277,12 @@ class PointReader {
       count.detected = detected[i];
       count.not_detected = not_detected[i];
     }
+    if (group.has("detected_event_squares"))
+      format::for_each_face_event_column([&](const char* name, const auto& member) {
+        const auto column = group.read<std::uint64_t>(name);
+        require(column.size() == counts.size(), "the columns of sensor_faces differ in length");
+        for (std::size_t i = 0; i < column.size(); ++i) member(counts[i]) = column[i];
+      });
     return counts;
   }
 
@@ -369,18 +391,6 @@ ResultsStatus read_results_status(const std::filesystem::path& path) {
   if (status.has_photon_list) status.listed_photons = root.open_group("photons").shape("point").at(0);
   if (root.has("events")) status.listed_events = root.open_group("events").shape("point").at(0);
   return status;
-}
-
-std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
-                                                std::uint64_t count) {
-  const core::h5::File file = format::open_results(path);
-  const core::h5::Group root = file.root();
-  if (!root.has("photons"))
-    throw format::lacking(path, "this result has no list of detected photons",
-                          "request the list when running the scene");
-  auto photons = format::read_rows<tally::DetectedPhoton>(root.open_group("photons"), offset, count);
-  if (!photons) throw format::damaged(path, "the columns of photons differ in length");
-  return std::move(*photons);
 }
 
 std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path) {
