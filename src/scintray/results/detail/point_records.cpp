@@ -78,4 +78,16 @@ tally::EventFates get_event_fates(const core::h5::Group& point) {
   return fates;
 }
 
+std::vector<tally::EventShare> get_event_shares(const core::h5::Group& point, const std::string& name,
+                                                std::size_t size) {
+  std::vector<tally::EventShare> shares;
+  if (!point.has(name + "_event_squares")) return shares;
+  const auto squares = point.read<std::uint64_t>(name + "_event_squares"),
+             products = point.read<std::uint64_t>(name + "_event_products");
+  require_record(squares.size() == size && products.size() == size,
+                 "the sums over events of " + name + " do not match it");
+  for (std::size_t i = 0; i < size; ++i) shares.push_back({squares[i], products[i]});
+  return shares;
+}
+
 }  // namespace scintray::results::format

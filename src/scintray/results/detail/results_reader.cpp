@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <type_traits>
 
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
@@ -95,6 +96,9 @@ class PointReader {
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
+    const auto event_shares = [&](const char* name, std::size_t size) {
+      return sound([&](const core::h5::Group& group) { return format::get_event_shares(group, name, size); });
+    };
     point.events_in_medium = core::IdVector<core::MediumId, tally::EventShare>(
         event_shares("absorbed_in_medium", header_.media.size()));
     point.events_at_surface = core::IdVector<core::SurfaceId, tally::EventShare>(
@@ -133,8 +137,8 @@ class PointReader {
   }
 
   /// A record of the point; a contradiction in it is a damaged file.
-  template <typename T>
-  T sound(T (*get_record)(const core::h5::Group&)) const {
+  template <typename GetRecord>
+  std::invoke_result_t<GetRecord, const core::h5::Group&> sound(const GetRecord& get_record) const {
     try {
       return get_record(group_);
     } catch (const std::invalid_argument& contradiction) {
@@ -150,18 +154,6 @@ class PointReader {
       sum += count;
     }
     require(sum == total, what);
-  }
-
-  /// Sums over events of the photons absorbed at places; empty in files without them.
-  std::vector<tally::EventShare> event_shares(const std::string& name, std::size_t size) const {
-    std::vector<tally::EventShare> shares;
-    if (!group_.has(name + "_event_squares")) return shares;
-    const auto squares = group_.read<std::uint64_t>(name + "_event_squares"),
-               products = group_.read<std::uint64_t>(name + "_event_products");
-    require(squares.size() == size && products.size() == size,
-            "the sums over events of " + name + " do not match it");
-    for (std::size_t i = 0; i < size; ++i) shares.push_back({squares[i], products[i]});
-    return shares;
   }
 
   /// Every photon has one fate, and what is counted by fate is counted by place, too.
