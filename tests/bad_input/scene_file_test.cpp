@@ -130,9 +130,9 @@ TEST_CASE("mistakes in run.until") {
   check("relative_error = @@1", {"above 0", "below 1"}, "\"1 %\"");
   check("relative_error = @@\"0 %\"", {"above 0", "below 1"}, "\"1 %\"");
   check("absolute_error = @@-0.1", {"above 0", "below 1"}, "\"1 %\"");
-  check("absolute_error = @@\"1 mm\"", "\"1 mm\"", "%");
+  check("absolute_error = @@\"1 mm\"", "\"mm\"", "%");
   check("wall_time = @@\"0 s\"", "not positive", "3600 s");
-  check("wall_time = @@3600", "unit", "ns");
+  check("wall_time = @@3600", {"integer 3600", "unit"}, "\"3600 ");
   check("photons = @@0", "at least 1", "positive");
   check("photons = @@1e5", "an integer", "without");
   check("fate = @@\"detcted\", photons = 5", "one of \"detected\"", "did you mean \"detected\"?");
@@ -141,8 +141,8 @@ TEST_CASE("mistakes in run.until") {
   check("of = @@\"fate\", photons = 5", "no error of it", "relative_error");
   check("of = @@\"ctr\", absolute_error = \"3 ps\"", {"result of events", "emits photons"}, "event source");
   check("of = @@\"photopeak\", relative_error = 0.1", {"result of events", "emits photons"}, "event source");
-  check("of = \"tally\", tally = @@\"exits\", relative_error = 0.1", {"tally", "\"exits\""}, "exit_angle");
-  check("of = \"tally\", tally = \"exit_angle\", bin = @@3, relative_error = 0.1", "no list", "axis");
+  check("of = \"tally\", tally = @@\"exits\", relative_error = 0.1", {"tally", "\"exits\""}, "crystal:exit");
+  check("of = \"tally\", tally = \"crystal:exit\", bin = @@3, relative_error = 0.1", "no list", "axis");
   check_mistake("seed = 7", "until = @@{ of = \"tally\", relative_error = 0.1 }", "no \"tally\"",
                 "add tally");
   check("relative_error = 0.1, @@bin = [3]", {"\"bin\"", "no meaning"}, "remove");

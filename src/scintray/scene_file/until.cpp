@@ -95,8 +95,8 @@ std::optional<UntilSpec> read_until(const config::TomlTable& run) {
   if (!has_error && !until.wall_time_s && !until.photons && !until.events)
     run.report("until", "\"until\" states no condition",
                "give relative_error, absolute_error, wall_time, photons or events");
-  else if (table->has("of") && !has_error)
-    table->report("of", "\"until\" names a result, but no error of it",
+  else
+    table->expect("of", has_error, "\"until\" names a result, but no error of it",
                   "give relative_error or absolute_error, or remove of");
   return until;
 }
