@@ -24,9 +24,17 @@ photons = 1000
 )" + run);
 }
 
+/// A shape whose inline table goes on in the next line, which TOML does not allow, in one line.
+inline std::string in_one_line(std::string shape) {
+  for (std::size_t at = shape.find(",\n"); at != std::string::npos; at = shape.find(",\n"))
+    shape[at + 1] = ' ';
+  return shape;
+}
+
 inline std::string part(const std::string& name, const std::string& shape, const std::string& medium = "n15",
                         const std::string& rest = "surface = \"flat\"\n") {
-  return "[[part]]\nname = \"" + name + "\"\n" + shape + "\nmedium = \"" + medium + "\"\n" + rest;
+  return "[[part]]\nname = \"" + name + "\"\n" + in_one_line(shape) + "\nmedium = \"" + medium + "\"\n" +
+         rest;
 }
 
 inline scene::BuiltScene build(const scene_file::SceneSpec& spec) {

@@ -41,9 +41,10 @@ struct LensShape {
   double thickness = 0.0;  ///< between the vertices, on the axis
   /// Radii of curvature of the lower and the upper face: above 0 convex, below 0 concave, 0 flat.
   double bottom_radius = 0.0, top_radius = 0.0;
-  double bottom_conic = 0.0, top_conic = 0.0;         ///< conic constants; 0: a sphere, -1: a paraboloid
-  std::vector<double> bottom_aspheric = {}, top_aspheric = {};  ///< terms of the depth in h^4, h^6 ..., mm^-3, mm^-5
-  int segments = 64;  ///< flat sides of a full circle, about the axis and along the faces
+  double bottom_conic = 0.0, top_conic = 0.0;  ///< conic constants; 0: a sphere, -1: a paraboloid
+  std::vector<double> bottom_aspheric = {},
+                      top_aspheric = {};  ///< terms of the depth in h^4, h^6 ..., mm^-3, mm^-5
+  int segments = 64;                      ///< flat sides of a full circle, about the axis and along the faces
   bool operator==(const LensShape&) const = default;
 };
 
@@ -111,10 +112,10 @@ TriMesh make_rounded_box(const core::Vec3& low, const core::Vec3& high, double r
 /// A round or square rod along a path of straight lines, bent at its corners along arcs.
 struct FibreShape {
   std::vector<core::Vec3> path = {};  ///< 2 points or more, mm
-  double bend_radius = 0.0;      ///< of the arcs, in the middle of the rod; for a path of 3 points or more
-  double radius = 0.0;           ///< of a round one; 0: square
-  double side = 0.0;             ///< of a square one, whose path lies in a plane
-  int segments = 64;             ///< flat sides of a full circle, about the rod and along the arcs
+  double bend_radius = 0.0;  ///< of the arcs, in the middle of the rod; for a path of 3 points or more
+  double radius = 0.0;       ///< of a round one; 0: square
+  double side = 0.0;         ///< of a square one, whose path lies in a plane
+  int segments = 64;         ///< flat sides of a full circle, about the rod and along the arcs
   bool operator==(const FibreShape&) const = default;
 };
 

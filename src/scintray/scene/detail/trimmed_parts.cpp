@@ -119,6 +119,7 @@ class TrimmedFaceFinder {
     std::vector<std::size_t> triangles;
     std::vector<double> outline_off;  ///< of each trim: largest distance of the triangles' edge from it
     double off = 0.0;                 ///< largest distance of its facets from it, and of their edges
+    double corners_off = 0.0;         ///< largest distance of its corners from it
   };
 
   Corners corners(std::size_t t) const {
@@ -179,9 +180,11 @@ class TrimmedFaceFinder {
       if (face.result.wall != wall) return "a round face of it has the part on both sides";
       face.off = std::max(face.off, mesh::facet_deviation(surface(face), corners(t)).distance_mm);
       for (const core::Vec3& corner : corners(t))
-        if (std::abs(surface(face).distance(corner)) > tolerance_)
-          return "its corners have moved off the surface";
+        face.corners_off = std::max(face.corners_off, std::abs(surface(face).distance(corner)));
     }
+    // Cuts of facets leave corners in the middle of these, but no farther off.
+    for (const Face& face : faces_)
+      if (face.corners_off > tolerance_ + face.off) return "its corners have moved off the surface";
     return {};
   }
 
