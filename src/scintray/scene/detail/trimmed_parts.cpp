@@ -174,8 +174,9 @@ class TrimmedFaceFinder {
       face.triangles.push_back(t);
       for (const core::Vec3& corner : corners(t)) face.result.corners.push_back(corner);
       if (!round) continue;
-      const core::Vec3 middle = (corners(t)[0] + corners(t)[1] + corners(t)[2]) / 3.0;
-      const bool wall = surface(face).gradient(middle).dot(doubled_area(corners(t))) < 0.0;
+      core::Vec3 outwards = core::Vec3::Zero();  // of a thin torus, the middle of a facet is beyond the tube
+      for (const core::Vec3& corner : corners(t)) outwards += surface(face).gradient(corner);
+      const bool wall = outwards.dot(doubled_area(corners(t))) < 0.0;
       if (is_new) face.result.wall = wall;
       if (face.result.wall != wall) return "a round face of it has the part on both sides";
       face.off = std::max(face.off, mesh::facet_deviation(surface(face), corners(t)).distance_mm);
