@@ -1,9 +1,12 @@
 #include "scintray/transport/batch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <string>
 
 #include "scintray/core/error.hpp"
-#include "scintray/scene/boundary.hpp"
+#include "scintray/scene/lane_surface_at.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/lane_width.hpp"
 
@@ -11,32 +14,41 @@ namespace scintray::transport {
 
 namespace {
 
-/// Photons on their way at once: enough to fill the lanes with photons of one kind of region, few enough for
-/// the first level of the cache.
-constexpr std::size_t kTravellers = 128;
+using Triple = LanePool::Numbers[3];
 
-LanePlanes lane_planes(const scene::Boundary& boundary) {
-  using Plane = scene::BoundingPlane;
-  static_assert(std::is_standard_layout_v<Plane> && offsetof(Plane, normal) == 0 &&
-                offsetof(Plane, offset) == 3 * sizeof(double) && sizeof(Plane) % sizeof(double) == 0);
-  return {reinterpret_cast<const double*>(boundary.planes.data()), sizeof(Plane) / sizeof(double),
-          static_cast<std::uint32_t>(boundary.planes.size()), boundary.opposite_planes};
+void put(const core::PlainVec3& from, Triple& to, std::size_t index) {
+  for (int axis = 0; axis < 3; ++axis) to[axis][index] = from[axis];
+}
+core::PlainVec3 vec(const Triple& from, std::size_t index) {
+  return {from[0][index], from[1][index], from[2][index]};
 }
 
-void copy(const core::PlainVec3& from, double (&to)[3]) {
-  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
+/// State of a random stream.
+struct StreamState {
+  std::array<std::uint64_t, 4> counter;
+  std::array<std::uint64_t, 2> key;
+  std::array<std::uint64_t, 4> buffer;
+  std::int64_t used;
+};
+static_assert(sizeof(StreamState) == sizeof(core::Rng));
+
+/// A region without planes, for lanes that have no photon yet.
+LaneRegion empty_region() {
+  static const LanePlanes planes{};
+  static const LaneFace faces[2] = {};
+  return {&planes, faces, 1};
 }
-core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
 }  // namespace
 
 Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width)
-    : scene_(scene), limits_(limits), propagate_(propagate_lanes(lane_width)) {
+    : scene_(scene), limits_(limits), run_lanes_(run_lanes(lane_width)), lane_scene_(scene), pool_{} {
   const std::vector<int>& widths = lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
-  for (const auto& accelerator : scene.accelerators)
-    most_planes_ = std::max(most_planes_, accelerator->plane_count());
+  for (LaneRegion& region : pool_.region) region = empty_region();
+  pool_.most_interactions = static_cast<double>(limits.interactions);
+  pool_.most_time_ns = limits.time_ns;
 }
 
 const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
@@ -45,144 +57,151 @@ const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream
   stream_ = stream;
   emit_ = emit;
   traced_.resize(count);
-  travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
-  least_sin2_.resize(travellers_.size() * most_planes_);
-  for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
-  while (!alone_.empty() || !waiting_.empty()) {
-    while (!alone_.empty()) {
-      const std::uint32_t traveller = alone_.back();
-      alone_.pop_back();
-      trace_alone(traveller);
-    }
-    if (!waiting_.empty()) trace_in_lanes();
+  travellers_.resize(LanePool::kPhotons);
+  for (std::size_t i = 0; i < LanePool::kPhotons; ++i) start_next(i);
+  while (some_in_lanes()) {
+    run_lanes_(pool_);
+    for (std::size_t i = 0; i < LanePool::kPhotons; ++i)
+      if (pool_.state[i] >= lane_state::kFirstWaiting) go_on_after_lanes(i);
   }
   return traced_;
 }
 
-void Batch::replace(std::uint32_t index) {
-  if (next_ == traced_.size()) return;
+bool Batch::some_in_lanes() const {
+  return std::any_of(std::begin(pool_.state), std::end(pool_.state),
+                     [](double state) { return state != lane_state::kEmpty; });
+}
+
+/// Starts photons at this index until one is in lanes, or none is left.
+void Batch::start_next(std::size_t index) {
   Traveller& traveller = travellers_[index];
-  traveller.number = next_++;
-  traveller.rng = stream_(traveller.number);
-  traveller.photon = emit_(traveller.number, traveller.rng);
-  traveller.segments = 0;
-  traveller.angles_of = {};
-  enqueue(index);
-}
-
-void Batch::enqueue(std::uint32_t index) {
-  const scene::Region& region = scene_.regions[travellers_[index].photon.region];
-  if (propagate_ && region.in_lanes)
-    waiting_.push_back({region.accelerator, index});
-  else
-    alone_.push_back(index);
-}
-
-void Batch::trace_alone(std::uint32_t index) {
-  Traveller& traveller = travellers_[index];
-  do {
-    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
-  } while (!propagate_ || !scene_.regions[traveller.photon.region].in_lanes);
-  enqueue(index);
-}
-
-void Batch::trace_in_lanes() {
-  in_lanes_.swap(waiting_);
-  waiting_.clear();
-  const auto before = [](const Waiting& a, const Waiting& b) { return a.accelerator < b.accelerator; };
-  if (!std::is_sorted(in_lanes_.begin(), in_lanes_.end(), before))
-    std::sort(in_lanes_.begin(), in_lanes_.end(), before);
-  for (auto first = in_lanes_.begin(); first != in_lanes_.end();) {
-    const auto last = std::find_if(first, in_lanes_.end(), [&](const Waiting& waiting) {
-      return waiting.accelerator != first->accelerator;
-    });
-    propagate(&*first, &*first + (last - first));
-    first = last;
+  pool_.state[index] = lane_state::kEmpty;
+  while (next_ < traced_.size()) {
+    traveller.number = next_++;
+    traveller.rng = stream_(traveller.number);
+    traveller.photon = emit_(traveller.number, traveller.rng);
+    traveller.has_numbers = false;
+    if (follow(index)) return;
   }
 }
 
-void Batch::propagate(const Waiting* first, const Waiting* last) {
-  const scene::Boundary& boundary = scene_.accelerators[first->accelerator]->boundary();
-  const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
-  work_.clear();
-  for (const Waiting* waiting = first; waiting != last; ++waiting)
-    work_.push_back(work_of(waiting->traveller));
-  propagate_(lane_planes(boundary), limits, work_.data(), work_.size());
-  for (std::size_t i = 0; i < work_.size(); ++i) finish(work_[i], boundary, first[i].traveller);
-}
-
-LaneWork Batch::work_of(std::uint32_t index) {
+/// Traces a photon alone until it is in lanes; false when it ends before.
+bool Batch::follow(std::size_t index) {
   Traveller& traveller = travellers_[index];
-  const source::Photon& photon = traveller.photon;
-  double* const least_sin2 = least_sin2_.data() + index * most_planes_;
-  if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
-    set_critical_angles(traveller, least_sin2);
-  LaneWork work;  // NOLINT(cppcoreguidelines-pro-type-member-init): the kernel sets the results
-  copy(photon.position, work.position);
-  copy(photon.ray.direction, work.direction);
-  copy(photon.ray.polarisation, work.polarisation);
-  work.path_mm = photon.path_mm;
-  work.time_ns = photon.time_ns;
-  work.depth_left = photon.optical_depth;
-  work.group_index = photon.optics.group_index;
-  work.attenuation_per_mm = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  work.interactions = photon.interactions;
-  copy(scene_.regions[photon.region].centre, work.centre);
-  work.least_sin2 = least_sin2;
-  return work;
+  while (!run_lanes_ || !scene_.regions[traveller.photon.region].in_lanes)
+    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return false;
+  enter_lanes(index);
+  return true;
 }
 
-void Batch::set_critical_angles(Traveller& traveller, double* least_sin2) const {
-  const source::Photon& photon = traveller.photon;
-  const scene::Region& region = scene_.regions[photon.region];
-  const scene::BoundaryLink* const links = scene_.links_of(region);
-  core::MediumId known_medium;
-  double known_sin2 = kNoTotalReflection;
-  for (const scene::BoundingPlane& plane : scene_.accelerator(region).boundary().planes) {
-    if (plane.triangles_begin != plane.triangles_end) {
-      *least_sin2++ = kManyRegions;
-      continue;
-    }
-    const core::MediumId medium = links[plane.first].smooth_to;
-    if (medium != known_medium) {
-      known_medium = medium;
-      known_sin2 = critical_sin2(scene_, medium, photon);
-    }
-    *least_sin2++ = known_sin2;
+void Batch::go_on_after_lanes(std::size_t index) {
+  Traveller& traveller = travellers_[index];
+  const double waiting_as = pool_.state[index];
+  leave_lanes(index);
+  if (waiting_as == lane_state::kCut) {
+    traced_[traveller.number] = {traveller.photon, {}, limits_.reached(traveller.photon)};
+    return start_next(index);
   }
-  traveller.angles_of = photon.region;
-  traveller.angles_nm = photon.wavelength_nm;
+  if (!goes_on(traveller, finish_step(waiting_as, index)) || !follow(index)) start_next(index);
 }
 
-void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t index) {
+/// The rest of the step of a photon that left the lanes.
+Step Batch::finish_step(double waiting_as, std::size_t index) {
   Traveller& traveller = travellers_[index];
   source::Photon& photon = traveller.photon;
-  photon.position = vec(work.position);
-  photon.ray.direction = vec(work.direction);
-  photon.ray.polarisation = vec(work.polarisation);
-  photon.path_mm = work.path_mm;
-  photon.time_ns = work.time_ns;
-  photon.optical_depth = work.depth_left;
-  photon.interactions = static_cast<std::uint32_t>(work.interactions);
-  traveller.segments += work.segments;
-  if (work.end == LaneEnd::unclear) return alone_.push_back(index);
+  const scene::Region& region = scene_.regions[photon.region];
+  if (waiting_as == lane_state::kUnclear) return step(scene_, photon, traveller.rng, limits_);
   Propagation propagation;
-  if (work.end != LaneEnd::bulk) {
-    propagation.end = work.end == LaneEnd::total ? PropagationEnd::total : PropagationEnd::boundary;
-    propagation.triangle = boundary.planes[work.plane].first;
-    propagation.cosine = work.cosine;
-  } else {
+  if (waiting_as == lane_state::kBulk) {
     propagation.end = PropagationEnd::bulk;
+    return end_of_step(scene_, propagation, photon, traveller.rng, nullptr);
   }
-  if (goes_on(traveller, end_of_step(scene_, propagation, photon, traveller.rng, nullptr)))
-    enqueue(index);
-  else
-    replace(index);
+  const BoundaryPlace at{lane_scene_.triangle(region, static_cast<std::size_t>(pool_.plane[index])),
+                         pool_.cos_before[index]};
+  Step taken;
+  if (waiting_as == lane_state::kBoundary) {
+    propagation.end = PropagationEnd::boundary;
+    propagation.triangle = at.triangle;
+    return end_of_step(scene_, propagation, photon, traveller.rng, nullptr);
+  }
+  if (waiting_as == lane_state::kCrossed) {
+    taken = cross_boundary(scene_, at, photon);
+  } else {
+    const scene::BoundaryLink& link = scene_.link(region, at.triangle);
+    const scene::LinkSurface surface =
+        scene::first_surface(scene_.interfaces[link.interface], link.from_back);
+    taken = absorb_at_boundary(scene_, at, surface.id, photon);
+  }
+  taken.segments = 0;  // counted by the lanes
+  return taken;
 }
 
-bool Batch::goes_on(Traveller& traveller, Step taken) {
-  taken.segments += traveller.segments;
-  traveller.segments = 0;
+void Batch::enter_lanes(std::size_t index) {
+  const Traveller& traveller = travellers_[index];
+  const source::Photon& photon = traveller.photon;
+  pool_.state[index] = lane_state::kPropagate;
+  put(photon.position, pool_.position, index);
+  put(photon.ray.direction, pool_.direction, index);
+  put(photon.ray.polarisation, pool_.polarisation, index);
+  put(scene_.regions[photon.region].centre, pool_.centre, index);
+  pool_.path_mm[index] = photon.path_mm;
+  pool_.time_ns[index] = photon.time_ns;
+  pool_.depth_left[index] = photon.optical_depth;
+  pool_.interactions[index] = photon.interactions;
+  pool_.segments[index] = 0.0;
+  pool_.index[index] = photon.optics.index;
+  pool_.group_index[index] = photon.optics.group_index;
+  pool_.attenuation_per_mm[index] = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  pool_.plane[index] = 0.0;
+  pool_.side[index] = 1.0;
+  pool_.region[index] = lane_scene_.region_of(photon, index);
+  give_numbers(index);
+}
+
+void Batch::leave_lanes(std::size_t index) {
+  Traveller& traveller = travellers_[index];
+  source::Photon& photon = traveller.photon;
+  photon.position = vec(pool_.position, index);
+  photon.ray.direction = vec(pool_.direction, index);
+  photon.ray.polarisation = vec(pool_.polarisation, index);
+  photon.path_mm = pool_.path_mm[index];
+  photon.time_ns = pool_.time_ns[index];
+  photon.optical_depth = pool_.depth_left[index];
+  photon.interactions = static_cast<std::uint32_t>(pool_.interactions[index]);
+  counts_.segments += static_cast<std::uint64_t>(pool_.segments[index]);
+  take_numbers(index);
+}
+
+/// Puts the photon's random stream into the pool, which may have it already, ahead of the photon.
+void Batch::give_numbers(std::size_t index) {
+  Traveller& traveller = travellers_[index];
+  const auto stream = std::bit_cast<StreamState>(traveller.rng);
+  pool_.drawn[index] = 4 * stream.counter[0] + static_cast<std::uint64_t>(stream.used) - 4;
+  if (traveller.has_numbers && stream.counter[0] <= pool_.counter[0][index]) return;
+  traveller.has_numbers = true;
+  for (std::size_t i = 0; i < 4; ++i) pool_.counter[i][index] = stream.counter[i];
+  for (std::size_t i = 0; i < 2; ++i) pool_.key[i][index] = stream.key[i];
+  if (stream.used == 4) return;
+  std::uint64_t* const numbers = pool_.numbers[index];
+  const std::size_t first = 4 * (stream.counter[0] - 1) % LanePool::kNumbers;
+  for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = stream.buffer[i];
+  if (first > 0) return;
+  for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = stream.buffer[i];
+}
+
+/// Sets the photon's random stream to where the pool has drawn up to.
+void Batch::take_numbers(std::size_t index) {
+  auto stream = std::bit_cast<StreamState>(travellers_[index].rng);
+  const std::uint64_t drawn = pool_.drawn[index], in_block = drawn % 4;
+  stream.counter[0] = (drawn + 3) / 4;
+  stream.used = static_cast<std::int64_t>(in_block == 0 ? 4 : in_block);
+  const std::size_t first = (drawn - in_block) % LanePool::kNumbers;
+  for (std::size_t i = 0; i < 4; ++i) stream.buffer[i] = pool_.numbers[index][first + i];
+  travellers_[index].rng = std::bit_cast<core::Rng>(stream);
+}
+
+/// True when the photon goes on after the step; else its end is noted.
+bool Batch::goes_on(const Traveller& traveller, const Step& taken) {
   TracedPhoton& traced = traced_[traveller.number];
   if (core::is_final(taken.event)) {
     traced = {traveller.photon, taken, std::nullopt};

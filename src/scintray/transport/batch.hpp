@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
-#include "scintray/scene/boundary.hpp"
-#include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lane_scene.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
@@ -26,8 +25,8 @@ struct BatchCounts {
 };
 
 /// Traces photons that need no record of their steps: the same photons, to the last bit, as step() does one
-/// by one, for any width of the lanes. Photons inside regions that are bounded by planes are propagated in
-/// lanes; everything else is done for each alone.
+/// by one, for any width of the lanes. Photons inside regions that are bounded by planes stay in the lanes of
+/// vector registers, with all that happens at surfaces for lanes; the rest is done for each alone.
 class Batch {
  public:
   /// @param limits      without `passed`
@@ -44,41 +43,31 @@ class Batch {
   const BatchCounts& counts() const { return counts_; }
 
  private:
-  /// A photon on its way.
+  /// A photon on its way; in lanes, as it entered them.
   struct Traveller {
     source::Photon photon;
     core::Rng rng{0, core::StreamKind::photon, 0};
     std::uint64_t number = 0;
-    std::uint32_t segments = 0;  ///< of the present step so far
-    core::RegionId angles_of;    ///< region and wavelength of its least_sin2_; none: not set
-    double angles_nm = 0.0;
-  };
-  /// A photon to be propagated in lanes.
-  struct Waiting {
-    core::AcceleratorId accelerator;
-    std::uint32_t traveller = 0;
+    bool has_numbers = false;  ///< numbers of its stream are in the pool
   };
 
-  void enqueue(std::uint32_t traveller);
-  void trace_alone(std::uint32_t traveller);
-  void trace_in_lanes();
-  void propagate(const Waiting* first, const Waiting* last);
-  LaneWork work_of(std::uint32_t traveller);
-  void set_critical_angles(Traveller& traveller, double* least_sin2) const;
-  void finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t traveller);
-  /// True when the photon goes on after the step; else its end is noted, and the next photon takes its place.
-  bool goes_on(Traveller& traveller, Step taken);
-  void replace(std::uint32_t traveller);
+  bool some_in_lanes() const;
+  void start_next(std::size_t index);
+  bool follow(std::size_t index);
+  void go_on_after_lanes(std::size_t index);
+  Step finish_step(double waiting_as, std::size_t index);
+  void enter_lanes(std::size_t index);
+  void leave_lanes(std::size_t index);
+  void give_numbers(std::size_t index);
+  void take_numbers(std::size_t index);
+  bool goes_on(const Traveller& traveller, const Step& taken);
 
   const scene::Scene& scene_;
   PropagationLimits limits_;
-  PropagateLanes propagate_;  ///< null: no lanes
-  std::size_t most_planes_ = 0;
-  std::vector<Traveller> travellers_;
-  std::vector<double> least_sin2_;  ///< per traveller and plane: critical angles, most_planes_ each
-  std::vector<std::uint32_t> alone_;
-  std::vector<Waiting> waiting_, in_lanes_;
-  std::vector<LaneWork> work_;
+  RunLanes run_lanes_;  ///< null: no lanes
+  LaneScene lane_scene_;
+  LanePool pool_;
+  std::vector<Traveller> travellers_;  ///< by their index in the pool
   std::vector<TracedPhoton> traced_;
   BatchCounts counts_;
   std::uint64_t next_ = 0;  ///< number of the next photon to start

@@ -1,4 +1,5 @@
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/lane_surface_at.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
 
 #include <algorithm>
@@ -105,18 +106,18 @@ bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& e
   return true;
 }
 
-/// Share of the area of a region's boundary that is smooth.
-double smooth_share(const Scene& scene, const Region& region) {
+/// Share of the area of a region's boundary whose surfaces are for lanes.
+double lanes_share(const Scene& scene, const Region& region) {
   const Accelerator& accelerator = scene.accelerator(region);
   const BoundaryLink* const links = scene.links_of(region);
-  double all = 0.0, smooth = 0.0;
+  double all = 0.0, in_lanes = 0.0;
   for (std::uint32_t i = 0; i < accelerator.size(); ++i) {
     const BoundaryTriangle t = accelerator.triangle(i);
     const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
     all += area;
-    if (links[i].smooth_to.has_value()) smooth += area;
+    if (lane_surface_at(scene, links[i])) in_lanes += area;
   }
-  return smooth / all;
+  return in_lanes / all;
 }
 
 /// Sets BoundaryLink::smooth_to and Region::in_lanes, which requires all regions.
@@ -128,7 +129,7 @@ void link_smooth_media(Scene& scene) {
   }
   for (Region& region : scene.regions)
     region.in_lanes =
-        !region.rotated && scene.accelerator(region).uses_planes() && smooth_share(scene, region) > 0.5;
+        !region.rotated && scene.accelerator(region).uses_planes() && lanes_share(scene, region) > 0.5;
 }
 
 }  // namespace
