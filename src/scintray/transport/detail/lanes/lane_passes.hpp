@@ -65,9 +65,26 @@ class LanePasses {
     now.state = load(pool_.state);
     const Mask begins = (now.state > Real(lane_state::kEmpty)) & (now.state < Real(lane_state::kFirstWaiting));
     if (!any(begins)) return any(now.state >= Real(lane_state::kFirstWaiting));
-    draw_ahead();
     now.light = {load(pool_.direction), load(pool_.polarisation)};
     now.side = load(pool_.side);
+    const auto in = [&now](double state) { return now.state == Real(state); };
+    if (any(begins & !in(lane_state::kPropagate))) interact(now);
+    // Between total reflections nothing is drawn.
+    for (Mask here = in(lane_state::kPropagate); any(here);) {
+      propagate(now, here);
+      here = in(lane_state::kPropagate);
+      if (!all(here)) break;
+    }
+    store(pool_.state, now.state);
+    store(pool_.side, now.side);
+    store(pool_.direction, now.light.direction);
+    store(pool_.polarisation, now.light.polarisation);
+    return any(now.state >= Real(lane_state::kFirstWaiting));
+  }
+
+  /// The stages at a surface.
+  void interact(Now& now) {
+    draw_ahead();
     load_faces(now);
     const auto in = [&now](double state) { return now.state == Real(state); };
     if (const Mask here = in(lane_state::kReflector); any(here)) reflect_at_reflector(now, here);
@@ -79,12 +96,6 @@ class LanePasses {
                           (load(pool_.time_ns) <= Real(pool_.most_time_ns));
       now.state = select(here, select(within, Real(lane_state::kPropagate), Real(lane_state::kCut)), now.state);
     }
-    if (const Mask here = in(lane_state::kPropagate); any(here)) propagate(now, here);
-    store(pool_.state, now.state);
-    store(pool_.side, now.side);
-    store(pool_.direction, now.light.direction);
-    store(pool_.polarisation, now.light.polarisation);
-    return any(now.state >= Real(lane_state::kFirstWaiting));
   }
 
   // Random numbers.
@@ -98,17 +109,22 @@ class LanePasses {
       using Block = core::PhiloxBlock<Bits>;
       const Block block({blocks, load(pool_.counter[1]), load(pool_.counter[2]), load(pool_.counter[3])},
                         {load(pool_.key[0]), load(pool_.key[1])});
+      const Mask takes = ready <= Real(static_cast<double>(LanePool::kNumbers - 4));
+      store(pool_.counter[0], blocks + taken(takes));
       alignas(64) std::uint64_t words[4][kWidth];
+      alignas(64) std::uint64_t number[kWidth];
       alignas(64) double left[kWidth];
       for (int i = 0; i < 4; ++i) block.words[i].lanes.store_aligned(words[i]);
+      blocks.lanes.store_aligned(number);
       ready.lanes.store_aligned(left);
       for (std::size_t lane = 0; lane < kWidth; ++lane)
-        if (left[lane] <= static_cast<double>(LanePool::kNumbers - 4)) add_block(lane, words);
+        if (left[lane] <= static_cast<double>(LanePool::kNumbers - 4)) add_block(lane, number[lane], words);
     }
   }
-  void add_block(std::size_t lane, const std::uint64_t (&words)[4][kWidth]) {
+  static Bits taken(const Mask& takes) { return bits_of(one_if(takes) + Real(0x1.0p52)) & Bits(1); }
+  void add_block(std::size_t lane, std::uint64_t number, const std::uint64_t (&words)[4][kWidth]) {
     std::uint64_t* const numbers = pool_.numbers[at_ + lane];
-    const std::uint64_t first = (pool_.counter[0][at_ + lane]++ * 4) % LanePool::kNumbers;
+    const std::uint64_t first = number * 4 % LanePool::kNumbers;
     for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = words[i][lane];
     if (first > 0) return;
     for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = words[i][lane];
