@@ -52,6 +52,8 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
                    energy_unit: str = "MeV", time_unit: Optional[str] = None) -> Deposits:
     """Energy deposits of a tree of hits, for ``run(deposits=...)``.
 
+    Raises MissingPackage without uproot; InputError for a tree or branches that are not there.
+
     Parameters
     ----------
     path : ROOT file
@@ -63,8 +65,6 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
         where the tree has it
     length_unit, energy_unit : of the tree; mm and MeV, as GATE and Geant4 write
     time_unit : of the tree; None: s for GATE 9, ns for GATE 10 and for ``columns``
-
-    Raises MissingPackage without uproot; InputError for a tree or branches that are not there.
     """
     uproot = _uproot("read_root_hits()")
     with uproot.open(os.fspath(path)) as file:

@@ -97,6 +97,9 @@ class Deposits:
 class PhotonList:
     """Photons of another program: one row each, rows of one event number are one event.
 
+    Raises InputError for other shapes, numbers that are not finite, and unknown units; what else is wrong is found,
+    with its row, when the scene is built (docs/gamma_sources.md).
+
     Parameters
     ----------
     position : (n, 3) in ``length_unit``, in the coordinates of the scene
@@ -106,9 +109,6 @@ class PhotonList:
     event : (n,) whole numbers from 0; None: the scene's source has ``photons_per_event``
     time : (n,) in ``time_unit``; None: all at 0
     polarisation : (n, 3), of any length; a row of zeros, and None: drawn at random across the direction
-
-    Raises InputError for other shapes, numbers that are not finite, and unknown units; what else is wrong is found,
-    with its row, when the scene is built (docs/gamma_sources.md).
     """
 
     def __init__(self, position: Any, direction: Any, wavelength: Any = None, *, energy: Any = None, event: Any = None,
