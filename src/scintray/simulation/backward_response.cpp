@@ -159,6 +159,8 @@ std::string why_not_backward(const scene::Scene& scene) {
     const detector::Sensor& sensor = scene.sensors[id];
     if (sensor.converts_absorbed())
       return "sensor \"" + sensor.name + "\" converts light that surfaces absorb";
+    if (sensor.over_face)
+      return "the efficiency of sensor \"" + sensor.name + "\" depends on the place on its face";
   }
   const tally::ReadoutChannels channels(scene);
   for (const core::InterfaceId id : scene.interfaces.ids()) {
