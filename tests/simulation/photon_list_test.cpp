@@ -75,13 +75,13 @@ std::uint64_t detected(const tally::EventRecord& event, std::size_t channel) {
 
 TEST_CASE("Law: listed polarisations at Brewster's angle: all of p passes a plate, (1 - R) / (1 + R) of s") {
   // ((n^2 - 1) / (n^2 + 1))^2 is R of s, and p is not reflected; both reflections of the plate are summed.
-  constexpr int kPhotons = 4000;
+  constexpr int kListPhotons = 4000;
   const double n2 = 1.5 * 1.5, reflectance = std::pow((n2 - 1.0) / (n2 + 1.0), 2);
   const double sine = 1.5 / std::sqrt(1.0 + n2), cosine = 1.0 / std::sqrt(1.0 + n2);
   std::string csv =
       "event,x,y,z,direction_x,direction_y,direction_z,polarisation_x,polarisation_y,polarisation_z,"
       "wavelength,time\n";
-  for (int i = 0; i < 2 * kPhotons; ++i) {
+  for (int i = 0; i < 2 * kListPhotons; ++i) {
     const bool p = i % 2 == 0;
     csv += fmt::format("{},0,0,-1,{:.17g},0,{:.17g},{:.17g},{},{:.17g},420,{}\n", p ? 0 : 1, sine, cosine,
                        p ? cosine : 0.0, p ? 0 : 1, p ? -sine : 0.0, 7);
@@ -95,18 +95,18 @@ TEST_CASE("Law: listed polarisations at Brewster's angle: all of p passes a plat
   for (const std::size_t event : {0, 1})
     for (std::size_t i = 0; i < channels.size(); ++i)
       (channels[i].name.starts_with("above") ? above : below)[event] += detected(memory.event_list[event], i);
-  CHECK(above[0] == kPhotons);
-  CHECK(above[1] + below[1] == kPhotons);
+  CHECK(above[0] == kListPhotons);
+  CHECK(above[1] + below[1] == kListPhotons);
   const double share = (1.0 - reflectance) / (1.0 + reflectance);
   // Five standard errors: a correct program fails once in 1.7 million.
-  CHECK(std::abs(static_cast<double>(above[1]) - share * kPhotons) <
-        5.0 * std::sqrt(kPhotons * share * (1.0 - share)));
+  CHECK(std::abs(static_cast<double>(above[1]) - share * kListPhotons) <
+        5.0 * std::sqrt(kListPhotons * share * (1.0 - share)));
   const tally::PointResult& point = memory.result.points.at(0);
   CHECK(point.energy.events == 2);
   CHECK(point.energy.silent == 0);
   CHECK(point.energy.detected.count == 2);
   CHECK(memory.event_list[0].energy_keV == 0.0F);
-  CHECK(memory.event_list[0].emitted == kPhotons);
+  CHECK(memory.event_list[0].emitted == kListPhotons);
 }
 
 TEST_CASE("Law: a listed photon arrives after its own time and its way over c / n") {
