@@ -4,7 +4,8 @@
 # installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
 # A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
 # NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1.
-# NOT_IN_THREADS: no test under the thread sanitizer links it (it stands above simulation).
+# NOT_IN_THREADS: in the tests of what runs on many threads one thread alone runs it, before or after the others; the
+# thread sanitizer is left out of it.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
@@ -18,14 +19,16 @@ target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
 if(SCINTRAY_SANITIZE STREQUAL "address")
+  # Of undefined behaviour, what the address sanitizer does not find by itself: tests of each pointer before it is used
+  # would take a third of the time of compiling.
   target_compile_options(scintray_options INTERFACE
-    $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
+    $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>
+    $<BUILD_INTERFACE:-fno-sanitize=alignment,nonnull-attribute,null,object-size,pointer-overflow,returns-nonnull-attribute,vptr>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 elseif(SCINTRAY_SANITIZE STREQUAL "thread")
-  # What no test of threads runs is compiled all the same, as that is also the build by clang: without the sanitizer.
-  set(compiled_only $<BOOL:$<TARGET_PROPERTY:SCINTRAY_COMPILED_ONLY>>)
+  # This is also the build by clang of each file: what one thread runs by itself is compiled without the sanitizer.
   target_compile_options(scintray_options INTERFACE
-    $<BUILD_INTERFACE:$<IF:${compiled_only},-O0;-g0,-fsanitize=thread>>)
+    $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:SCINTRAY_NOT_IN_THREADS>>,-O0;-g0,-fsanitize=thread>>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
 elseif(SCINTRAY_SANITIZE)
   message(FATAL_ERROR "SCINTRAY_SANITIZE is \"${SCINTRAY_SANITIZE}\"; it may be address, thread or empty")
@@ -70,8 +73,8 @@ function(scintray_module name)
   if(MODULE_NOT_TRACING)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> ${scintray_slow_to_compile})
   endif()
-  if(MODULE_NOT_IN_THREADS)
-    set_target_properties(${target} PROPERTIES SCINTRAY_COMPILED_ONLY ON)
+  if(MODULE_NOT_IN_THREADS AND SCINTRAY_SANITIZE STREQUAL "thread")
+    set_target_properties(${target} PROPERTIES SCINTRAY_NOT_IN_THREADS ON)
     scintray_precompile(${target} not_in_threads)
   elseif(MODULE_NOT_TRACING)
     scintray_precompile(${target} not_tracing)
