@@ -1,9 +1,11 @@
-# scintray_module(NAME [NOT_TRACING] [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]
+# scintray_module(NAME [NOT_TRACING] [NOT_IN_THREADS] [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]
 # [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
 # Headers are included as "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not
 # installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
 # A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
 # NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1.
+# NOT_IN_THREADS: in the tests of what runs on many threads one thread alone runs it, before or after the others; the
+# thread sanitizer is left out of it.
 add_library(scintray_options INTERFACE)
 target_compile_features(scintray_options INTERFACE cxx_std_20)
 target_compile_options(scintray_options INTERFACE
@@ -17,19 +19,25 @@ target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-fno-math-errno>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
 if(SCINTRAY_SANITIZE STREQUAL "address")
+  # Of undefined behaviour, what the address sanitizer does not find by itself: tests of each pointer before it is used
+  # would take a third of the time of compiling.
   target_compile_options(scintray_options INTERFACE
-    $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
+    $<BUILD_INTERFACE:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>
+    $<BUILD_INTERFACE:-fno-sanitize=alignment,nonnull-attribute,null,object-size,pointer-overflow,returns-nonnull-attribute,vptr>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 elseif(SCINTRAY_SANITIZE STREQUAL "thread")
-  target_compile_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
+  # This is also the build by clang of each file: what one thread runs by itself is compiled without the sanitizer.
+  target_compile_options(scintray_options INTERFACE
+    $<BUILD_INTERFACE:$<IF:$<BOOL:$<TARGET_PROPERTY:SCINTRAY_NOT_IN_THREADS>>,-O0;-g0,-fsanitize=thread>>)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=thread>)
 elseif(SCINTRAY_SANITIZE)
   message(FATAL_ERROR "SCINTRAY_SANITIZE is \"${SCINTRAY_SANITIZE}\"; it may be address, thread or empty")
 endif()
 if(SCINTRAY_SANITIZE)
-  # For files of CGAL's templates: optimising what the sanitizers add to them takes half of two minutes each.
+  # For files of large templates: optimising what the sanitizers add to them takes half of the time.
   set(scintray_slow_to_compile -O0)
 endif()
+include(ScintRayPrecompile)
 if(SCINTRAY_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     message(FATAL_ERROR "SCINTRAY_FUZZ needs clang, whose libFuzzer it uses: -DCMAKE_CXX_COMPILER=clang++")
@@ -40,7 +48,7 @@ if(SCINTRAY_FUZZ)
 endif()
 
 function(scintray_module name)
-  cmake_parse_arguments(MODULE "NOT_TRACING" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  cmake_parse_arguments(MODULE "NOT_TRACING;NOT_IN_THREADS" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
   if(NOT MODULE_JOIN)
     set(MODULE_JOIN 12)
   endif()
@@ -63,7 +71,15 @@ function(scintray_module name)
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   endif()
   if(MODULE_NOT_TRACING)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> ${scintray_slow_to_compile})
+  endif()
+  if(MODULE_NOT_IN_THREADS AND SCINTRAY_SANITIZE STREQUAL "thread")
+    set_target_properties(${target} PROPERTIES SCINTRAY_NOT_IN_THREADS ON)
+    scintray_precompile(${target} not_in_threads)
+  elseif(MODULE_NOT_TRACING)
+    scintray_precompile(${target} not_tracing)
+  else()
+    scintray_precompile(${target} tracing)
   endif()
   target_sources(${target}
     PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${headers}

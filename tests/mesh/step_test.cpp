@@ -196,18 +196,23 @@ TEST_CASE("STEP: round faces carry their surface, in the unit of the import, als
     const TriMesh mesh = written_and_read({rod, ball, block}, options, "INCH").mesh;
     CHECK(mesh.supports.size() == (chosen.empty() ? 3 : 1));
     std::size_t round = 0;
+    double largest_tilt = 0.0,
+           largest_distance_mm = 0.0;  // of flat faces from an axis, of vertices from their surface
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const std::uint32_t support = mesh.support_of(t);
       const Vec3 normal = mesh.area_vector(t).normalized();
       if (support == kNoSupport) {
-        CHECK(normal.cwiseAbs().maxCoeff() == doctest::Approx(1.0).epsilon(1e-6));  // flat: along an axis
+        largest_tilt = std::max(largest_tilt, std::abs(normal.cwiseAbs().maxCoeff() - 1.0));
         continue;
       }
       ++round;
       for (const std::uint32_t vertex : mesh.triangles[t])
-        CHECK(std::abs(mesh.supports[support].distance(mesh.vertices[vertex])) < 1e-9 * 50.8);
+        largest_distance_mm =
+            std::max(largest_distance_mm, std::abs(mesh.supports[support].distance(mesh.vertices[vertex])));
     }
     CHECK(round > 20);
+    CHECK(largest_tilt < 1e-6);
+    CHECK(largest_distance_mm < 1e-9 * 50.8);
   }
   CHECK(written_and_read({{"box", StepSolid::box, {1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, {}, {}, ""}})
             .mesh.support.empty());

@@ -1,5 +1,7 @@
 #include "scintray/contact/detail/box_tree.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "scintray/core/philox.hpp"

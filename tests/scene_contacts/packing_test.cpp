@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "scintray/core/philox.hpp"
 #include "shapes.hpp"
 

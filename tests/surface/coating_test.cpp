@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <functional>
+
 #include "scintray/core/statistics.hpp"
 #include "scintray/optics/surface.hpp"
 #include "support/agreement.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"

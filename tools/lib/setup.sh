@@ -66,6 +66,8 @@ share_compiler_cache() {
   command -v ccache >/dev/null || return 0
   [ -n "$(ccache --get-config base_dir 2>/dev/null)" ] || export CCACHE_BASEDIR=$repository
   [ -n "${CCACHE_HASHDIR+set}${CCACHE_NOHASHDIR+set}" ] || export CCACHE_NOHASHDIR=1
+  # Headers that are compiled once: cmake/ScintRayPrecompile.cmake.
+  [ -n "$(ccache --get-config sloppiness 2>/dev/null)" ] || export CCACHE_SLOPPINESS=pch_defines,time_macros
 }
 
 # Shows how far ninja is whose output is read: one line rewritten on a terminal, else a line every 20 s.

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <numeric>
+#include <type_traits>
 
 #include "scintray/core/detail/h5_internal.hpp"
 #include "scintray/core/error.hpp"

@@ -1,5 +1,6 @@
 #include "scintray/core/statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

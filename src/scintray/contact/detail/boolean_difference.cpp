@@ -1,5 +1,6 @@
 #include "scintray/contact/detail/boolean_difference.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "scintray/contact/detail/geometry.hpp"

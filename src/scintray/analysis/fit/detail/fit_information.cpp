@@ -1,6 +1,7 @@
 #include "scintray/analysis/fit/detail/fit_information.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace scintray::analysis {

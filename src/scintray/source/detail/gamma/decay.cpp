@@ -1,5 +1,6 @@
 #include "scintray/source/detail/gamma/decay.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 

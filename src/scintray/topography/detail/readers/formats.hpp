@@ -1,6 +1,7 @@
 #pragma once
 /// The height map formats that ScintRay reads itself.
 
+#include <chrono>
 #include <filesystem>
 #include <span>
 #include <string>

@@ -1,0 +1,1 @@
+// A target whose headers are compiled once for others needs a source: ScintRayPrecompile.cmake.
