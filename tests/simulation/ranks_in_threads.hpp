@@ -48,8 +48,10 @@ class ThreadRanks : public simulation::Ranks {
   void send(int to, std::string bytes) override { exchange_.put(to, {rank_, std::move(bytes)}); }
   std::optional<Message> receive() override { return exchange_.take(rank_); }
   void close() override { closed = true; }
+  std::chrono::milliseconds patience() const override { return silence; }
 
   bool closed = false;
+  std::chrono::milliseconds silence = std::chrono::minutes(1);
 
  private:
   Exchange& exchange_;

@@ -1,6 +1,7 @@
 #pragma once
 /// Processes that compute one run together, as the ranks that mpirun starts.
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,6 +33,9 @@ class Ranks {
   virtual std::optional<Message> receive() = 0;
   /// Ends the exchange, which all ranks do. Without it the destructor ends all processes.
   virtual void close() = 0;
+  /// Time after which a rank that has work and sends nothing counts as hung, which ends the run. The same in
+  /// all ranks.
+  virtual std::chrono::milliseconds patience() const { return std::chrono::minutes(1); }
 };
 
 /// Runs the part of this process in a run, Simulation::run_all() of rank 0 and Simulation::serve() of the
