@@ -188,8 +188,8 @@ TEST_CASE("GDML: the deviation of round solids of metres is a share of their rad
   const auto area = [](double radius_mm, int sides) {
     return 0.5 * sides * radius_mm * radius_mm * std::sin(kTwoPi / sides);
   };
-  // 1e-4 of the radius is kept by 223 sides or more: 288, the third of 72, 144, 288, at any size. At 0.01 mm a
-  // tube of 20 m has 4608.
+  // 1e-4 of the radius is kept by 223 sides or more: 288, the third of 72, 144, 288, at any size. At 0.01 mm
+  // a tube of 20 m has 4608.
   for (const double radius_mm : {200.0, 2e3, 2e4})
     CHECK(diagnose(tube(std::to_string(radius_mm), imported)).volume_mm3 ==
           doctest::Approx(10.0 * area(radius_mm, 288)).epsilon(1e-9));

@@ -69,12 +69,13 @@ exchange::SceneDraft draft_of_detector(const SceneImportArguments& arguments,
   if (!arguments.unit.empty())
     throw core::InputError(core::Problem{
         {}, "--unit with a GDML file or a file of GATE", "remove it: its solids state their units"});
-  const exchange::gdml::GdmlImport options{.tessellation = tessellation_of(arguments, exchange::gdml::GdmlImport().tessellation),
-                                           .media = pairs("--medium", arguments.media),
-                                           .surfaces = pairs("--surface", arguments.surfaces),
-                                           .skip_unsupported = arguments.skip_unsupported,
-                                           .mesh_folder = scene.stem().string() + "_meshes",
-                                           .notes = {}};
+  const exchange::gdml::GdmlImport options{
+      .tessellation = tessellation_of(arguments, exchange::gdml::GdmlImport().tessellation),
+      .media = pairs("--medium", arguments.media),
+      .surfaces = pairs("--surface", arguments.surfaces),
+      .skip_unsupported = arguments.skip_unsupported,
+      .mesh_folder = scene.stem().string() + "_meshes",
+      .notes = {}};
   const std::string extension = mesh::lower_extension(arguments.file);
   if (extension == ".mac") return exchange::gate::draft_of_gate(arguments.file, options);
   if (extension == ".xml") return exchange::gate::definitions_of_gate(arguments.file, options);
@@ -136,9 +137,10 @@ void add_import_command(CLI::App& app) {
                    "Scene file to write (.toml), or a folder for scene.toml")
       ->required();
   command->add_option("--unit", arguments->unit, "Unit of a mesh file that does not state it, as mm or inch");
-  command->add_option("--deviation", arguments->deviation,
-                      "Largest distance of triangles from curved faces (default: \"0.01 mm\"; for solids of GDML and "
-                      "GATE 1e-4 of their radius, where that is more)");
+  command->add_option(
+      "--deviation", arguments->deviation,
+      "Largest distance of triangles from curved faces (default: \"0.01 mm\"; for solids of GDML and "
+      "GATE 1e-4 of their radius, where that is more)");
   command->add_option("--angle", arguments->angle,
                       "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
   command->add_option(
