@@ -85,12 +85,12 @@ TEST_CASE("Walls that are short for their radius are not taken for the sphere th
     TriMesh disc = as_triangles(make_cylinder(4.0, height, 72));
     const std::vector<RecognizedFace> found = recognize_round_faces(disc, kTolerance);
     REQUIRE(found.size() == 1);
-    CHECK(disc.supports[0].kind() == SurfaceKind::cylinder);
+    CHECK(std::string(disc.supports[0].name()) == "cylinder");
     CHECK(radius_of(disc, found[0]) == doctest::Approx(4.0).epsilon(1e-9));
 
     TriMesh frustum = as_triangles(make_cone(4.0, 3.0, height, 72));
     REQUIRE(recognize_round_faces(frustum, kTolerance).size() == 1);
-    CHECK(frustum.supports[0].kind() == SurfaceKind::cone);
+    CHECK(std::string(frustum.supports[0].name()) == "cone");
   }
 }
 
