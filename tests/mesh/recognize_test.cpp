@@ -79,6 +79,21 @@ TEST_CASE("Spheres and cones of triangles are recognized") {
   CHECK(std::sqrt(-tip.supports[0].axial) == doctest::Approx(2.0 / 3.0).epsilon(1e-9));
 }
 
+TEST_CASE("Walls that are short for their radius are not taken for the sphere through their two rims") {
+  for (const double height : {0.1, 1.0, 5.0}) {
+    CAPTURE(height);
+    TriMesh disc = as_triangles(make_cylinder(4.0, height, 72));
+    const std::vector<RecognizedFace> found = recognize_round_faces(disc, kTolerance);
+    REQUIRE(found.size() == 1);
+    CHECK(disc.supports[0].kind() == SurfaceKind::cylinder);
+    CHECK(radius_of(disc, found[0]) == doctest::Approx(4.0).epsilon(1e-9));
+
+    TriMesh frustum = as_triangles(make_cone(4.0, 3.0, height, 72));
+    REQUIRE(recognize_round_faces(frustum, kTolerance).size() == 1);
+    CHECK(frustum.supports[0].kind() == SurfaceKind::cone);
+  }
+}
+
 TEST_CASE("Faces that are not round, or not exactly, are not recognized") {
   TriMesh box = make_box({0.0, 0.0, 0.0}, {1.0, 2.0, 3.0});
   CHECK(recognize_round_faces(box, kTolerance).empty());

@@ -146,7 +146,9 @@ class Recognizer {
       if (near.size() == before) break;
       before = near.size();
       bool fitted = false;
-      for (const bool sphere : {true, false}) {
+      // Corners on two circles about an axis lie on a sphere, too; facets from one to the other are a wall's.
+      // A sphere has to take in more of the face.
+      for (const bool sphere : {false, true}) {
         const std::optional<SupportSurface> surface = fit(near, sphere);
         if (!surface) continue;
         fitted = true;
