@@ -380,7 +380,7 @@ scattering = { none = true }
                            gdml_solids + "</solids>\n<structure>" + volumes +
                            "</structure><setup name=\"Default\" version=\"1.0\"><world ref=\"World\"/></setup></gdml>";
   const exchange::SceneDraft draft = exchange::gdml::draft_of_gdml(gdml, "fibre.gdml", options);
-  for (const auto& [path, mesh] : draft.meshes) mesh::write_ply(path, mesh);
+  for (const auto& made : draft.meshes) mesh::write_ply(made.first, made.second);
   for (const Layer& layer : kLayers)
     in_gdml += fmt::format(
         "[[part]]\nname = \"{0}\"\nmesh = \"{1}\"\nunit = \"mm\"\ncurved = \"recognize\"\nmedium = \"{0}\"\n"

@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/mesh/shapes/shapes.hpp"
 #include "support/curved_scenes.hpp"
 
@@ -199,6 +201,84 @@ segments = 12 })") +
   const double depth = 5.0 - std::sqrt(21.0);
   CHECK(lens.volume_mm3 ==
         doctest::Approx(kPi * 4.0 * (1.0 + depth) - kPi * depth * depth * (5.0 - depth / 3.0)).epsilon(1e-4));
+}
+
+TEST_CASE("Volumes and areas of round parts are those of closed forms, whatever their facets") {
+  struct Case {
+    std::string shape;
+    double volume, area;
+  };
+  const auto frustum = [](double r, double s, double h) {
+    return std::pair{kPi / 3.0 * h * (r * r + r * s + s * s),
+                     kPi * (r * r + s * s + (r + s) * std::hypot(h, r - s))};
+  };
+  std::vector<Case> cases{
+      {R"(torus = { radius = "3 mm", tube_radius = "1 mm", segments = 16, tube_segments = 12 })",
+       2.0 * kPi * kPi * 3.0, 4.0 * kPi * kPi * 3.0},
+      {R"(tube = { outer_radius = "2 mm", inner_radius = "1.5 mm", height = "3 mm", segments = 16 })",
+       kPi * 1.75 * 3.0, kTwoPi * 3.5 * 3.0 + kTwoPi * 1.75},
+      // Half axes 1 and 2: prolate, with the eccentricity sqrt(3) / 2.
+      {R"(spheroid = { radius = "1 mm", half_height = "2 mm", subdivisions = 4 })", 8.0 / 3.0 * kPi,
+       kTwoPi * (1.0 + 2.0 / std::sqrt(0.75) * std::asin(std::sqrt(0.75)))},
+      {R"(fibre = { radius = "0.5 mm", x = ["0 mm", "0 mm", "6 mm"], z = ["0 mm", "6 mm", "6 mm"],
+bend_radius = "3 mm", segments = 16 })",
+       kPi * 0.25 * (6.0 + 1.5 * kPi), kPi * (6.0 + 1.5 * kPi) + 0.5 * kPi},
+      {"box = [\"2 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"0.3 mm\"",
+       1.4 * 3.4 * 2.4 + 0.6 * (1.4 * 3.4 + 3.4 * 2.4 + 2.4 * 1.4) + kPi * 0.09 * (1.4 + 3.4 + 2.4) +
+           4.0 / 3.0 * kPi * 0.027,
+       2.0 * (1.4 * 3.4 + 3.4 * 2.4 + 2.4 * 1.4) + kTwoPi * 0.3 * (1.4 + 3.4 + 2.4) + 4.0 * kPi * 0.09}};
+
+  // Files of triangles: short cones and discs, and sectors of these about the axis.
+  const auto folder = scratch_folder("round_volumes");
+  const auto add = [&](const std::string& name, const mesh::TriMesh& made, double volume, double area) {
+    const std::filesystem::path path = folder / (name + ".ply");
+    mesh::write_ply(path, made);
+    cases.push_back({"mesh = \"" + path.string() + "\"\nunit = \"mm\"\ncurved = \"recognize\"", volume, area});
+  };
+  const auto [volume, area] = frustum(4.0, 3.0, 8.0 / 3.0);
+  add("cone", mesh::make_cone(4.0, 3.0, 8.0 / 3.0, 48), volume, area);
+  add("tip", mesh::make_cone(3.0, 0.0, 4.0, 48), 12.0 * kPi, kPi * 24.0);
+  const auto sector = [](double inner, double outer, double angle, double height, int sides) {
+    mesh::TriMesh body;
+    const auto n = static_cast<std::uint32_t>(sides + 1);
+    for (const double z : {0.0, height})
+      for (const double radius : {inner, outer})
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const double at = angle * i / sides;
+          body.vertices.push_back({radius * std::cos(at), radius * std::sin(at), z});
+        }
+    const auto corner = [&](bool high, bool out, std::uint32_t i) { return (high ? 2 * n : 0) + (out ? n : 0) + i; };
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      body.triangles.push_back({a, b, c});
+      body.triangles.push_back({a, c, d});
+    };
+    for (std::uint32_t i = 0; i + 1 < n; ++i) {
+      quad(corner(false, true, i), corner(false, true, i + 1), corner(true, true, i + 1), corner(true, true, i));
+      quad(corner(false, false, i + 1), corner(false, false, i), corner(true, false, i),
+           corner(true, false, i + 1));
+      quad(corner(true, false, i), corner(true, true, i), corner(true, true, i + 1), corner(true, false, i + 1));
+      quad(corner(false, false, i + 1), corner(false, true, i + 1), corner(false, true, i),
+           corner(false, false, i));
+    }
+    quad(corner(false, false, 0), corner(false, true, 0), corner(true, true, 0), corner(true, false, 0));
+    quad(corner(true, false, n - 1), corner(true, true, n - 1), corner(false, true, n - 1),
+         corner(false, false, n - 1));
+    body.group.assign(body.triangles.size(), 0);
+    body.groups = {"default"};
+    return body;
+  };
+  add("ring_sector", sector(3.0, 4.0, 0.5 * kPi, 5.0, 18), 0.25 * kPi * 7.0 * 5.0,
+      0.5 * kPi * 7.0 * 5.0 + 2.0 * 0.25 * kPi * 7.0 + 2.0 * 5.0);
+  for (const Case& known : cases) {
+    CAPTURE(known.shape);
+    const BuiltScene built = build(spec_of(part("body", known.shape), "body"));
+    CHECK(built.scene.parts.front().facets_because == "");
+    CHECK(built.scene.parts.front().curved);
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(known.volume).epsilon(1e-9));
+    double sum = 0.0;
+    for (const FaceInfo& face : built.scene.faces) sum += face.area_mm2;
+    CHECK(sum == doctest::Approx(known.area).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("Holes, dimples and grooves that a part of higher priority cuts are exact") {
