@@ -9,8 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/core/elementary.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/optics/facet_laws.hpp"
+#include "scintray/optics/light_ray.hpp"
 #include "scintray/optics/microsurface.hpp"
 
 namespace scintray::optics {
@@ -59,46 +60,32 @@ class FacetSurface : public MicrosurfaceModel {
   static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
 
  private:
-  /// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
-  /// bounds the projected area of a facet.
-  static constexpr double kWidestFacet_sigma = 6.0;
-
-  /// Angle between facet and mean normal.
-  struct FacetTilt {
-    double angle_rad;
-    core::SineCosine of;  ///< its sine and cosine
-  };
-  /// Tilt of a facet, drawn at random, below 90 deg.
-  FacetTilt sample_facet_tilt(core::Rng& rng) const;
-  /// Largest cosine between the reversed direction of a ray and any facet normal.
-  double greatest_facing(double cos_incidence) const;
+  /// Tilt of a facet, drawn at random.
+  FacetTilt<double> sample_facet_tilt(core::Rng& rng) const;
   core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
-inline FacetSurface::FacetTilt FacetSurface::sample_facet_tilt(core::Rng& rng) const {
-  const double sigma = sigma_alpha_rad;
-  for (;;) {
-    if (definition == SigmaAlphaDefinition::polar_angle) [[unlikely]] {
-      const double alpha = std::abs(sigma * core::sample_normal(rng));
-      if (alpha < 0.5 * core::kPi) return {alpha, core::sincos(alpha)};
-      continue;
-    }
-    // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
-    const double alpha = sigma * std::sqrt(2.0 * core::sample_exponential(rng));
-    if (!(alpha < 0.5 * core::kPi)) continue;
-    const core::SineCosine of = core::sincos(alpha);
-    if (rng.uniform() * alpha <= of.sine) return {alpha, of};
-  }
-}
+/// Constants of a surface's facets.
+struct FacetBounds {
+  bool by_area;
+  double widest_rad;  ///< facets beyond this angle are drawn again
+  WidestFacet<double> widest{1.0, 0.0};
 
-inline double FacetSurface::greatest_facing(double cos_incidence) const {
-  const double widest = kWidestFacet_sigma * sigma_alpha_rad;
-  if (widest >= 0.5 * core::kPi) return 1.0;
-  const core::SineCosine of_widest = core::sincos(widest);
-  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
-  if (cosine >= of_widest.cosine) return 1.0;
-  // The cosine of the incidence less the widest angle.
-  return cosine * of_widest.cosine + std::sqrt(1.0 - cosine * cosine) * of_widest.sine;
+  explicit FacetBounds(const FacetSurface& surface)
+      : by_area(surface.sampling == FacetSampling::projected_area),
+        widest_rad(by_area ? std::min(0.5 * core::kPi, kWidestFacet_sigma * surface.sigma_alpha_rad)
+                           : 0.5 * core::kPi) {
+    if (!by_area) return;
+    const core::SineCosine of = core::sincos(widest_rad);
+    widest = {of.sine, of.cosine};
+  }
+};
+
+inline FacetTilt<double> FacetSurface::sample_facet_tilt(core::Rng& rng) const {
+  if (definition == SigmaAlphaDefinition::solid_angle) [[likely]]
+    return FacetTilt<double>::drawn(sigma_alpha_rad, rng.uniform_positive());
+  const double alpha = std::abs(sigma_alpha_rad * core::sample_normal(rng));
+  return {alpha, core::laws::sincos(alpha), 1.0, 1.0};
 }
 
 inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
@@ -106,18 +93,16 @@ inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Fr
   if (smear > 0.0) [[unlikely]]
     return sample_smeared_facet(k, frame.z, rng);
   if (sigma_alpha_rad == 0.0) return frame.z;
-  const bool weighted = sampling == FacetSampling::projected_area;
-  const double bound = weighted ? greatest_facing(-k.dot(frame.z)) : 1.0;
+  const FacetBounds bounds(*this);
+  const core::Triple<double> direction = core::triple(k), mean = core::triple(frame.z);
+  const core::Across<double> across{core::triple(frame.x), core::triple(frame.y)};
+  const double area = bounds.by_area ? bounds.widest.greatest_area(-dot(direction, mean)) : 1.0;
   for (;;) {
-    const auto [alpha, tilt] = sample_facet_tilt(rng);
-    if (weighted && alpha > kWidestFacet_sigma * sigma_alpha_rad) continue;
-    const core::SineCosine azimuth = core::sincos_of_turn(rng.uniform());
-    const core::Vec3 m =
-        tilt.sine * azimuth.cosine * frame.x + tilt.sine * azimuth.sine * frame.y + tilt.cosine * frame.z;
-    const double facing = -k.dot(m);
-    if (facing <= 0.0) continue;
-    if (weighted && rng.uniform() * bound > facing) continue;
-    return m;
+    const FacetTilt<double> tilt = sample_facet_tilt(rng);
+    const core::TwoUniforms<double> random(rng.bits());
+    if (!(tilt.angle_rad < bounds.widest_rad)) continue;
+    const FacetChoice<double> facet(direction, mean, across, tilt, bounds.by_area, area, random);
+    if (facet.accepted) return core::vec(facet.normal);
   }
 }
 

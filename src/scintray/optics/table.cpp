@@ -14,11 +14,6 @@ namespace scintray::optics {
 
 namespace {
 
-/// Sine of incidence below which the plane of incidence is drawn at random.
-constexpr double kNoPlane = 1e-9;
-
-constexpr double kLeastCosine = 1e-7;
-
 /// Largest total size of all copies of a table's samplers, unless a single copy is larger.
 constexpr std::size_t kMostCopiedBytes = 16'000'000;
 
@@ -166,6 +161,13 @@ void SurfaceTable::check_grid() {
 bool SurfaceTable::reciprocal() const {
   return std::all_of(slices_.begin(), slices_.end(),
                      [](const TableSlice& slice) { return slice.reciprocal != nullptr; });
+}
+
+TableView SurfaceTable::view(Side side) const {
+  const Samplers& samplers = samplers_[core::thread_slot() % samplers_.size()];
+  TableView view = samplers[static_cast<std::size_t>(side)].view();
+  view.absorbs = absorbs_;
+  return view;
 }
 
 double SurfaceTable::reflectance(Side side, double incidence_rad, std::size_t slice) const {

@@ -93,6 +93,9 @@ class SurfaceTable : public MicrosurfaceModel {
     return slices_[slice].nodes(side);
   }
   const TableProvenance& provenance() const { return provenance_; }
+  /// The numbers of a table of one slice without a reciprocal kernel, for incidence from one side: the copy of
+  /// this thread. Valid as long as the table.
+  TableView view(Side side) const;
   bool absorbs() const { return absorbs_; }         ///< true when a node has an absorptance above 0
   bool opaque() const override { return opaque_; }  ///< no light from inside is transmitted
   /// True when every slice has a reciprocal kernel. Others are reciprocal only within their noise.

@@ -9,41 +9,36 @@ namespace scintray::optics {
 
 namespace {
 
-/// Number of steps of the incidence lookup: finer than the nodes, so that at most one or two steps remain.
-constexpr std::uint32_t kLookupSteps = 2048;
+constexpr std::uint32_t kLookupSteps = TableView::kLookupSteps;
+constexpr std::size_t kRowEnds = TableView::kRowEnds;
+static_assert(TableView::kPolarBins == kPolarBins && TableView::kAzimuthBins == kAzimuthBins);
 
-constexpr std::size_t kRowEnds = kAzimuthBins + 1;
-
-/// A measure of the incidence angle between 0 and 1, increasing with it, that needs no arc function.
-double slant(double sine, double cosine) { return sine / (sine + cosine); }
-double slant_of(const TableNode& node) {
-  return slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad));
+double slant_of_node(const TableNode& node) {
+  return slant_of(std::sin(node.incidence_rad), std::cos(node.incidence_rad));
 }
 double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
-/// Coding of azimuths in 16 bits: 0 and half a turn, of either sign for signed ones, are exact.
-struct AzimuthCode {
-  float zero, step;
-  explicit AzimuthCode(AzimuthKind kind)
-      : zero(kind == AzimuthKind::folded ? 0.0f : 32767.0f),
-        step(static_cast<float>(core::kPi) / (kind == AzimuthKind::folded ? 65535.0f : 32767.0f)) {}
-  std::uint16_t encode(float azimuth) const {
-    return static_cast<std::uint16_t>(std::clamp(std::round(azimuth / step + zero), 0.0f, 65535.0f));
-  }
-};
-
 }  // namespace
+
+TableSampler::AzimuthCode::AzimuthCode(AzimuthKind kind)
+    : zero(kind == AzimuthKind::folded ? 0.0f : 32767.0f),
+      step(static_cast<float>(core::kPi) / (kind == AzimuthKind::folded ? 65535.0f : 32767.0f)) {}
+
+std::uint16_t TableSampler::AzimuthCode::encode(float azimuth) const {
+  return static_cast<std::uint16_t>(std::clamp(std::round(azimuth / step + zero), 0.0f, 65535.0f));
+}
 
 TableSampler::TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind)
     : kind_(kind),
+      code_(kind),
       nodes_(nodes.size()),
       directions_{pack(nodes, &TableNode::transmitted), pack(nodes, &TableNode::reflected)} {
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const TableNode &low = nodes[k], &high = nodes[k + 1];
-    const double start = slant_of(low), end = slant_of(high);
+    const double start = slant_of_node(low), end = slant_of_node(high);
     const double middle =
         (angle_of_slant(0.5 * (start + end)) - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
-    Interval interval;
+    TableInterval interval;
     interval.start = start;
     interval.per_length = 1.0 / (end - start);
     interval.bend = 4.0 * (middle - 0.5);
@@ -75,7 +70,6 @@ TableSampler::Directions TableSampler::pack(const std::vector<TableNode>& nodes,
     return out;
   out.polar.assign((kPolarBins + 1) * nodes.size(), 0.0f);
   out.azimuth.assign(kPolarBins * nodes.size() * kRowEnds, 0);
-  const AzimuthCode code(kind_);
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const DirectionQuantiles& from = nodes[node].*way;
     if (from.empty()) continue;
@@ -84,59 +78,27 @@ TableSampler::Directions TableSampler::pack(const std::vector<TableNode>& nodes,
     for (std::size_t bin = 0; bin < kPolarBins; ++bin)
       for (std::size_t edge = 0; edge < kRowEnds; ++edge)
         out.azimuth[(bin * nodes.size() + node) * kRowEnds + edge] =
-            code.encode(from.azimuth[bin * kRowEnds + edge]);
+            code_.encode(from.azimuth[bin * kRowEnds + edge]);
   }
   return out;
 }
 
 std::size_t TableSampler::bytes() const {
   std::size_t bytes =
-      sizeof *this + intervals_.size() * sizeof(Interval) + lookup_.size() * sizeof(lookup_[0]);
+      sizeof *this + intervals_.size() * sizeof(TableInterval) + lookup_.size() * sizeof(lookup_[0]);
   for (const Directions& way : directions_)
     bytes += way.polar.size() * sizeof(way.polar[0]) + way.azimuth.size() * sizeof(way.azimuth[0]);
   return bytes;
 }
 
-TableSampler::Place TableSampler::place(double sine, double cosine) const {
-  const double value = slant(sine, cosine);
-  std::uint32_t k = lookup_[std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
-  while (k + 1 < intervals_.size() && value >= intervals_[k + 1].start) ++k;
-  const Interval& interval = intervals_[k];
-  const double x = std::clamp((value - interval.start) * interval.per_length, 0.0, 1.0);
-  return {&interval, x + interval.bend * x * (1.0 - x)};
-}
-
 ExitAngles TableSampler::sample(const Place& place, bool reflected, core::Rng& rng) const {
-  const auto two_tails = [](double u) {
-    return u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
-  };
-  const bool folded = kind_ == AzimuthKind::folded;
-  const double s = two_tails(rng.uniform());
+  const double s = level_of_two_tails(rng.uniform());
   const std::uint64_t bits = rng.bits();
-  const double u = static_cast<double>(bits >> 11) * 0x1.0p-53;
-  const double t = folded ? 1.0 - std::sqrt(1.0 - u) : two_tails(u);
-  const int polar_bin = std::min(static_cast<int>(s * kPolarBins), kPolarBins - 1);
-  const int azimuth_bin = std::min(static_cast<int>(t * kAzimuthBins), kAzimuthBins - 1);
-  const auto polar_part = static_cast<float>(s * kPolarBins - polar_bin);
-  const auto azimuth_part = static_cast<float>(t * kAzimuthBins - azimuth_bin);
-  const auto share = static_cast<float>(place.share_);
-
-  const std::size_t way = reflected ? 1 : 0;
-  const Directions& directions = directions_[way];
-  const auto node = static_cast<std::size_t>(place.interval_ - intervals_.data());
-  const auto row = static_cast<std::size_t>(polar_bin) * nodes_ + node;
-  const AzimuthCode code(kind_);
-  const auto angles = [&](std::size_t at) -> ExitAngles {
-    const float* polar = directions.polar.data() + at;
-    const std::uint16_t* azimuth =
-        directions.azimuth.data() + at * kRowEnds + static_cast<std::size_t>(azimuth_bin);
-    const auto low = static_cast<float>(azimuth[0]), high = static_cast<float>(azimuth[1]);
-    return {polar[0] + polar_part * (polar[nodes_] - polar[0]), low + azimuth_part * (high - low)};
-  };
-  const ExitAngles a = angles(row + place.interval_->low[way]), b = angles(row + place.interval_->high[way]);
-  const float azimuth = code.step * (a.azimuth + share * (b.azimuth - a.azimuth) - code.zero);
+  const auto u = core::uniform_of<double>(bits);
+  const double t = kind_ == AzimuthKind::folded ? level_of_one_tail(u) : level_of_two_tails(u);
   // A bit that u does not use: either side of the plane of incidence.
-  return {a.polar + share * (b.polar - a.polar), folded && (bits & 1) != 0 ? -azimuth : azimuth};
+  const TableExit exit = place.exit(view(), reflected, s, t, (bits & 1) != 0);
+  return {exit.polar, exit.azimuth};
 }
 
 }  // namespace scintray::optics

@@ -7,6 +7,7 @@
 
 #include "scintray/core/philox.hpp"
 #include "scintray/optics/table_nodes.hpp"
+#include "scintray/optics/table_view.hpp"
 
 namespace scintray::optics {
 
@@ -17,47 +18,42 @@ namespace scintray::optics {
 /// over 65535; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes takes 0.2 MB for each
 /// side on which light leaves, which fits the private cache of a core.
 class TableSampler {
- private:
-  /// The interval between two nodes. Positions are in a measure of the incidence angle that needs no arc
-  /// function, sin / (sin + cos), and `bend` corrects the relative position in this measure to that in angle:
-  /// by bend x (1 - x). For nodes 2.25 deg apart the error is 5e-5 of the interval.
-  struct alignas(64) Interval {
-    double start = 0.0;  ///< of the lower node
-    double per_length = 0.0;
-    double bend = 0.0;
-    double reflectance = 0.0, reflectance_step = 0.0;
-    double absorptance = 0.0, absorptance_step = 0.0;
-    /// Nodes whose directions are used, counted from the lower: a node without light on that side has no
-    /// distribution. Reflected, transmitted.
-    std::array<std::uint8_t, 2> low{0, 0}, high{1, 1};
-    bool transmits = false;  ///< transmittance above 0 at one of its nodes
-  };
-
  public:
   /// @param nodes as checked by SurfaceTable
   TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind);
 
-  /// Position of an incidence angle between two nodes, and the shares there, linear between them.
-  class Place {
-   public:
-    double reflectance() const { return interval_->reflectance + share_ * interval_->reflectance_step; }
-    double absorptance() const { return interval_->absorptance + share_ * interval_->absorptance_step; }
-    bool transmits() const { return interval_->transmits; }
-
-   private:
-    friend class TableSampler;
-    Place(const Interval* interval, double share) : interval_(interval), share_(share) {}
-    const Interval* interval_;
-    double share_;  ///< relative position towards the next node, in [0, 1]
-  };
-  Place place(double sine, double cosine) const;
+  using Place = TablePlace<double>;
+  Place place(double sine, double cosine) const { return {view(), slant_of(sine, cosine)}; }
 
   std::size_t bytes() const;  ///< memory
 
   /// Direction of exit: polar angle, and azimuth from the plane of incidence, on either side of it.
   ExitAngles sample(const Place& place, bool reflected, core::Rng& rng) const;
 
+  /// Its numbers; valid as long as the sampler.
+  TableView view() const {
+    TableView view;
+    view.intervals = intervals_.data();
+    view.lookup = lookup_.data();
+    view.nodes = nodes_;
+    for (std::size_t way = 0; way < 2; ++way) {
+      view.polar[way] = directions_[way].polar.data();
+      view.azimuth[way] = directions_[way].azimuth.data();
+    }
+    view.azimuth_zero = code_.zero;
+    view.azimuth_step = code_.step;
+    view.folded = kind_ == AzimuthKind::folded;
+    return view;
+  }
+
  private:
+  /// Coding of azimuths in 16 bits: 0 and half a turn, of either sign for signed ones, are exact.
+  struct AzimuthCode {
+    float zero, step;
+    explicit AzimuthCode(AzimuthKind kind);
+    std::uint16_t encode(float azimuth) const;
+  };
+
   /// Quantiles of all nodes, of light that leaves on one side.
   struct Directions {
     std::vector<float> polar;            ///< [polar edge][node], rad
@@ -66,8 +62,9 @@ class TableSampler {
   Directions pack(const std::vector<TableNode>& nodes, DirectionQuantiles TableNode::*way) const;
 
   AzimuthKind kind_;
+  AzimuthCode code_;
   std::size_t nodes_;
-  std::vector<Interval> intervals_;
+  std::vector<TableInterval> intervals_;
   std::vector<std::uint32_t> lookup_;     ///< first candidate interval for equal steps of the measure
   std::array<Directions, 2> directions_;  ///< transmitted, reflected
 };

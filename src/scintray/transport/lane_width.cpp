@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {
 
@@ -43,6 +44,21 @@ PropagateLanes propagate_lanes(int width) {
       return propagate_lanes_4;
     case 8:
       return propagate_lanes_8;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+RunLanes run_lanes(int width) {
+  switch (width) {
+#if defined(__x86_64__)
+    case 2:
+      return run_lanes_2;
+    case 4:
+      return run_lanes_4;
+    case 8:
+      return run_lanes_8;
 #endif
     default:
       return nullptr;

@@ -232,6 +232,15 @@ InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Phot
   }
 }
 
+Step step_at(const scene::BoundaryLink& link, const BoundaryPlace& at) {
+  Step step;
+  step.interface = link.interface;
+  step.triangle = at.triangle;
+  step.from_back = link.from_back;
+  step.cos_before = at.cos_before;
+  return step;
+}
+
 /// Medium and angle in which light reaches a sensor.
 struct Arrival {
   double index = 1.0;   ///< refractive index
@@ -290,60 +299,76 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
   const core::Vec3 outward = scene.normal_at(region, triangle, photon.position);
-  const core::RegionId next = link.from_back ? interface.front : interface.back;
-  const core::MediumId next_medium = scene.regions[next].medium;
-  const bool next_opaque = optics.is_opaque(next_medium);
-
-  Step result;
-  result.interface = link.interface;
-  result.triangle = triangle;
-  result.from_back = link.from_back;
-  result.cos_before = std::abs(photon.ray.direction.dot(outward));
-  const double here = photon.optics.index;
-  const bool dry = interface.gap_medium.has_value();
-  const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
-  // No Fresnel reflection where light enters an opaque part: its reflection is defined by its surface.
-  const double there = !next_opaque ? optics.index(next_medium, photon.wavelength_nm) : dry ? gap : here;
+  const BoundaryPlace at{triangle, std::abs(photon.ray.direction.dot(outward))};
+  const double here = photon.optics.index, there = index_behind(scene, link, photon);
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
   if (interface.plain) {
     crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
+    const bool dry = interface.gap_medium.has_value();
+    const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
     const InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
-    if (outcome.absorbed_by.has_value()) {
-      result.surface = outcome.absorbed_by;
-      absorb_at_surface(scene, interface, photon, result);
-      return result;
-    }
+    if (outcome.absorbed_by.has_value()) return absorb_at_boundary(scene, at, outcome.absorbed_by, photon);
     crossed = outcome.in_front == link.from_back;
   }
+  if (crossed) return cross_boundary(scene, at, photon);
+  Step result = step_at(link, at);
   result.cos_after = std::abs(photon.ray.direction.dot(outward));
-  if (!crossed) {
-    result.event = core::StepEvent::reflected;
-    return result;
-  }
+  result.event = core::StepEvent::reflected;
+  return result;
+}
 
-  photon.region = next;
+}  // namespace
+
+double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
+                    const source::Photon& photon) {
+  const scene::Interface& interface = scene.interfaces[link.interface];
+  const core::MediumId next = scene.regions[link.from_back ? interface.front : interface.back].medium;
+  if (!scene.optics.is_opaque(next)) return scene.optics.index(next, photon.wavelength_nm);
+  return interface.gap_medium.has_value() ? scene.optics.index(interface.gap_medium, photon.wavelength_nm)
+                                          : photon.optics.index;
+}
+
+Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon) {
+  const scene::Region& region = scene.regions[photon.region];
+  const scene::BoundaryLink& link = scene.link(region, at.triangle);
+  const scene::Interface& interface = scene.interfaces[link.interface];
+  const core::Vec3 outward = scene.normal_at(region, at.triangle, photon.position);
+  Step result = step_at(link, at);
+  result.region = photon.region;
+  result.cos_after = std::abs(photon.ray.direction.dot(outward));
+  const double there = index_behind(scene, link, photon);
+  photon.region = link.from_back ? interface.front : interface.back;
   photon.on_triangle = scene::kNoTriangle;
-  photon.optics = optics.at(next_medium, photon.wavelength_nm);
+  const core::MediumId medium = scene.regions[photon.region].medium;
+  photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   if (reaches_sensor(scene, interface, link.from_back)) {
     reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
-  } else if (next_opaque) {
+  } else if (scene.optics.is_opaque(medium)) {
     result.event = core::StepEvent::absorbed_in_medium;
-    result.medium = next_medium;
+    result.medium = medium;
   } else {
     result.event = core::StepEvent::transmitted;
   }
   return result;
 }
 
-}  // namespace
+Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
+                        const source::Photon& photon) {
+  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], at.triangle);
+  Step result = step_at(link, at);
+  result.region = photon.region;
+  result.surface = by;
+  absorb_at_surface(scene, scene.interfaces[link.interface], photon, result);
+  return result;
+}
 
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {
