@@ -239,6 +239,44 @@ TEST_CASE("A run that is killed, ended by signals, and resumed makes the results
   }
 }
 
+TEST_CASE("report shows what a run that goes on, or was killed, has finished so far") {
+  const auto folder = scene_folder("report_so_far", kPhotonScene);
+  stop_run(kLong, {}, folder, SIGKILL);
+  REQUIRE_FALSE(std::filesystem::exists(folder / "out.h5"));
+  const Ended text = run_program({"report", "out.h5", "--text"}, folder);
+  CAPTURE(text.output);
+  CHECK(text.exit_code == cli::kSuccess);
+  CHECK(contains(text.output, "merged without blocks"));
+  check_done(run_program({"report", "out.h5.checkpoints", "--no-view"}, folder));
+  CHECK(std::filesystem::exists(folder / "out.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out.h5"));
+  check_refused({"report", "."}, folder, {"no checkpoints in this folder", "NAME.checkpoints"});
+  check_refused({"report", "none.h5"}, folder, {"none.h5"});
+  check_done(run_short(kLong, {"-o", "out.h5", "--resume"}, folder));  // nothing of it was changed
+}
+
+TEST_CASE("A response map whose building is killed is resumed to the same bits, and only on request") {
+  const auto folder = scene_folder("killed_map", kEventScene);
+  const Words build{"response", "build",    "scene.toml", "-q",          "--pitch",
+                    "1.5 mm",   "--photons", "30000",      "--direction", "forward"};
+  check_done(run_program(build + Words{"-o", "whole.h5"}, folder));
+  CHECK_FALSE(std::filesystem::exists(folder / "whole.h5.journal"));
+  {
+    const Program program(build + Words{"-o", "map.h5", "-t", "1"}, folder);
+    for (int turn = 0; turn < 60'000 && !std::filesystem::exists(folder / "map.h5.journal"); ++turn)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    program.signal(SIGKILL);
+    CHECK(program.wait().exit_code == -1);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "map.h5"));
+  check_refused(build + Words{"-o", "map.h5"}, folder, {"map.h5.journal", "--resume", "--restart"});
+  check_refused(build + Words{"-o", "map.h5", "--resume", "--seed", "5"}, folder,
+                {"map.h5.journal", "other work"});
+  check_done(run_program(build + Words{"-o", "map.h5", "--resume", "-t", "3"}, folder));
+  check_same_results(folder / "whole.h5", folder / "map.h5");
+  CHECK_FALSE(std::filesystem::exists(folder / "map.h5.journal"));
+}
+
 TEST_CASE("A full disk loses nothing that was finished") {
   const auto folder = scene_folder("full_disk", kPhotonScene);
   check_done(run_short(kLong, {"-o", "whole.h5"}, folder));

@@ -4,6 +4,7 @@
 #include "ranks_in_threads.hpp"
 #include "scenes.hpp"
 #include "scintray/core/cancelled.hpp"
+#include "scintray/simulation/detail/rank_work.hpp"
 #include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/ranks.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -111,5 +112,46 @@ TEST_CASE("A stop ends all ranks, and the run is resumed by ranks to the same re
   hooks.checkpoints = &checkpoints;
   run_ranks(2, make, rest, hooks);
   make(0).run_all(alone);
+  check_same(alone, rest);
+}
+
+TEST_CASE("A rank that takes work and hangs ends the run, with what was finished kept") {
+  const auto folder = scratch_folder("hung_rank");
+  const auto make = [] { return simulation_of(kCrystal + kPhotons, 300'000); };
+  Exchange exchange(2);
+  std::atomic<bool> over{false};
+  // The other rank says that it is ready, and then nothing.
+  std::thread other([&] {
+    ThreadRanks ranks(exchange, 1);
+    Simulation simulation = make();
+    ranks.send(0, simulation::detail::message(simulation::detail::RankReady{2, simulation.outline()}));
+    while (!over) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  });
+  ThreadRanks ranks(exchange, 0);
+  const CheckpointSettings settings{folder / "checkpoints", std::chrono::milliseconds(0), Resume::resume};
+  std::string said;
+  {
+    Checkpoints checkpoints(settings);
+    SimulationHooks hooks;
+    hooks.ranks = &ranks;
+    hooks.rank_patience = std::chrono::milliseconds(300);
+    hooks.checkpoints = &checkpoints;
+    MemorySink sink;
+    try {
+      make().run_all(sink, hooks);
+    } catch (const SystemError& error) {
+      said = error.what();
+    }
+  }
+  over = true;
+  other.join();
+  check_contains(said, {"rank 1", "has not answered", "hangs"});
+  // What rank 0 had merged before is there, and another run goes on from it.
+  Checkpoints checkpoints(settings);
+  SimulationHooks hooks;
+  hooks.checkpoints = &checkpoints;
+  MemorySink rest, alone;
+  make().run_all(rest, hooks);
+  make().run_all(alone);
   check_same(alone, rest);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scintray/analysis/fit/fit_record.hpp"
+#include "scintray/core/journal.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/simulation/simulation_options.hpp"
 
@@ -21,6 +22,9 @@ struct FitModelSettings {
   SimulationOptions run;
   const std::atomic<bool>* stop = nullptr;                             ///< set from outside: stop
   std::function<void(std::uint64_t done, std::uint64_t of)> progress;  ///< within a curve
+  /// Keeps the finished points of curves, and has those of before. Its file is for the caller to remove, once
+  /// the fit is written.
+  std::optional<core::JournalSettings> journal = {};
 };
 
 /// A curve of a scene that can be traced for any values of the fitted keys. All curves of one draw have the
@@ -54,7 +58,8 @@ struct SceneFitOptions {
 
 /// Fit of a scene to its measurement. The record contains the result also after an early stop, marked by
 /// FitEnd::stopped.
-/// @throws InputError when the scene has no [fit], and as read_measured_curve, make_fit_model and fit_curve
+/// @throws InputError when the scene has no [fit], and as read_measured_curve, make_fit_model, fit_curve and
+///         core::Journal
 [[nodiscard]] analysis::FitRecord fit_scene(const scene_file::SceneFile& file,
                                             const SceneFitOptions& options);
 

@@ -8,7 +8,9 @@
 #include "scintray/analysis/goniometer/goniometer.hpp"
 #include "scintray/analysis/goniometer/sample_surface.hpp"
 #include "scintray/analysis/ratio.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/core/units.hpp"
+#include "scintray/simulation/detail/fit_journal.hpp"
 #include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::simulation {
@@ -72,6 +74,7 @@ class SceneCurve : public FitModel {
         settings_(settings),
         builder_(settings.run.surface_hooks, settings.run.models, *settings.run.mesh_formats) {
     check();
+    journal_ = detail::fit_journal(settings_, file_, fit_, inputs_);
   }
 
   std::optional<analysis::ModelCurve> trace(const std::vector<double>& parameters,
@@ -79,11 +82,16 @@ class SceneCurve : public FitModel {
     analysis::ModelCurve curve;
     std::unique_ptr<const SimulationPoint> ready;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
+      if (const auto earlier = detail::journal_point(journal_.get(), parameters, draw, i)) {
+        curve.push_back(*earlier);
+        continue;
+      }
       const auto stream = static_cast<std::uint32_t>(draw * measured_.points.size() + i);
       ready = point_at(parameters, i, ready.get(), stream);
       const std::optional<analysis::ModelPoint> point = trace_point(*ready, i);
       if (!point) return std::nullopt;
       curve.push_back(*point);
+      detail::add_to_journal(journal_.get(), parameters, draw, i, *point);
     }
     return curve;
   }
@@ -102,6 +110,7 @@ class SceneCurve : public FitModel {
     scene_file::SceneSpec spec = with_options(file_.spec(0, settings), settings_.run);
     spec.tallies.clear();
     spec.run.photon_list = !energy();
+    spec.run.photons = {};
     spec.run.paths = 0;
     return spec;
   }
@@ -199,6 +208,8 @@ class SceneCurve : public FitModel {
   const scene_file::FitSpec& fit_;
   const analysis::MeasuredCurve& measured_;
   const FitModelSettings& settings_;
+  core::InputRecord inputs_;  ///< before what reads files
+  std::unique_ptr<core::Journal> journal_;
   scene::SceneBuilder builder_;
   std::unique_ptr<const SimulationPoint> checked_;  ///< at the last position that was checked
   std::uint64_t count_ = 0, seed_ = 0;
@@ -218,6 +229,7 @@ class ReflectanceCurve : public FitModel {
         shipped_(materials::MaterialDatabase::shipped(settings.run.models)),
         rays_(settings.run.photons.value_or(fit.goniometer->rays)) {
     check();
+    journal_ = detail::fit_journal(settings_, file_, fit_, inputs_);
   }
 
   std::optional<analysis::ModelCurve> trace(const std::vector<double>& parameters,
@@ -228,7 +240,12 @@ class ReflectanceCurve : public FitModel {
     analysis::ModelCurve curve;
     for (std::size_t i = 0; i < measured_.points.size(); ++i) {
       if (settings_.stop && settings_.stop->load()) return std::nullopt;
+      if (const auto earlier = detail::journal_point(journal_.get(), parameters, draw, i)) {
+        curve.push_back(*earlier);
+        continue;
+      }
       arena.execute([&] { curve.push_back(reflectance(sample, i, draw)); });
+      detail::add_to_journal(journal_.get(), parameters, draw, i, curve.back());
       if (settings_.progress) settings_.progress((i + 1) * rays_, measured_.points.size() * rays_);
     }
     return curve;
@@ -296,6 +313,8 @@ class ReflectanceCurve : public FitModel {
   const scene_file::FitSpec& fit_;
   const analysis::MeasuredCurve& measured_;
   const FitModelSettings& settings_;
+  core::InputRecord inputs_;  ///< before what reads files
+  std::unique_ptr<core::Journal> journal_;
   materials::SurfaceFactory factory_;
   materials::MaterialDatabase shipped_;
   std::uint64_t rays_, seed_ = 0;

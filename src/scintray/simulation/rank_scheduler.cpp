@@ -95,7 +95,7 @@ void RankScheduler::hand_out() {
       blocks_left_ -= job.blocks.count();
       if (work.blocks.count() == 0) work_.pop_front();
       jobs_.push_back({job, to, std::nullopt});
-      ++rank.under_way;
+      if (rank.under_way++ == 0) rank.heard = Clock::now();
       give(to, job);
     }
   }
@@ -116,10 +116,23 @@ void RankScheduler::poll() {
   }
   std::optional<RankResult> own = worker_.take(any ? std::chrono::milliseconds(0) : kPatience);
   if (own) take(0, std::move(*own));
+  expect_signs_of_life();
+}
+
+void RankScheduler::expect_signs_of_life() const {
+  // All messages that have arrived were received, however long this rank was busy before.
+  for (std::size_t rank = 1; rank < states_.size(); ++rank) {
+    const Clock::duration silent = Clock::now() - states_[rank].heard;
+    if (states_[rank].under_way == 0 || silent < patience_) continue;
+    throw core::SystemError(fmt::format(
+        "rank {} has not answered for {:.0f} s: its process hangs, or its machine or network is gone", rank,
+        std::chrono::duration<double>(silent).count()));
+  }
 }
 
 void RankScheduler::receive(const Ranks::Message& next) {
   Rank& rank = states_[static_cast<std::size_t>(next.from)];
+  rank.heard = Clock::now();
   switch (kind_of(next.bytes)) {
     case MessageKind::ready: {
       RankReady ready;
@@ -140,6 +153,8 @@ void RankScheduler::receive(const Ranks::Message& next) {
     }
     case MessageKind::stop:
       stop_requested_ = true;
+      return;
+    case MessageKind::alive:
       return;
     case MessageKind::failed: {
       RankFailure failure;

@@ -2,6 +2,7 @@
 /// Response maps of scene files: construction, files (HDF5, docs/response_maps.md), and events from them.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "scintray/simulation/response_map.hpp"
@@ -37,12 +38,16 @@ struct MapOptions {
   ResponseSettings settings;
   ResponseHooks hooks;
   SimulationOptions simulation;
+  /// Keeps the finished cells, and has those of before. Its file is for the caller to remove, once the map is
+  /// written.
+  std::optional<core::JournalSettings> journal = {};
 };
 
 /// Map of all parts that scintillate. The scene's [source] states whether light is polarised and, as an event
 /// source, which wavelengths are in use; its events are not traced.
 /// @return a map without grids when stopped
-/// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map does
+/// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map and
+///         core::Journal do
 ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options);
 
 /// Throws InputError unless the scene is that of the map: everything must be written alike except the title,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/journal.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/words.hpp"
 #include "scintray/simulation/run_point.hpp"
@@ -92,10 +93,11 @@ struct ResponseSettings {
 /// Limits of the cells times channels of a map, and of its delays: 1.6 and 2 GB in memory.
 inline constexpr std::uint64_t kMostResponses = 400'000'000, kMostDelays = 500'000'000;
 
-/// Progress and interruption of the construction. Either may be empty.
+/// Progress, interruption and resumption of the construction. Any may be empty.
 struct ResponseHooks {
   std::function<void(std::uint64_t cells, std::uint64_t of)> progress;  ///< from one thread at a time
   const std::atomic<bool>* stop = nullptr;                              ///< set from outside: stop
+  core::Journal* journal = nullptr;  ///< of this very map: its cells are taken from there, others added
 };
 
 /// Response map by tracing the light of every cell, or that of every channel backward. The result does not

@@ -1,5 +1,7 @@
 #include "scintray/simulation/response.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scintray/config/toml_reader.hpp"
@@ -99,6 +101,17 @@ SimulationOptions without_photons(SimulationOptions options) {
   return options;
 }
 
+/// All that the cells of a map depend on, as text.
+std::string identity_of(const scene_file::SceneFile& file, const MapOptions& options, const RunOutline& run) {
+  const ResponseSettings& s = options.settings;
+  std::string text = fmt::format(
+      "response map\n{}\npitch {:.17g} photons {} delays {} direction {} photons {} seed {}\n",
+      run.header.version, s.pitch_mm, s.photons_per_cell, s.delays_kept,
+      core::word_of(kMapDirections, s.direction), s.photons_per_channel, run.header.seed);
+  for (const core::InputFile& input : run.inputs) text += input.name + " " + input.sha256 + "\n";
+  return text + file.text();
+}
+
 std::string origin_note(const std::filesystem::path& path, const ResponseFile& response) {
   const ResponseMap& map = response.map;
   return "events from the response map " + path.filename().string() + " (ScintRay " + response.version +
@@ -116,9 +129,15 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
   Simulation simulation(file, without_photons(options.simulation));
   const auto point = simulation.point(0);
   const scene_file::SceneSpec& spec = point->spec();
+  std::optional<core::Journal> journal;
+  ResponseHooks hooks = options.hooks;
+  if (options.journal) {
+    journal.emplace(*options.journal, identity_of(file, options, simulation.outline()));
+    hooks.journal = &*journal;
+  }
   ResponseFile built{
       build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
-                         options.settings, point->settings(), options.hooks),
+                         options.settings, point->settings(), hooks),
       core::version(), spec.file.string(), file.text()};
   if (options.settings.direction == MapDirection::automatic && !built.map.backward())
     built.forward_because = why_not_backward(point->scene());

@@ -16,6 +16,8 @@ namespace scintray::simulation {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{1};
+/// Signs of life within the time after which a rank without one counts as hung.
+constexpr int kSignsOfLife = 12;
 /// Time for the other ranks to end.
 constexpr std::chrono::milliseconds kEndPatience{5000};
 
@@ -83,6 +85,7 @@ std::unique_ptr<detail::RankScheduler> Simulation::scheduler(const SimulationHoo
       };
   auto made = std::make_unique<detail::RankScheduler>(*hooks.ranks, outline_, std::move(work), tracer_of,
                                                       threads_of(*point(0)));
+  made->set_patience(hooks.rank_patience);
   if (spec(0).run.until)
     made->divide_at(
         [energy = outline_.has_energy](std::uint64_t first) { return detail::next_decision(first, energy); });
@@ -94,6 +97,7 @@ void Simulation::serve(Ranks& ranks, const SimulationHooks& hooks) {
   ranks.send(0, message(detail::RankReady{threads_of(*point(0)), outline_}));
   detail::RankWorker worker;
   std::pair<std::size_t, detail::TraceJob> tracer{0, job_tracer(0)};
+  auto sent = std::chrono::steady_clock::now();
   for (bool stopping = false;;) {
     while (const std::optional<Ranks::Message> next = ranks.receive()) {
       const detail::MessageKind kind = detail::kind_of(next->bytes);
@@ -113,8 +117,11 @@ void Simulation::serve(Ranks& ranks, const SimulationHooks& hooks) {
       worker.stop();
       ranks.send(0, message(detail::MessageKind::stop));
     }
-    if (const std::optional<detail::RankResult> result = worker.take(kPatience))
-      ranks.send(0, message(*result));
+    const std::optional<detail::RankResult> result = worker.take(kPatience);
+    const auto now = std::chrono::steady_clock::now();
+    if (!result && now - sent < hooks.rank_patience / kSignsOfLife) continue;
+    ranks.send(0, result ? message(*result) : message(detail::MessageKind::alive));
+    sent = now;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/optics/reciprocal_kernel.hpp"
+#include "scintray/topography/detail/node_bytes.hpp"
 
 namespace scintray::topography {
 
@@ -98,8 +99,12 @@ void lay_along_x(optics::Surface& surface) {
 class Builder {
  public:
   Builder(SendRay send, const std::vector<SpectralPoint>& spectrum, const TableSettings& settings,
-          const TableProgress& progress)
-      : send_(std::move(send)), spectrum_(spectrum), settings_(settings), progress_(progress) {
+          const TableProgress& progress, core::Journal* journal)
+      : send_(std::move(send)),
+        spectrum_(spectrum),
+        settings_(settings),
+        progress_(progress),
+        journal_(journal) {
     intervals_ = static_cast<std::uint64_t>(std::ceil(0.5 * core::kPi / settings.incidence_step_rad - 1e-9));
     azimuths_ = static_cast<std::uint64_t>(std::ceil(core::kTwoPi / settings.azimuth_step_rad - 1e-9));
     kind_ = settings.directional ? optics::AzimuthKind::directional : optics::AzimuthKind::folded;
@@ -190,8 +195,12 @@ class Builder {
     const std::uint64_t rays = std::max<std::uint64_t>(1, batch() / 2);
     constexpr std::size_t kRow = std::size_t{Kernel::kStates} * Kernel::kTurns;
     std::vector<std::uint32_t> counts(Kernel::kStates * kRow);
+    const std::string key = detail::node_key(slice_, 2, 0);
+    const std::optional<std::string> earlier = journal_ ? journal_->find(key) : std::nullopt;
+    if (earlier) counts = core::numbers_of<std::uint32_t>(*earlier);
     // One task per state: none writes into another's row.
-    tbb::parallel_for(0, Kernel::kStates, [&](int state) {
+    const int states = earlier ? 0 : Kernel::kStates;
+    tbb::parallel_for(0, states, [&](int state) {
       const optics::Side from = state < Kernel::kPolar ? optics::Side::inside : optics::Side::outside;
       for (std::uint64_t k = 0; k < rays; ++k) {
         core::Rng rng(settings_.seed, core::StreamKind::table,
@@ -213,6 +222,7 @@ class Builder {
                  static_cast<std::size_t>(Kernel::target(Kernel::state(to, out), exit.azimuth))];
       }
     });
+    if (journal_ && !earlier && unclassified_ == 0) journal_->add(key, core::bytes_of(counts));
     Kernel::Report report;
     auto kernel = std::make_shared<const Kernel>(Kernel::from_counts(point_->index, counts, rays, report));
     reciprocity_ += fmt::format(
@@ -226,6 +236,29 @@ class Builder {
   }
 
   optics::TableNode trace(optics::Side side, std::uint64_t position) {
+    const std::string key = detail::node_key(slice_, static_cast<std::uint64_t>(side), position);
+    const std::optional<std::string> earlier = journal_ ? journal_->find(key) : std::nullopt;
+    if (earlier) {
+      const detail::TracedNode traced = detail::decoded_node(*earlier);
+      cut_ += traced.cut;
+      unconverged_ += traced.unconverged;
+      count_node();
+      return traced.node;
+    }
+    const std::uint64_t cut = cut_, unconverged = unconverged_, unclassified = unclassified_;
+    optics::TableNode node = trace_anew(side, position);
+    if (journal_ && unclassified_ == unclassified)
+      journal_->add(key, detail::encoded_node({node, cut_ - cut, unconverged_ - unconverged}));
+    count_node();
+    return node;
+  }
+
+  void count_node() {
+    if (progress_ && !progress_(static_cast<double>(++done_) / static_cast<double>(planned_)))
+      throw TableStopped("building the surface table was stopped");
+  }
+
+  optics::TableNode trace_anew(optics::Side side, std::uint64_t position) {
     optics::TableNode node;
     node.incidence_rad = incidence(position);
     node.traced_incidence_rad = std::min(node.incidence_rad, settings_.grazing_rad);
@@ -235,8 +268,6 @@ class Builder {
       reduce(node, side);
     } while (!converged(node) && records_.size() < settings_.most_rays * batch());
     unconverged_ += converged(node) ? 0 : 1;
-    if (progress_ && !progress_(static_cast<double>(++done_) / static_cast<double>(planned_)))
-      throw TableStopped("building the surface table was stopped");
     return node;
   }
 
@@ -288,6 +319,7 @@ class Builder {
   const std::vector<SpectralPoint>& spectrum_;
   const TableSettings& settings_;
   const TableProgress& progress_;
+  core::Journal* journal_;
   optics::AzimuthKind kind_ = optics::AzimuthKind::folded;
   const SpectralPoint* point_ = nullptr;  ///< of the current slice
   std::uint64_t slice_ = 0;
@@ -301,9 +333,9 @@ class Builder {
 
 optics::SurfaceTable build(SendRay send, const std::vector<SpectralPoint>& spectrum,
                            const TableSettings& settings, optics::TableProvenance provenance,
-                           const TableProgress& progress) {
+                           const TableProgress& progress, core::Journal* journal = nullptr) {
   check(spectrum, settings);
-  Builder builder(std::move(send), spectrum, settings, progress);
+  Builder builder(std::move(send), spectrum, settings, progress, journal);
   std::vector<optics::TableSlice> slices = builder.slices();
   provenance.seed = settings.seed;
   provenance.rays_per_azimuth = settings.rays;
@@ -336,7 +368,7 @@ bool leaves_into_medium(optics::SurfaceOutcome outcome, const core::Vec3& direct
 
 optics::SurfaceTable build_table(const optics::HeightField& field, const std::vector<SpectralPoint>& spectrum,
                                  const TableSettings& settings, optics::TableProvenance provenance,
-                                 const TableProgress& progress) {
+                                 const TableProgress& progress, core::Journal* journal) {
   const auto send = [&field](optics::Ray& ray, optics::Side side, const SpectralPoint& at,
                              core::Rng& rng) -> RayEnd {
     const double x = field.period_x_um() * rng.uniform();
@@ -344,7 +376,7 @@ optics::SurfaceTable build_table(const optics::HeightField& field, const std::ve
     const optics::HeightFieldExit exit = field.follow(ray, side, x, y, at.index, rng);
     return {optics::outcome_on(exit.side), exit.first_slope_rad, exit.cut};
   };
-  return build(send, spectrum, settings, std::move(provenance), progress);
+  return build(send, spectrum, settings, std::move(provenance), progress, journal);
 }
 
 optics::SurfaceTable build_table(const optics::HeightField& field, const optics::IndexPair& index,

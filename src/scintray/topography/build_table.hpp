@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/core/cancelled.hpp"
+#include "scintray/core/journal.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/optics/height_field.hpp"
 #include "scintray/optics/surface.hpp"
@@ -71,10 +72,11 @@ class TableStopped : public core::Cancelled {
 /// Runs on all threads of the calling task arena; the result is the same for any number of them.
 /// @param spectrum   at least one point, in order of wavelength
 /// @param provenance map, preparation and tiling, set by the caller; the rest is filled in
-/// InputError on settings out of range; TableStopped when `progress` returns false.
+/// @param journal    of this very table: nodes that it has are taken from there, and others added; may be
+/// null InputError on settings out of range; TableStopped when `progress` returns false.
 optics::SurfaceTable build_table(const optics::HeightField& field, const std::vector<SpectralPoint>& spectrum,
                                  const TableSettings& settings, optics::TableProvenance provenance = {},
-                                 const TableProgress& progress = {});
+                                 const TableProgress& progress = {}, core::Journal* journal = nullptr);
 /// The same at one pair of indices.
 optics::SurfaceTable build_table(const optics::HeightField& field, const optics::IndexPair& index,
                                  const TableSettings& settings, optics::TableProvenance provenance = {},

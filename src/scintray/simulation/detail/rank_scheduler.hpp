@@ -37,6 +37,8 @@ class RankScheduler {
   /// No job goes beyond the first block count that this returns for its first block; for runs that decide at
   /// fixed block counts when to end.
   void divide_at(std::function<std::uint64_t(std::uint64_t first)> next) { next_division_ = std::move(next); }
+  /// Ends the run (SystemError) when a rank that has jobs sends nothing for so long.
+  void set_patience(std::chrono::milliseconds patience) { patience_ = patience; }
   /// Drops the blocks of a point that were not passed on.
   void drop(std::size_t point);
 
@@ -62,6 +64,7 @@ class RankScheduler {
     int under_way = 0;               ///< jobs
     double seconds_per_block = 0.0;  ///< of the latest job; 0 before
     double bytes_per_block = 0.0;
+    Clock::time_point heard = Clock::now();  ///< latest message, or begin of a time with jobs
   };
 
   bool has_work(std::size_t point) const;
@@ -71,6 +74,8 @@ class RankScheduler {
   /// Receives messages and results; waits for one a short time.
   void poll();
   void receive(const Ranks::Message& message);
+  /// @throws SystemError for a rank that has been silent for too long
+  void expect_signs_of_life() const;
   void take(int from, RankResult result);
   /// Passes the results on that are there without a gap. Returns false after a range that was stopped.
   bool pass_on(std::size_t point, ResultSink& sink, const Passed& passed);
@@ -91,6 +96,7 @@ class RankScheduler {
   double pass_seconds_ = 0.0;      ///< that it took to pass the latest result on
   Clock::time_point last_passed_ = Clock::now();
   bool stop_requested_ = false;
+  std::chrono::milliseconds patience_{60'000};
   RankWorker worker_;
 };
 

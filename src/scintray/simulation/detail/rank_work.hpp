@@ -75,6 +75,7 @@ enum class MessageKind : std::uint8_t {
   failed,  ///< to rank 0: RankFailure
   end,     ///< from rank 0: the last message
   ended,   ///< to rank 0: the last message
+  alive,   ///< to rank 0, now and then while jobs are under way: this rank still exchanges messages
 };
 
 /// First message of a rank.
