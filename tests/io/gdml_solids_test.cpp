@@ -5,6 +5,7 @@
 
 #include "io/gdml_texts.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
+#include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "support/words.hpp"
 
@@ -176,6 +177,27 @@ highY="-0.5" highZ="0.8"/>)");
 <reflectedSolid name="it" solid="t" sx="1" sy="1" sz="-1" rx="90" ry="0" rz="0" dx="1" dy="2" dz="3" aunit="deg"/>)");
   for (const Vec3& v : reflected.vertices) CHECK(std::abs(v.x() - 1) == doctest::Approx(v.y() > 2 ? 2 : 1));
   CHECK(bounds(reflected).min().z() == doctest::Approx(2));
+}
+
+TEST_CASE("GDML: the deviation of round solids of metres is a share of their radius, unless one is stated") {
+  const Tessellation imported = gdml::GdmlImport().tessellation;
+  const auto tube = [](const std::string& radius_mm, const Tessellation& tessellation) {
+    return solid(R"(<tube name="it" rmax=")" + radius_mm + R"(" z="10" deltaphi="360" aunit="deg"/>)",
+                 tessellation);
+  };
+  const auto area = [](double radius_mm, int sides) {
+    return 0.5 * sides * radius_mm * radius_mm * std::sin(kTwoPi / sides);
+  };
+  // 1e-4 of the radius is kept by 223 sides or more: 288, the third of 72, 144, 288, at any size. At 0.01 mm a
+  // tube of 20 m has 4608.
+  for (const double radius_mm : {200.0, 2e3, 2e4})
+    CHECK(diagnose(tube(std::to_string(radius_mm), imported)).volume_mm3 ==
+          doctest::Approx(10.0 * area(radius_mm, 288)).epsilon(1e-9));
+  CHECK(diagnose(tube("20000", {})).volume_mm3 == doctest::Approx(10.0 * area(2e4, 4608)).epsilon(1e-9));
+  CHECK(tube("20", imported).triangles.size() == tube("20", {}).triangles.size());
+  const TriMesh vessel = solid(R"(<orb name="it" r="5000"/>)", imported);
+  CHECK(vessel.triangles.size() < 100000);
+  CHECK(diagnose(vessel).volume_mm3 == doctest::Approx(kPi / 0.75 * 1.25e11).epsilon(4e-4));
 }
 
 TEST_CASE("GDML: round solids are known as round, prisms of many sides are not") {

@@ -34,10 +34,11 @@ std::map<std::string, std::string> pairs(const std::string& option, const std::v
   return result;
 }
 
-mesh::Tessellation tessellation_of(const SceneImportArguments& arguments) {
-  mesh::Tessellation tessellation;
-  if (!arguments.deviation.empty())
+mesh::Tessellation tessellation_of(const SceneImportArguments& arguments, mesh::Tessellation tessellation) {
+  if (!arguments.deviation.empty()) {
     tessellation.deviation_mm = core::parse_quantity(arguments.deviation, core::Dimension::length);
+    tessellation.deviation_per_radius = 0.0;
+  }
   if (!arguments.angle.empty())
     tessellation.angle_rad = core::parse_quantity(arguments.angle, core::Dimension::angle);
   if (!(tessellation.deviation_mm > 0.0) || tessellation.angle_rad < 0.1 * core::kDegree * (1.0 - 1e-9) ||
@@ -68,7 +69,7 @@ exchange::SceneDraft draft_of_detector(const SceneImportArguments& arguments,
   if (!arguments.unit.empty())
     throw core::InputError(core::Problem{
         {}, "--unit with a GDML file or a file of GATE", "remove it: its solids state their units"});
-  const exchange::gdml::GdmlImport options{.tessellation = tessellation_of(arguments),
+  const exchange::gdml::GdmlImport options{.tessellation = tessellation_of(arguments, exchange::gdml::GdmlImport().tessellation),
                                            .media = pairs("--medium", arguments.media),
                                            .surfaces = pairs("--surface", arguments.surfaces),
                                            .skip_unsupported = arguments.skip_unsupported,
@@ -93,7 +94,7 @@ exchange::SceneDraft draft_of(const SceneImportArguments& arguments, const std::
                       "fill in the media and surfaces in the scene that is written"});
   const auto folder = std::filesystem::absolute(scene).parent_path();
   return exchange::draft_of_model(arguments.file,
-                                  {arguments.unit, tessellation_of(arguments),
+                                  {arguments.unit, tessellation_of(arguments, {}),
                                    std::filesystem::absolute(arguments.file).lexically_relative(folder)});
 }
 
@@ -136,7 +137,8 @@ void add_import_command(CLI::App& app) {
       ->required();
   command->add_option("--unit", arguments->unit, "Unit of a mesh file that does not state it, as mm or inch");
   command->add_option("--deviation", arguments->deviation,
-                      "Largest distance of triangles from curved faces (default: \"0.01 mm\")");
+                      "Largest distance of triangles from curved faces (default: \"0.01 mm\"; for solids of GDML and "
+                      "GATE 1e-4 of their radius, where that is more)");
   command->add_option("--angle", arguments->angle,
                       "Largest angle between neighbouring triangles of a curved face (default: \"5 deg\")");
   command->add_option(

@@ -52,8 +52,12 @@ SceneDraft draft_of_model(const std::filesystem::path& file, const ModelImport& 
 
 namespace scintray::exchange::gdml {
 
+/// Deviation of round solids, as a share of their radius, where it is more than that of all tessellations:
+/// vessels of metres would have a million triangles at 0.01 mm.
+inline constexpr double kDeviationPerRadius = 1e-4;
+
 struct GdmlImport {
-  mesh::Tessellation tessellation;
+  mesh::Tessellation tessellation{.deviation_per_radius = kDeviationPerRadius};
   std::map<std::string, std::string> media;     ///< database medium for a material of the file
   std::map<std::string, std::string> surfaces;  ///< database surface for an optical surface of the file
   bool skip_unsupported = false;      ///< leave out volumes whose solid is not supported, with a note

@@ -10,6 +10,11 @@ namespace scintray::mesh {
 struct Tessellation {
   double deviation_mm = 0.01;              ///< largest distance of a triangle from the face it stands for
   double angle_rad = 5.0 * core::kDegree;  ///< largest angle between neighbouring triangles or edges
+  /// Share of a face's radius that the deviation may reach where that is more than `deviation_mm`; CAD faces do
+  /// without.
+  double deviation_per_radius = 0.0;
+  /// Largest deviation (mm) from a face of this radius (mm).
+  double deviation_at(double radius_mm) const;
   bool operator==(const Tessellation&) const = default;
 };
 

@@ -41,7 +41,7 @@ class TwistedSolid : public SolidReader {
   /// Two triangles for a piece of a wall through the axis deviate from it by a quarter of the sine of its
   /// twist times its width: at most the tessellation's deviation.
   Steps steps(double half_width_mm, double twist_rad) const {
-    const double pieces = half_width_mm * std::abs(twist_rad) / (2.0 * tessellation_.deviation_mm);
+    const double pieces = half_width_mm * std::abs(twist_rad) / (2.0 * tessellation_.deviation_at(half_width_mm));
     const int arc = mesh::arc_segments(half_width_mm, std::abs(twist_rad), tessellation_, 1);
     const int along = std::max(arc, static_cast<int>(std::ceil(std::sqrt(std::min(pieces, 1e8)))));
     return {along, std::max(1, static_cast<int>(std::ceil(std::min(pieces, 1e8) / along)))};
