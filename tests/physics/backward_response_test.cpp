@@ -181,3 +181,15 @@ TEST_CASE(
   const ResponseMap forward = scene.map({2.0, 100, 8, MapDirection::automatic, 100});
   CHECK_FALSE(forward.backward());
 }
+
+TEST_CASE("Light is not traced backward from a sensor whose efficiency depends on the place on its face") {
+  const std::string even = sensors_under_slab("white", 0.0, "");
+  CHECK(why_not_backward(MappedScene(even).built.scene).empty());
+  const MappedScene scene(even + R"(
+[sensors.tilted.uniformity]
+radial = { length = [0, 10], length_unit = "mm", value = [1, 0.4] }
+)");
+  CHECK(why_not_backward(scene.built.scene).find("\"tilted\"") != std::string::npos);
+  CHECK_THROWS_AS(scene.map(backward(2.0, 100)), InputError);
+  CHECK_FALSE(scene.map({2.0, 100, 8, MapDirection::automatic, 100}).backward());
+}
