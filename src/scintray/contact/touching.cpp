@@ -1,17 +1,30 @@
-#include "scintray/contact/detail/boolean_difference.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "scintray/contact/detail/clusters.hpp"
 #include "scintray/contact/detail/facing.hpp"
 #include "scintray/contact/neighbours.hpp"
 
 namespace scintray::contact {
 
+namespace {
+
+/// Vertices and triangles of a part whose triangles may not have their faces yet.
+Body body_of(const PlacedMesh& part) {
+  std::vector<core::FaceId> one_face(part.mesh.triangles.size(), core::FaceId(0));
+  return {PlacedPart{part.name, part.mesh.vertices, part.mesh.triangles, std::move(one_face), part.where},
+          Eigen::Matrix3d::Identity()};
+}
+
+}  // namespace
+
 std::vector<char> touching_triangles(const PlacedMesh& part, const PlacedMesh& other, double tolerance_mm,
                                      double curved_mm) {
   std::vector<char> mask(part.mesh.triangles.size(), 0);
   const double reach = std::max(tolerance_mm, curved_mm);
   if (part.diagnosis.bounds.exteriorDistance(other.diagnosis.bounds) > reach) return mask;
-  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const std::vector<Body> bodies{Body(geometry_of(part), axes), Body(geometry_of(other), axes)};
+  const std::vector<Body> bodies{body_of(part), body_of(other)};
   for (const BodyPair& pair : near_pairs(bodies, tolerance_mm))
     for (const auto& [t, u] : pair.parallel) {
       if (mask[t] || bodies[0].normal[t].dot(bodies[1].normal[u]) > 0.0) continue;
