@@ -193,6 +193,7 @@ TEST_CASE("STEP: round faces carry their surface, in the unit of the import, als
     ImportOptions options;
     options.body = chosen;
     options.scale = 2.0;
+    options.tessellation.deviation_mm = 0.1;  // the ball has a radius of 152 mm
     const TriMesh mesh = written_and_read({rod, ball, block}, options, "INCH").mesh;
     CHECK(mesh.supports.size() == (chosen.empty() ? 3 : 1));
     std::size_t round = 0;
