@@ -19,27 +19,7 @@ namespace {
 
 /// Black but for the face at the sensor: the share of an event that is detected is the solid angle of that
 /// face at its place.
-const std::string kBlackCrystal = R"(
-title = "A black crystal"
-ambient = "air"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "4 mm"]
-medium = "LSO"
-surface = "black"
-[[part.face]]
-name = "exit"
-select = { normal = [0, 0, -1] }
-surface = "polished"
-[[part]]
-name = "pmt"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "R6231"
-[surfaces.black]
-model = "painted"
-reflectance = 0.0
-specular_share = 0.0
+const std::string kBlackCrystal = painted_crystal(0.0) + R"(
 [source]
 type = "gamma_events"
 events = 60

@@ -29,27 +29,7 @@ void check_same(const ResponseMap& a, const ResponseMap& b) {
 
 /// A crystal with a painted side, the reflectance of which is fitted.
 std::string fitted_scene(const std::filesystem::path& csv) {
-  return R"(
-title = "A fit"
-ambient = "air"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "4 mm"]
-medium = "LSO"
-surface = "paint"
-[[part.face]]
-name = "exit"
-select = { normal = [0, 0, -1] }
-surface = "polished"
-[[part]]
-name = "pmt"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "R6231"
-[surfaces.paint]
-model = "painted"
-reflectance = 0.9
-specular_share = 0.0
+  return painted_crystal(0.9) + R"(
 [source]
 type = "photons"
 region = { part = "crystal", slab_z = ["1 mm", "1.2 mm"] }

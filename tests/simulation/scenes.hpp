@@ -24,6 +24,21 @@ place = { touch = "crystal", side = "-z" }
 sensor = "R6231"
 )";
 
+/// That crystal with white or grey paint on all faces but the one at the sensor. The surface is called
+/// "paint".
+inline std::string painted_crystal(double reflectance) {
+  const std::string polished = "surface = \"polished\"\n";
+  std::string text = kCrystal;
+  text.replace(text.find(polished), polished.size(), R"(surface = "paint"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+)");
+  return text + "[surfaces.paint]\nmodel = \"painted\"\nspecular_share = 0.0\nreflectance = " +
+         std::to_string(reflectance) + "\n";
+}
+
 inline const std::string kPhotons = R"(
 [source]
 type = "photons"

@@ -20,28 +20,7 @@ using namespace scintray::test;
 namespace {
 
 /// A crystal of which light is lost at its faces, so that runs are short.
-const std::string kDimCrystal = R"(
-title = "A dim crystal"
-ambient = "air"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "4 mm"]
-medium = "LSO"
-surface = "dark"
-[[part.face]]
-name = "exit"
-select = { normal = [0, 0, -1] }
-surface = "polished"
-[[part]]
-name = "pmt"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "R6231"
-[surfaces.dark]
-model = "painted"
-reflectance = 0.5
-specular_share = 0.0
-)";
+const std::string kDimCrystal = painted_crystal(0.5);
 const std::string kManyPhotons = R"(
 [source]
 type = "photons"
@@ -58,7 +37,7 @@ energy = "8 keV"
 )";
 const std::string kDarkness = R"(
 [[sweep]]
-key = "surfaces.dark.reflectance"
+key = "surfaces.paint.reflectance"
 values = [0.5, 0.2]
 )";
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scintray/simulation/detail/backward_tracer.hpp"
+#include "scintray/simulation/detail/journal_pieces.hpp"
 #include "scintray/transport/in_order.hpp"
 
 namespace scintray::simulation {
@@ -94,33 +95,6 @@ class GridFiller {
   std::vector<ChannelLight> channels_;
 };
 
-/// Key of a piece of a channel's light in a journal: that of no cell.
-std::string key_of(std::uint64_t stream, std::uint64_t piece) {
-  return core::bytes_of(std::vector<std::uint64_t>{stream, piece});
-}
-
-/// Light of a channel as a piece of a journal: its four lists, which have the same lengths in every process.
-std::string encoded(const ChannelLight& light) {
-  return core::bytes_of(light.sum) + core::bytes_of(light.squares) + core::bytes_of(light.photons) +
-         core::bytes_of(light.delays_ns);
-}
-
-ChannelLight decoded(std::string_view bytes, std::size_t cells, std::uint32_t delays_kept) {
-  const std::size_t delays = cells * delays_kept;
-  if (bytes.size() != cells * (2 * sizeof(double) + sizeof(std::uint32_t)) + delays * sizeof(float))
-    throw core::InternalError("the light of a channel in a journal has another length");
-  const auto next = [&]<typename T>(std::vector<T>& list, std::size_t count) {
-    list = core::numbers_of<T>(bytes.substr(0, count * sizeof(T)));
-    bytes.remove_prefix(count * sizeof(T));
-  };
-  ChannelLight light;
-  next(light.sum, cells);
-  next(light.squares, cells);
-  next(light.photons, cells);
-  next(light.delays_ns, delays);
-  return light;
-}
-
 /// Progress over all media.
 struct Work {
   std::uint64_t done = 0, total = 0;
@@ -135,12 +109,13 @@ bool trace_medium(const BackwardTracer& tracer, std::uint64_t first_stream, cons
   lights.resize(channels);
   const auto trace = [&](std::uint64_t number) {
     const std::uint64_t channel = number / pieces, piece = number % pieces;
-    const std::string key = key_of(first_stream + channel, piece);
-    const std::optional<std::string> earlier = hooks.journal ? hooks.journal->find(key) : std::nullopt;
-    if (earlier) return decoded(*earlier, tracer.cells(), map.delays_kept);
-    ChannelLight light = tracer.trace(channel, first_stream + channel, photons * piece / pieces,
-                                      photons * (piece + 1) / pieces);
-    if (hooks.journal) hooks.journal->add(key, encoded(light));
+    const std::string key = detail::encoded(first_stream + channel, piece);  // longer than that of a cell
+    ChannelLight light;
+    if (detail::find_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns))
+      return light;
+    light = tracer.trace(channel, first_stream + channel, photons * piece / pieces,
+                         photons * (piece + 1) / pieces);
+    detail::add_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns);
     return light;
   };
   const auto collect = [&](std::uint64_t number, ChannelLight& light) {

@@ -4,14 +4,11 @@
 #include "scintray/core/sha256.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/simulation/detail/fit_journal.hpp"
+#include "scintray/simulation/detail/journal_pieces.hpp"
 
 namespace scintray::simulation::detail {
 
 namespace {
-
-std::string key_of(const std::vector<double>& parameters, std::uint64_t draw, std::size_t point) {
-  return core::bytes_of(parameters) + core::bytes_of(std::vector<std::uint64_t>{draw, point});
-}
 
 std::string option_text(const std::optional<std::uint64_t>& option) {
   return option ? std::to_string(*option) : "of the scene";
@@ -35,20 +32,16 @@ std::unique_ptr<core::Journal> fit_journal(const FitModelSettings& settings,
 std::optional<analysis::ModelPoint> journal_point(const core::Journal* journal,
                                                   const std::vector<double>& parameters, std::uint64_t draw,
                                                   std::size_t point) {
-  if (!journal) return std::nullopt;
-  const std::optional<std::string> bytes = journal->find(key_of(parameters, draw, point));
-  if (!bytes) return std::nullopt;
-  const auto numbers = core::numbers_of<double>(*bytes);
-  if (numbers.size() < 2) throw core::InternalError("a point of a journal is too short");
-  return analysis::ModelPoint{{numbers[0], numbers[1]}, {numbers.begin() + 2, numbers.end()}};
+  analysis::ModelPoint earlier;
+  if (!find_piece(journal, encoded(parameters, draw, point), earlier.value.value, earlier.value.error,
+                  earlier.parts))
+    return std::nullopt;
+  return earlier;
 }
 
 void add_to_journal(core::Journal* journal, const std::vector<double>& parameters, std::uint64_t draw,
                     std::size_t point, const analysis::ModelPoint& traced) {
-  if (!journal) return;
-  std::vector<double> numbers{traced.value.value, traced.value.error};
-  numbers.insert(numbers.end(), traced.parts.begin(), traced.parts.end());
-  journal->add(key_of(parameters, draw, point), core::bytes_of(numbers));
+  add_piece(journal, encoded(parameters, draw, point), traced.value.value, traced.value.error, traced.parts);
 }
 
 }  // namespace scintray::simulation::detail

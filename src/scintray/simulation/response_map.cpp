@@ -1,12 +1,12 @@
 #include "scintray/simulation/response_map.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/simulation/detail/backward_response.hpp"
+#include "scintray/simulation/detail/journal_pieces.hpp"
 #include "scintray/transport/in_order.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -30,38 +30,7 @@ struct CellResponse {
   bool is_earlier = false;                    ///< of a journal
 };
 
-std::string key_of(std::uint64_t address) { return core::bytes_of(std::vector<std::uint64_t>{address}); }
-
-/// A cell as a piece of a journal: numbers of 32 bits, of each channel its count, and how many delays and
-/// which.
-std::string encoded(const CellResponse& response) {
-  std::vector<std::uint32_t> numbers{response.photons};
-  for (std::size_t channel = 0; channel < response.detected.size(); ++channel) {
-    const std::vector<float>& delays = response.delays_ns[channel];
-    numbers.push_back(response.detected[channel]);
-    numbers.push_back(static_cast<std::uint32_t>(delays.size()));
-    for (const float delay : delays) numbers.push_back(std::bit_cast<std::uint32_t>(delay));
-  }
-  return core::bytes_of(numbers);
-}
-
-CellResponse decoded(std::string_view bytes, std::size_t channels) {
-  const auto numbers = core::numbers_of<std::uint32_t>(bytes);
-  std::size_t at = 0;
-  const auto next = [&] {
-    if (at == numbers.size()) throw core::InternalError("a cell of a journal is too short");
-    return numbers[at++];
-  };
-  CellResponse response;
-  response.photons = next();
-  for (std::size_t channel = 0; channel < channels; ++channel) {
-    response.detected.push_back(next());
-    std::vector<float>& delays = response.delays_ns.emplace_back();
-    for (std::uint32_t left = next(); left > 0; --left) delays.push_back(std::bit_cast<float>(next()));
-  }
-  response.is_earlier = true;
-  return response;
-}
+std::string key_of(std::uint64_t address) { return detail::encoded(address); }
 
 /// Traces cells of one grid.
 class CellTracer {
@@ -205,15 +174,18 @@ bool trace_forward(const scene::Scene& scene, const tally::ReadoutChannels& chan
            1;
   };
   const auto trace = [&](std::uint64_t address) {
-    const std::optional<std::string> earlier =
-        hooks.journal ? hooks.journal->find(key_of(address)) : std::nullopt;
-    if (earlier) return decoded(*earlier, map.channels.size());
+    CellResponse earlier;
+    earlier.is_earlier = detail::find_piece(hooks.journal, key_of(address), earlier.photons, earlier.detected,
+                                            earlier.delays_ns);
+    if (earlier.is_earlier) return earlier;
     const std::size_t grid = grid_of(address);
     return tracers[grid].trace(address - first[grid], address);
   };
   const auto collect = [&](std::uint64_t address, const CellResponse& response) {
     append(map.grids[grid_of(address)], response);
-    if (hooks.journal && !response.is_earlier) hooks.journal->add(key_of(address), encoded(response));
+    if (!response.is_earlier)
+      detail::add_piece(hooks.journal, key_of(address), response.photons, response.detected,
+                        response.delays_ns);
     if (hooks.progress) hooks.progress(address + 1, total);
   };
   return transport::work_in_order(total, run.threads, hooks.stop, trace, collect) == total;
