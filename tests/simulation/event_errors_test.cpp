@@ -19,13 +19,15 @@ namespace {
 
 /// Black but for the face at the sensor: the share of an event that is detected is the solid angle of that
 /// face at its place.
-const std::string kBlackCrystal = painted_crystal(0.0) + R"(
+std::string black_crystal() {
+  return painted_crystal(0.0) + R"(
 [source]
 type = "gamma_events"
 events = 60
 region = { part = "crystal" }
 energy = "8 keV"
 )";
+}
 const std::string kTallies = R"(
 [[tally]]
 type = "count"
@@ -96,7 +98,7 @@ double ratio_of_all(const std::vector<tally::PointResult>& runs, const Over& ove
 TEST_CASE(
     "The fates of an event source have pulls of mean 0 and width 1, with and without a birth efficiency") {
   for (const bool birth : {true, false}) {
-    const auto runs = runs_of(kBlackCrystal + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
+    const auto runs = runs_of(black_crystal() + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
     CHECK((runs.front().birth_efficiency < 1.0) == birth);
     for (const Fate fate : {Fate::detected, Fate::not_detected, Fate::absorbed_at_surface}) {
       CAPTURE(fate_name(fate));
@@ -125,7 +127,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width 1, summed and per photon") {
-  const auto runs = runs_of(kBlackCrystal + kTallies, kRuns);
+  const auto runs = runs_of(black_crystal() + kTallies, kRuns);
   for (const auto& place : {std::pair{0, 0}, {0, 1}, {1, 0}}) {
     const int tally = place.first, bin = place.second;
     CAPTURE(tally);
@@ -157,7 +159,7 @@ TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width
 }
 
 TEST_CASE("Sums over events are those of the events, in memory, in shards and in the file") {
-  const scene_file::SceneFile scene = scene_of(kBlackCrystal + kTallies);
+  const scene_file::SceneFile scene = scene_of(black_crystal() + kTallies);
   const std::filesystem::path folder = scratch_folder("event_errors");
   MemorySink memory;
   ResultsFile file(folder / "a.h5");

@@ -20,7 +20,7 @@ using namespace scintray::test;
 namespace {
 
 /// A crystal of which light is lost at its faces, so that runs are short.
-const std::string kDimCrystal = painted_crystal(0.5);
+std::string dim_crystal() { return painted_crystal(0.5); }
 const std::string kManyPhotons = R"(
 [source]
 type = "photons"
@@ -88,7 +88,7 @@ TEST_CASE("Decisions are at fixed block counts that grow by a tenth") {
 TEST_CASE("A run ends at the same photon for any threads, ranks and resumed runs, of photons and events") {
   for (const bool events : {false, true}) {
     const std::string goal = until("relative_error = \"4 %\"", events ? "" : "photon_list = true\n");
-    const std::string scene = kDimCrystal + (events ? kManyEvents : kManyPhotons) + goal + kDarkness;
+    const std::string scene = dim_crystal() + (events ? kManyEvents : kManyPhotons) + goal + kDarkness;
     MemorySink one;
     simulation_with(scene, 1, 1).run_all(one);
     for (const tally::PointResult& point : one.result.points) {
@@ -143,7 +143,7 @@ TEST_CASE("Ending by a relative error has no bias above its square, and errors c
   for (const bool events : {false, true}) {
     CAPTURE(events);
     const double goal = events ? 0.08 : 0.04;
-    const std::string source = kDimCrystal + (events ? kManyEvents : kManyPhotons);
+    const std::string source = dim_crystal() + (events ? kManyEvents : kManyPhotons);
     // The truth, by a run that does not end by its error.
     SimulationOptions options;
     options.seed = 1'000'000;
@@ -182,24 +182,24 @@ TEST_CASE("The first condition that holds ends a point: photons, events, absolut
     return simulation_with(scene).run_all().points.at(0);
   };
   const tally::PointResult photons =
-      point_of(kDimCrystal + kManyPhotons + until("relative_error = 0.0001, photons = 9_000"));
+      point_of(dim_crystal() + kManyPhotons + until("relative_error = 0.0001, photons = 9_000"));
   CHECK(photons.emitted == 9 * 1024);
   CHECK(photons.complete);
   CHECK(photons.photons_requested == 100'000);
   REQUIRE(photons.until->conditions.size() == 2);
   CHECK_FALSE(photons.until->conditions[0].met);
   CHECK(photons.until->conditions[1].met);
-  const tally::PointResult events = point_of(kDimCrystal + kManyEvents + until("events = 40"));
+  const tally::PointResult events = point_of(dim_crystal() + kManyEvents + until("events = 40"));
   CHECK(events.energy.events == 41);  // 32, 35, 38, 41
   const tally::PointResult escaped =
-      point_of(kDimCrystal + kManyPhotons + until("absolute_error = 0.004, fate = \"absorbed_at_surface\""));
+      point_of(dim_crystal() + kManyPhotons + until("absolute_error = 0.004, fate = \"absorbed_at_surface\""));
   CHECK(escaped.until->fate == Fate::absorbed_at_surface);
   CHECK(escaped.until->ended());
   CHECK(escaped.fraction(Fate::absorbed_at_surface).error <= 0.004);
-  const tally::PointResult at_once = point_of(kDimCrystal + kManyPhotons + until("wall_time = \"1 ps\""));
+  const tally::PointResult at_once = point_of(dim_crystal() + kManyPhotons + until("wall_time = \"1 ps\""));
   CHECK(at_once.emitted == 1024);
   CHECK_FALSE(at_once.until->is_reproducible());
-  const tally::PointResult never = point_of(kDimCrystal + kManyPhotons + until("relative_error = 0.0001"));
+  const tally::PointResult never = point_of(dim_crystal() + kManyPhotons + until("relative_error = 0.0001"));
   CHECK(never.emitted == 100'000);
   CHECK_FALSE(never.until->ended());
   CHECK(never.until->conditions.at(0).reached > 0.0001);
@@ -212,7 +212,7 @@ TEST_CASE("Why a run ended is in its file, and progress expects what is needed")
   SimulationProgress last;
   hooks.progress = [&](const SimulationProgress& progress) { last = progress; };
   const tally::RunResult run =
-      simulation_with(kDimCrystal + kManyPhotons + until("relative_error = 0.05, wall_time = \"3600 s\""))
+      simulation_with(dim_crystal() + kManyPhotons + until("relative_error = 0.05, wall_time = \"3600 s\""))
           .run_all(file, hooks);
   const tally::PointResult read = results::read_results(path).points.at(0);
   REQUIRE(read.until);
@@ -232,7 +232,7 @@ TEST_CASE("Why a run ended is in its file, and progress expects what is needed")
 TEST_CASE("A shard of a run that ends by its errors is refused, with the place of until") {
   const auto path = scratch_folder("until_shard") / "a.shard";
   RangeFile file(path, {1, 2});
-  Simulation simulation = simulation_with(kDimCrystal + kManyPhotons + until("relative_error = 0.05"));
+  Simulation simulation = simulation_with(dim_crystal() + kManyPhotons + until("relative_error = 0.05"));
   try {
     simulation.run_all(file, {}, {1, 2});
     FAIL("a shard was traced");
