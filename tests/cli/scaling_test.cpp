@@ -239,6 +239,101 @@ TEST_CASE("A run that is killed, ended by signals, and resumed makes the results
   }
 }
 
+TEST_CASE("report shows what a run that goes on, or was killed, has finished so far") {
+  const auto folder = scene_folder("report_so_far", kPhotonScene);
+  stop_run(kLong, {}, folder, SIGKILL);
+  REQUIRE_FALSE(std::filesystem::exists(folder / "out.h5"));
+  const Ended text = run_program({"report", "out.h5", "--text"}, folder);
+  CAPTURE(text.output);
+  CHECK(text.exit_code == cli::kSuccess);
+  CHECK(contains(text.output, "merged without blocks"));
+  check_done(run_program({"report", "out.h5.checkpoints", "--no-view"}, folder));
+  CHECK(std::filesystem::exists(folder / "out.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out.h5"));
+  check_refused({"report", "."}, folder, {"no checkpoints in this folder", "NAME.checkpoints"});
+  check_refused({"report", "none.h5"}, folder, {"none.h5"});
+  check_done(run_short(kLong, {"-o", "out.h5", "--resume"}, folder));  // nothing of it was changed
+}
+
+namespace {
+
+/// A command that keeps what it has finished in OUTPUT.journal is killed once it has begun to, and resumed to
+/// the bits of one that was not; what it has finished is not gone on with, or lost, by mistake.
+void check_killed_and_resumed(const Words& command, const std::filesystem::path& folder,
+                              const Words& one_thread = {"-t", "1"}) {
+  check_done(run_program(command + Words{"-o", "whole.h5"}, folder));
+  CHECK_FALSE(std::filesystem::exists(folder / "whole.h5.journal"));
+  {
+    const Program program(command + one_thread + Words{"-o", "out.h5"}, folder);
+    for (int turn = 0; turn < 60'000 && !std::filesystem::exists(folder / "out.h5.journal"); ++turn)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    program.signal(SIGKILL);
+    CHECK(program.wait().exit_code == -1);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "out.h5"));
+  check_refused(command + Words{"-o", "out.h5"}, folder, {"out.h5.journal", "--resume", "--restart"});
+  check_refused(command + Words{"-o", "out.h5", "--resume", "--seed", "5"}, folder,
+                {"out.h5.journal", "other work"});
+  check_done(run_program(command + Words{"-o", "out.h5", "--resume"}, folder));
+  check_same_results(folder / "whole.h5", folder / "out.h5");
+  CHECK_FALSE(std::filesystem::exists(folder / "out.h5.journal"));
+}
+
+}  // namespace
+
+TEST_CASE("A response map whose building is killed is resumed to the same bits, and only on request") {
+  const auto folder = scene_folder("killed_map", kEventScene);
+  const Words build{"response", "build", "scene.toml", "-q", "--pitch", "1.5 mm"};
+  check_killed_and_resumed(build + Words{"--photons", "30000", "--direction", "forward"}, folder);
+}
+
+TEST_CASE("A fit that is killed is resumed to the same bits, and only on request") {
+  const auto folder = scene_folder("killed_fit", R"(
+ambient = "air"
+[[part]]
+name = "crystal"
+box = ["2 mm", "2 mm", "10 mm"]
+medium = "dark"
+surface = "polished"
+[[part]]
+name = "sensor"
+box = ["2 mm", "2 mm", "1 mm"]
+place = { touch = "crystal", side = "-z" }
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal", slab_z = ["1 mm", "2 mm"] }
+wavelength = "420 nm"
+photons = 1000
+[media.dark]
+index = { n = 1.8 }
+absorption = { length = "10 mm" }
+scattering = { none = true }
+[fit]
+measurement = "light.csv"
+quantity = "detected_fraction"
+at = "source.region.slab_z.center"
+unit = "mm"
+scale = "free"
+[[fit.parameter]]
+key = "media.dark.absorption.length"
+start = "8 mm"
+low = "2 mm"
+high = "50 mm"
+)");
+  std::ofstream(folder / "light.csv") << "depth,light,error\n1,310,9\n3,240,8\n5,190,7\n7,150,6\n9,120,5\n";
+  check_killed_and_resumed({"fit", "scene.toml", "-q", "--photons", "8000"}, folder);
+}
+
+TEST_CASE("A surface table whose building is killed is resumed to the same bits, and only on request") {
+  const auto folder = scratch_folder("killed_table");
+  std::ofstream(folder / "map.txt") << "0 1 0 2\n1 0 3 0\n0 2 0 1\n2 0 1 0\n";
+  check_killed_and_resumed(
+      {"table", "build", "map.txt", "--pitch", "1 um", "--unit", "um", "--inside-index", "1.8",
+       "--outside-index", "1", "--rays", "1000", "--incidence-step", "15 deg", "--no-refine"},
+      folder, {});
+}
+
 TEST_CASE("A full disk loses nothing that was finished") {
   const auto folder = scene_folder("full_disk", kPhotonScene);
   check_done(run_short(kLong, {"-o", "whole.h5"}, folder));

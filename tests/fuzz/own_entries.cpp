@@ -4,6 +4,7 @@
 
 #include "require.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/journal.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/simulation/memory_sink.hpp"
@@ -166,6 +167,24 @@ bool run_results(const std::uint8_t* data, std::size_t size) {
   return read;
 }
 
+std::vector<std::string> journal_seeds() {
+  return {written(".journal", [](const std::filesystem::path& path) {
+    core::Journal journal({path, core::JournalStart::resume}, "work");
+    for (const char* key : {"one", "two", "three"}) journal.add(key, std::string(40, key[0]));
+  })};
+}
+
+bool run_journal(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".journal");
+  return read_or_input_error([&] {
+    const core::Journal journal({file.path(), core::JournalStart::resume}, "work");
+    for (const char* key : {"one", "two", "three"}) {
+      const auto piece = journal.find(key);
+      require(!piece || *piece == std::string(40, key[0]), "a piece that was never written");
+    }
+  });
+}
+
 bool run_response(const std::uint8_t* data, std::size_t size) {
   const ScratchFile file(data, size, ".h5");
   return read_or_input_error([&] { simulation::read_response(file.path()); });
@@ -177,7 +196,8 @@ constexpr std::size_t kPerByte = 4096, kAlways = std::size_t{1} << 30;
 constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerByte, kAlways},
                                  {"ranges", run_ranges, range_seeds, kPerByte, kAlways},
                                  {"results", run_results, results_seeds, kPerByte, kAlways},
-                                 {"response", run_response, response_seeds, kPerByte, kAlways}};
+                                 {"response", run_response, response_seeds, kPerByte, kAlways},
+                                 {"journal", run_journal, journal_seeds, kPerByte, kAlways}};
 
 }  // namespace
 

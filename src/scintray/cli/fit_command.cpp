@@ -8,8 +8,10 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/resume_options.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/fit_text.hpp"
@@ -23,6 +25,7 @@ struct FitOptions {
   std::filesystem::path scene, output, page;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed, photons, events;
+  ResumeOptions resume;
   bool quiet = false;
   bool json = false;
 };
@@ -82,7 +85,9 @@ void run_fit(const FitOptions& options) {
   simulation::check_fit_path(output);
   ProgressLine line(!options.quiet);
   const ActivityWatch watch(line);
+  const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::SceneFitOptions fit = fit_options(options, line);
+  fit.model.journal = journal_settings(options.resume, output);
   if (const auto spec = file.spec(0).fit; spec && !options.quiet)
     fit.step = [&line, spec](const analysis::CurveFitStep& step) {
       line.clear();
@@ -104,9 +109,11 @@ void run_fit(const FitOptions& options) {
   std::cout << "report   " << page.string() << "\n";
   answer.print([&] { return fit_json(record); });
   if (record.fit.end == analysis::FitEnd::stopped) {
-    std::cerr << "stopped: the fit is partial and marked so\n";
+    std::cerr << "stopped: the fit is partial and marked so; --resume goes on from here\n";
     throw CLI::RuntimeError(kInterrupted);
   }
+  std::error_code ignored;
+  std::filesystem::remove(fit.model.journal->path, ignored);
 }
 
 }  // namespace
@@ -129,6 +136,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->check(above_zero());
   command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps of the search");
+  add_resume_flags(*command, options->resume);
   add_json_flag(*command, options->json);
   command->footer("Example: scintray fit fit_depth_curve.toml --photons 20000");
   command->callback([options] {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/results_so_far.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -37,8 +38,10 @@ std::filesystem::path page_path(const ReportOptions& options) {
   return page;
 }
 
-void report_one(const ReportOptions& options) {
-  const std::filesystem::path& results = options.files.front();
+void report_one(ReportOptions options) {
+  const ReadableResults readable(options.files.front());
+  const std::filesystem::path& results = readable.path();
+  options.files.front() = readable.finished();
   const tally::RunResult run = results::read_results(results);
   if (options.text) {
     std::cout << report::text_summary(run, analysis_of(results, run));
@@ -79,7 +82,8 @@ void add_report_command(CLI::App& app) {
       "report", "Write the HTML page of a results file, or compare several, with differences in sigma");
   command
       ->add_option("RESULT", options->files,
-                   "results file (HDF5) of `scintray run`; several are compared with the first")
+                   "results file (HDF5) of `scintray run`, finished or going on (then what its checkpoints "
+                   "have); several finished ones are compared with the first")
       ->required();
   command->add_option("-o,--output", options->output,
                       "page (default: the first RESULT with .html, or .comparison.html)");
@@ -90,6 +94,7 @@ void add_report_command(CLI::App& app) {
   command->footer(
       "Examples:\n"
       "  scintray report quickstart.h5 --text\n"
+      "  scintray report scanner.h5 --text             of a run that goes on: what it has so far\n"
       "  scintray report before.h5 after.h5 -o comparison.html");
   command->callback([options] { options->files.size() > 1 ? compare(*options) : report_one(*options); });
 }

@@ -9,10 +9,12 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/resume_options.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
@@ -32,6 +34,7 @@ struct BuildOptions {
   std::uint64_t channel_photons = simulation::ResponseSettings{}.photons_per_channel;
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;
+  ResumeOptions resume;
   bool quiet = false;
   bool json = false;
 };
@@ -118,6 +121,8 @@ void build(const BuildOptions& options) {
   map_options.settings = {pitch_of(options.pitch), options.photons, options.delays, options.direction,
                           options.channel_photons};
   simulation::check_response_path(options.output);
+  const std::optional<core::FileLock> claim = core::claim_output(options.output);
+  map_options.journal = journal_settings(options.resume, options.output);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
   const ActivityWatch watch(line);
@@ -133,10 +138,12 @@ void build(const BuildOptions& options) {
   if (!options.quiet && !file.forward_because.empty())
     std::cout << "not traced backward: " << file.forward_because << "\n";
   if (file.map.grids.empty()) {
-    std::cerr << "stopped: a map requires all its cells, so none was written\n";
+    std::cerr << "stopped: a map requires all its cells, so none was written; --resume goes on from here\n";
     throw CLI::RuntimeError(kInterrupted);
   }
   simulation::write_response(options.output, file);
+  std::error_code ignored;
+  std::filesystem::remove(map_options.journal->path, ignored);
   if (!options.quiet) print_map(file.map);
   std::cout << "map      " << options.output.string() << "\n";
   answer.print([&] { return json_of_map(file.map); });
@@ -206,6 +213,7 @@ void add_build(CLI::App& response) {
       ->check(above_zero());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
+  add_resume_flags(*command, options->resume);
   add_json_flag(*command, options->json);
   command->footer("Example: scintray response build module.toml --pitch \"0.5 mm\" -o module_map.h5");
   command->callback([options] {

@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
 
 #include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
+#include "scintray/cli/resume_options.hpp"
 #include "scintray/cli/table_options.hpp"
 #include "scintray/cli/word_option.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/materials/table_key.hpp"
+#include "scintray/topography/resumable_table.hpp"
 
 namespace scintray::cli {
 
@@ -22,11 +26,13 @@ struct BuildArguments {
   PreparationOptions preparation;
   TracingOptions tracing;
   std::string output;
+  ResumeOptions resume;
   topography::Tiling tiling = topography::Tiling::automatic;
 };
 
 void build(const BuildArguments& arguments) {
   const JsonAnswer answer(arguments.json);
+  const std::optional<core::FileLock> claim = core::claim_output(arguments.output);
   const Between media = between(arguments.tracing, database_of(arguments.tracing));
   const std::vector<topography::SpectralPoint> spectrum = media.spectrum();
   topography::HeightMap map = read_map(arguments.map);
@@ -41,16 +47,25 @@ void build(const BuildArguments& arguments) {
   const materials::CacheEntry entry{
       materials::table_key("file " + arguments.map.map + ": " + source, settings, spectrum),
       arguments.map.map, media.names()};
+  core::Journal journal(journal_settings(arguments.resume, arguments.output), "table\n" + entry.key);
   const auto trace = [&](const topography::TableProgress& progress) {
     optics::TableProvenance provenance;
     provenance.map = arguments.map.map;
     provenance.preparation = map.history();
     provenance.tiling = topography::tiling_name(map, arguments.tiling);
     return topography::build_table(topography::make_height_field(map, arguments.tiling), spectrum, settings,
-                                   provenance, progress);
+                                   provenance, progress, journal);
   };
-  const std::shared_ptr<const optics::SurfaceTable> built = table_with_progress(entry, trace);
+  const std::shared_ptr<const optics::SurfaceTable> built = [&] {
+    try {
+      return table_with_progress(entry, trace);
+    } catch (const topography::TableStopped&) {
+      if (journal.pieces() > 0) std::cerr << "what was finished is kept; --resume goes on after it\n";
+      throw;
+    }
+  }();
   write_and_report(arguments.output, *built);
+  journal.remove();
   answer.print([&] { return table_json(*built); });
 }
 
@@ -65,6 +80,7 @@ void add_table_build_command(CLI::App& table) {
   add_preparation_options(*app, arguments->preparation);
   add_word_option(*app, "--tiling", arguments->tiling, kTilings, "Continuation of the map beyond its edges")
       ->default_str(core::word_of(kTilings, arguments->tiling));
+  add_resume_flags(*app, arguments->resume);
   add_json_flag(*app, arguments->json);
   app->footer(
       "Example: scintray table build ground.gsf --inside LSO --outside air --wavelength \"420 nm\" -o "
