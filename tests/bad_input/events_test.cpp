@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "bad_input/good_scene.hpp"
+#include "bad_input/marked_text.hpp"
 #include "scintray/materials/material_forms.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "support/words.hpp"
@@ -79,4 +80,26 @@ TEST_CASE("mistakes in the light of a medium have their place and a hint") {
                  {"energy", "positive"});
   check_contains(said_of_medium("[intrinsic_resolution]\nfwhm = \"8 %\"\nenergy = \"662 keV\"\n"),
                  {"medium", "not scintillate"});
+}
+
+TEST_CASE("absolute errors of until are in the unit of their result") {
+  const auto said = [](const std::string& until) {
+    std::string scene = kGoodScene;
+    const std::string photons =
+        "type = \"photons\"\nregion = { part = \"crystal\", slab_z = [\"1 mm\", \"3 mm\"] }\n"
+        "wavelength = \"420 nm\"\nphotons = 1000";
+    scene = replaced(scene, photons,
+                     "type = \"gamma_events\"\nevents = 5\nenergy = \"8 keV\"\n"
+                     "region = { part = \"crystal\", slab_z = [\"1 mm\", \"3 mm\"] }");
+    return complaint_of([&] {
+      SceneFile::from_text(replaced(scene, "seed = 7", "until = { " + until + " }"), "scene.toml");
+    });
+  };
+  check_contains(said("of = \"ctr\", absolute_error = \"1 %\""), {"time", "ns"});
+  check_contains(said("of = \"ctr\", absolute_error = \"0 ps\""), {"above 0", "2 ps"});
+  check_contains(said("of = \"photopeak\", absolute_error = \"3 keV\""), "keV");
+  check_contains(said("of = \"photopeak\", absolute_error = 0"), {"above 0", "photons"});
+  check_contains(said("of = \"light_per_energy\", absolute_error = 0.1"), "unit");
+  check_contains(said("of = \"energy_resolution\", absolute_error = 2"), "below 1");
+  CHECK(said("of = \"ctr\", absolute_error = \"2 ps\", wall_time = \"10 s\", events = 4") == "");
 }

@@ -121,6 +121,33 @@ TEST_CASE("values outside their range") {
   check_mistake("face = \"crystal:exit\"", "face = \"crystal:exit\"\nbins = @@0", "number of bins", "90 deg");
 }
 
+TEST_CASE("mistakes in run.until") {
+  const auto check = [](const std::string& until, const Fragments& what, const Fragments& hint) {
+    check_mistake("seed = 7", "until = { " + until + " }", what, hint);
+  };
+  check_mistake("seed = 7", "until = @@{ }", "no condition", {"relative_error", "wall_time", "photons"});
+  check_mistake("seed = 7", "until = @@{ fate = \"escaped\" }", "no condition", "relative_error");
+  check("relative_error = @@1", {"above 0", "below 1"}, "\"1 %\"");
+  check("relative_error = @@\"0 %\"", {"above 0", "below 1"}, "\"1 %\"");
+  check("absolute_error = @@-0.1", {"above 0", "below 1"}, "\"1 %\"");
+  check("absolute_error = @@\"1 mm\"", "\"mm\"", "%");
+  check("wall_time = @@\"0 s\"", "not positive", "3600 s");
+  check("wall_time = @@3600", {"integer 3600", "unit"}, "\"3600 ");
+  check("photons = @@0", "at least 1", "positive");
+  check("photons = @@1e5", "an integer", "without");
+  check("fate = @@\"detcted\", photons = 5", "one of \"detected\"", "did you mean \"detected\"?");
+  check("@@errror = 3, photons = 5", "unknown key", "known keys");
+  check("of = @@\"ctrr\", photons = 5", "one of \"fate\"", "did you mean \"ctr\"?");
+  check("of = @@\"fate\", photons = 5", "no error of it", "relative_error");
+  check("of = @@\"ctr\", absolute_error = \"3 ps\"", {"result of events", "emits photons"}, "event source");
+  check("of = @@\"photopeak\", relative_error = 0.1", {"result of events", "emits photons"}, "event source");
+  check("of = \"tally\", tally = @@\"exits\", relative_error = 0.1", {"tally", "\"exits\""}, "crystal:exit");
+  check("of = \"tally\", tally = \"crystal:exit\", bin = @@3, relative_error = 0.1", "no list", "axis");
+  check_mistake("seed = 7", "until = @@{ of = \"tally\", relative_error = 0.1 }", "no \"tally\"",
+                "add tally");
+  check("relative_error = 0.1, @@bin = [3]", {"\"bin\"", "no meaning"}, "remove");
+}
+
 TEST_CASE("words outside their choice name the nearest") {
   check_mistake("kind = \"bonded\"", "kind = @@\"bondd\"", "one of \"bonded\", \"dry\"",
                 "did you mean \"bonded\"?");

@@ -158,6 +158,7 @@ bool run_results(const std::uint8_t* data, std::size_t size) {
   const ScratchFile file(data, size, ".h5");
   std::size_t points = 0;
   const bool read = read_or_input_error([&] { points = results::read_results(file.path()).points.size(); });
+  read_or_input_error([&] { results::read_photon_layout(file.path()); });
   read_or_input_error([&] { results::read_photons(file.path(), 0, 1000); });
   read_or_input_error([&] { results::read_surfaces(file.path()); });
   for (std::size_t point = 0; point < points; ++point)

@@ -158,6 +158,49 @@ TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width
   }
 }
 
+TEST_CASE(
+    "Shares of a surface and of a sensor's face have pulls of mean 0 and width 1 with an event source") {
+  for (const bool birth : {true, false}) {
+    const auto runs = runs_of(kBlackCrystal + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
+    const auto at_surface = [](const tally::PointResult& run) {
+      SurfaceId most(0);
+      for (const SurfaceId surface : run.absorbed_at_surface.ids())
+        if (run.absorbed_at_surface[surface] > run.absorbed_at_surface[most]) most = surface;
+      return run.absorbed_fraction(most);
+    };
+    const auto detected = [](const tally::PointResult& run) {
+      return run.detected_fraction(run.sensor_faces.at(0));
+    };
+    const auto not_detected = [](const tally::PointResult& run) {
+      return run.not_detected_fraction(run.sensor_faces.at(0));
+    };
+    REQUIRE(runs.front().sensor_faces.size() == 1);
+    const auto check = [&](const auto& share_in) {
+      const double truth = ratio_of_all(
+          runs,
+          [&](const tally::PointResult& run) {
+            return share_in(run).value * static_cast<double>(run.photons);
+          },
+          [](const tally::PointResult& run) { return static_cast<double>(run.photons); });
+      std::vector<Estimate> values, as_independent;
+      for (const tally::PointResult& run : runs) {
+        values.push_back(share_in(run));
+        tally::PointResult photons = run;
+        photons.event_fates = {};
+        as_independent.push_back(share_in(photons));
+      }
+      const Pulls pulls(values, truth), before(as_independent, truth);
+      CAPTURE(pulls.width());
+      CAPTURE(before.width());
+      CHECK(pulls.are_standard(kEventsOfARun));
+      CHECK_FALSE(before.are_standard(kEventsOfARun));
+    };
+    check(at_surface);
+    check(detected);
+    check(not_detected);
+  }
+}
+
 TEST_CASE("Sums over events are those of the events, in memory, in shards and in the file") {
   const scene_file::SceneFile scene = scene_of(black_crystal() + kTallies);
   const std::filesystem::path folder = scratch_folder("event_errors");
@@ -190,6 +233,14 @@ TEST_CASE("Sums over events are those of the events, in memory, in shards and in
   for (const tally::PointResult& other :
        {merged.result.points.at(0), results::read_results(folder / "a.h5").points.at(0)}) {
     CHECK(other.event_fates == point.event_fates);
+    CHECK(other.events_in_medium.values() == point.events_in_medium.values());
+    CHECK(other.events_at_surface.values() == point.events_at_surface.values());
+    REQUIRE(other.sensor_faces.size() == point.sensor_faces.size());
+    for (std::size_t face = 0; face < point.sensor_faces.size(); ++face) {
+      CHECK(other.sensor_faces[face].events_detected == point.sensor_faces[face].events_detected);
+      CHECK(other.sensor_faces[face].events_not_detected == point.sensor_faces[face].events_not_detected);
+      CHECK(other.sensor_faces[face].events_both == point.sensor_faces[face].events_both);
+    }
     for (const std::size_t tally : {0, 1}) {
       CHECK(other.tallies.at(tally).event_squares == point.tallies.at(tally).event_squares);
       CHECK(other.tallies.at(tally).event_products == point.tallies.at(tally).event_products);

@@ -6,6 +6,7 @@
 
 #include "ranks_in_threads.hpp"
 #include "scenes.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 #include "scintray/simulation/detail/until_watch.hpp"
 #include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/results_file.hpp"
@@ -136,6 +137,140 @@ TEST_CASE("A run ends at the same photon for any threads, ranks and resumed runs
   }
 }
 
+namespace {
+
+struct Goal {
+  std::string conditions, of, unit;
+  bool events = false;
+};
+
+const std::string kWhen = R"(
+[[tally]]
+type = "count"
+name = "when"
+at = "detected"
+part = "pmt"
+axes = [{ variable = "part", names = ["pmt"] }, { variable = "time", from = "0 ns", to = "200 ns", bins = 4 }]
+)";
+
+/// The estimate that a goal names, by the analysis of the whole result.
+Estimate estimate_of(const Goal& goal, const MemorySink& sink) {
+  const tally::PointResult& point = sink.result.points.at(0);
+  if (!goal.events) {
+    Estimate score = point.tallies.at(0).per_photon(1, point.photons);
+    return {point.birth_efficiency * score.value, point.birth_efficiency * score.error};
+  }
+  const analysis::EventAnalysis whole = analysis::analyze_events(
+      sink.event_list, analysis_setup({}, sink.readouts.at(0).channels, sink.result.header.parts));
+  if (goal.of == "photopeak") return whole.peak.fit.position;
+  if (goal.of == "energy resolution") return whole.peak.fit.relative_fwhm;
+  if (goal.of == "light per energy") return whole.light_per_keV;
+  return analysis::quoted_fwhm(whole.pair_difference_ns.value());
+}
+
+}  // namespace
+
+TEST_CASE("Runs end by a tally's bin, a photopeak, a CTR: at the same photon for any threads and ranks") {
+  const std::vector<Goal> goals = {
+      {"of = \"tally\", tally = \"when\", bin = [\"pmt\", \"60 ns\"], relative_error = \"7 %\"",
+       "tally when, bin pmt, 60 ns", "1", false},
+      {"of = \"photopeak\", relative_error = \"2 %\"", "photopeak", "photons", true},
+      {"of = \"energy_resolution\", absolute_error = \"6 %\"", "energy resolution", "1", true},
+      {"of = \"light_per_energy\", relative_error = \"1.5 %\"", "light per energy", "1/keV", true},
+      {"of = \"ctr\", absolute_error = \"1 ns\"", "CTR", "ns", true}};
+  for (const Goal& goal : goals) {
+    CAPTURE(goal.of);
+    const std::string scene =
+        kDimCrystal + (goal.events ? kManyEvents : kManyPhotons + kWhen) + until(goal.conditions);
+    MemorySink one;
+    simulation_with(scene, 1, 1).run_all(one);
+    const tally::PointResult& point = one.result.points.at(0);
+    REQUIRE(point.until);
+    CHECK(point.until->of == goal.of);
+    CHECK(point.until->unit == goal.unit);
+    CHECK(point.until->ended());
+    const std::uint64_t blocks = goal.events ? point.energy.events : point.emitted / 1024;
+    CHECK(simulation::detail::next_decision(blocks - 1, goal.events) == blocks);
+    const tally::UntilCondition& condition = point.until->conditions.at(0);
+    const Estimate estimate = estimate_of(goal, one);
+    CAPTURE(estimate.value);
+    CHECK(condition.reached ==
+          (condition.quantity == "relative_error" ? estimate.error / estimate.value : estimate.error));
+    CHECK(condition.reached <= condition.goal);
+    MemorySink many, ranks, rest;
+    simulation_with(scene, 1, 5).run_all(many);
+    check_same_end(one, many);
+    run_ranks(
+        3, [&](int) { return simulation_with(scene); }, ranks);
+    check_same_end(one, ranks);
+    const CheckpointSettings settings{scratch_folder("until_goal") / "checkpoints",
+                                      std::chrono::milliseconds(0), Resume::resume};
+    {
+      Checkpoints checkpoints(settings);
+      std::atomic<bool> stop{false};
+      SimulationHooks hooks;
+      hooks.checkpoints = &checkpoints;
+      hooks.stop = &stop;
+      hooks.progress = [&](const SimulationProgress& progress) { stop = progress.done > 20; };
+      MemorySink part;
+      simulation_with(scene).run_all(part, hooks);
+    }
+    Checkpoints checkpoints(settings);
+    SimulationHooks hooks;
+    hooks.checkpoints = &checkpoints;
+    simulation_with(scene).run_all(rest, hooks);
+    check_same_end(one, rest);
+  }
+}
+
+TEST_CASE("A goal that names no bin of a tally is refused before the first photon, with its place") {
+  const auto refused = [](const std::string& bin) {
+    try {
+      simulation_with(kDimCrystal + kManyPhotons + kWhen +
+                      until("of = \"tally\", tally = \"when\", relative_error = 0.1" + bin))
+          .build();
+    } catch (const InputError& error) {
+      CHECK(error.problems().front().where.line > 0);
+      return error.problems().front().what + " | " + error.problems().front().hint;
+    }
+    return std::string("not refused");
+  };
+  check_contains(refused(""), {"2 axes", "0 entries", "part, time"});
+  check_contains(refused(", bin = [\"pmt\"]"), {"2 axes", "1 entries"});
+  check_contains(refused(", bin = [\"pnt\", \"3 ns\"]"), {"bin \"pnt\"", "pmt"});
+  check_contains(refused(", bin = [\"pmt\", \"3 mm\"]"), {"time", "not a unit"});
+  check_contains(refused(", bin = [\"pmt\", 3]"), {"time", "no unit"});
+  check_contains(refused(", bin = [\"pmt\", \"200 ns\"]"), {"200 ns", "0 to 200 ns"});
+}
+
+TEST_CASE("Points of a sweep share the wall time so that their errors come out alike") {
+  using simulation::detail::time_shares;
+  // Errors that fall with the root of the time: 1 s at 2 % and 1 s at 1 % are equal after 4 to 1.
+  const std::vector<double> shares = time_shares({1.0, 1.0}, {0.02, 0.01});
+  CHECK(shares.at(0) == doctest::Approx(0.8));
+  CHECK(shares.at(1) == doctest::Approx(0.2));
+  // A point with twice as slow photons takes twice the time for as many.
+  CHECK(time_shares({2.0, 1.0}, {0.02, 0.02}).at(0) == doctest::Approx(2.0 / 3.0));
+  // Errors that are not known are as the others.
+  CHECK(time_shares({1.0, 1.0}, {0.0, 0.01}).at(0) == doctest::Approx(0.5));
+  CHECK(time_shares({1.0, 1.0, 2.0}, {0.0, 0.0, 0.0}).at(2) == doctest::Approx(0.5));
+  CHECK(time_shares({0.0, 0.0}, {0.0, 0.0}).at(0) == doctest::Approx(0.5));
+  // By the clock: both points of a sweep end, and not by each having half of it.
+  const tally::RunResult run =
+      simulation_with(kDimCrystal + kManyPhotons + until("fate = \"detected\", wall_time = \"600 ms\"") +
+                      kDarkness)
+          .run_all();
+  REQUIRE(run.points.size() == 2);
+  double sum = 0.0;
+  for (const tally::PointResult& point : run.points) {
+    REQUIRE(point.until);
+    CHECK(point.until->conditions.at(0).goal > 0.0);
+    sum += point.until->conditions.at(0).goal;
+  }
+  CHECK(run.points[0].until->conditions[0].goal != run.points[1].until->conditions[0].goal);
+  CHECK(sum < 1.2);
+}
+
 #ifndef SCINTRAY_SANITIZED  // 800 runs, for their numbers alone
 TEST_CASE("Ending by a relative error has no bias above its square, and errors cover as stated") {
   constexpr double kLimit = 4.0;
@@ -227,6 +362,7 @@ TEST_CASE("Why a run ended is in its file, and progress expects what is needed")
   }
   CHECK(last.done == last.total);
   CHECK(last.done == run.points.at(0).emitted);
+  CHECK(contains(last.error, "goal 5 %"));
 }
 
 TEST_CASE("A shard of a run that ends by its errors is refused, with the place of until") {

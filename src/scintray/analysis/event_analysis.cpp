@@ -111,16 +111,21 @@ void EventCollector::add(const tally::EventRecord& event) {
   if (!orders_.empty()) orders_.add(event);
 }
 
-void EventCollector::analyze_light(EventAnalysis& analysis) const {
-  std::vector<double> light, depths;
-  for (const Row& row : rows_) {
-    light.push_back(row.light);
-    depths.push_back(row.depth_mm);
-  }
+std::vector<double> EventCollector::analyze_peak(EventAnalysis& analysis) const {
+  std::vector<double> light;
+  light.reserve(rows_.size());
+  for (const Row& row : rows_) light.push_back(row.light);
   analysis.mean_light = mean_of(light);
   analysis.light_per_keV = light_of_energy_.ratio();
-  analysis.spectrum = automatic_histogram(light);
   analysis.peak = fit_photopeak(light, setup_.photopeak);
+  return light;
+}
+
+void EventCollector::analyze_light(EventAnalysis& analysis) const {
+  std::vector<double> depths;
+  for (const Row& row : rows_) depths.push_back(row.depth_mm);
+  const std::vector<double> light = analyze_peak(analysis);
+  analysis.spectrum = automatic_histogram(light);
   // Bins made for the whole spectrum may be as wide as its peak.
   const double fine = analysis.peak.has_numbers() ? analysis.peak.fit.model.sigma / 3.0 : 0.0;
   if (analysis.spectrum && fine > 0.0 && fine < analysis.spectrum->width)
@@ -318,6 +323,16 @@ EventAnalysis EventCollector::finish() const {
   analyze_ends(rows, analysis);
   analyze_timing(rows, analysis);
   analyze_photon_orders(rows, analysis);
+  return analysis;
+}
+
+EventAnalysis EventCollector::finish_figures() const {
+  EventAnalysis analysis;
+  analysis.events = events_;
+  analysis.pulses = rows_.size();
+  analysis.has_readout = has_readout_;
+  analyze_peak(analysis);
+  analyze_timing(select(analysis), analysis);
   return analysis;
 }
 

@@ -98,6 +98,9 @@ class EventCollector {
   /// Sets AnalysisSetup::light_timing, where that is known after the events only.
   void set_light_timing(std::optional<tally::LightTiming> timing) { setup_.light_timing = std::move(timing); }
   EventAnalysis finish() const;
+  /// Light, photopeak and timing alone, without spectra and what is by part or depth: for what is evaluated
+  /// again and again while events come.
+  EventAnalysis finish_figures() const;
 
  private:
   struct Row {
@@ -109,6 +112,8 @@ class EventCollector {
   };
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;
+  /// Mean light, light per energy and photopeak. Returns the light of the pulses.
+  std::vector<double> analyze_peak(EventAnalysis& analysis) const;
   void analyze_light(EventAnalysis& analysis) const;
   void analyze_parts(EventAnalysis& analysis) const;
   void analyze_depth(const std::vector<double>& depths, const std::vector<double>& light,

@@ -107,7 +107,8 @@ simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
   simulation::SimulationHooks hooks;
   hooks.stop = &InterruptGuard::requested();
   hooks.progress = [&line](const simulation::SimulationProgress& p) {
-    line.show(fmt::format("point {}/{}", p.point + 1, p.points), static_cast<double>(p.done),
+    const std::string error = p.error.empty() ? "" : "  " + p.error;
+    line.show(fmt::format("point {}/{}{}", p.point + 1, p.points, error), static_cast<double>(p.done),
               static_cast<double>(p.total), p.thing);
   };
   return hooks;

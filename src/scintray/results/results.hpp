@@ -12,6 +12,7 @@
 #include "scintray/analysis/goniometer/surface_analysis.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/results/history_table.hpp"
+#include "scintray/results/photon_list_layout.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/readout_channels.hpp"
@@ -38,6 +39,8 @@ class ResultsWriter {
   void add_surfaces(const std::vector<analysis::SurfaceAnalysis>& analyses);
   /// Appends to the list of detected photons. Rows are written in blocks, so memory is bounded.
   void append_photons(const std::vector<tally::DetectedPhoton>& photons);
+  /// Prepares a list of detected photons, in place of the constructor.
+  void begin_photons(const PhotonListLayout& layout);
   /// Prepares the tables of photon paths, before the first of them; without it the file has none.
   void begin_paths();
   /// Appends the paths of a point, as append_photons does.
@@ -81,7 +84,10 @@ struct ResultsStatus {
 tally::RunResult read_results(const std::filesystem::path& path);
 ResultsStatus read_results_status(const std::filesystem::path& path);
 
-/// At most `count` detected photons from row `offset` on. Throws InputError when there is no list.
+/// What the list of detected photons has. @throws InputError when there is no list
+PhotonListLayout read_photon_layout(const std::filesystem::path& path);
+/// At most `count` detected photons from row `offset` on; what the file has no column of is not a number, or
+/// no id, or 0. Throws InputError when there is no list.
 std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                                 std::uint64_t count);
 

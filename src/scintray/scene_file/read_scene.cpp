@@ -86,11 +86,30 @@ void expect_polarised(const config::TomlTable& root, const SceneSpec& scene) {
                 "write polarisation = \"random\" in [source], or remove it from [run]");
 }
 
-/// Reports a number of events to end by for a source that has none.
-void expect_events(const config::TomlTable& root, const SceneSpec& scene) {
-  if (!scene.run.until || !scene.run.until->events || scene.energy_source) return;
-  root.report("run", "\"until\" has a number of events, but the source emits photons",
-              "give photons in until, or use an event source (docs/gamma_sources.md)");
+/// Reports conditions of [run] until that the rest of the scene does not have: events, or a tally.
+void expect_goal(const config::TomlTable& root, const SceneSpec& scene) {
+  if (!scene.run.until) return;
+  const UntilSpec& until = *scene.run.until;
+  if (until.events && !scene.energy_source)
+    root.report("run", "\"until\" has a number of events, but the source emits photons",
+                "give photons in until, or use an event source (docs/gamma_sources.md)");
+  const config::TomlTable table = root.table("run").table("until");
+  if (is_of_events(until.of) && !scene.energy_source)
+    table.report("of", "a result of events, but the source emits photons",
+                 "name a fate or a tally, or use an event source (docs/gamma_sources.md)");
+  if (until.of != UntilGoal::tally || !table.good("tally")) return;
+  std::vector<std::string> names;
+  for (const TallySpec& tally : scene.tallies) names.push_back(tally.name);
+  const auto named = std::find(names.begin(), names.end(), until.tally.name);
+  if (named == names.end()) {
+    const core::InputError unknown = core::unknown_name(until.tally.where, "tally", until.tally.name, names);
+    const core::Problem& problem = unknown.problems().front();
+    return table.report("tally", problem.what, problem.hint);
+  }
+  const TallySpec& tally = scene.tallies[static_cast<std::size_t>(named - names.begin())];
+  if (tally.score && until.absolute_error)
+    table.report("absolute_error", "the tally sums \"" + tally.score->name + "\", not photons",
+                 "give relative_error");
 }
 
 /// Collector that reports common problems of several sweeps and points once.
@@ -151,13 +170,13 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   read_source(root, names, scene);
   scene.run = read_run(root);
-  expect_events(root, scene);
   expect_polarised(root, scene);
   scene.readout = read_readout(root);
   scene.analysis = read_analysis(root);
   scene.criteria = read_criteria(root);
   scene.goniometers = read_goniometers(root);
   scene.tallies = read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), variables);
+  expect_goal(root, scene);
   name_sides(scene);
   read_all_definitions(root, scene);
   scene.surfaces.merge(bodies.surfaces);

@@ -35,6 +35,7 @@ RunSpec read_run(const config::TomlTable& scene) {
   run.curved = table->choice("curved", kCurvedFaces, CurvedFaces::exact);
   run.polarisation = table->choice("polarisation", kPolarisationStates, PolarisationState::linear);
   run.photon_list = table->boolean("photon_list", false);
+  run.photons = read_photon_output(*table, run.photon_list);
   run.photon_history = table->boolean("photon_history", false);
   constexpr std::int64_t kMostPaths = 100'000;
   const std::int64_t paths = table->integer("paths", 0);

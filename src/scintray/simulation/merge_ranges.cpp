@@ -118,6 +118,8 @@ tally::PointResult empty_point(const RunOutline& run, std::size_t point) {
   tally::PointSums none;
   none.counts.absorbed_in_medium.resize(run.header.media.size());
   none.counts.absorbed_at_surface.resize(run.header.surfaces.size());
+  none.counts.events_in_medium.resize(run.header.media.size());
+  none.counts.events_at_surface.resize(run.header.surfaces.size());
   none.shifted_in_medium.resize(run.header.media.size());
   none.shifted_at_surface.resize(run.header.surfaces.size());
   return finished_point(none, run, point, false);

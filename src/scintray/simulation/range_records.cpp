@@ -88,6 +88,8 @@ bool is_consistent(const tally::PointSums& sums, const tally::RunHeader& header)
   return sums.counts.absorbed_in_medium.size() == header.media.size() &&
          sums.shifted_in_medium.size() == header.media.size() &&
          sums.counts.absorbed_at_surface.size() == header.surfaces.size() &&
+         sums.counts.events_in_medium.size() == header.media.size() &&
+         sums.counts.events_at_surface.size() == header.surfaces.size() &&
          sums.shifted_at_surface.size() == header.surfaces.size() &&
          std::all_of(sums.counts.sensor_faces.begin(), sums.counts.sensor_faces.end(), has_names) &&
          std::all_of(sums.tallies.begin(), sums.tallies.end(), has_bins);

@@ -119,6 +119,10 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
   if (!status.has_photon_list)
     throw not_to_read_out(path, "this result has no list of detected photons to read out again",
                           "write photon_list = true in [run] of the scene and run it again");
+  if (!results::read_photon_layout(path).is_whole())
+    throw not_to_read_out(
+        path, "the list of photons of this result has not all columns of every photon",
+        "remove photon_columns, photon_sample and photon_channels from [run] and run it again");
   std::error_code ignored;
   if (std::filesystem::equivalent(path, output, ignored))
     throw not_to_read_out(output, "the new result would replace its own source", "name another file");

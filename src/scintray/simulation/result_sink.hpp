@@ -9,6 +9,7 @@
 #include "scintray/core/input_file.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/results/history_table.hpp"
+#include "scintray/results/photon_list_layout.hpp"
 #include "scintray/tally/event_record.hpp"
 #include "scintray/tally/photon_history.hpp"
 #include "scintray/tally/photon_path.hpp"
@@ -31,6 +32,7 @@ struct PointOutline {
 struct RunOutline {
   tally::RunHeader header;
   bool photon_list = false;                          ///< detected photons will be passed to the sink
+  results::PhotonListLayout photons;                 ///< which of them, and what of each a file has
   bool paths = false;                                ///< paths of photons will be passed to the sink
   std::optional<results::HistoryColumns> histories;  ///< of all points; empty: there are none
   bool has_energy = false;                           ///< of an event source

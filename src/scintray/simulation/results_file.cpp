@@ -3,7 +3,8 @@
 namespace scintray::simulation {
 
 void ResultsFile::begin(const RunOutline& run) {
-  writer_.emplace(path_, run.header, run.photon_list);
+  writer_.emplace(path_, run.header, false);
+  if (run.photon_list) writer_->begin_photons(run.photons);
   analysis_.emplace(run.header);
   if (run.paths) writer_->begin_paths();
   if (run.histories) writer_->begin_histories(*run.histories);

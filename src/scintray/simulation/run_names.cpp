@@ -12,6 +12,21 @@ core::IdVector<IdType, Count> moved(const core::IdVector<IdType, Count>& counts,
   return result;
 }
 
+/// The same of sums over events. Squares of a sum do not follow from those of its parts: two of one name are
+/// not known.
+template <typename IdType>
+core::IdVector<IdType, tally::EventShare> moved_events(
+    const core::IdVector<IdType, tally::EventShare>& events, const core::IdVector<IdType, IdType>& to,
+    std::size_t size) {
+  core::IdVector<IdType, tally::EventShare> result(size);
+  core::IdVector<IdType, int> count(size);
+  for (const IdType id : events.ids()) {
+    if (events[id].squares == 0) continue;
+    result[to[id]] = ++count[to[id]] == 1 ? events[id] : tally::EventShare();
+  }
+  return result;
+}
+
 }  // namespace
 
 void RunNames::add(const scene::Scene& scene) {
@@ -33,6 +48,8 @@ tally::PointSums Renumbering::applied(tally::PointSums sums) const {
   tally::PointResult& counts = sums.counts;
   counts.absorbed_in_medium = moved(counts.absorbed_in_medium, media_, media_count_);
   counts.absorbed_at_surface = moved(counts.absorbed_at_surface, surfaces_, surface_count_);
+  counts.events_in_medium = moved_events(counts.events_in_medium, media_, media_count_);
+  counts.events_at_surface = moved_events(counts.events_at_surface, surfaces_, surface_count_);
   sums.shifted_in_medium = moved(sums.shifted_in_medium, media_, media_count_);
   sums.shifted_at_surface = moved(sums.shifted_at_surface, surfaces_, surface_count_);
   for (tally::SensorFaceCount& count : counts.sensor_faces) {

@@ -181,6 +181,10 @@ void Simulation::add_to_outline(const SimulationPoint& point) {
     header.scene_text = first.text;
     header.seed = first.run.seed;
     outline_.photon_list = first.run.photon_list;
+    outline_.photons.columns = first.run.photons.columns;
+    outline_.photons.every = first.run.photons.every;
+    for (const config::NameRef& channel : first.run.photons.channels)
+      outline_.photons.channels.push_back(channel.name);
     if (first.run.photon_history) outline_.histories.emplace();
   }
   outline_.paths = outline_.paths || point.spec().run.paths > 0;
@@ -243,6 +247,7 @@ tally::PointResult Simulation::trace(std::size_t number, const Tracer& tracer, R
       if (receiver.expected_work) {
         progress.done = until_.work_done + done;
         progress.total = until_.work_done + *receiver.expected_work * until_.points_left;
+        progress.error = receiver.error_text;
       }
       hooks.progress(progress);
     };
@@ -299,6 +304,7 @@ tally::RunResult Simulation::run_all(ResultSink& sink, const SimulationHooks& ho
   result.header = header();
   std::size_t ended = 0;
   begin_until(points());
+  share_wall_time(hooks);
   try {
     for (; ended < points() && !stopped(hooks); ++ended) {
       if (shard.of > 1 && blocks_of_point(blocks, outline_, ended).count() == 0) continue;

@@ -43,6 +43,7 @@ struct SimulationProgress {
   std::size_t point = 0, points = 1;  ///< the current point, and the number of points
   std::uint64_t done = 0, total = 0;  ///< over all points
   std::string thing;                  ///< of which: "photons", or "events"
+  std::string error;                  ///< "error 1.2 %, goal 0.5 %" of the point, where [run] until has one
 };
 
 struct SimulationHooks {
@@ -159,6 +160,8 @@ class Simulation {
   std::unique_ptr<detail::UntilWatch> watch_of(const SimulationPoint& point, std::size_t number) const;
   /// Begins the wall time and the progress of so many points that end by [run] until.
   void begin_until(std::size_t points);
+  /// Shares the wall time of [run] until out to the points of a sweep, by a short trial of each.
+  void share_wall_time(const SimulationHooks& hooks);
 
   std::optional<scene_file::SceneFile> file_;
   scene_file::SceneSpec scene_;  ///< when there is no file
@@ -180,6 +183,7 @@ class Simulation {
     std::chrono::steady_clock::time_point start{};
     std::size_t points_left = 1;  ///< the present one included
     std::uint64_t work_done = 0;  ///< of the points before
+    std::vector<double> shares;   ///< of the wall time, by point; empty: all alike
   } until_;
 };
 

@@ -1,6 +1,8 @@
 // The blocks of one point: traced here or by ranks, kept in checkpoints, and ended by [run] until.
 #include <limits>
+#include <numeric>
 
+#include "scintray/simulation/detail/goal_watch.hpp"
 #include "scintray/simulation/detail/point_sink.hpp"
 #include "scintray/simulation/detail/rank_scheduler.hpp"
 #include "scintray/simulation/detail/until_watch.hpp"
@@ -9,7 +11,53 @@
 
 namespace scintray::simulation {
 
-void Simulation::begin_until(std::size_t points) { until_ = {std::chrono::steady_clock::now(), points, 0}; }
+namespace {
+
+/// Of the wall time, what the trials of all points may take.
+constexpr double kTrialShare = 0.2;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Sums over the first blocks of a point, up to the first decision, and the relative error of what its
+/// until names: of a result of events that is not known yet, that of the detected photons per event.
+double trial_error(const SimulationPoint& point, const std::atomic<bool>* stop) {
+  detail::GoalWatch goal(point);
+  tally::PointSums sums = tally::empty_sums(point.scene(), point.plan());
+  RunHooks hooks;
+  hooks.stop = stop;
+  hooks.events = [&](const std::vector<tally::EventRecord>& events) { goal.add(events); };
+  if (!point.source().has_energy()) hooks.events = nullptr;
+  hooks.range = [&](const tally::BlockRange&, const tally::PointSums& more) { sums.merge(more); };
+  const std::uint64_t blocks =
+      std::min(point.source().blocks(), detail::next_decision(0, point.source().has_energy()));
+  point.trace({0, blocks}, hooks);
+  std::optional<core::Estimate> estimate = goal.estimate(sums);
+  if (!estimate && point.source().has_energy()) estimate = sums.energy.detected.value().mean();
+  return estimate && estimate->value > 0.0 ? estimate->error / estimate->value : 0.0;
+}
+
+}  // namespace
+
+void Simulation::begin_until(std::size_t points) {
+  until_ = {std::chrono::steady_clock::now(), points, 0, {}};
+}
+
+void Simulation::share_wall_time(const SimulationHooks& hooks) {
+  const std::optional<scene_file::UntilSpec> until = spec(0).run.until;
+  if (!until || !until->wall_time_s || points() < 2) return;
+  std::vector<double> seconds, errors;
+  for (std::size_t number = 0; number < points(); ++number) {
+    const std::shared_ptr<const SimulationPoint> tried = point(number);
+    if (!tried->spec().run.until) return;
+    const auto start = std::chrono::steady_clock::now();
+    errors.push_back(trial_error(*tried, hooks.stop));
+    seconds.push_back(seconds_since(start));
+    if (seconds_since(until_.start) > kTrialShare * *until->wall_time_s) return;  // too little to know
+  }
+  until_.shares = detail::time_shares(seconds, errors);
+}
 
 std::unique_ptr<detail::UntilWatch> Simulation::watch_of(const SimulationPoint& point,
                                                          std::size_t number) const {
@@ -17,11 +65,15 @@ std::unique_ptr<detail::UntilWatch> Simulation::watch_of(const SimulationPoint& 
   if (!until) return nullptr;
   double seconds = std::numeric_limits<double>::infinity();
   if (until->wall_time_s) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - until_.start;
-    seconds = (*until->wall_time_s - elapsed.count()) / static_cast<double>(until_.points_left);
+    const double left = *until->wall_time_s - seconds_since(until_.start);
+    double share = 1.0 / static_cast<double>(until_.points_left);
+    if (!until_.shares.empty()) {
+      const auto own = until_.shares.begin() + static_cast<std::ptrdiff_t>(number);
+      share = *own / std::accumulate(own, until_.shares.end(), 0.0);
+    }
+    seconds = left * share;
   }
-  return std::make_unique<detail::UntilWatch>(*until, outline_, number, seconds,
-                                              point.facts().birth_efficiency);
+  return std::make_unique<detail::UntilWatch>(point, seconds);
 }
 
 tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, const SimulationHooks& hooks,
@@ -40,14 +92,18 @@ tally::PointResult Simulation::run_blocks(std::size_t number, ResultSink& sink, 
       if (!watch || !receiver.total) return false;
       watch->look(receiver.blocks, *receiver.total);
       receiver.expected_work = watch->expected_work();
+      receiver.error_text = watch->error_text();
       return watch->has_ended();
     };
     const auto finish = [&](bool complete) {
+      receiver.watch_events = nullptr;
       if (watch && receiver.total) receiver.until = watch->result(*receiver.total);
       if (receiver.total) until_.work_done += work_in(*receiver.total);
       if (until_.points_left > 1) --until_.points_left;
       return complete;
     };
+    if (watch)
+      receiver.watch_events = [&](const std::vector<tally::EventRecord>& events) { watch->add(events); };
     if (hooks.checkpoints) {
       hooks.checkpoints->replay(number, receiver);
       receiver.also = hooks.checkpoints;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scintray/simulation/detail/goal_watch.hpp"
 #include "scintray/simulation/simulation_options.hpp"
 
 namespace scintray::simulation {
@@ -88,6 +89,7 @@ SimulationPoint::SimulationPoint(scene_file::SceneSpec spec, std::shared_ptr<con
       source_(source::make_light_source(spec_, built_->scene, &source_notes_)),
       plan_(built_->scene, spec_),
       settings_(settings_of(spec_, built_->scene, plan_, number)) {
+  if (spec_.run.until) detail::goal_bin(*spec_.run.until, plan_);  // a bin that does not exist
   if (plan_.history && multiplies_light(built_->scene))
     throw core::InputError(core::Problem{
         spec_.run.where,

@@ -14,10 +14,26 @@ PointResult empty_block(const scene::Scene& scene, const TallyPlan& plan) {
   PointResult result;
   result.absorbed_in_medium.assign(scene.media.size(), 0);
   result.absorbed_at_surface.assign(scene.surfaces.size(), 0);
+  result.events_in_medium.resize(scene.media.size());
+  result.events_at_surface.resize(scene.surfaces.size());
   result.shifted_in_medium.resize(scene.media.size());
   result.shifted_at_surface.resize(scene.surfaces.size());
   result.sensor_faces = plan.sensor_face_names;
   return result;
+}
+
+/// Adds the numbers of photons of an event at each place to the sums over events.
+void add_event_places(const PointResult& event, PointResult& total) {
+  for (const core::MediumId medium : event.absorbed_in_medium.ids())
+    total.events_in_medium[medium].add(event.absorbed_in_medium[medium], event.photons);
+  for (const core::SurfaceId surface : event.absorbed_at_surface.ids())
+    total.events_at_surface[surface].add(event.absorbed_at_surface[surface], event.photons);
+  for (std::size_t i = 0; i < event.sensor_faces.size(); ++i) {
+    const SensorFaceCount& at = event.sensor_faces[i];
+    total.sensor_faces[i].events_detected.add(at.detected, event.photons);
+    total.sensor_faces[i].events_not_detected.add(at.not_detected, event.photons);
+    total.sensor_faces[i].events_both += at.detected * at.not_detected;
+  }
 }
 
 }  // namespace
@@ -74,7 +90,7 @@ void BlockTally::end(const source::Photon& photon, const transport::Step& step, 
   const auto last = result_.detected_path_histogram.size() - 1;
   ++result_.detected_path_histogram[std::min(last, static_cast<std::size_t>(photon.path_mm / kPathBin_mm))];
   if (history_) history_->keep(point, event_, photon_, records_.reflections());
-  if (plan_.photon_list) {
+  if (plan_.lists(step, event_, photon_)) {
     const core::PlainVec3 &p = photon.position, &d = photon.ray.direction;
     photons_.push_back({point,
                         event_,
@@ -101,6 +117,7 @@ void BlockTally::add_to(PointSums& total, bool is_event) const {
   if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
   if (!is_event) return;
   total.counts.event_fates.add(result_.fates);
+  add_event_places(result_, total.counts);
   if (scorer_) add_event(scorer_->contributions(), result_.photons, total.tallies);
 }
 

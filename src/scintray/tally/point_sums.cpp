@@ -40,9 +40,14 @@ void add_counts(PointResult& total, const PointResult& more) {
   total.event_fates += more.event_fates;
   add_each(total.absorbed_in_medium, more.absorbed_in_medium);
   add_each(total.absorbed_at_surface, more.absorbed_at_surface);
+  add_each(total.events_in_medium, more.events_in_medium);
+  add_each(total.events_at_surface, more.events_at_surface);
   for (std::size_t i = 0; i < total.sensor_faces.size(); ++i) {
     total.sensor_faces[i].detected += more.sensor_faces[i].detected;
     total.sensor_faces[i].not_detected += more.sensor_faces[i].not_detected;
+    total.sensor_faces[i].events_detected += more.sensor_faces[i].events_detected;
+    total.sensor_faces[i].events_not_detected += more.sensor_faces[i].events_not_detected;
+    total.sensor_faces[i].events_both += more.sensor_faces[i].events_both;
   }
   add_each(total.detected_path_histogram, more.detected_path_histogram);
   total.scatterings += more.scatterings;
@@ -234,6 +239,8 @@ bool PointSums::alike(const PointSums& other) const {
   };
   return counts.absorbed_in_medium.size() == other.counts.absorbed_in_medium.size() &&
          counts.absorbed_at_surface.size() == other.counts.absorbed_at_surface.size() &&
+         counts.events_in_medium.size() == other.counts.events_in_medium.size() &&
+         counts.events_at_surface.size() == other.counts.events_at_surface.size() &&
          shifted_in_medium.size() == other.shifted_in_medium.size() &&
          shifted_at_surface.size() == other.shifted_at_surface.size() &&
          std::equal(counts.sensor_faces.begin(), counts.sensor_faces.end(), other.counts.sensor_faces.begin(),

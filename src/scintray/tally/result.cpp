@@ -73,6 +73,49 @@ core::Estimate PointResult::not_detected_fraction(std::uint64_t not_detected, st
   return {mean, std::sqrt(std::max(1.0 / n, square - mean * mean) / n)};
 }
 
+core::Estimate PointResult::share_of(std::uint64_t count, const EventShare& events) const {
+  const core::Estimate share = core::binomial_estimate(count, photons);
+  if (event_fates.events < 2 || events.squares == 0) return share;
+  const double residual = static_cast<double>(events.squares) -
+                          2.0 * share.value * static_cast<double>(events.products) +
+                          share.value * share.value * event_fates.photon_squares();
+  return {share.value, ratio_error(residual, event_fates.events, static_cast<double>(photons))};
+}
+
+core::Estimate PointResult::absorbed_fraction(core::MediumId medium) const {
+  const bool has_events = events_in_medium.contains(medium);
+  return share_of(absorbed_in_medium.contains(medium) ? absorbed_in_medium[medium] : 0,
+                  has_events ? events_in_medium[medium] : EventShare());
+}
+
+core::Estimate PointResult::absorbed_fraction(core::SurfaceId surface) const {
+  const bool has_events = events_at_surface.contains(surface);
+  return share_of(absorbed_at_surface.contains(surface) ? absorbed_at_surface[surface] : 0,
+                  has_events ? events_at_surface[surface] : EventShare());
+}
+
+core::Estimate PointResult::detected_fraction(const SensorFaceCount& at) const {
+  const core::Estimate share = share_of(at.detected, at.events_detected);
+  return {birth_efficiency * share.value, birth_efficiency * share.error};
+}
+
+core::Estimate PointResult::not_detected_fraction(const SensorFaceCount& at) const {
+  const core::Estimate share = not_detected_fraction(at.not_detected, at.detected);
+  if (event_fates.events < 2 || at.events_detected.squares + at.events_not_detected.squares == 0)
+    return share;
+  // Of each event the photons that are not detected, and of those detected the part that stands for such.
+  const double weight = 1.0 - birth_efficiency;
+  const double squares = static_cast<double>(at.events_not_detected.squares) +
+                         2.0 * weight * static_cast<double>(at.events_both) +
+                         weight * weight * static_cast<double>(at.events_detected.squares);
+  const double products = static_cast<double>(at.events_not_detected.products) +
+                          weight * static_cast<double>(at.events_detected.products);
+  const double residual =
+      squares - 2.0 * share.value * products + share.value * share.value * event_fates.photon_squares();
+  const double error = ratio_error(residual, event_fates.events, static_cast<double>(photons));
+  return {share.value, share.value == 0.0 ? std::max(error, share.error) : error};
+}
+
 bool UntilResult::ended() const {
   return std::any_of(conditions.begin(), conditions.end(),
                      [](const UntilCondition& condition) { return condition.met; });

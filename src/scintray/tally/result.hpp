@@ -17,12 +17,31 @@
 
 namespace scintray::tally {
 
+/// Sums over the events of an event source, of each its number of photons of one kind: of its square, and of
+/// its product with the photons traced of the event. Zeros: no such photon, or not known.
+struct EventShare {
+  std::uint64_t squares = 0, products = 0;
+
+  void add(std::uint64_t count, std::uint64_t photons) {
+    squares += count * count;
+    products += count * photons;
+  }
+  EventShare& operator+=(const EventShare& other) {
+    squares += other.squares;
+    products += other.products;
+    return *this;
+  }
+  bool operator==(const EventShare&) const = default;
+};
+
 /// Photons that reached one sensor through one face.
 struct SensorFaceCount {
   core::PartId part;  ///< the sensor's
   core::FaceId face;  ///< the face crossed
   std::uint64_t detected = 0;
   std::uint64_t not_detected = 0;
+  EventShare events_detected{}, events_not_detected{};
+  std::uint64_t events_both = 0;  ///< sum over the events of detected times not detected
 };
 using SensorFaceId = core::Id<SensorFaceCount>;
 
@@ -124,8 +143,10 @@ struct UntilCondition {
 
 /// What [run] until stated of a point, and what was reached.
 struct UntilResult {
-  core::Fate fate = core::Fate::detected;  ///< whose share the errors are of
+  core::Fate fate = core::Fate::detected;  ///< whose share the errors are of, where `of` is empty
   std::vector<UntilCondition> conditions;
+  std::string of;          ///< the result that the errors are of, as "CTR"; empty: the share of the fate
+  std::string unit = "1";  ///< of its absolute error
 
   /// True when a condition ended the point; else all photons or events of its source were traced.
   bool ended() const;
@@ -162,6 +183,8 @@ struct PointResult : PointFacts {
   std::optional<UntilResult> until;                     ///< with [run] until
   core::IdVector<core::MediumId, std::uint64_t> absorbed_in_medium;
   core::IdVector<core::SurfaceId, std::uint64_t> absorbed_at_surface;
+  core::IdVector<core::MediumId, EventShare> events_in_medium;    ///< of those absorbed there
+  core::IdVector<core::SurfaceId, EventShare> events_at_surface;  ///< likewise
   core::IdVector<core::MediumId, optics::ShiftCount> shifted_in_medium;
   core::IdVector<core::SurfaceId, optics::ShiftCount> shifted_at_surface;
   std::vector<SensorFaceCount> sensor_faces;
@@ -190,10 +213,20 @@ struct PointResult : PointFacts {
   core::Estimate detected_fraction(std::uint64_t detected) const;
   /// Share of the emitted photons that reach a sensor and are not detected, from the counts there.
   core::Estimate not_detected_fraction(std::uint64_t not_detected, std::uint64_t detected) const;
+  /// The same of one face of a sensor, with errors as those of fraction().
+  core::Estimate detected_fraction(const SensorFaceCount& at) const;
+  core::Estimate not_detected_fraction(const SensorFaceCount& at) const;
+  /// Share of the emitted photons that are absorbed in a medium, or at a surface, with errors as those of
+  /// fraction(); zero for one that the point does not have.
+  core::Estimate absorbed_fraction(core::MediumId medium) const;
+  core::Estimate absorbed_fraction(core::SurfaceId surface) const;
   /// Upper bound of the error of any fraction from cut photons: cut photons / photons.
   double cut_bias_bound() const;
   /// Its events as what is independent; `all` is 0 for a source of photons.
   EventCounts event_counts() const;
+
+ private:
+  core::Estimate share_of(std::uint64_t count, const EventShare& events) const;
 };
 
 /// One detected photon, as streamed to the results file when a list is requested.

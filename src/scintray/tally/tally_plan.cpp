@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scintray/core/pattern.hpp"
+
 namespace scintray::tally {
 
 namespace {
@@ -38,6 +40,7 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     : channels(scene), photon_list(spec.run.photon_list) {
   if (spec.run.photon_history) history.emplace(scene);
   bind_ways(scene);
+  bind_photon_list(spec);
   bind_readout(spec, scene);
   if (spec.tallies.empty()) return;
 
@@ -72,6 +75,23 @@ TallyPlan::TallyPlan(const scene::Scene& scene, const scene_file::SceneSpec& spe
     bind(from_back, interface.front_face, scene_file::FaceWay::in);
     bind(from_front, interface.front_face, scene_file::FaceWay::out);
     bind(from_front, interface.back_face, scene_file::FaceWay::in);
+  }
+}
+
+void TallyPlan::bind_photon_list(const scene_file::SceneSpec& spec) {
+  const scene_file::PhotonOutputSpec& list = spec.run.photons;
+  list_every = list.every;
+  if (list.channels.empty()) return;
+  std::vector<std::string> names;
+  for (const ReadoutChannel& channel : channels.list) names.push_back(channel.name);
+  list_channels.assign(names.size(), false);
+  for (const config::NameRef& wanted : list.channels) {
+    bool found = false;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!core::matches_pattern(wanted.name, names[i])) continue;
+      list_channels[i] = found = true;
+    }
+    if (!found) throw core::unknown_name(wanted.where, "readout channel", wanted.name, names);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scintray/core/philox.hpp"
 #include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"
@@ -18,6 +19,9 @@
 #include "scintray/tally/result.hpp"
 
 namespace scintray::tally {
+
+/// Seed of the streams by which photons are in a sampled list, the same in all runs.
+inline constexpr std::uint64_t kSampleSeed = 0x73616d706c65;
 
 /// A bin of an axis of names.
 using BinId = core::Id<struct BinTag>;
@@ -84,9 +88,19 @@ struct TallyPlan {
   }
 
   bool photon_list = false;
+  std::uint64_t list_every = 1;     ///< one photon in so many
+  std::vector<bool> list_channels;  ///< of `channels`, those that are listed; empty: all
+  /// True when a detected photon is in the list. Which photons a sample has depends on their numbers alone,
+  /// not on seed or scene.
+  bool lists(const transport::Step& step, std::uint64_t event, std::uint64_t photon) const {
+    if (!photon_list || (!list_channels.empty() && !list_channels[channels.at(step)])) return false;
+    return list_every == 1 ||
+           core::Rng(kSampleSeed, core::StreamKind::other, event, photon).bits() % list_every == 0;
+  }
   std::optional<HistoryPlan> history;  ///< when histories are requested
 
  private:
+  void bind_photon_list(const scene_file::SceneSpec& spec);
   void bind_readout(const scene_file::SceneSpec& spec, const scene::Scene& scene);
   void bind_ways(const scene::Scene& scene);
   std::map<std::pair<core::PartId, core::FaceId>, SensorFaceId> sensor_face_of_;

@@ -97,10 +97,15 @@ Json until_json(const tally::UntilResult& until) {
                           {"goal", number_json(condition.goal)},
                           {"reached", number_json(condition.reached)},
                           {"met", condition.met}});
-  return {{"share_of", core::fate_name(until.fate)},
-          {"ended", until.ended()},
-          {"reproducible", until.is_reproducible()},
-          {"conditions", conditions}};
+  Json json = {
+      {"ended", until.ended()}, {"reproducible", until.is_reproducible()}, {"conditions", conditions}};
+  if (until.of.empty()) {
+    json["share_of"] = core::fate_name(until.fate);
+  } else {
+    json["error_of"] = until.of;
+    json["absolute_error_unit"] = until.unit;
+  }
+  return json;
 }
 
 Json sensors_json(const tally::RunResult& run, const tally::PointResult& point) {

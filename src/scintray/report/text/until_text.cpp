@@ -8,7 +8,7 @@ namespace scintray::report {
 
 namespace {
 
-std::string condition_text(const tally::UntilCondition& condition, core::Fate fate) {
+std::string condition_text(const tally::UntilCondition& condition, const tally::UntilResult& until) {
   const bool counts = condition.quantity == "photons" || condition.quantity == "events";
   const auto number = [&](double value) {
     if (!std::isfinite(value)) return std::string("not known");
@@ -18,9 +18,11 @@ std::string condition_text(const tally::UntilCondition& condition, core::Fate fa
     return number(condition.reached) + " " + condition.quantity + ", goal " + number(condition.goal);
   if (condition.quantity == "wall_time")
     return "wall time " + number(condition.reached) + " s, of " + number(condition.goal) + " s";
-  const std::string kind = condition.quantity == "relative_error" ? "relative" : "absolute";
-  return kind + " error of the share " + core::fate_name(fate) + " " + number(condition.reached) + ", goal " +
-         number(condition.goal);
+  const bool relative = condition.quantity == "relative_error";
+  const std::string of = until.of.empty() ? std::string("share ") + core::fate_name(until.fate) : until.of;
+  const std::string unit = relative || until.unit == "1" ? "" : " " + until.unit;
+  return std::string(relative ? "relative" : "absolute") + " error of the " + of + " " +
+         number(condition.reached) + unit + ", goal " + number(condition.goal) + unit;
 }
 
 }  // namespace
@@ -30,8 +32,7 @@ std::string until_sentence(const tally::PointResult& point) {
   const bool ended = point.until->ended();
   std::string text;
   for (const tally::UntilCondition& condition : point.until->conditions)
-    if (condition.met || !ended)
-      text += (text.empty() ? "" : "; ") + condition_text(condition, point.until->fate);
+    if (condition.met || !ended) text += (text.empty() ? "" : "; ") + condition_text(condition, *point.until);
   if (!ended)
     return (point.complete ? "All that the source has was traced before a condition of until held: "
                            : "Interrupted before a condition of until held: ") +

@@ -189,6 +189,22 @@ void for_each_shift_column(Visit&& visit) {
   visit("energy_kept", &optics::ShiftCount::kept_eV);
 }
 
+/// Calls `visit(name, member)` for each column of sums over events of the faces of sensors; `member(count)`
+/// is a reference to its value.
+template <typename Visit>
+void for_each_face_event_column(const Visit& visit) {
+  visit(
+      "detected_event_squares", [](auto& c) -> auto& { return c.events_detected.squares; });
+  visit(
+      "detected_event_products", [](auto& c) -> auto& { return c.events_detected.products; });
+  visit(
+      "unconverted_event_squares", [](auto& c) -> auto& { return c.events_not_detected.squares; });
+  visit(
+      "unconverted_event_products", [](auto& c) -> auto& { return c.events_not_detected.products; });
+  visit(
+      "detected_unconverted_products", [](auto& c) -> auto& { return c.events_both; });
+}
+
 /// Columns of omitted effects; `member` points to the text, or to the truth value, that a column holds.
 template <typename Visit>
 void for_each_omission_text(Visit&& visit) {

@@ -66,7 +66,20 @@ void put_shifts(core::h5::Group& point, const std::string& name, const std::stri
   name_dimensions(group);
 }
 
-void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFaceCount>& faces) {
+/// Sums over events of the photons absorbed in media, or at surfaces.
+void put_event_shares(core::h5::Group& group, const std::string& name,
+                      const std::vector<tally::EventShare>& shares) {
+  std::vector<std::uint64_t> squares, products;
+  for (const tally::EventShare& share : shares) {
+    squares.push_back(share.squares);
+    products.push_back(share.products);
+  }
+  put(group, name + "_event_squares", squares);
+  put(group, name + "_event_products", products);
+}
+
+void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFaceCount>& faces,
+                      bool has_events) {
   core::h5::Group group = point.create_group("sensor_faces");
   group.set_attribute("", "description", std::string("photons that reached each sensor through each face"));
   std::vector<std::uint32_t> part, face;
@@ -81,6 +94,12 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   put(group, "face", face);
   put(group, "detected", detected);
   put(group, "unconverted", not_detected);
+  if (has_events)
+    for_each_face_event_column([&](const char* name, const auto& member) {
+      std::vector<std::uint64_t> column;
+      for (const tally::SensorFaceCount& count : faces) column.push_back(member(count));
+      put(group, name, column);
+    });
   name_dimensions(group);
 }
 
@@ -208,7 +227,12 @@ void put_omitted(core::h5::Group& point, const std::vector<tally::OmittedEffect>
 void put_until(core::h5::Group& point, const tally::UntilResult& until) {
   core::h5::Group group = point.create_group("until");
   group.set_attribute("", "description", std::string("what was to end the point, and what did"));
-  group.set_attribute("", "share_of", std::string(core::fate_name(until.fate)));
+  if (until.of.empty()) {
+    group.set_attribute("", "share_of", std::string(core::fate_name(until.fate)));
+  } else {
+    group.set_attribute("", "error_of", until.of);
+    group.set_attribute("", "absolute_error_unit", until.unit);
+  }
   group.set_attribute("", "reproducible", static_cast<std::int64_t>(until.is_reproducible()));
   std::vector<std::string> names;
   std::vector<double> goals, reached;
@@ -268,6 +292,10 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
   put_scale(group, "surface", names.surfaces);
   put(group, "absorbed_in_medium", point.absorbed_in_medium.values());
   put(group, "absorbed_at_surface", point.absorbed_at_surface.values());
+  if (point.event_fates.events > 0 && point.events_in_medium.size() == point.absorbed_in_medium.size()) {
+    put_event_shares(group, "absorbed_in_medium", point.events_in_medium.values());
+    put_event_shares(group, "absorbed_at_surface", point.events_at_surface.values());
+  }
   put(group, "detected_path_histogram",
       std::vector<std::uint64_t>(point.detected_path_histogram.begin(), point.detected_path_histogram.end()));
   put(group, "path_low_mm", path_bins());
@@ -283,12 +311,16 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
                           {"path_low_mm", path},
                           {"detected_path_histogram", path},
                           {"absorbed_in_medium", {"medium"}},
-                          {"absorbed_at_surface", {"surface"}}});
+                          {"absorbed_at_surface", {"surface"}},
+                          {"absorbed_in_medium_event_squares", {"medium"}},
+                          {"absorbed_in_medium_event_products", {"medium"}},
+                          {"absorbed_at_surface_event_squares", {"surface"}},
+                          {"absorbed_at_surface_event_products", {"surface"}}});
   put_shifts(group, "shifted_in_medium", "wavelength shifting in each medium",
              point.shifted_in_medium.values());
   put_shifts(group, "shifted_at_surface", "wavelength shifting in the gap of each surface",
              point.shifted_at_surface.values());
-  put_sensor_faces(group, point.sensor_faces);
+  put_sensor_faces(group, point.sensor_faces, point.event_fates.events > 0);
   put_exit_angles(group, analysis::crossing_angles(point), names.faces);
   put_tallies(group, point.tallies);
   put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",

@@ -45,12 +45,17 @@ std::vector<tally::OmittedEffect> get_omitted_effects(const core::h5::Group& poi
 
 tally::UntilResult get_until(const core::h5::Group& point) {
   const core::h5::Group group = point.open_group("until");
-  const std::string fate = group.string_attribute("", "share_of");
-  int index = 0;
-  while (index < core::kFateCount && fate != core::fate_name(core::fate_at(index))) ++index;
-  require_record(index < core::kFateCount, "until is of a fate that does not exist");
   tally::UntilResult until;
-  until.fate = core::fate_at(index);
+  if (group.has_attribute("", "error_of")) {
+    until.of = group.string_attribute("", "error_of");
+    until.unit = group.string_attribute("", "absolute_error_unit");
+  } else {
+    const std::string fate = group.string_attribute("", "share_of");
+    int index = 0;
+    while (index < core::kFateCount && fate != core::fate_name(core::fate_at(index))) ++index;
+    require_record(index < core::kFateCount, "until is of a fate that does not exist");
+    until.fate = core::fate_at(index);
+  }
   const auto names = group.read_strings("condition");
   const auto goal = group.read<double>("goal"), reached = group.read<double>("reached");
   const auto met = group.read<std::uint8_t>("met");
@@ -71,6 +76,18 @@ tally::EventFates get_event_fates(const core::h5::Group& point) {
   fates.events = events.front();
   for (std::size_t i = 0; i < products.size(); ++i) fates.products[i / count][i % count] = products[i];
   return fates;
+}
+
+std::vector<tally::EventShare> get_event_shares(const core::h5::Group& point, const std::string& name,
+                                                std::size_t size) {
+  std::vector<tally::EventShare> shares;
+  if (!point.has(name + "_event_squares")) return shares;
+  const auto squares = point.read<std::uint64_t>(name + "_event_squares"),
+             products = point.read<std::uint64_t>(name + "_event_products");
+  require_record(squares.size() == size && products.size() == size,
+                 "the sums over events of " + name + " do not match it");
+  for (std::size_t i = 0; i < size; ++i) shares.push_back({squares[i], products[i]});
+  return shares;
 }
 
 }  // namespace scintray::results::format

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <type_traits>
 
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
@@ -95,6 +96,13 @@ class PointReader {
             "absorbed_in_medium does not match media");
     require(point.absorbed_at_surface.size() == header_.surfaces.size(),
             "absorbed_at_surface does not match surfaces");
+    const auto event_shares = [&](const char* name, std::size_t size) {
+      return sound([&](const core::h5::Group& group) { return format::get_event_shares(group, name, size); });
+    };
+    point.events_in_medium = core::IdVector<core::MediumId, tally::EventShare>(
+        event_shares("absorbed_in_medium", header_.media.size()));
+    point.events_at_surface = core::IdVector<core::SurfaceId, tally::EventShare>(
+        event_shares("absorbed_at_surface", header_.surfaces.size()));
     point.shifted_in_medium =
         core::IdVector<core::MediumId, optics::ShiftCount>(shifts("shifted_in_medium", header_.media.size()));
     point.shifted_at_surface = core::IdVector<core::SurfaceId, optics::ShiftCount>(
@@ -129,8 +137,8 @@ class PointReader {
   }
 
   /// A record of the point; a contradiction in it is a damaged file.
-  template <typename T>
-  T sound(T (*get_record)(const core::h5::Group&)) const {
+  template <typename GetRecord>
+  std::invoke_result_t<GetRecord, const core::h5::Group&> sound(const GetRecord& get_record) const {
     try {
       return get_record(group_);
     } catch (const std::invalid_argument& contradiction) {
@@ -261,6 +269,12 @@ class PointReader {
       count.detected = detected[i];
       count.not_detected = not_detected[i];
     }
+    if (group.has("detected_event_squares"))
+      format::for_each_face_event_column([&](const char* name, const auto& member) {
+        const auto column = group.read<std::uint64_t>(name);
+        require(column.size() == counts.size(), "the columns of sensor_faces differ in length");
+        for (std::size_t i = 0; i < column.size(); ++i) member(counts[i]) = column[i];
+      });
     return counts;
   }
 
@@ -369,18 +383,6 @@ ResultsStatus read_results_status(const std::filesystem::path& path) {
   if (status.has_photon_list) status.listed_photons = root.open_group("photons").shape("point").at(0);
   if (root.has("events")) status.listed_events = root.open_group("events").shape("point").at(0);
   return status;
-}
-
-std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
-                                                std::uint64_t count) {
-  const core::h5::File file = format::open_results(path);
-  const core::h5::Group root = file.root();
-  if (!root.has("photons"))
-    throw format::lacking(path, "this result has no list of detected photons",
-                          "request the list when running the scene");
-  auto photons = format::read_rows<tally::DetectedPhoton>(root.open_group("photons"), offset, count);
-  if (!photons) throw format::damaged(path, "the columns of photons differ in length");
-  return std::move(*photons);
 }
 
 std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path) {

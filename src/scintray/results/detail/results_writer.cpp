@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <optional>
@@ -142,7 +144,18 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const tally::Run
       {},
       {},
       {}});
-  if (photon_list) state_->photons = {state_->root, "photons", "detected photons, one row a photon"};
+  if (photon_list) begin_photons({});
+}
+
+void ResultsWriter::begin_photons(const PhotonListLayout& layout) {
+  std::string description = "detected photons, one row a photon";
+  if (layout.every > 1) description += fmt::format("; one in {}", layout.every);
+  state_->photons = {state_->root, "photons", description,
+                     [&](const std::string& column) { return layout.has(column); }};
+  core::h5::Group group = state_->root.open_group("photons");
+  group.set_attribute("", "one_in", static_cast<std::int64_t>(layout.every));
+  group.set_attribute("", "columns", core::list_of(layout.columns, "\n"));
+  group.set_attribute("", "channels", core::list_of(layout.channels, "\n"));
 }
 
 ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;

@@ -41,10 +41,17 @@ class RowWriter {
   RowWriter() = default;
   /// Creates the group and its columns.
   RowWriter(core::h5::Group& root, const std::string& name, const std::string& description)
+      : RowWriter(root, name, description, [](const std::string&) { return true; }) {}
+  /// The same with the columns that `is_wanted` accepts.
+  template <typename IsWanted>
+  RowWriter(core::h5::Group& root, const std::string& name, const std::string& description,
+            const IsWanted& is_wanted)
       : group_(root.create_group(name)) {
     group_->set_attribute("", "description", description);
     create_rows(*group_, kBlockRows);
     for_each_column(static_cast<const Row*>(nullptr), [&](const char* column, auto member) {
+      written_.push_back(is_wanted(column));
+      if (!written_.back()) return;
       group_->create_stream<ColumnValue<Row, decltype(member)>>(column, kBlockRows);
       describe(*group_, column);
       group_->attach_scale(column, 0, *group_, "row");
@@ -62,7 +69,9 @@ class RowWriter {
 
   void write_waiting() {
     if (waiting_.empty()) return;
+    std::size_t number = 0;
     for_each_column(static_cast<const Row*>(nullptr), [&](const char* name, auto member) {
+      if (!written_[number++]) return;
       std::vector<ColumnValue<Row, decltype(member)>> column;
       column.reserve(waiting_.size());
       for (const Row& row : waiting_) column.push_back(to_file(member(row)));
@@ -78,6 +87,7 @@ class RowWriter {
   static constexpr std::size_t kBlockRows = 8192;
 
   std::optional<core::h5::Group> group_;
+  std::vector<bool> written_;  ///< by column, in the order of for_each_column
   std::vector<Row> waiting_;
   std::uint64_t rows_ = 0;
 };
@@ -133,15 +143,18 @@ class SampleWriter {
   std::vector<float> waiting_;
 };
 
-/// At most `count` rows from `offset` on. Empty (nullopt) when the columns differ in length.
-template <typename Row>
+/// At most `count` rows from `offset` on, with the columns that `is_wanted` accepts. Empty (nullopt) when the
+/// columns differ in length.
+/// @param absent  a row as it is without any column
+template <typename Row, typename IsWanted>
 std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uint64_t offset,
-                                          std::uint64_t count) {
+                                          std::uint64_t count, const Row& absent, const IsWanted& is_wanted) {
   std::vector<Row> rows;
   bool first = true, equal = true;
   for_each_column(static_cast<const Row*>(nullptr), [&](const char* name, auto member) {
+    if (!is_wanted(name)) return;
     const auto column = group.read_part<ColumnValue<Row, decltype(member)>>(name, offset, count);
-    if (first) rows.resize(column.size());
+    if (first) rows.resize(column.size(), absent);
     first = false;
     equal = equal && column.size() == rows.size();
     for (std::size_t i = 0; i < std::min(column.size(), rows.size()); ++i)
@@ -149,6 +162,13 @@ std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uin
   });
   if (!equal) return std::nullopt;
   return rows;
+}
+
+/// The same with all columns.
+template <typename Row>
+std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uint64_t offset,
+                                          std::uint64_t count) {
+  return read_rows(group, offset, count, Row(), [](const std::string&) { return true; });
 }
 
 }  // namespace scintray::results::format

@@ -1,7 +1,9 @@
 #pragma once
 /// Receiver of the blocks of one point.
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scintray/core/error.hpp"
@@ -24,6 +26,7 @@ class PointSink : public ResultSink {
     if (also) also->histories(histories, of_point);
   }
   void events(const std::vector<tally::EventRecord>& events) override {
+    if (watch_events) watch_events(events);
     to_.events(events);
     if (also) also->events(events);
   }
@@ -42,9 +45,11 @@ class PointSink : public ResultSink {
 
   ResultSink* also = nullptr;
   std::optional<std::uint64_t> expected_work;  ///< photons or events, where it is not that of the source
+  std::string error_text;                      ///< of [run] until: what was reached of an error
   std::optional<tally::UntilResult> until;     ///< with [run] until
-  std::uint64_t blocks = 0;                    ///< one past the last of the ranges so far
-  std::optional<tally::PointSums> total;       ///< over the ranges so far; nothing before the first
+  std::function<void(const std::vector<tally::EventRecord>&)> watch_events;  ///< before they are passed on
+  std::uint64_t blocks = 0;               ///< one past the last of the ranges so far
+  std::optional<tally::PointSums> total;  ///< over the ranges so far; nothing before the first
 
  private:
   ResultSink& to_;

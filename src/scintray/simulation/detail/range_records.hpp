@@ -26,7 +26,7 @@ enum class Record : std::uint8_t {
 
 /// First bytes of a file, and the version of its layout after them.
 inline constexpr std::string_view kMagic = "ScintRay block ranges\n";
-inline constexpr std::uint32_t kRangesVersion = 3;
+inline constexpr std::uint32_t kRangesVersion = 4;
 /// Of a record: its kind and the number of its bytes before them, their CRC-32 and those of both after.
 inline constexpr std::size_t kRecordHead = 1 + sizeof(std::uint64_t), kRecordTail = sizeof(std::uint32_t);
 
@@ -75,8 +75,12 @@ void exchange(A& a, PointOutline& v) {
   pass(a, v.parameters, v.work, v.blocks, v.max_interactions, v.max_time_ns);
 }
 template <typename A>
+void exchange(A& a, results::PhotonListLayout& v) {
+  pass(a, v.columns, v.every, v.channels);
+}
+template <typename A>
 void exchange(A& a, RunOutline& v) {
-  pass(a, v.header, v.photon_list, v.paths, v.histories, v.has_energy, v.points, v.inputs);
+  pass(a, v.header, v.photon_list, v.photons, v.paths, v.histories, v.has_energy, v.points, v.inputs);
 }
 template <typename A>
 void exchange(A& a, Shard& v) {
@@ -131,8 +135,13 @@ void exchange(A& a, tally::PointFacts& v) {
   pass(a, v.light_timing, v.omitted, v.birth_efficiency);
 }
 template <typename A>
+void exchange(A& a, tally::EventShare& v) {
+  pass(a, v.squares, v.products);
+}
+template <typename A>
 void exchange(A& a, tally::SensorFaceCount& v) {
-  pass(a, v.part, v.face, v.detected, v.not_detected);
+  pass(a, v.part, v.face, v.detected, v.not_detected, v.events_detected, v.events_not_detected,
+       v.events_both);
 }
 template <typename A>
 void exchange(A& a, tally::MomentSums& v) {
@@ -172,9 +181,9 @@ void exchange(A& a, tally::EventFates& v) {
 template <typename A>
 void exchange(A& a, tally::PointSums& v) {
   tally::PointResult& c = v.counts;
-  pass(a, c.emitted, c.photons, c.fates, c.absorbed_in_medium, c.absorbed_at_surface, c.sensor_faces,
-       c.detected_path_histogram, c.scatterings, c.segments, c.resolved_misses, c.wall_seconds,
-       c.event_fates);
+  pass(a, c.emitted, c.photons, c.fates, c.absorbed_in_medium, c.absorbed_at_surface, c.events_in_medium,
+       c.events_at_surface, c.sensor_faces, c.detected_path_histogram, c.scatterings, c.segments,
+       c.resolved_misses, c.wall_seconds, c.event_fates);
   pass(a, v.shifted_in_medium, v.shifted_at_surface, v.interactions, v.detected_path_mm, v.detected_time_ns,
        v.detected_interactions, v.energy, v.tallies);
 }

@@ -42,20 +42,15 @@ std::vector<LedgerEntry> ledger(const tally::RunResult& run) {
   const auto add_fate = [&](const std::string& name, const std::string& colour, core::Fate fate) {
     add(name, colour, [fate](const tally::PointResult& point) { return point.fraction(fate); });
   };
-  const auto add_absorbed = [&](const std::string& name, const std::string& colour, auto id, auto counts) {
-    add(name, colour, [id, counts](const tally::PointResult& point) {
-      const auto& of = point.*counts;
-      return core::binomial_estimate(of.contains(id) ? of[id] : 0, point.photons);
-    });
+  const auto add_absorbed = [&](const std::string& name, const std::string& colour, auto id) {
+    add(name, colour, [id](const tally::PointResult& point) { return point.absorbed_fraction(id); });
   };
   add_fate("detected", "f0", core::Fate::detected);
   add_fate("not detected", "f1", core::Fate::not_detected);
   for (const core::MediumId medium : run.header.media.ids())
-    add_absorbed("absorbed in " + run.header.media[medium], "f2", medium,
-                 &tally::PointResult::absorbed_in_medium);
+    add_absorbed("absorbed in " + run.header.media[medium], "f2", medium);
   for (const core::SurfaceId surface : run.header.surfaces.ids())
-    add_absorbed("absorbed at " + run.header.surfaces[surface], "f3", surface,
-                 &tally::PointResult::absorbed_at_surface);
+    add_absorbed("absorbed at " + run.header.surfaces[surface], "f3", surface);
   add_fate("escaped", "f4", core::Fate::escaped);
   add_fate("cut: interactions", "f5", core::Fate::cut_interactions);
   add_fate("cut: time", "f5", core::Fate::cut_time);
@@ -229,12 +224,10 @@ std::string sensor_section(const tally::RunResult& run) {
   for (const tally::PointResult& point : run.points) {
     if (run.points.size() <= kFewPoints) spreads += sensor_spread(point);
     for (const tally::SensorFaceCount& count : point.sensor_faces)
-      rows +=
-          "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
-          cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
-          number_cell(percent_with_error(point.detected_fraction(count.detected))) +
-          number_cell(percent_with_error(point.not_detected_fraction(count.not_detected, count.detected))) +
-          "</tr>\n";
+      rows += "<tr>" + cell(point_label(point), "th") + cell(run.header.parts.at(count.part)) +
+              cell(run.header.faces.at(count.face)) + number_cell(grouped(count.detected)) +
+              number_cell(percent_with_error(point.detected_fraction(count))) +
+              number_cell(percent_with_error(point.not_detected_fraction(count))) + "</tr>\n";
   }
   if (rows.empty()) return "";
   return section(
