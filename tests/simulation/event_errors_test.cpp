@@ -161,7 +161,7 @@ TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width
 TEST_CASE(
     "Shares of a surface and of a sensor's face have pulls of mean 0 and width 1 with an event source") {
   for (const bool birth : {true, false}) {
-    const auto runs = runs_of(kBlackCrystal + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
+    const auto runs = runs_of(black_crystal() + (birth ? "" : "[run]\nefficiency_at_birth = false\n"), kRuns);
     const auto at_surface = [](const tally::PointResult& run) {
       SurfaceId most(0);
       for (const SurfaceId surface : run.absorbed_at_surface.ids())

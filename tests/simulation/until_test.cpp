@@ -181,7 +181,7 @@ TEST_CASE("Runs end by a tally's bin, a photopeak, a CTR: at the same photon for
   for (const Goal& goal : goals) {
     CAPTURE(goal.of);
     const std::string scene =
-        kDimCrystal + (goal.events ? kManyEvents : kManyPhotons + kWhen) + until(goal.conditions);
+        dim_crystal() + (goal.events ? kManyEvents : kManyPhotons + kWhen) + until(goal.conditions);
     MemorySink one;
     simulation_with(scene, 1, 1).run_all(one);
     const tally::PointResult& point = one.result.points.at(0);
@@ -226,7 +226,7 @@ TEST_CASE("Runs end by a tally's bin, a photopeak, a CTR: at the same photon for
 TEST_CASE("A goal that names no bin of a tally is refused before the first photon, with its place") {
   const auto refused = [](const std::string& bin) {
     try {
-      simulation_with(kDimCrystal + kManyPhotons + kWhen +
+      simulation_with(dim_crystal() + kManyPhotons + kWhen +
                       until("of = \"tally\", tally = \"when\", relative_error = 0.1" + bin))
           .build();
     } catch (const InputError& error) {
@@ -257,7 +257,7 @@ TEST_CASE("Points of a sweep share the wall time so that their errors come out a
   CHECK(time_shares({0.0, 0.0}, {0.0, 0.0}).at(0) == doctest::Approx(0.5));
   // By the clock: both points of a sweep end, and not by each having half of it.
   const tally::RunResult run =
-      simulation_with(kDimCrystal + kManyPhotons + until("fate = \"detected\", wall_time = \"600 ms\"") +
+      simulation_with(dim_crystal() + kManyPhotons + until("fate = \"detected\", wall_time = \"600 ms\"") +
                       kDarkness)
           .run_all();
   REQUIRE(run.points.size() == 2);
