@@ -21,12 +21,14 @@ using namespace scintray::test;
 namespace {
 
 /// A crystal with a sensor at each end.
-const std::string kTwoEnds = kCrystal + R"([[part]]
+std::string two_ends() {
+  return kCrystal + R"([[part]]
 name = "far"
 box = ["2 mm", "2 mm", "1 mm"]
 place = { touch = "crystal", side = "+z" }
 sensor = "R6231"
 )";
+}
 
 std::string listed(const std::string& more = "", std::uint64_t seed = 1) {
   return "[run]\nphoton_list = true\nseed = " + std::to_string(seed) + "\n" + more;
@@ -50,7 +52,7 @@ std::vector<Number> numbers(const std::vector<tally::DetectedPhoton>& photons) {
 
 TEST_CASE("A list of photons has the columns that the scene chooses, and the rest is not known") {
   const auto folder = scratch_folder("photon_columns");
-  const std::string scene = kTwoEnds + kPhotons;
+  const std::string scene = two_ends() + kPhotons;
   ResultsFile all(folder / "all.h5"), some(folder / "some.h5");
   Simulation(scene_of(scene + listed())).run_all(all);
   Simulation(scene_of(scene + listed("photon_columns = [\"time_ns\", \"part\"]\n"))).run_all(some);
@@ -88,9 +90,9 @@ TEST_CASE("A sample of one photon in n has the same photons whatever the seed, a
   std::string source = kPhotons;
   source.replace(source.find("3_000"), 5, "30_000");
   for (const std::uint64_t seed : {1, 2}) {
-    const std::vector<Number> all = numbers(run_of(kTwoEnds + source + listed("", seed)).photon_list);
+    const std::vector<Number> all = numbers(run_of(two_ends() + source + listed("", seed)).photon_list);
     const std::vector<Number> some =
-        numbers(run_of(kTwoEnds + source + listed("photon_sample = 10\n", seed)).photon_list);
+        numbers(run_of(two_ends() + source + listed("photon_sample = 10\n", seed)).photon_list);
     REQUIRE(all.size() > 5000);
     CHECK(std::includes(all.begin(), all.end(), some.begin(), some.end()));
     // Binomial; 4 sigma fail a correct program once in 16,000.
@@ -109,8 +111,8 @@ TEST_CASE("A sample of one photon in n has the same photons whatever the seed, a
 }
 
 TEST_CASE("A list of some channels has their photons alone, and no other result changes") {
-  const MemorySink all = run_of(kTwoEnds + kPhotons + listed());
-  const MemorySink far = run_of(kTwoEnds + kPhotons + listed("photon_channels = \"f*\"\n"));
+  const MemorySink all = run_of(two_ends() + kPhotons + listed());
+  const MemorySink far = run_of(two_ends() + kPhotons + listed("photon_channels = \"f*\"\n"));
   std::vector<Number> expected;
   for (const tally::DetectedPhoton& photon : all.photon_list)
     if (all.result.header.parts.at(photon.part) == "far") expected.emplace_back(photon.event, photon.photon);
@@ -119,7 +121,7 @@ TEST_CASE("A list of some channels has their photons alone, and no other result 
   CHECK(numbers(far.photon_list) == expected);
   CHECK(far.result.points.at(0).fates == all.result.points.at(0).fates);
   const std::string unknown = complaint_of([&] {
-    Simulation(scene_of(kTwoEnds + kPhotons + listed("photon_channels = [\"pmt\", \"fart\"]\n"))).build();
+    Simulation(scene_of(two_ends() + kPhotons + listed("photon_channels = [\"pmt\", \"fart\"]\n"))).build();
   });
   check_contains(unknown, {"readout channel", "\"fart\"", "did you mean \"far\"?"});
 }
@@ -127,7 +129,7 @@ TEST_CASE("A list of some channels has their photons alone, and no other result 
 TEST_CASE("Shards of a run with a sampled list of some columns make the same file") {
   const auto folder = scratch_folder("photon_list_shards");
   const std::string scene =
-      kTwoEnds + kPhotons +
+      two_ends() + kPhotons +
       listed("photon_sample = 3\nphoton_columns = [\"x_mm\"]\nphoton_channels = \"pmt\"\n");
   ResultsFile one(folder / "one.h5"), merged(folder / "merged.h5");
   Simulation(scene_of(scene)).run_all(one);
@@ -144,7 +146,7 @@ TEST_CASE("Shards of a run with a sampled list of some columns make the same fil
 TEST_CASE("Electronics are not applied again to a list without all photons or columns") {
   const auto folder = scratch_folder("photon_list_rerun");
   ResultsFile file(folder / "a.h5");
-  Simulation(scene_of(kTwoEnds + kEvents + listed("photon_sample = 2\n"))).run_all(file);
+  Simulation(scene_of(two_ends() + kEvents + listed("photon_sample = 2\n"))).run_all(file);
   const std::string said = complaint_of([&] {
     rerun_readout(folder / "a.h5", results::read_results(folder / "a.h5"), detector::ReadoutSpec(),
                   folder / "b.h5");

@@ -55,7 +55,7 @@ struct RunSpec {
   bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
   std::uint64_t paths = 0;          ///< photons whose paths are recorded, per point
   bool photon_list = false;         ///< write every detected photon to the results
-  PhotonOutputSpec photons;           ///< which of them, and what of each
+  PhotonOutputSpec photons;         ///< which of them, and what of each
   bool photon_history = false;      ///< write the history of each, for reweighting
   std::optional<UntilSpec> until;   ///< ends a point before the photons or events of its source
   std::filesystem::path output;     ///< results file; empty: default of the command
