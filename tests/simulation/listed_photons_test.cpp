@@ -88,7 +88,7 @@ TEST_CASE("A list of photons has the columns that the scene chooses, and the res
 
 TEST_CASE("A sample of one photon in n has the same photons whatever the seed, and its share of them") {
   std::string source = kPhotons;
-  source.replace(source.find("3_000"), 5, "30_000");
+  source.replace(source.find("3_000"), 5, "60_000");
   for (const std::uint64_t seed : {1, 2}) {
     const std::vector<Number> all = numbers(run_of(two_ends() + source + listed("", seed)).photon_list);
     const std::vector<Number> some =
@@ -123,7 +123,8 @@ TEST_CASE("A list of some channels has their photons alone, and no other result 
   const std::string unknown = complaint_of([&] {
     Simulation(scene_of(two_ends() + kPhotons + listed("photon_channels = [\"pmt\", \"fart\"]\n"))).build();
   });
-  check_contains(unknown, {"readout channel", "\"fart\"", "did you mean \"far\"?"});
+  check_contains(unknown, {"readout channel", "\"fart\""});
+  check_contains(unknown, "did you mean \"far\"?");
 }
 
 TEST_CASE("Shards of a run with a sampled list of some columns make the same file") {
@@ -151,5 +152,6 @@ TEST_CASE("Electronics are not applied again to a list without all photons or co
     rerun_readout(folder / "a.h5", results::read_results(folder / "a.h5"), detector::ReadoutSpec(),
                   folder / "b.h5");
   });
-  check_contains(said, {"not all columns of every photon", "photon_sample"});
+  check_contains(said, "not all columns of every photon");
+  check_contains(said, {"remove", "photon_sample"});
 }
