@@ -59,7 +59,7 @@ inline void find_differences(const core::h5::Group& a, const core::h5::Group& b,
 }
 
 /// Checks that two results files are the same, to the last bit, but for wall times.
-/// @param least  number of datasets and attributes that they have at least
+/// @param least  number of datasets that they have at least
 inline void check_same_results(const std::filesystem::path& a, const std::filesystem::path& b,
                                std::size_t least = 31) {
   std::vector<std::string> found;
