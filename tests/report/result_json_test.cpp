@@ -37,8 +37,8 @@ TEST_CASE("JSON has the fates of every point and what they do not include") {
 TEST_CASE("JSON and the summary state what ended a point") {
   RunResult run = test::made_up_run();
   run.points.resize(1);
-  run.points[0].until =
-      UntilResult{Fate::detected, {{"relative_error", 0.01, 0.0098, true}, {"wall_time", 60.0, 12.0, false}}};
+  run.points[0].until.emplace().conditions = {{"relative_error", 0.01, 0.0098, true},
+                                              {"wall_time", 60.0, 12.0, false}};
   const json until = json::parse(report::result_json(run, {}))["points"][0]["until"];
   CHECK(until["ended"] == true);
   CHECK(until["reproducible"] == true);
