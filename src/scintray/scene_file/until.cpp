@@ -91,8 +91,8 @@ std::optional<UntilSpec> read_until(const config::TomlTable& run) {
   }
   until.photons = read_count(*table, "photons");
   until.events = read_count(*table, "events");
-  const bool has_error = until.relative_error || until.absolute_error;
-  if (!has_error && !until.wall_time_s && !until.photons && !until.events)
+  const bool has_error = table->has(kRelativeError) || table->has(kAbsoluteError);
+  if (!has_error && !table->has("wall_time") && !table->has("photons") && !table->has("events"))
     run.report("until", "\"until\" states no condition",
                "give relative_error, absolute_error, wall_time, photons or events");
   else
