@@ -107,3 +107,31 @@ TEST_CASE("A part that is not there is refused with the nearest name") {
   REQUIRE(problems.list().size() == 1);
   CHECK(problems.list().front().hint.find("\"pmt\"") != std::string::npos);
 }
+
+TEST_CASE("The smooth surface around a point or a group is selected, the ends of a rod are not") {
+  const std::string rod = R"(cylinder = { radius = "2 mm", height = "10 mm", segments = 24 })";
+  const double wall = 24 * 4.0 * std::sin(7.5 * kDegree) * 10.0;
+  for (const char* select :
+       {R"({ smooth_region = ["2 mm", "0.1 mm", "5 mm"] })", R"({ smooth_around = "side" })"}) {
+    CAPTURE(select);
+    Problems problems;
+    const auto parts = placed(guide(rod, select), problems);
+    REQUIRE(problems.empty());
+    CHECK(area_of(parts[0], "face1") == doctest::Approx(wall));
+  }
+}
+
+TEST_CASE("An edge angle without a region that it ends, or outside its range, is refused") {
+  const auto problem = [](const std::string& select) {
+    Problems problems;
+    try {
+      (void)placed(guide(kBox, select), problems);
+    } catch (const InputError& error) {
+      return error.problems().front();
+    }
+    return Problem{};
+  };
+  CHECK(problem(R"({ group = "-z", edge_angle = "10 deg" })").hint.find("touches") != std::string::npos);
+  CHECK(problem(R"({ touches = "pmt", edge_angle = "200 deg" })").what.find("0 to 180 deg") !=
+        std::string::npos);
+}

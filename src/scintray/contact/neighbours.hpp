@@ -46,12 +46,6 @@ void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<Conformi
 /// left, and cut faces without a surface.
 void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Problems& problems);
 
-/// Mask over the triangles of `part`: 1 where some of its area lies on a face of `other`, facing it. Flat
-/// triangles touch within `tolerance_mm`; with `curved_mm` above it, the tolerance of a conforming contact of
-/// the two, curved ones do within that.
-[[nodiscard]] std::vector<char> touching_triangles(const PlacedMesh& part, const PlacedMesh& other,
-                                                   double tolerance_mm, double curved_mm = 0.0);
-
 /// Two parts whose faces face each other across a gap that may be a mistake.
 struct SmallGap {
   std::string a, b;

@@ -1,10 +1,11 @@
+#include "scintray/contact/touching.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "scintray/contact/detail/clusters.hpp"
 #include "scintray/contact/detail/facing.hpp"
-#include "scintray/contact/neighbours.hpp"
 
 namespace scintray::contact {
 
