@@ -191,8 +191,8 @@ TEST_CASE("The first condition that holds ends a point: photons, events, absolut
   CHECK(photons.until->conditions[1].met);
   const tally::PointResult events = point_of(dim_crystal() + kManyEvents + until("events = 40"));
   CHECK(events.energy.events == 41);  // 32, 35, 38, 41
-  const tally::PointResult escaped =
-      point_of(dim_crystal() + kManyPhotons + until("absolute_error = 0.004, fate = \"absorbed_at_surface\""));
+  const tally::PointResult escaped = point_of(
+      dim_crystal() + kManyPhotons + until("absolute_error = 0.004, fate = \"absorbed_at_surface\""));
   CHECK(escaped.until->fate == Fate::absorbed_at_surface);
   CHECK(escaped.until->ended());
   CHECK(escaped.fraction(Fate::absorbed_at_surface).error <= 0.004);
