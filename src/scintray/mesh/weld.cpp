@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "scintray/mesh/detail/edges.hpp"
@@ -31,19 +32,21 @@ class VertexGrid {
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-          const auto cell = first_in_cell_.find({x, y, z});
-          if (cell == first_in_cell_.end()) continue;
-          for (const std::uint32_t v : cell->second) {
+          const auto cell = last_in_cell_.find({x, y, z});
+          if (cell == last_in_cell_.end()) continue;
+          for (std::uint32_t v = cell->second; v != kNone; v = before_in_cell_[v])
             if ((vertices[v] - point).cwiseAbs().maxCoeff() <= length_) found = std::min(found, v);
-          }
         }
       }
     }
     return found;
   }
 
-  void insert(std::uint32_t vertex, const core::Vec3& point) {
-    first_in_cell_[cell_of(point)].push_back(vertex);
+  /// Adds a representative; they are numbered from 0 in the order in which they are added.
+  void insert(const core::Vec3& point) {
+    const auto number = static_cast<std::uint32_t>(before_in_cell_.size());
+    const auto [cell, is_new] = last_in_cell_.try_emplace(cell_of(point), number);
+    before_in_cell_.push_back(is_new ? kNone : std::exchange(cell->second, number));
   }
 
  private:
@@ -70,7 +73,8 @@ class VertexGrid {
   }
 
   double length_, cell_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> first_in_cell_;
+  std::unordered_map<Cell, std::uint32_t, Hash> last_in_cell_;
+  std::vector<std::uint32_t> before_in_cell_;  ///< of each representative, the one added before it, or kNone
 };
 
 /// The corner between the other two along the triangle's longest edge.
@@ -121,12 +125,33 @@ class DegeneratePass {
     for (const std::size_t t : flat) {
       if (has_equal_corners(mesh_.triangles[t]) || !cut_neighbours) gone_[t] = true;
     }
-    const auto uses = sorted_edge_uses(mesh_);
+    const std::vector<EdgeUse> uses = uses_of_long_edges(flat);
     for (const std::size_t t : flat) take_out(t, uses);
     rebuild(total);
   }
 
  private:
+  /// Sorted uses of the longest edges of these triangles, and of some others. Degenerate triangles are few:
+  /// to sort the edges of all others in each pass took most of the time of importing large assemblies.
+  std::vector<EdgeUse> uses_of_long_edges(const std::vector<std::size_t>& flat) const {
+    std::vector<char> at_end(mesh_.vertices.size(), 0);
+    for (const std::size_t t : flat) {
+      const std::size_t middle = middle_corner(mesh_, t);
+      for (const std::size_t end : {middle + 1, middle + 2}) at_end[mesh_.triangles[t][end % 3]] = 1;
+    }
+    TriMesh beside;
+    std::vector<std::uint32_t> number;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto& corner = mesh_.triangles[t];
+      if (at_end[corner[0]] + at_end[corner[1]] + at_end[corner[2]] < 2) continue;
+      beside.triangles.push_back(corner);
+      number.push_back(static_cast<std::uint32_t>(t));
+    }
+    std::vector<EdgeUse> uses = sorted_edge_uses(beside);
+    for (EdgeUse& use : uses) use.triangle = number[use.triangle];
+    return uses;
+  }
+
   void take_out(std::size_t t, const std::vector<EdgeUse>& uses) {
     if (gone_[t] || cut_at_[t] != kNone) return;
     const std::size_t middle = middle_corner(mesh_, t);
@@ -334,7 +359,7 @@ std::size_t weld_vertices(TriMesh& mesh, double length_mm) {
     if (representative == kNone) {
       representative = static_cast<std::uint32_t>(kept.size());
       kept.push_back(point);
-      grid.insert(representative, point);
+      grid.insert(point);
     }
     index[v] = representative;
   }

@@ -8,9 +8,9 @@
 #include "scintray/core/activity.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
-#include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/recognize.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/scene/detail/face_tagger.hpp"
 #include "scintray/scene_file/placement.hpp"
 #include "scintray/scene_file/shape_files.hpp"
 
@@ -45,132 +45,6 @@ std::optional<Eigen::AlignedBox3d> gap_between(const Eigen::AlignedBox3d& touche
   if ((low.array() >= high.array()).any()) return std::nullopt;
   return Eigen::AlignedBox3d(low, high);
 }
-
-mesh::FaceSelector selector_of(const scene_file::FaceSelectorSpec& spec) {
-  mesh::FaceSelector selector;
-  selector.normal = spec.normal;
-  selector.normal_tolerance_rad = spec.tolerance_rad;
-  if (spec.box) selector.box = Eigen::AlignedBox3d(spec.box->low, spec.box->high);
-  selector.flat_region = spec.flat_region;
-  selector.nearest = spec.nearest;
-  if (!spec.group.empty()) selector.group = spec.group.name;
-  selector.tags = spec.tags;
-  return selector;
-}
-
-/// List of the groups of the mesh, with their tags in the file.
-std::string group_list(const mesh::TriMesh& mesh) {
-  constexpr std::size_t kMost = 30;
-  std::vector<std::string> names;
-  const auto add = [&names](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  };
-  for (const std::string& group : mesh.groups) add(group);
-  for (const mesh::FaceTags& tags : mesh.group_tags)
-    for (const auto& [key, value] : tags)
-      if (key != "face") add(key + " = \"" + value + "\"");
-  const auto shown = std::span<const std::string>(names).first(std::min(names.size(), kMost));
-  return core::list_of(shown) + (names.size() > kMost ? " and more" : "");
-}
-
-/// Position of a triangle, for pictures.
-std::vector<std::array<double, 3>> mark_at(const mesh::TriMesh& mesh, std::size_t triangle) {
-  const core::Vec3 centre = mesh::centre_of(mesh, triangle);
-  return {{centre.x(), centre.y(), centre.z()}};
-}
-
-/// Position of a triangle, for messages.
-std::string place_of(const mesh::TriMesh& mesh, std::size_t triangle) {
-  const core::Vec3 centre = mesh::centre_of(mesh, triangle);
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) mm", centre.x(), centre.y(), centre.z());
-  return text;
-}
-
-/// Assigns every triangle to a face by the rules of the part.
-class FaceTagger {
- public:
-  FaceTagger(const scene_file::PartSpec& part, contact::PlacedMesh& placed, core::Problems& problems)
-      : part_(part), placed_(placed), problems_(problems), rule_of_(placed.mesh.triangles.size(), kNoRule) {}
-
-  void tag() {
-    for (const scene_file::FaceRuleSpec& rule : part_.faces)
-      if (!is_side(rule)) apply(rule);
-    expect_surface_of_rest();
-    for (const scene_file::FaceRuleSpec& rule : part_.faces)
-      if (is_side(rule)) add_side(rule);
-    const auto rest = static_cast<std::uint32_t>(placed_.faces.size());
-    if (first_unmatched() < rule_of_.size())
-      placed_.faces.push_back({scene_file::kOtherFaces, part_.surface, {}});
-    for (const std::uint32_t rule : rule_of_) placed_.face_of.push_back(rule == kNoRule ? rest : rule);
-  }
-
- private:
-  static constexpr std::uint32_t kNoRule = 0xffffffffu;
-
-  /// A rule that only names a side (scene_file/detail/side_faces.hpp).
-  static bool is_side(const scene_file::FaceRuleSpec& rule) {
-    return rule.where.text().empty() && rule.surface.empty() && rule.sensor.empty() &&
-           rule.select.group.name == rule.name && !rule.name.empty();
-  }
-
-  std::size_t first_unmatched() const {
-    return static_cast<std::size_t>(std::find(rule_of_.begin(), rule_of_.end(), kNoRule) - rule_of_.begin());
-  }
-
-  void add_side(const scene_file::FaceRuleSpec& side) {
-    const auto face = static_cast<std::uint32_t>(placed_.faces.size());
-    const std::vector<char> mask = mesh::select_triangles(placed_.mesh, selector_of(side.select));
-    bool any = false;
-    for (std::size_t t = 0; t < mask.size(); ++t) {
-      if (!mask[t] || rule_of_[t] != kNoRule) continue;
-      rule_of_[t] = face;
-      any = true;
-    }
-    if (any) placed_.faces.push_back({side.name, part_.surface, {}});
-  }
-
-  void apply(const scene_file::FaceRuleSpec& spec) {
-    const auto rule = static_cast<std::uint32_t>(placed_.faces.size());
-    placed_.faces.push_back({spec.name, spec.surface.empty() ? part_.surface : spec.surface, spec.sensor});
-    const std::vector<char> mask = mesh::select_triangles(placed_.mesh, selector_of(spec.select));
-    bool any = false, reported = false;
-    for (std::size_t t = 0; t < mask.size(); ++t) {
-      if (!mask[t]) continue;
-      any = true;
-      if (rule_of_[t] == kNoRule) {
-        rule_of_[t] = rule;
-      } else if (!reported) {
-        reported = true;
-        problems_.add(
-            spec.select.where,
-            "rules \"" + placed_.faces[rule_of_[t]].name + "\" and \"" + spec.name + "\" of part \"" +
-                placed_.name + "\" both match the triangle at " + place_of(placed_.mesh, t),
-            "narrow one of them with a second criterion, such as box or normal", mark_at(placed_.mesh, t));
-      }
-    }
-    if (!any)
-      problems_.add(spec.select.where,
-                    "rule \"" + spec.name + "\" matches no face of part \"" + placed_.name + "\"",
-                    "normals and boxes are those of the placed part; its groups and tags are: " +
-                        group_list(placed_.mesh));
-  }
-
-  void expect_surface_of_rest() {
-    const std::size_t first = first_unmatched();
-    if (first == rule_of_.size() || !part_.surface.empty() || !placed_.needs_surface) return;
-    problems_.add(
-        part_.where,
-        "part \"" + placed_.name + "\" has faces without a surface: no rule matches the triangle at " +
-            place_of(placed_.mesh, first),
-        "give the part a surface = \"...\" for all faces that no rule matches", mark_at(placed_.mesh, first));
-  }
-
-  const scene_file::PartSpec& part_;
-  contact::PlacedMesh& placed_;
-  core::Problems& problems_;
-  std::vector<std::uint32_t> rule_of_;
-};
 
 /// Adds every problem at its place, or at the shape when it has none.
 void add_problems(const std::vector<core::Problem>& found, const scene_file::PartSpec& part,
@@ -208,6 +82,7 @@ class PartPlacer {
       if (starts_group) ++group;
       i += count;
     }
+    tag_touching();
     return std::move(placed_);
   }
 
@@ -268,12 +143,28 @@ class PartPlacer {
     const Against against = lie_against(part.name.name, part.placement, bounds_of(result.mesh));
     mesh::translate(result.mesh, against.shift);
     examine(result, part, problems_);
-    FaceTagger(part, result, problems_).tag();
+    if (names_touching(part))
+      touching_.emplace_back(&part, placed_.size());
+    else
+      FaceTagger(part, result, problems_).tag();
     keep(std::move(result));
     if (!against.fill) return;
     contact::PlacedMesh fill = *against.fill;
     fill.priority = part.priority;
     keep(std::move(fill));
+  }
+
+  static bool names_touching(const scene_file::PartSpec& part) {
+    return std::any_of(part.faces.begin(), part.faces.end(),
+                       [](const scene_file::FaceRuleSpec& rule) { return !rule.select.touches.empty(); });
+  }
+
+  /// Tags the parts whose faces are selected by what they touch, once all are placed.
+  void tag_touching() {
+    for (const auto& [part, index] : touching_) {
+      const TouchingFaces touching(spec_, placed_, index);
+      FaceTagger(*part, placed_[index], problems_, &touching).tag();
+    }
   }
 
   /// Parts are tagged in their own frame, placed in that of the group, and moved with it.
@@ -284,6 +175,7 @@ class PartPlacer {
     for (std::size_t i = 0; i < group.count && found.empty(); ++i) {
       members.push_back(loaded(parts[i]));
       contact::PlacedMesh& member = members.back();
+      refuse_touching(parts[i], found);
       FaceTagger(parts[i], member, found).tag();
       mesh::translate(member.mesh, parts[i].placement.translate);
       rotate(member, group.placement);
@@ -298,6 +190,16 @@ class PartPlacer {
     for (contact::PlacedMesh& member : members) keep(std::move(member));
     bounds_[group.name.name] = bounds.translated(against.shift);
     if (against.fill) keep(*against.fill);
+  }
+
+  static void refuse_touching(const scene_file::PartSpec& part, core::Problems& problems) {
+    for (const scene_file::FaceRuleSpec& rule : part.faces)
+      if (!rule.select.touches.empty())
+        problems.add(
+            rule.select.touches.where,
+            "\"touches\" selects faces of a [[part]], but this is an element of an array",
+            "select by normal or group here; a [[contact]] between the array's elements (\"*\" stands "
+            "for any) and the other part sets the surface where they touch");
   }
 
   void keep(contact::PlacedMesh part) {
@@ -356,6 +258,8 @@ class PartPlacer {
   mesh::MeshFiles files_;
   std::vector<contact::PlacedMesh> placed_;
   std::map<std::string, Eigen::AlignedBox3d> bounds_;  ///< of parts and groups, world
+  std::vector<std::pair<const scene_file::PartSpec*, std::size_t>>
+      touching_;  ///< with their index in placed_
 };
 
 }  // namespace

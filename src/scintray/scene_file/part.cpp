@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "scintray/core/pattern.hpp"
 #include "scintray/scene_file/detail/names.hpp"
 #include "scintray/scene_file/placement.hpp"
 
@@ -53,6 +54,20 @@ mesh::FaceTags read_tags(const config::TomlTable& select) {
   return tags;
 }
 
+/// Regions that grow over smooth edges, and whole faces that touch a part.
+void read_regions(const config::TomlTable& table, FaceSelectorSpec& select) {
+  select.smooth_region = table.optional_quantity3("smooth_region", core::Dimension::length);
+  select.smooth_around = read_name(table, "smooth_around", false);
+  select.touches = read_name(table, "touches", false);
+  select.edge_angle_rad = table.optional_quantity("edge_angle", core::Dimension::angle);
+  const double angle = select.edge_angle_rad.value_or(0.0);
+  table.expect("edge_angle", angle >= 0.0 && angle <= core::kPi, "an edge angle outside 0 to 180 deg",
+               "give the largest angle between neighbouring triangles of one region, as \"30 deg\"");
+  const bool grows = table.has("smooth_region") || table.has("smooth_around") || table.has("touches");
+  table.expect("edge_angle", grows, "an edge angle without a region that it ends",
+               "add smooth_region, smooth_around or touches, or remove edge_angle");
+}
+
 FaceSelectorSpec read_selector(const config::TomlTable& face) {
   const config::TomlTable table = face.table("select");
   FaceSelectorSpec select;
@@ -66,21 +81,24 @@ FaceSelectorSpec read_selector(const config::TomlTable& face) {
   select.box = read_low_high(table, "box");
   select.flat_region = table.optional_quantity3("flat_region", core::Dimension::length);
   select.nearest = table.optional_quantity3("nearest", core::Dimension::length);
+  read_regions(table, select);
   const auto group = table.one_of({"group", "gltf_material"}, false);
   if (group) select.group = read_name(table, *group, true);
   select.tags = read_tags(table);
   if (face.good("select") && table.keys().empty())
     face.report(
         "select", "an empty selection would match every face",
-        "give normal, box, flat_region, nearest, group, color or extras; for every face set the part's own "
-        "surface");
+        "give normal, box, flat_region, smooth_region, smooth_around, touches, nearest, group, color or "
+        "extras; for every face set the part's own surface");
   return select;
 }
 
-/// "-z" for a normal along an axis, the group's name, or nothing.
+/// "-z" for a normal along an axis, the name of the group or of the touched part, or nothing.
 std::string selector_name(const FaceSelectorSpec& select) {
   if (!select.group.empty()) return select.group.name;
-  if (select.normal && !select.box && !select.flat_region && !select.nearest)
+  if (!select.touches.empty()) return core::is_pattern(select.touches.name) ? "" : select.touches.name;
+  if (select.normal && !select.box && !select.flat_region && !select.nearest && !select.smooth_region &&
+      select.smooth_around.empty())
     for (int axis = 0; axis < 3; ++axis)
       if (std::abs((*select.normal)[axis]) == 1.0)
         return core::word_of(kBoxSides, BoxSide{axis, (*select.normal)[axis] > 0.0 ? +1 : -1});

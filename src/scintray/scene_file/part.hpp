@@ -34,20 +34,24 @@ inline constexpr const char* kOtherFaces = "other";
 struct FaceSelectorSpec {
   std::optional<core::Vec3> normal;  ///< unit; within `tolerance_rad` of the outward normal
   double tolerance_rad = core::kDegree;
-  std::optional<BoxSpec> box;             ///< contains the whole triangle
-  std::optional<core::Vec3> flat_region;  ///< point, mm: the connected flat patch nearest to it
-  std::optional<core::Vec3> nearest;      ///< point, mm: the one triangle nearest to it
-  config::NameRef group;                  ///< glTF material or OBJ group of the mesh file; side
-                                          ///< "-z" of a box, "side" of a cylinder
-  mesh::FaceTags tags;                    ///< glTF extras, "color" of a CAD face
+  std::optional<BoxSpec> box;               ///< contains the whole triangle
+  std::optional<core::Vec3> flat_region;    ///< point, mm: the connected flat patch nearest to it
+  std::optional<core::Vec3> nearest;        ///< point, mm: the one triangle nearest to it
+  std::optional<core::Vec3> smooth_region;  ///< point, mm: the smooth region of the triangle nearest to it
+  config::NameRef smooth_around;            ///< the smooth regions of a group
+  config::NameRef touches;                  ///< pattern of parts: the whole faces that lie against one
+  std::optional<double> edge_angle_rad;     ///< where smooth regions end; none: mesh::kSmoothEdge
+  config::NameRef group;                    ///< glTF material or OBJ group of the mesh file; side
+                                            ///< "-z" of a box, "side" of a cylinder
+  mesh::FaceTags tags;                      ///< glTF extras, "color" of a CAD face
   core::FileLocation where;
   bool operator==(const FaceSelectorSpec&) const = default;
 };
 
 /// A rule for some of a part's faces.
 struct FaceRuleSpec {
-  std::string name;  ///< unique within its part; by default the group, or the side ("-z") of a normal along
-                     ///< an axis, or "face1", "face2"...
+  std::string name;  ///< unique within its part; by default the group, the part it touches, or the side
+                     ///< ("-z") of a normal along an axis, or "face1", "face2"...
   FaceSelectorSpec select;
   config::NameRef surface;  ///< empty: the part's
   config::NameRef sensor;   ///< detects light that leaves the part here

@@ -6,6 +6,7 @@
 #include <array>
 #include <set>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/gdml/detail/optical.hpp"
@@ -42,7 +43,10 @@ class SceneMaker {
     name_parts();
     find_sensors();
     std::string parts;
-    for (std::size_t i = 0; i < structure_.placed.size(); ++i) parts += part(i);
+    for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
+      core::report_activity("making solids: " + structure_.placed[i].solid, i, structure_.placed.size());
+      parts += part(i);
+    }
     const std::string contacts = border_contacts();
     SceneDraft& draft = draft_;
     for (const std::string& differs : definitions_.notes()) note(differs);

@@ -6,20 +6,40 @@
 
 namespace scintray::mesh {
 
-std::vector<EdgeUse> sorted_edge_uses(const TriMesh& mesh) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * mesh.triangles.size());
+namespace {
+
+bool comes_before(const EdgeUse& a, const EdgeUse& b) {
+  return std::tie(a.low, a.high, a.triangle, a.forward) < std::tie(b.low, b.high, b.triangle, b.forward);
+}
+
+template <typename Visit>
+void for_each_use(const TriMesh& mesh, Visit visit) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t side = 0; side < 3; ++side) {
       const std::uint32_t from = mesh.triangles[t][side];
       const std::uint32_t to = mesh.triangles[t][(side + 1) % 3];
       if (from == to) continue;
-      uses.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t), from < to});
+      visit(EdgeUse{std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t), from < to});
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tie(a.low, a.high, a.triangle, a.forward) < std::tie(b.low, b.high, b.triangle, b.forward);
-  });
+}
+
+}  // namespace
+
+/// Those of each lower vertex are first brought together: some six, which take no time to sort.
+std::vector<EdgeUse> sorted_edge_uses(const TriMesh& mesh) {
+  std::uint32_t last = 0;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle) last = std::max(last, v);
+  std::vector<std::size_t> start(std::size_t{last} + 2, 0);
+  for_each_use(mesh, [&start](const EdgeUse& use) { ++start[use.low + std::size_t{1}]; });
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+  std::vector<EdgeUse> uses(start.back());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  for_each_use(mesh, [&](const EdgeUse& use) { uses[next[use.low]++] = use; });
+  for (std::size_t v = 0; v + 1 < start.size(); ++v)
+    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(start[v]),
+              uses.begin() + static_cast<std::ptrdiff_t>(start[v + 1]), comes_before);
   return uses;
 }
 
