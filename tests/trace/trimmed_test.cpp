@@ -323,6 +323,13 @@ segments = 20 })",
     ++seen;
   }
   CHECK(seen > 3'000);
+  // Below the tip, within the bulge of the cone's facets, where its other nappe has no wall.
+  for (const double below : {0.001, 0.003, 0.01}) {
+    const Vec3 p(-2.5, 0.0, 1.0 - below);
+    const Exit exit = built.scene.find_exit(region_of(built, "block"), p, Vec3(-1, 0, 0));
+    CHECK(exit.distance_mm == doctest::Approx(2.5).epsilon(1e-9));
+    CHECK_FALSE(exit.resolved);
+  }
 }
 
 TEST_CASE("Nothing is lost in hollow, bent and rounded parts, tiny, huge, turned or far away") {

@@ -89,6 +89,14 @@ const char* SupportSurface::name() const {
   return kNames[static_cast<std::size_t>(kind())];
 }
 
+bool SupportSurface::is_on_sheet(const core::Vec3& point) const {
+  if (axial >= 0.0) return true;
+  constexpr double kRounding = 1e-9;
+  if (slope * slope < -axial * radius2 * (1.0 - kRounding)) return true;  // a hyperboloid of one sheet
+  const double between = slope / axial;
+  return (axis.dot(point - origin) - between) * between <= 0.0;
+}
+
 core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
   const core::Vec3 outwards = gradient(point);
   const double length = outwards.norm();

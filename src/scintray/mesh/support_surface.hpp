@@ -73,6 +73,8 @@ struct SupportSurface {
       return point - circle_point(at);
     return at.rho + (axial * at.z - slope) * axis.vec();
   }
+  /// Whether a point of the surface is on the sheet around its origin: not in the other nappe of a cone.
+  bool is_on_sheet(const core::Vec3& point) const;
   /// Unit normal at a point of the surface, outwards; at the tip of a cone, along its axis.
   core::Vec3 normal(const core::Vec3& point) const;
   /// Distance (mm) of a point from the surface, to first order; negative inside.

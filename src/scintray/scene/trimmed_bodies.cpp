@@ -82,7 +82,9 @@ void ExactBodies::cross_face(std::uint32_t number, const ExactBody& body, const 
   const Crossings crossings = surface.is_torus()
                                   ? torus_crossings(surface, ray.origin, ray.direction, on_it, near, far)
                                   : quadric_crossings(on_ray(surface, ray.origin, ray.direction), on_it);
-  for (const Crossing& crossing : crossings) consider(crossing.distance_mm, crossing.leaves != face.wall);
+  for (const Crossing& crossing : crossings)
+    if (surface.is_on_sheet(ray.origin + crossing.distance_mm * ray.direction))
+      consider(crossing.distance_mm, crossing.leaves != face.wall);
 }
 
 ExactBodies::FaceCrossing ExactBodies::nearest_crossing(const ExactBody& body, const Ray& ray,
@@ -135,7 +137,9 @@ ExactBodies::FaceCrossing ExactBodies::search_faces(const ExactBody& body, const
     const Crossings crossings = surface.is_torus()
                                     ? torus_crossings(surface, ray.origin, ray.direction, on_it, -size, size)
                                     : quadric_crossings(on_ray(surface, ray.origin, ray.direction), on_it);
-    for (const Crossing& crossing : crossings) consider(crossing.distance_mm, crossing.leaves != face.wall);
+    for (const Crossing& crossing : crossings)
+      if (surface.is_on_sheet(ray.origin + crossing.distance_mm * ray.direction))
+        consider(crossing.distance_mm, crossing.leaves != face.wall);
   }
   return best;
 }

@@ -1,6 +1,7 @@
 #include "scintray/mesh/shapes/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scintray/mesh/diagnosis.hpp"
@@ -8,6 +9,29 @@
 #include "scintray/mesh/shapes/solids.hpp"
 
 namespace scintray::mesh {
+
+namespace {
+
+/// A quadric about the z axis, or the one of the profile's last wall, where this is the same over a range of z.
+SupportSurface same_as_last(const Profile& profile, const std::string& group,
+                            const std::array<double, 2>& range, const SupportSurface& own) {
+  if (profile.sides.empty() || profile.sides.back().group != group || !profile.sides.back().surface)
+    return own;
+  const SupportSurface& last = *profile.sides.back().surface;
+  const auto radius2 = [](const SupportSurface& s, double at) {
+    const double z = at - s.origin.z();
+    return s.radius2 + (2.0 * s.slope - s.axial * z) * z;
+  };
+  constexpr double kRounding = 1e-13;
+  double largest = 0.0, off = 0.0;
+  for (const double z : {range[0], 0.5 * (range[0] + range[1]), range[1]}) {
+    largest = std::max(largest, radius2(own, z));
+    off = std::max(off, std::abs(radius2(own, z) - radius2(last, z)));
+  }
+  return off <= kRounding * largest ? last : own;
+}
+
+}  // namespace
 
 std::optional<SupportSurface> straight_wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                             double near) {
@@ -31,10 +55,13 @@ void add_smooth(Profile& profile, const SmoothPoint& from, const SmoothPoint& to
   if (!(middle2 >= 0.0))
     reject_shape("a smooth profile that crosses the axis between two of its corners", "give more corners");
   const core::Vec3 z = core::Vec3::UnitZ();
+  const double middle = from.z + half;
   profile.add({std::sqrt(from.radius2), from.z}, group,
-              SupportSurface::quadric(from.z * z, z, -a, 0.5 * from.rate, from.radius2));
-  profile.add({std::sqrt(middle2), from.z + half}, group,
-              SupportSurface::quadric(to.z * z, z, -b, 0.5 * to.rate, to.radius2));
+              same_as_last(profile, group, {from.z, middle},
+                           SupportSurface::quadric(from.z * z, z, -a, 0.5 * from.rate, from.radius2)));
+  profile.add({std::sqrt(middle2), middle}, group,
+              same_as_last(profile, group, {middle, to.z},
+                           SupportSurface::quadric(to.z * z, z, -b, 0.5 * to.rate, to.radius2)));
 }
 
 TriMesh revolve(const Profile& profile, int segments) {
@@ -52,21 +79,28 @@ TriMesh revolve(const Profile& profile, int segments) {
                                           });
     corner_of.push_back(static_cast<std::size_t>(nearest - profile.corners.begin()));
   }
-  mesh.groups.clear();
-  mesh.group.clear();
-  std::vector<std::uint32_t> group_of;
-  for (const ProfileSide& side : profile.sides) group_of.push_back(mesh.group_index(side.group));
-  std::vector<std::uint32_t> support_of;
-  for (const ProfileSide& side : profile.sides)
-    support_of.push_back(side.surface ? mesh.support_index(*side.surface) : kNoSupport);
+  // The corners of a triangle are two neighbours of the profile; sides on the axis have none.
+  std::vector<std::size_t> side_of;
+  std::vector<bool> used(count, false);
   for (const auto& triangle : mesh.triangles) {
-    // The corners of a triangle are two neighbours of the profile.
     std::size_t side = 0;
     for (const std::uint32_t vertex : triangle) {
       const std::size_t one = corner_of[vertex];
       for (const std::uint32_t other : triangle)
         if (corner_of[other] == (one + 1) % count) side = one;
     }
+    side_of.push_back(side);
+    used[side] = true;
+  }
+  mesh.groups.clear();
+  mesh.group.clear();
+  std::vector<std::uint32_t> group_of(count, 0), support_of(count, kNoSupport);
+  for (std::size_t side = 0; side < count; ++side) {
+    if (!used[side]) continue;
+    group_of[side] = mesh.group_index(profile.sides[side].group);
+    if (profile.sides[side].surface) support_of[side] = mesh.support_index(*profile.sides[side].surface);
+  }
+  for (const std::size_t side : side_of) {
     mesh.group.push_back(group_of[side]);
     mesh.support.push_back(support_of[side]);
   }

@@ -81,11 +81,12 @@ class CurveDescription {
   }
 
   /// The box around the body: by the poles of spheres and the rims of cylinders and cones; where one of these
-  /// is cut obliquely, or the body is not convex, by the largest deviation of the facets.
+  /// is cut obliquely, or the body has other faces or is not convex, by the largest deviation of the facets.
   void add_bounds() {
     const auto upright = [&](const mesh::SupportSurface& s) {
-      return s.is_sphere() ||
-             std::all_of(body_.planes.begin(), body_.planes.end(),
+      const mesh::SurfaceKind kind = s.kind();
+      if (kind != mesh::SurfaceKind::cylinder && kind != mesh::SurfaceKind::cone) return s.is_sphere();
+      return std::all_of(body_.planes.begin(), body_.planes.end(),
                          [&](const WorldPlane& plane) { return s.axis.cross(plane.normal).norm() < 1e-9; });
     };
     if (!body_.convex || !std::all_of(body_.quadrics.begin(), body_.quadrics.end(), upright)) {
