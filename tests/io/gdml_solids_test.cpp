@@ -7,6 +7,9 @@
 #include "scintray/exchange/gdml/detail/solids.hpp"
 #include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/diagnosis.hpp"
+#include "scintray/scene/build_scene.hpp"
+#include "scintray/scene_file/read_scene.hpp"
+#include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -218,4 +221,39 @@ TEST_CASE("GDML: round solids are known as round, prisms of many sides are not")
   CHECK_FALSE(is_round(R"(<polyhedra name="p" )" + prism +
                        R"(<tube name="t" rmax="2" z="4" deltaphi="360" aunit="deg"/><union name="it">)"
                        R"(<first ref="p"/><second ref="t"/><position z="6"/></union>)"));
+}
+
+TEST_CASE("GDML: tori, ellipsoids of revolution, paraboloids and hyperboloids keep their exact surface") {
+  struct Case {
+    const char* text;
+    double volume;
+  };
+  // Of z from u to v an ellipsoid of the half axes a and c has pi a^2 (v - u - (v^3 - u^3) / (3 c^2)).
+  const double wide = std::pow(std::tan(0.5), 2), narrow = std::pow(std::tan(0.1), 2);
+  const Case cases[] = {
+      {R"(<torus name="it" rmax="1" rtor="5" deltaphi="twopi"/>)", 2 * kPi * kPi * 5},
+      {R"(<ellipsoid name="it" ax="2" by="2" cz="4"/>)", 4.0 / 3.0 * kPi * 16},
+      {R"(<ellipsoid name="it" ax="3" by="3" cz="2" zcut1="-1" zcut2="1.5"/>)",
+       kPi * 9 * (2.5 - (3.375 + 1.0) / 12.0)},
+      {R"(<paraboloid name="it" rlo="1" rhi="3" dz="5"/>)", kPi * 10 * 5},
+      {R"(<paraboloid name="it" rhi="3" dz="5"/>)", kPi * 9 * 5},
+      {R"(<hype name="it" rmin="1" rmax="3" inst="0" outst="0.5" z="10"/>)", kPi * (8 * 10 + wide * 1000.0 / 12)},
+      {R"(<hype name="it" rmin="1" rmax="3" inst="0.1" outst="0.5" z="10"/>)",
+       kPi * (8 * 10 + (wide - narrow) * 1000.0 / 12)},
+      {R"(<hype name="it" rmax="3" outst="0.5" z="10"/>)", kPi * (9 * 10 + wide * 1000.0 / 12)},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    gdml::GdmlImport options;
+    options.mesh_folder = "meshes";
+    const auto file = scratch_folder("gdml_exact") / "scene.toml";
+    const SceneDraft draft = gdml::draft_of_gdml(gdml_solid(c.text).text(), "test.gdml", options);
+    CHECK(draft.meshes.empty());
+    write_scene_draft(draft, file);
+    const scene::BuiltScene built =
+        scene::SceneBuilder().build(scene_file::SceneFile::load(file).spec(0));
+    CHECK(built.scene.parts.front().facets_because == "");
+    CHECK(built.scene.parts.front().curved);
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(c.volume).epsilon(1e-9));
+  }
 }

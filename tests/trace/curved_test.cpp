@@ -2,12 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
-#include "scintray/transport/step.hpp"
-#include "support/photon_source.hpp"
+#include "support/curved_scenes.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -19,56 +17,8 @@ using namespace scintray::test;
 
 namespace {
 
-/// A scene of parts, in vacuum, with a source in the first of them.
-SceneSpec spec_of(const std::string& parts, const std::string& first, const std::string& run = "") {
-  return scene_spec("ambient = \"vacuum_n1\"\n" + parts + R"(
-[source]
-type = "photons"
-region = { part = ")" +
-                    first + R"(" }
-wavelength = "420 nm"
-photons = 1000
-)" + run);
-}
-
-std::string part(const std::string& name, const std::string& shape, const std::string& medium = "n15",
-                 const std::string& rest = "surface = \"flat\"\n") {
-  return "[[part]]\nname = \"" + name + "\"\n" + shape + "\nmedium = \"" + medium + "\"\n" + rest;
-}
-
 const std::string kRod = R"(cylinder = { radius = "1.5 mm", height = "20 mm", segments = 12 })";
 const std::string kBall = R"(sphere = { radius = "2 mm", subdivisions = 2 })";
-
-BuiltScene build(const SceneSpec& spec) {
-  SceneBuilder builder;
-  return builder.build(spec);
-}
-
-/// Region of a part.
-const Region& region_of(const BuiltScene& built, const std::string& name) {
-  const auto& names = built.scene.region_names;
-  for (const RegionId id : built.scene.regions.ids())
-    if (names[id] == name) return built.scene.regions[id];
-  throw std::runtime_error("no region " + name);
-}
-
-std::string name_at(const BuiltScene& built, const Region& region, std::uint32_t triangle) {
-  const BoundaryLink& link = built.scene.link(region, triangle);
-  const Interface& interface = built.scene.interfaces[link.interface];
-  return built.scene.region_names[link.from_back ? interface.front : interface.back];
-}
-
-Photon photon_in(const BuiltScene& built, const SceneSpec& spec, const Vec3& position,
-                 const Vec3& direction) {
-  Rng rng(1, StreamKind::photon, 0);
-  const PhotonSource source(spec.source, built.scene);
-  Photon photon = source.emit(built.scene, rng);
-  photon.position = position;
-  photon.ray.direction = direction.normalized();
-  photon.ray.polarisation = Vec3(photon.ray.direction.vec().cross(Vec3(0.3, 0.5, 0.7)).normalized());
-  photon.optical_depth = HUGE_VAL;
-  return photon;
-}
 
 }  // namespace
 
@@ -347,7 +297,7 @@ TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, a
         if (!on_way || photon.region == kAmbientRegion) continue;
         const Region& region = built.scene.regions[photon.region];
         const Vec3 local = region.point_to_local(photon.position);
-        for (const ConvexBody& body : {built.scene.accelerator(region).boundary().exact.bodies.front()})
+        for (const ExactBody& body : {built.scene.accelerator(region).boundary().exact.bodies.front()})
           for (std::uint32_t q = body.quadrics_begin; q < body.quadrics_end; ++q)
             REQUIRE(built.scene.accelerator(region).boundary().exact.quadrics[q].surface.distance(local) <
                     1e-9 * std::max(1.0, size));

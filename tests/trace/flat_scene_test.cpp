@@ -88,6 +88,12 @@ ExactBodies through_bytes(const ExactBodies& exact) {
   copy.quadric_of = through_bytes(exact.quadric_of);
   copy.nodes = through_bytes(exact.nodes);
   copy.in_leaves = through_bytes(exact.in_leaves);
+  copy.faces = through_bytes(exact.faces);
+  copy.trims = through_bytes(exact.trims);
+  copy.trim_surfaces = through_bytes(exact.trim_surfaces);
+  copy.cells = through_bytes(exact.cells);
+  copy.face_nodes = through_bytes(exact.face_nodes);
+  copy.faces_in_leaves = through_bytes(exact.faces_in_leaves);
   copy.meshed = exact.meshed;
   copy.held = exact.held;
   return copy;

@@ -87,6 +87,20 @@ std::string change_that_helps(const PlacedMesh& part, const PlacedMesh& by, cons
   return "";
 }
 
+/// Gives the triangles that are left of a cut the support surfaces of those that they are pieces of.
+void keep_supports(const std::vector<mesh::TriangleOrigin>& origins, const mesh::TriMesh& of,
+                   const mesh::TriMesh& by, mesh::TriMesh& left) {
+  left.supports.clear();
+  left.support.clear();
+  if (of.supports.empty() && by.supports.empty()) return;
+  for (const mesh::TriangleOrigin& origin : origins) {
+    const mesh::TriMesh& from = origin.of_second ? by : of;
+    const std::uint32_t support = from.support_of(origin.triangle);
+    left.support.push_back(support == mesh::kNoSupport ? support
+                                                       : left.support_index(from.supports[support]));
+  }
+}
+
 void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, double tolerance_mm,
          core::Problems& problems) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
@@ -120,7 +134,9 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
     face_of.push_back(origin.of_second ? face : part.face_of[origin.triangle]);
   part.notes.push_back(fmt::format("cut by \"{}\", which has the higher priority: {:.6g} of {:.6g} mm3 left",
                                    by.name, diagnosis.volume_mm3, part.diagnosis.volume_mm3));
-  part.mesh = cut->mesh;
+  mesh::TriMesh left = cut->mesh;
+  keep_supports(cut->origin, part.mesh, by.mesh, left);
+  part.mesh = std::move(left);
   part.face_of = std::move(face_of);
   part.diagnosis = diagnosis;
 }

@@ -61,6 +61,42 @@ SupportSurface SupportSurface::cone(const core::Vec3& origin, const core::Vec3& 
   return {origin, axis.normalized(), -slope * slope, radius * slope, radius * radius};
 }
 
+SupportSurface SupportSurface::spheroid(const core::Vec3& centre, const core::Vec3& axis, double across,
+                                        double along) {
+  const double ratio = across / along;
+  return {centre, axis.normalized(), ratio * ratio, 0.0, across * across};
+}
+
+SupportSurface SupportSurface::torus(const core::Vec3& centre, const core::Vec3& axis, double major,
+                                     double minor) {
+  return {centre, axis.normalized(), 0.0, 0.0, minor * minor, major};
+}
+
+SurfaceKind SupportSurface::kind() const {
+  if (is_torus()) return SurfaceKind::torus;
+  if (is_sphere()) return SurfaceKind::sphere;
+  if (axial > 0.0) return SurfaceKind::spheroid;
+  if (axial == 0.0) return slope == 0.0 ? SurfaceKind::cylinder : SurfaceKind::paraboloid;
+  constexpr double kRounding = 1e-9;
+  const double slope2 = slope * slope;
+  return std::abs(axial * radius2 + slope2) <= kRounding * slope2 ? SurfaceKind::cone
+                                                                  : SurfaceKind::hyperboloid;
+}
+
+const char* SupportSurface::name() const {
+  constexpr const char* kNames[] = {"sphere", "spheroid",    "cylinder", "paraboloid",
+                                    "cone",   "hyperboloid", "torus"};
+  return kNames[static_cast<std::size_t>(kind())];
+}
+
+bool SupportSurface::is_on_sheet(const core::Vec3& point) const {
+  if (axial >= 0.0) return true;
+  constexpr double kRounding = 1e-9;
+  if (slope * slope < -axial * radius2 * (1.0 - kRounding)) return true;  // a hyperboloid of one sheet
+  const double between = slope / axial;
+  return (axis.dot(point - origin) - between) * between <= 0.0;
+}
+
 core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
   const core::Vec3 outwards = gradient(point);
   const double length = outwards.norm();
@@ -70,10 +106,21 @@ core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
 
 double SupportSurface::distance(const core::Vec3& point) const {
   const Place at = place(point);
-  if (is_sphere()) return (point - origin).norm() - std::sqrt(radius2);
-  if (axial == 0.0) return at.rho.norm() - std::sqrt(radius2);
-  const double radius = std::sqrt(radius2), rise = slope / radius;
-  return (at.rho.norm() - radius - rise * at.z) / std::sqrt(1.0 - axial);
+  const double radius = std::sqrt(radius2);
+  switch (kind()) {
+    case SurfaceKind::sphere:
+      return (point - origin).norm() - radius;
+    case SurfaceKind::cylinder:
+      return at.rho.norm() - radius;
+    case SurfaceKind::cone:
+      return (at.rho.norm() - radius - slope / radius * at.z) / std::sqrt(1.0 - axial);
+    case SurfaceKind::torus:
+      return std::hypot(at.rho.norm() - major, at.z) - radius;
+    default:
+      break;
+  }
+  const double q = value(point), slope_of_q = 2.0 * gradient(point).norm();
+  return slope_of_q > 0.0 ? q / slope_of_q : -std::sqrt(std::abs(q));
 }
 
 core::Vec3 SupportSurface::correction(const core::Vec3& point) const {
@@ -95,21 +142,23 @@ std::optional<SupportSurface> SupportSurface::moved(const Eigen::Affine3d& motio
   result.axis = core::Vec3(linear * axis.vec()).normalized();
   result.slope *= scale;
   result.radius2 *= scale * scale;
+  result.major *= scale;
   return result;
 }
 
 bool SupportSurface::is_same(const SupportSurface& other) const {
   constexpr double kRounding = 1e-10;
-  const double size = std::sqrt(std::max(radius2, other.radius2));
+  const double size = std::max(std::sqrt(std::max(radius2, other.radius2)), major);
   const auto near = [](double a, double b, double scale) { return std::abs(a - b) <= kRounding * scale; };
   return near(radius2, other.radius2, size * size) && near(axial, other.axial, 1.0) &&
-         near(slope, other.slope, size) && (axis.vec() - other.axis.vec()).norm() <= kRounding &&
+         near(slope, other.slope, size) && near(major, other.major, size) &&
+         (axis.vec() - other.axis.vec()).norm() <= kRounding &&
          (origin.vec() - other.origin.vec()).norm() <= kRounding * (size + origin.norm());
 }
 
 bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
                                  double tolerance_mm) const {
-  if (is_sphere() != other.is_sphere()) return false;
+  if (is_sphere() != other.is_sphere() || is_torus() != other.is_torus()) return false;
   const double radius = std::sqrt(radius2);
   return std::all_of(points.begin(), points.end(), [&](const core::Vec3& corner) {
     const core::Vec3 point = corner + correction(corner);
@@ -140,6 +189,16 @@ PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::V
         const double solid_angle = weight * doubled.dot(point) / (rho2 * rho);
         sum.area_mm2 += std::abs(solid_angle) * surface.radius2;
         sum.volume_mm3 += solid_angle * (radius * surface.radius2 - rho * rho2) / 3.0;
+      } else if (surface.is_torus()) {
+        // By the angles about the axis and in the tube: d = r (major + r cos) dangle dangle.
+        const core::Vec3 in_tube = surface.origin + point - surface.middle(surface.origin + point);
+        const double z = surface.axis.dot(point), rho = (point - z * surface.axis.vec()).norm();
+        const double far = in_tube.norm(), cosine = (rho - surface.major) / far,
+                     radius = std::sqrt(surface.radius2);
+        const double angles = weight * doubled.dot(in_tube) / (far * far * rho);
+        sum.area_mm2 += std::abs(angles) * radius * (surface.major + radius * cosine);
+        sum.volume_mm3 += angles * (surface.major * 0.5 * (surface.radius2 - far * far) +
+                                    cosine * (radius * surface.radius2 - far * far * far) / 3.0);
       } else {
         const double z = surface.axis.dot(point);
         const core::Vec3 rho = point - z * surface.axis.vec();

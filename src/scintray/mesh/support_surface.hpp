@@ -13,17 +13,22 @@ namespace scintray::mesh {
 /// No support surface: the triangle is a face as it is.
 inline constexpr std::uint32_t kNoSupport = 0xffffffffu;
 
-/// A quadric of revolution that is convex on its inside: sphere, cylinder, one nappe of a cone.
+/// Kinds of support surface.
+enum class SurfaceKind { sphere, spheroid, cylinder, paraboloid, cone, hyperboloid, torus };
+
+/// A quadric of revolution, of a cone one nappe, or a torus.
 ///
-/// With z along the axis from the origin and rho the distance from the axis, the surface is
+/// With z along the axis from the origin and rho the distance from the axis, a quadric is
 ///   q = rho^2 + axial z^2 - 2 slope z - radius2 = 0,
 /// and q < 0 inside. The origin of a cone lies on its axis inside the nappe, not at the tip, so that a narrow
-/// cone far from its tip keeps its digits. Lengths mm.
+/// cone far from its tip keeps its digits. A torus is q = (rho - major)^2 + z^2 - radius2 = 0. Lengths mm.
 struct SupportSurface {
   core::PlainVec3 origin, axis;  ///< axis: of unit length
-  double axial = 0.0;    ///< 1: sphere; 0: cylinder; below 0: cone, minus the squared slope of its wall
-  double slope = 0.0;    ///< mm; of a cone, its radius at the origin times the slope of its wall
-  double radius2 = 0.0;  ///< mm2; squared radius at the origin
+  double axial = 0.0;    ///< above 0: sphere (1), spheroid; 0: cylinder, paraboloid; below 0: cone (minus the
+                         ///< squared slope of its wall), hyperboloid
+  double slope = 0.0;    ///< mm; half the rate at which the squared radius grows along the axis at the origin
+  double radius2 = 0.0;  ///< mm2; squared radius at the origin; of a torus, of its tube
+  double major = 0.0;    ///< mm; above 0: a torus, the radius of the circle in the middle of its tube
 
   static SupportSurface sphere(const core::Vec3& centre, double radius);
   static SupportSurface cylinder(const core::Vec3& origin, const core::Vec3& axis, double radius);
@@ -32,20 +37,44 @@ struct SupportSurface {
   static SupportSurface cone(const core::Vec3& origin, const core::Vec3& axis, double radius,
                              double end_radius, double length);
 
-  bool is_sphere() const { return axial > 0.0; }
+  /// The quadric rho^2 = radius^2 + 2 slope z - axial z^2.
+  static SupportSurface quadric(const core::Vec3& origin, const core::Vec3& axis, double axial, double slope,
+                                double radius2) {
+    return {origin, axis.normalized(), axial, slope, radius2};
+  }
+  /// The spheroid of the half axes `across` and `along` the axis.
+  static SupportSurface spheroid(const core::Vec3& centre, const core::Vec3& axis, double across,
+                                 double along);
+  /// The torus of a tube of `minor` radius about a circle of `major` radius, which is not below it.
+  static SupportSurface torus(const core::Vec3& centre, const core::Vec3& axis, double major, double minor);
+
+  SurfaceKind kind() const;
+  bool is_sphere() const { return axial == 1.0 && slope == 0.0 && major == 0.0; }
+  bool is_torus() const { return major > 0.0; }
+  /// Whether its inside is convex.
+  bool is_convex() const {
+    const SurfaceKind own = kind();
+    return own != SurfaceKind::hyperboloid && own != SurfaceKind::torus;
+  }
   /// Kind of surface, for messages.
-  const char* name() const { return is_sphere() ? "sphere" : axial < 0.0 ? "cone" : "cylinder"; }
+  const char* name() const;
 
   /// q (mm2) at a point: negative inside, but positive in a cone's other nappe, too.
   double value(const core::Vec3& point) const {
     const Place at = place(point);
+    if (is_torus()) [[unlikely]]
+      return (at.rho.norm() - major) * (at.rho.norm() - major) + at.z * at.z - radius2;
     return at.rho.squaredNorm() + (axial * at.z - 2.0 * slope) * at.z - radius2;
   }
   /// Half the gradient of q (mm), which points outwards; zero at the tip of a cone.
   core::Vec3 gradient(const core::Vec3& point) const {
     const Place at = place(point);
+    if (is_torus()) [[unlikely]]
+      return point - circle_point(at);
     return at.rho + (axial * at.z - slope) * axis.vec();
   }
+  /// Whether a point of the surface is on the sheet around its origin: not in the other nappe of a cone.
+  bool is_on_sheet(const core::Vec3& point) const;
   /// Unit normal at a point of the surface, outwards; at the tip of a cone, along its axis.
   core::Vec3 normal(const core::Vec3& point) const;
   /// Distance (mm) of a point from the surface, to first order; negative inside.
@@ -53,8 +82,10 @@ struct SupportSurface {
   /// Displacement (mm) onto the surface of a point next to it: one step of Newton's method.
   core::Vec3 correction(const core::Vec3& point) const;
 
-  /// The centre of a sphere; of a cylinder or cone the point of its axis at the same z.
+  /// The centre of a sphere; of a torus the nearest point of the circle in its tube; of other surfaces the
+  /// point of the axis at the same z.
   core::Vec3 middle(const core::Vec3& point) const {
+    if (is_torus()) return circle_point(place(point));
     return is_sphere() ? origin.vec() : core::Vec3(point - place(point).rho);
   }
 
@@ -77,6 +108,10 @@ struct SupportSurface {
     const double z = axis.dot(from_origin);
     return {from_origin - z * axis.vec(), z};
   }
+  core::Vec3 circle_point(const Place& at) const {
+    const double rho = at.rho.norm();
+    return origin + (rho > 0.0 ? core::Vec3(major / rho * at.rho) : core::Vec3(core::Vec3::Zero()));
+  }
 };
 static_assert(std::is_trivially_copyable_v<SupportSurface>);
 
@@ -87,12 +122,12 @@ struct PatchExcess {
 };
 
 /// Excess of the patch above a triangle whose corners lie on the surface: the triangle is projected from the
-/// centre of a sphere, and at constant z from the axis of a cylinder or cone. Gauss-Legendre quadrature, 12
-/// points each way: to rounding for triangles that span up to 30 degrees.
+/// centre of a sphere, from the circle in a torus, and at constant z from the axis of other surfaces.
+/// Gauss-Legendre quadrature, 12 points each way: to rounding for triangles that span up to 30 degrees.
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
 
 /// Area (mm2) between a chord and the circle in which the surface intersects the plane through the chord with
-/// the unit normal `normal`; zero where that is no circle: a cylinder or cone that is cut obliquely.
+/// the unit normal `normal`; zero where that is no circle: a surface, not a sphere, that is cut obliquely.
 double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
                     const core::Vec3& b);
 

@@ -201,7 +201,7 @@ Exit Accelerator::find_exact_exit(const core::Vec3& origin, const core::Vec3& di
     if (meshed.triangle != kNoTriangle && meshed.distance_mm < hit.distance_mm) return meshed;
   }
   if (!hit.on) return {};
-  return {hit.distance_mm, triangle_at(hit, origin + hit.distance_mm * direction), false};
+  return {hit.distance_mm, triangle_at(hit, origin + hit.distance_mm * direction), hit.resolved};
 }
 
 void Accelerator::index_facets() {
@@ -224,6 +224,10 @@ std::uint32_t Accelerator::triangle_at(const BodyHit& hit, const core::Vec3& poi
   const ExactBodies& exact = boundary_.exact;
   for (std::uint32_t i = on.outlines_begin; i < on.outlines_end; ++i) {
     const EndOutline& outline = exact.outlines[i];
+    if (outline.face != kNoSurface) {
+      if (exact.is_within(exact.faces[outline.face], point)) return outline.triangle;
+      continue;
+    }
     if (std::all_of(exact.outline_of.begin() + outline.quadrics_begin,
                     exact.outline_of.begin() + outline.quadrics_end,
                     [&](const mesh::SupportSurface& surface) { return surface.value(point) <= 0.0; }))
@@ -273,7 +277,7 @@ core::Vec3 Accelerator::normal_at(std::uint32_t triangle, const core::Vec3& poin
   const std::uint32_t quadric = exact.empty() ? kNoSurface : exact.quadric_of[triangle];
   if (quadric == kNoSurface) return normal(triangle);
   const core::Vec3 outwards = exact.quadrics[quadric].surface.normal(point);
-  return exact.has_region_inside(quadric) ? outwards : core::Vec3(-outwards);
+  return exact.quadrics[quadric].around_region ? outwards : core::Vec3(-outwards);
 }
 
 core::Vec3 Accelerator::correction_at(std::uint32_t triangle, const core::Vec3& point) const {

@@ -15,22 +15,6 @@ bool is_inside(const mesh::SupportSurface& s, const core::Vec3& point) {
   return s.axial >= 0.0 || (s.axis.dot(point - s.origin) - tip_of(s)) * tip_of(s) <= 0.0;
 }
 
-/// Whether a ray reaches a box within a distance (mm). Quotients of 0 by 0, of a ray in a side of the box,
-/// count as inside.
-bool reaches(const core::PlainVec3& low, const core::PlainVec3& high, const core::Vec3& origin,
-             const core::Vec3& inverse, double limit) {
-  double near = 0.0, far = limit;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (low[axis] - origin[axis]) * inverse[axis];
-    const double b = (high[axis] - origin[axis]) * inverse[axis];
-    if (std::isnan(a) || std::isnan(b)) continue;
-    const double first = a < b ? a : b, last = a < b ? b : a;
-    if (first > near) near = first;
-    if (last < far) far = last;
-  }
-  return near <= far;
-}
-
 }  // namespace
 
 Chord chord_in(const mesh::SupportSurface& s, const QuadricOnRay& q, const core::Vec3& origin,
@@ -60,7 +44,8 @@ Chord chord_in(const mesh::SupportSurface& s, const QuadricOnRay& q, const core:
   return q.b > 0.0 ? Chord{-kUnbounded, root} : Chord{root, kUnbounded};
 }
 
-bool ExactBodies::contains(const ConvexBody& body, const core::Vec3& point) const {
+bool ExactBodies::contains(const ExactBody& body, const core::Vec3& point) const {
+  if (!body.is_convex()) return encloses(body, point);
   for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i)
     if (planes[i].normal.dot(point) > planes[i].offset) return false;
   for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i)
@@ -74,7 +59,7 @@ bool ExactBodies::admit(const core::Vec3& point) const {
   return true;
 }
 
-void ExactBodies::leave(const ConvexBody& body, const Ray& ray, BodyHit& nearest) const {
+void ExactBodies::leave(const ExactBody& body, const Ray& ray, BodyHit& nearest) const {
   for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) {
     const BodyPlane& plane = planes[i];
     const double along = plane.normal.dot(ray.direction);
@@ -92,8 +77,10 @@ void ExactBodies::leave(const ConvexBody& body, const Ray& ray, BodyHit& nearest
 }
 
 void ExactBodies::enter(std::uint32_t number, const Ray& ray, BodyHit& nearest) const {
-  const ConvexBody& body = bodies[number];
-  if (!reaches(body.low, body.high, ray.origin, ray.inverse, nearest.distance_mm)) return;
+  const ExactBody& body = bodies[number];
+  double near = 0.0, far = nearest.distance_mm;
+  if (!reaches(body.low, body.high, ray.origin, ray.inverse, near, far)) return;
+  if (!body.is_convex()) return cross_faces(number, false, ray, nearest);
   Chord chord;
   const SurfaceTriangles* entered = nullptr;
   for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) {
@@ -139,7 +126,8 @@ void ExactBodies::enter_any(const Ray& ray, BodyHit& nearest) const {
   while (count > 0) {
     const std::uint32_t at = waiting[--count];
     const BodyNode& node = nodes[at];
-    if (!reaches(node.low, node.high, ray.origin, ray.inverse, nearest.distance_mm)) continue;
+    double near = 0.0, far = nearest.distance_mm;
+    if (!reaches(node.low, node.high, ray.origin, ray.inverse, near, far)) continue;
     for (std::uint32_t i = node.begin; i < node.end; ++i) enter(in_leaves[i], ray, nearest);
     if (node.begin != node.end) continue;
     waiting[count++] = node.second;
@@ -151,48 +139,18 @@ BodyHit ExactBodies::nearest(const core::Vec3& origin, const core::Vec3& directi
                              std::uint32_t left) const {
   Ray ray{origin, direction, direction, left};
   BodyHit hit;
-  if (held) {
+  if (held && bodies.front().is_convex()) {
     leave(bodies.front(), ray, hit);
     if (bodies.size() == 1) return hit;
   }
   ray.inverse = direction.cwiseInverse();
+  if (held && !bodies.front().is_convex()) cross_faces(0, true, ray, hit);
   if (!nodes.empty()) {
     enter_any(ray, hit);
     return hit;
   }
   for (auto i = static_cast<std::uint32_t>(held); i < bodies.size(); ++i) enter(i, ray, hit);
   return hit;
-}
-
-void ExactBodies::build_tree() {
-  constexpr std::size_t kFew = 6;
-  const auto first = static_cast<std::uint32_t>(held);
-  if (bodies.size() <= first + kFew) return;
-  for (std::uint32_t i = first; i < bodies.size(); ++i) in_leaves.push_back(i);
-  add_node(0, static_cast<std::uint32_t>(in_leaves.size()));
-}
-
-void ExactBodies::add_node(std::uint32_t begin, std::uint32_t end) {
-  constexpr std::uint32_t kMostInLeaf = 3;
-  const std::size_t at = nodes.size();
-  Eigen::AlignedBox3d box;
-  for (std::uint32_t i = begin; i < end; ++i)
-    box.extend(Eigen::AlignedBox3d(bodies[in_leaves[i]].low.vec(), bodies[in_leaves[i]].high.vec()));
-  nodes.push_back({box.min(), box.max(), begin, end, 0});
-  if (end - begin <= kMostInLeaf) return;
-  int axis = 0;
-  box.sizes().maxCoeff(&axis);
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  const auto from = in_leaves.begin();
-  std::nth_element(from + begin, from + middle, from + end, [&](std::uint32_t a, std::uint32_t b) {
-    const double place_a = bodies[a].low[axis] + bodies[a].high[axis];
-    const double place_b = bodies[b].low[axis] + bodies[b].high[axis];
-    return place_a != place_b ? place_a < place_b : a < b;
-  });
-  nodes[at].begin = nodes[at].end = 0;
-  add_node(begin, middle);
-  nodes[at].second = static_cast<std::uint32_t>(nodes.size());
-  add_node(middle, end);
 }
 
 }  // namespace scintray::scene

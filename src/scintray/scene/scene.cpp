@@ -75,7 +75,8 @@ bool Scene::region_contains(core::RegionId region, const Eigen::AlignedBox3d& bo
   const Region& candidate = regions[region];
   if (candidate.curved) {  // of a convex region all of the box is inside where its corners are
     const ExactBodies& exact = accelerator(candidate).boundary().exact;
-    if (!exact.held || exact.bodies.size() > 1 || exact.meshed > 0) return false;
+    if (!exact.held || exact.bodies.size() > 1 || exact.meshed > 0 || !exact.bodies.front().is_convex())
+      return false;
     for (unsigned corner = 0; corner < 8; ++corner)
       if (!region_contains(region,
                            core::Vec3(inner.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)))))

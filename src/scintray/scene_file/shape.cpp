@@ -4,6 +4,7 @@
 
 #include "scintray/mesh/import/file_checks.hpp"
 #include "scintray/mesh/import/import.hpp"
+#include "scintray/scene_file/detail/round_shapes.hpp"
 
 namespace scintray::scene_file {
 
@@ -91,29 +92,6 @@ BoxSpec read_box(const config::TomlTable& table) {
   box.low = core::Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0);
   box.high = core::Vec3(0.5 * size.x(), 0.5 * size.y(), size.z());
   return box;
-}
-
-/// A length above 0, of the shape `shape`.
-double positive_length(const config::TomlTable& table, const std::string& key, const std::string& shape) {
-  const double value = table.quantity(key, core::Dimension::length);
-  table.expect(key, value > 0.0, "the " + key + " of a " + shape + " is not positive",
-               "give a length above 0");
-  return value;
-}
-
-/// Largest number of flat sides around: with more, a side is narrower than the rounding of its corners in
-/// single precision, which ray queries use.
-constexpr int kMostSegments = 10'000;
-
-/// A whole number from `least` to kMostSegments; `what` follows the number in the message of an error.
-int number_of_pieces(const config::TomlTable& table, const std::string& key, int fallback, int least,
-                     const std::string& what) {
-  const std::int64_t value = table.integer(key, fallback);
-  table.expect(key, value >= least && value <= kMostSegments,
-               "a " + what + " of " + std::to_string(value) + " " + key,
-               "give " + std::to_string(least) + " or more (" + std::to_string(fallback) +
-                   " is the default), up to " + std::to_string(kMostSegments));
-  return static_cast<int>(std::clamp<std::int64_t>(value, least, kMostSegments));
 }
 
 CylinderSpec read_cylinder(const config::TomlTable& part) {
@@ -238,61 +216,6 @@ WinstonSpec read_winston(const config::TomlTable& part) {
   return winston;
 }
 
-SphereSpec read_sphere(const config::TomlTable& part) {
-  const config::TomlTable table = part.table("sphere");
-  SphereSpec sphere;
-  sphere.where = table.where();
-  sphere.radius_mm = positive_length(table, "radius", "sphere");
-  const std::int64_t subdivisions = table.integer("subdivisions", sphere.subdivisions);
-  constexpr std::int64_t kMostSubdivisions = 250;
-  table.expect("subdivisions", subdivisions >= 1 && subdivisions <= kMostSubdivisions,
-               "a sphere of " + std::to_string(subdivisions) + " subdivisions",
-               "give 1 (an icosahedron) to " + std::to_string(kMostSubdivisions) +
-                   " (1,250,000 triangles); 16 is the default");
-  sphere.subdivisions = static_cast<int>(std::clamp<std::int64_t>(subdivisions, 1, kMostSubdivisions));
-  return sphere;
-}
-
-LensSpec read_lens(const config::TomlTable& part) {
-  const config::TomlTable table = part.table("lens");
-  LensSpec lens;
-  lens.where = table.where();
-  lens.shape.diameter = positive_length(table, "diameter", "lens");
-  lens.shape.thickness = positive_length(table, "thickness", "lens");
-  for (const auto& [key, radius] : {std::pair{"bottom_radius", &mesh::LensShape::bottom_radius},
-                                    {"top_radius", &mesh::LensShape::top_radius}}) {
-    const std::optional<double> value = table.optional_quantity(key, core::Dimension::length);
-    lens.shape.*radius = value.value_or(0.0);
-    table.expect(
-        key, !value || std::abs(*value) >= 0.5 * lens.shape.diameter,
-        std::string(key) + ", a radius of curvature, is below half the diameter of the lens",
-        "give half the diameter or more: above 0 convex, below 0 concave; leave it out for a flat face");
-  }
-  lens.shape.segments = number_of_pieces(table, "segments", lens.shape.segments, 3, "lens");
-  return lens;
-}
-
-RevolvedSpec read_revolved(const config::TomlTable& part) {
-  const config::TomlTable table = part.table("revolved");
-  RevolvedSpec body;
-  body.where = table.where();
-  const std::vector<double> r = table.quantities("r", core::Dimension::length),
-                            z = table.quantities("z", core::Dimension::length);
-  if (table.good("r") && table.good("z")) {
-    table.expect(
-        "z", r.size() == z.size(),
-        "a profile of " + std::to_string(r.size()) + " radii and " + std::to_string(z.size()) + " heights",
-        "give one z for each r: the corners of the profile in order");
-    table.expect("r", r.size() >= 3, "a profile of fewer than 3 corners",
-                 "give the corners of half of the body's section, as r = [\"0 mm\", \"2 mm\", \"0 mm\"]");
-    table.expect("r", std::all_of(r.begin(), r.end(), [](double value) { return value >= 0.0; }),
-                 "a negative distance from the axis", "give radii of 0 and above");
-    for (std::size_t i = 0; i < std::min(r.size(), z.size()); ++i) body.profile.push_back({r[i], z[i]});
-  }
-  body.segments = number_of_pieces(table, "segments", body.segments, 3, "body of revolution");
-  return body;
-}
-
 /// Bevels the edges of the shapes that have such edges.
 void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
   auto* box = std::get_if<BoxSpec>(&shape);
@@ -315,6 +238,21 @@ void read_chamfer(const config::TomlTable& part, ShapeSpec& shape) {
               "give a length above 0 and below half of the shortest edge");
 }
 
+/// Rounds the edges of a box.
+void read_rounding(const config::TomlTable& part, ShapeSpec& shape) {
+  auto* box = std::get_if<BoxSpec>(&shape);
+  part.has("rounding");
+  if (!box) return;
+  const std::optional<double> radius = part.optional_quantity("rounding", core::Dimension::length);
+  if (!radius) return;
+  part.expect("rounding", box->chamfer_mm == 0.0, "a box with a chamfer and a rounding",
+              "remove one of them");
+  part.expect("rounding", *radius > 0.0 && 2.0 * *radius < (box->high - box->low).minCoeff(),
+              "a rounding that is not positive, or leaves nothing of the shortest edge",
+              "give the radius of the edges, above 0 and below half of the shortest edge");
+  box->rounding_mm = *radius;
+}
+
 using ShapeReader = ShapeSpec (*)(const config::TomlTable&);
 
 template <auto Read>
@@ -327,7 +265,9 @@ constexpr core::Word<ShapeReader> kShapes[] = {
     {"cylinder", shape_of<read_cylinder>}, {"prism", shape_of<read_prism>},
     {"tapered", shape_of<read_tapered>},   {"winston", shape_of<read_winston>},
     {"sphere", shape_of<read_sphere>},     {"cone", shape_of<read_cone>},
-    {"lens", shape_of<read_lens>},         {"revolved", shape_of<read_revolved>}};
+    {"lens", shape_of<read_lens>},         {"revolved", shape_of<read_revolved>},
+    {"tube", shape_of<read_tube>},         {"torus", shape_of<read_torus>},
+    {"spheroid", shape_of<read_spheroid>}, {"fibre", shape_of<read_fibre>}};
 
 }  // namespace
 
@@ -336,6 +276,7 @@ ShapeSpec read_shape(const config::TomlTable& part) {
   for (const char* key : {"unit", "scale", "body", "tessellation", "curved"}) part.has(key);
   ShapeSpec shape = kind ? kind->value(part) : BoxSpec{};
   read_chamfer(part, shape);
+  read_rounding(part, shape);
   return shape;
 }
 

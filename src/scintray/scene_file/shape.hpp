@@ -23,6 +23,7 @@ struct BoxSpec {
   core::Vec3 high = core::Vec3::Zero();
   double chamfer_mm = 0.0;  ///< of all edges, for the shape of a part
   core::FileLocation where;
+  double rounding_mm = 0.0;  ///< radius of all edges, for the shape of a part
   bool operator==(const BoxSpec&) const = default;
 };
 
@@ -107,14 +108,46 @@ struct LensSpec {
 
 /// Body of revolution about the z axis.
 struct RevolvedSpec {
-  std::vector<std::array<double, 2>> profile;  ///< corners (r, z), mm
-  int segments = 64;                           ///< flat sides
+  std::vector<std::array<double, 2>> profile;      ///< corners (r, z), mm
+  std::vector<std::array<std::size_t, 2>> smooth;  ///< first and last corners of smooth ranges
+  int segments = 64;                               ///< flat sides
   core::FileLocation where;
   bool operator==(const RevolvedSpec&) const = default;
 };
 
-using ShapeSpec = std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec,
-                               SphereSpec, ConeSpec, LensSpec, RevolvedSpec>;
+/// A cylinder with a bore, from z = 0 up.
+struct TubeSpec {
+  mesh::TubeShape shape;
+  core::FileLocation where;
+  bool operator==(const TubeSpec&) const = default;
+};
+
+/// A torus about the z axis and the origin.
+struct TorusSpec {
+  mesh::TorusShape shape;
+  core::FileLocation where;
+  bool operator==(const TorusSpec&) const = default;
+};
+
+/// An ellipsoid of revolution about the z axis and the origin.
+struct SpheroidSpec {
+  double radius_mm = 0.0;       ///< across the axis
+  double half_height_mm = 0.0;  ///< along it
+  int subdivisions = 16;        ///< 20 subdivisions^2 triangles
+  core::FileLocation where;
+  bool operator==(const SpheroidSpec&) const = default;
+};
+
+/// A round or square rod along a path.
+struct FibreSpec {
+  mesh::FibreShape shape;
+  core::FileLocation where;
+  bool operator==(const FibreSpec&) const = default;
+};
+
+using ShapeSpec =
+    std::variant<MeshFileSpec, BoxSpec, CylinderSpec, PrismSpec, TaperedSpec, WinstonSpec, SphereSpec,
+                 ConeSpec, LensSpec, RevolvedSpec, TubeSpec, TorusSpec, SpheroidSpec, FibreSpec>;
 
 /// Place of a shape in the file.
 core::FileLocation shape_location(const ShapeSpec& shape);
@@ -130,7 +163,7 @@ struct ShapeMesh {
 ShapeMesh shape_mesh(const ShapeSpec& shape,
                      const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
-/// The shape of a [[part]] or an element, with its chamfer; a unit box on an error.
+/// The shape of a [[part]] or an element, with its chamfer or rounding; a unit box on an error.
 ShapeSpec read_shape(const config::TomlTable& part);
 
 /// { low = [...], high = [...] } under `key`; nothing when absent or on an error.

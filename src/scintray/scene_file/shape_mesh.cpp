@@ -16,6 +16,9 @@ struct MeshMaker {
     return {std::move(imported.mesh), std::move(imported.notes)};
   }
   ShapeMesh operator()(const BoxSpec& box) const {
+    constexpr int kSegments = 64;  // of a rounding's full circle
+    if (box.rounding_mm > 0.0)
+      return {mesh::make_rounded_box(box.low, box.high, box.rounding_mm, kSegments), {}};
     return {box.chamfer_mm > 0.0 ? mesh::make_chamfered_box(box.low, box.high, box.chamfer_mm)
                                  : mesh::make_box(box.low, box.high),
             {}};
@@ -38,8 +41,14 @@ struct MeshMaker {
   }
   ShapeMesh operator()(const LensSpec& l) const { return {mesh::make_lens(l.shape), {}}; }
   ShapeMesh operator()(const RevolvedSpec& r) const {
-    return {mesh::make_revolved(r.profile, r.segments), {}};
+    return {mesh::make_revolved(r.profile, r.segments, r.smooth), {}};
   }
+  ShapeMesh operator()(const TubeSpec& t) const { return {mesh::make_tube(t.shape), {}}; }
+  ShapeMesh operator()(const TorusSpec& t) const { return {mesh::make_torus(t.shape), {}}; }
+  ShapeMesh operator()(const SpheroidSpec& s) const {
+    return {mesh::make_spheroid(s.radius_mm, s.half_height_mm, s.subdivisions), {}};
+  }
+  ShapeMesh operator()(const FibreSpec& f) const { return {mesh::make_fibre(f.shape), {}}; }
 };
 
 }  // namespace

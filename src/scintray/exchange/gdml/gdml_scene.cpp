@@ -136,7 +136,8 @@ class SceneMaker {
     left_out_.assign(names_.size(), false);
   }
 
-  /// Keys of the shape: a box as it is, everything else as a mesh beside the scene.
+  /// Keys of the shape: a box and what has a shape of its own as they are, everything else as a mesh beside the
+  /// scene.
   std::string shape(const PlacedVolume& placed, bool mirrored) {
     const mesh::TriMesh& mesh = solids_.mesh(placed.solid, placed.element);
     if (const std::optional<core::Vec3> sides = solids_.box_sides(placed.solid, placed.element);
@@ -144,6 +145,8 @@ class SceneMaker {
       const core::Vec3 half = 0.5 * *sides;
       return "box = { low = " + lengths(-half) + ", high = " + lengths(half) + " }\n";
     }
+    if (!mirrored)
+      if (std::optional<std::string> exact = solids_.exact_shape(placed.solid, placed.element)) return *exact;
     mesh::TriMesh own = mesh;
     std::string name = part_name(placed.solid);
     if (mirrored) {

@@ -9,6 +9,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/shapes/profile.hpp"
 #include "scintray/mesh/trimesh.hpp"
 
 namespace scintray::mesh {
@@ -212,6 +213,14 @@ ProfilePoint winston_profile(double exit_radius, double theta, double phi) {
   return {scale * std::sin(phi - theta) - exit_radius, scale * std::cos(phi - theta)};
 }
 
+/// Rate at which the squared radius of the profile grows along z.
+double winston_rate(double exit_radius, double theta, double phi) {
+  const double away = 1.0 - std::cos(phi), along = phi - theta;
+  const double across = std::cos(along) * away - std::sin(along) * std::sin(phi);
+  const double down = -std::sin(along) * away - std::cos(along) * std::sin(phi);
+  return 2.0 * winston_profile(exit_radius, theta, phi).radius * across / down;
+}
+
 double winston_parameter(double exit_radius, double theta, double z) {
   double entrance = 2.0 * theta, exit = theta + 0.5 * core::kPi;  // z falls as phi rises
   for (int i = 0; i < 100; ++i) {
@@ -219,6 +228,31 @@ double winston_parameter(double exit_radius, double theta, double z) {
     (winston_profile(exit_radius, theta, middle).z > z ? entrance : exit) = middle;
   }
   return 0.5 * (entrance + exit);
+}
+
+/// @param entrance  parameter of the profile there
+TriMesh round_winston(const WinstonShape& shape, double length, double entrance) {
+  const double theta = shape.acceptance_rad, exit = theta + 0.5 * core::kPi;
+  Profile walls;
+  SmoothPoint before;
+  for (int i = 0; i <= shape.rings; ++i) {
+    const double phi = exit + (entrance - exit) * i / shape.rings;
+    const ProfilePoint point = winston_profile(shape.exit_radius, theta, phi);
+    const double z = i == 0 ? 0.0 : i == shape.rings ? length : point.z;
+    const SmoothPoint next{z, point.radius * point.radius, winston_rate(shape.exit_radius, theta, phi)};
+    if (i > 0) add_smooth(walls, before, next, "side");
+    before = next;
+  }
+  std::vector<LoftRing> rings;
+  for (const Vec2& corner : walls.corners)
+    rings.push_back({corner.y(), regular_polygon(shape.segments, corner.x())});
+  rings.push_back({before.z, regular_polygon(shape.segments, std::sqrt(before.radius2))});
+  const std::vector<std::string> side(static_cast<std::size_t>(shape.segments), "side");
+  TriMesh mesh = make_loft(rings, std::vector(walls.sides.size(), side));
+  const auto strip = static_cast<std::size_t>(2 * shape.segments);
+  for (std::size_t i = 0; i < walls.sides.size(); ++i)
+    mesh.set_support(*walls.sides[i].surface, i * strip, (i + 1) * strip);
+  return mesh;
 }
 
 }  // namespace
@@ -275,7 +309,7 @@ TriMesh make_winston(const WinstonShape& shape) {
           "give that length or less");
   const double entrance =
       shape.length == 0.0 ? 2.0 * theta : winston_parameter(shape.exit_radius, theta, length);
-  const bool trough = shape.trough_width > 0.0;
+  if (!(shape.trough_width > 0.0)) return round_winston(shape, length, entrance);
   std::vector<LoftRing> rings;
   for (int i = 0; i <= shape.rings; ++i) {
     const double exit = theta + 0.5 * core::kPi;
@@ -284,12 +318,9 @@ TriMesh make_winston(const WinstonShape& shape) {
     // The ends are set to their known values, free of rounding.
     const double z = i == 0 ? 0.0 : i == shape.rings ? length : point.z;
     const Vec2 half(point.radius, 0.5 * shape.trough_width);
-    rings.push_back(
-        {z, trough ? rectangle_corners(-half, half) : regular_polygon(shape.segments, point.radius)});
+    rings.push_back({z, rectangle_corners(-half, half)});
   }
-  const std::vector<std::string> round(static_cast<std::size_t>(shape.segments), "side");
-  return make_loft(rings,
-                   std::vector(static_cast<std::size_t>(shape.rings), trough ? kRectangleSides : round));
+  return make_loft(rings, std::vector(static_cast<std::size_t>(shape.rings), kRectangleSides));
 }
 
 }  // namespace scintray::mesh

@@ -1,6 +1,6 @@
 #pragma once
-/// Closed bodies of detectors: prisms, chamfered blocks, tapers, Winston cones. Oriented outwards, lengths
-/// in mm, each standing on z = 0 about the z axis unless stated otherwise.
+/// Closed bodies of detectors: prisms, chamfered and rounded blocks, tapers, lenses, concentrators, fibres.
+/// Oriented outwards, lengths in mm, each standing on z = 0 about the z axis unless stated otherwise.
 
 #include <array>
 #include <vector>
@@ -41,27 +41,90 @@ struct LensShape {
   double thickness = 0.0;  ///< between the vertices, on the axis
   /// Radii of curvature of the lower and the upper face: above 0 convex, below 0 concave, 0 flat.
   double bottom_radius = 0.0, top_radius = 0.0;
-  int segments = 64;  ///< flat sides of a full circle, about the axis and along the faces
+  double bottom_conic = 0.0, top_conic = 0.0;  ///< conic constants; 0: a sphere, -1: a paraboloid
+  std::vector<double> bottom_aspheric = {},
+                      top_aspheric = {};  ///< terms of the depth in h^4, h^6 ..., mm^-3, mm^-5
+  int segments = 64;                      ///< flat sides of a full circle, about the axis and along the faces
   bool operator==(const LensShape&) const = default;
 };
 
-/// Depth of a spherical face at the distance `height` from its axis, R - sqrt(R^2 - h^2), with the sign of R;
-/// 0 for R = 0, a flat face. |R| is not below the height.
-double sagitta(double radius, double height);
+/// Depth of a lens face at the distance h from its axis, with c = 1 / R, conic constant k and terms a:
+/// c h^2 / (1 + sqrt(1 - (1 + k) c^2 h^2)) + a[0] h^4 + a[1] h^6 + ...; 0 for R = 0, a flat face.
+/// (1 + k) h^2 is not above R^2.
+double sagitta(double radius, double height, double conic = 0.0, const std::vector<double>& aspheric = {});
 
-/// The lens, corners on its true faces, with their spheres and the cylinder of its edge as support surfaces.
-/// Groups "-z" (lower face), "+z", and "side" where there is an edge.
-/// @throws InputError for lengths that are not positive, radii of less than half the diameter, an edge of
-///         negative height, faces that cross, or fewer than 3 segments.
+/// The lens, corners on its true faces, with their spheres or conics and the cylinder of its edge as support
+/// surfaces; of a face with aspheric terms quadrics between its rings. Groups "-z" (lower face), "+z", and
+/// "side" where there is an edge.
+/// @throws InputError for lengths that are not positive, radii of less than half the diameter, faces that end
+///         before the edge or turn back, an edge of negative height, faces that cross, or fewer than 3
+///         segments.
 TriMesh make_lens(const LensShape& shape);
 
 /// The body between the z axis and a profile: straight lines from corner to corner of (r, z). A corner with
 /// r = 0 is on the axis; the profile begins and ends there, or is closed. Walls are cylinders and cones, and
 /// have them as support surfaces; walls across the axis are flat. Groups "side0", "side1"... by the side from
 /// the corner of this number to the next.
+/// @param smooth  first and last corners of ranges in which a smooth curve leads through the corners:
+/// quadrics
+///                of revolution with common tangents, two between each corner and the next; the group is
+///                that of the first
 /// @throws InputError for fewer than 2 corners off the axis, negative radii, a profile that crosses itself,
-///         or fewer than 3 segments.
-TriMesh make_revolved(const std::vector<std::array<double, 2>>& profile, int segments);
+///         a smooth range that turns back along z, or fewer than 3 segments.
+TriMesh make_revolved(const std::vector<std::array<double, 2>>& profile, int segments,
+                      const std::vector<std::array<std::size_t, 2>>& smooth = {});
+
+/// A cylinder with a bore, from z = 0 up.
+struct TubeShape {
+  double outer_radius = 0.0, inner_radius = 0.0, height = 0.0;
+  int segments = 64;
+  bool operator==(const TubeShape&) const = default;
+};
+
+/// The tube, with its cylinders as support surfaces. Groups "-z", "side", "+z", "bore".
+/// @throws InputError for lengths that are not positive, a bore as wide as the tube, fewer than 3 segments.
+TriMesh make_tube(const TubeShape& shape);
+
+/// A torus about the z axis and the origin.
+struct TorusShape {
+  double radius = 0.0;  ///< of the circle in the middle of the tube
+  double tube_radius = 0.0;
+  int segments = 64, tube_segments = 32;
+  bool operator==(const TorusShape&) const = default;
+};
+
+/// The torus, which is its support surface. One group, "torus".
+/// @throws InputError for a tube_radius that is not positive, or not below radius, fewer than 3 segments.
+TriMesh make_torus(const TorusShape& shape);
+
+/// Ellipsoid of revolution about the z axis, centred at the origin: a geodesic sphere, stretched. One group,
+/// "spheroid", with the spheroid as support surface.
+/// @param radius  across the axis; @param half_height  along it
+/// @throws InputError for lengths that are not positive, or subdivisions < 1.
+TriMesh make_spheroid(double radius, double half_height, int subdivisions);
+
+/// Box whose edges and corners are rounded: 6 rectangles with the groups of make_box, and cylinders and
+/// spheres, their support surfaces, in the group "rounding".
+/// @param segments  flat sides of a full circle; a quarter has at least one
+/// @throws InputError as make_box, and when the radius is not positive or leaves nothing of a face.
+TriMesh make_rounded_box(const core::Vec3& low, const core::Vec3& high, double radius, int segments);
+
+/// A round or square rod along a path of straight lines, bent at its corners along arcs.
+struct FibreShape {
+  std::vector<core::Vec3> path = {};  ///< 2 points or more, mm
+  double bend_radius = 0.0;  ///< of the arcs, in the middle of the rod; for a path of 3 points or more
+  double radius = 0.0;       ///< of a round one; 0: square
+  double side = 0.0;         ///< of a square one, whose path lies in a plane
+  int segments = 64;         ///< flat sides of a full circle, about the rod and along the arcs
+  bool operator==(const FibreShape&) const = default;
+};
+
+/// The rod, with its cylinders and tori as support surfaces. Groups "side" (round) or "side0" to "side3"
+/// (square; "side0" and "side2" are those that bend with the path), "start" and "end".
+/// @throws InputError for lengths that are not positive, points that coincide, arcs that do not fit between
+///         them, bends tighter than the rod allows, a path that turns back, or a square rod whose path is in
+///         no plane.
+TriMesh make_fibre(const FibreShape& shape);
 
 /// A compound parabolic concentrator: its exit stands on z = 0, its entrance faces +z.
 struct WinstonShape {
@@ -85,7 +148,9 @@ double winston_length(double exit_radius, double acceptance_rad);
 double winston_radius(double exit_radius, double acceptance_rad, double z);
 
 /// The body inside the concentrator, corners of every ring on the true profile. Rings follow even steps of
-/// the profile's parameter. Groups "side", "-z" (exit), "+z" (entrance); a trough's are those of make_box.
+/// the profile's parameter, and of a cone there is another halfway between each two. Its support surfaces are
+/// quadrics of revolution between the rings, with common tangents, which have the true radii and tangents at
+/// those on the profile. Groups "side", "-z" (exit), "+z" (entrance); a trough's are those of make_box.
 /// @throws InputError for lengths that are not positive, an angle outside 0 to 90 deg, a length beyond the
 ///         full one, or fewer than 3 segments or 1 ring.
 TriMesh make_winston(const WinstonShape& shape);

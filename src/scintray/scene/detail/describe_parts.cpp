@@ -53,7 +53,7 @@ class CurveDescription {
     info_.volume_mm3 += excess.volume_mm3;
   }
 
-  /// Flat ends reach from the chords of the triangles' outline to the circle.
+  /// Flat ends reach from the chords of the triangles' outline to the circle; around a hole they end there.
   void add_ends() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> supports;  // of directed sides
     for (std::size_t t = 0; t < geometry_.triangles.size(); ++t)
@@ -68,8 +68,11 @@ class CurveDescription {
         const std::uint32_t from = geometry_.triangles[t][k], to = geometry_.triangles[t][(k + 1) % 3];
         const auto round = supports.find({to, from});
         if (round == supports.end()) continue;
-        const double area = mesh::segment_area(geometry_.supports[round->second], normal,
-                                               geometry_.vertices[from], geometry_.vertices[to]);
+        const mesh::SupportSurface& surface = geometry_.supports[round->second];
+        const core::Vec3 &a_from = geometry_.vertices[from], &a_to = geometry_.vertices[to];
+        const core::Vec3 inwards = normal.cross(a_to - a_from);  // across the chord, into the triangle
+        const bool around_centre = inwards.dot(surface.origin - a_from) > 0.0;
+        const double area = mesh::segment_area(surface, normal, a_from, a_to) * (around_centre ? 1.0 : -1.0);
         FaceInfo& face = faces_[geometry_.face[t]];
         face.area_mm2 += area;
         face.area_vector_mm2 += area * normal;
@@ -78,14 +81,15 @@ class CurveDescription {
   }
 
   /// The box around the body: by the poles of spheres and the rims of cylinders and cones; where one of these
-  /// is cut obliquely, by the largest deviation of the facets.
+  /// is cut obliquely, or the body has other faces or is not convex, by the largest deviation of the facets.
   void add_bounds() {
     const auto upright = [&](const mesh::SupportSurface& s) {
-      return s.is_sphere() ||
-             std::all_of(body_.planes.begin(), body_.planes.end(),
+      const mesh::SurfaceKind kind = s.kind();
+      if (kind != mesh::SurfaceKind::cylinder && kind != mesh::SurfaceKind::cone) return s.is_sphere();
+      return std::all_of(body_.planes.begin(), body_.planes.end(),
                          [&](const WorldPlane& plane) { return s.axis.cross(plane.normal).norm() < 1e-9; });
     };
-    if (!std::all_of(body_.quadrics.begin(), body_.quadrics.end(), upright)) {
+    if (!body_.convex || !std::all_of(body_.quadrics.begin(), body_.quadrics.end(), upright)) {
       const core::Vec3 bulge = core::Vec3::Constant(2.0 * body_.deviation_mm);
       info_.bounds = Eigen::AlignedBox3d(info_.bounds.min() - bulge, info_.bounds.max() + bulge);
       return;

@@ -50,15 +50,9 @@ class RegionBodies {
     return order;
   }
 
-  mesh::SupportSurface local(mesh::SupportSurface surface) const {
-    surface.origin = frame_.rotation.transpose() * (surface.origin - frame_.centre);
-    surface.axis = frame_.rotation.transpose() * surface.axis.vec();
-    return surface;
-  }
-
   /// The plane in the region's frame; a plane of a body before it that is the same to rounding has its bits.
   BodyPlane local(const WorldPlane& plane) const {
-    const core::Vec3 normal = frame_.rotation.transpose() * plane.normal;
+    const core::Vec3 normal = frame_.direction(plane.normal);
     const double offset = plane.offset - plane.normal.dot(frame_.centre);
     for (const BodyPlane& known : result_.planes)
       if ((known.normal - normal).norm() <= 1e-9 && std::abs(known.offset - offset) <= same_plane_)
@@ -68,14 +62,13 @@ class RegionBodies {
 
   void add(core::PartId part, const std::vector<std::uint32_t>& own) {
     const PartBody& of_part = bodies_[part];
-    ConvexBody body;
+    ExactBody body;
     body.first = own.front();
     // Around all corners of the part, of which the region may have but a few, and what bulges beyond them.
     Eigen::AlignedBox3d box;
     for (const std::uint32_t i : own)
       for (const core::Vec3& corner : triangles_[i].local) box.extend(corner);
-    for (const core::Vec3& vertex : of_part.corners)
-      box.extend(core::Vec3(frame_.rotation.transpose() * (vertex - frame_.centre)));
+    for (const core::Vec3& vertex : of_part.corners) box.extend(frame_.point(vertex));
     const core::Vec3 bulge = core::Vec3::Constant(2.0 * of_part.deviation_mm + 1e-9 * box.diagonal().norm());
     body.low = box.min() - bulge;
     body.high = box.max() + bulge;
@@ -85,9 +78,12 @@ class RegionBodies {
     for (const WorldPlane& plane : of_part.planes) planes.push_back(local(plane));
     result_.planes.insert(result_.planes.end(), planes.begin(), planes.end());
     for (const mesh::SupportSurface& quadric : of_part.quadrics)
-      result_.quadrics.push_back({local(quadric), {}});
+      result_.quadrics.push_back({frame_.surface(quadric), {}, part == of_});
+    for (const PartFace& face : of_part.faces)
+      if (face.wall) result_.quadrics[body.quadrics_begin + face.quadric].around_region = part != of_;
     body.planes_end = static_cast<std::uint32_t>(result_.planes.size());
     body.quadrics_end = static_cast<std::uint32_t>(result_.quadrics.size());
+    if (!of_part.faces.empty()) add_trimmed_faces(of_part, frame_, body, result_);
     assign(body, own);
     result_.bodies.push_back(body);
   }
@@ -95,12 +91,12 @@ class RegionBodies {
   double farthest(core::PartId part, const core::Vec3& centre) const {
     double radius = 0.0;
     for (const core::Vec3& vertex : bodies_[part].corners)
-      radius = std::max(radius, (frame_.rotation.transpose() * (vertex - frame_.centre) - centre).norm());
+      radius = std::max(radius, (frame_.point(vertex) - centre).norm());
     return radius;
   }
 
   /// Distributes triangles of a body over its surfaces.
-  void assign(const ConvexBody& body, const std::vector<std::uint32_t>& own) {
+  void assign(const ExactBody& body, const std::vector<std::uint32_t>& own) {
     std::map<SurfaceTriangles*, std::vector<std::uint32_t>> on;
     for (const std::uint32_t i : own) {
       const RegionTriangle& t = triangles_[i];
@@ -114,7 +110,7 @@ class RegionBodies {
     for (auto& [surface, list] : on) describe(*surface, list);
   }
 
-  BodyPlane* plane_of(const ConvexBody& body, const RegionTriangle& t) {
+  BodyPlane* plane_of(const ExactBody& body, const RegionTriangle& t) {
     const core::Vec3 normal = doubled_area(t.local).normalized() * (t.body == of_ ? 1.0 : -1.0);
     BodyPlane* best = nullptr;
     double least = HUGE_VAL;
@@ -163,18 +159,40 @@ class RegionBodies {
     for (const auto& [size, part] : sizes) {
       EndOutline outline;
       outline.triangle = ends.at(part);
+      if (!bodies_[part].faces.empty()) {
+        outline.face = end_face(part, triangles_[outline.triangle]);
+        result_.outlines.push_back(outline);
+        continue;
+      }
       outline.quadrics_begin = static_cast<std::uint32_t>(result_.outline_of.size());
       for (const mesh::SupportSurface& quadric : bodies_[part].quadrics)
-        result_.outline_of.push_back(local(quadric));
+        result_.outline_of.push_back(frame_.surface(quadric));
       outline.quadrics_end = static_cast<std::uint32_t>(result_.outline_of.size());
       result_.outlines.push_back(outline);
     }
   }
 
+  /// The flat face of a part that is not convex, at a triangle under it, in this region's frame.
+  std::uint32_t end_face(core::PartId part, const RegionTriangle& under) {
+    PartBody flat = bodies_[part];
+    const core::Vec3 normal = frame_.rotation * doubled_area(under.local).normalized() * -1.0;
+    const core::Vec3 point = frame_.centre + frame_.rotation * under.local[0];
+    const auto off = [&](const PartFace& face) {
+      if (face.plane == kNoSurface) return HUGE_VAL;
+      const WorldPlane& plane = flat.planes[face.plane];
+      return (plane.normal - normal).norm() + std::abs(plane.normal.dot(point) - plane.offset);
+    };
+    flat.faces = {*std::min_element(flat.faces.begin(), flat.faces.end(),
+                                    [&](const auto& a, const auto& b) { return off(a) < off(b); })};
+    ExactBody unused;
+    unused.low = unused.high = core::Vec3(core::Vec3::Zero());
+    add_trimmed_faces(flat, frame_, unused, result_);
+    return unused.faces_begin;
+  }
+
   core::Vec3 local_centre(core::PartId part) const {
     Eigen::AlignedBox3d bounds;
-    for (const core::Vec3& vertex : bodies_[part].corners)
-      bounds.extend(core::Vec3(frame_.rotation.transpose() * (vertex - frame_.centre)));
+    for (const core::Vec3& vertex : bodies_[part].corners) bounds.extend(frame_.point(vertex));
     return bounds.center();
   }
 
@@ -189,7 +207,7 @@ class RegionBodies {
 }  // namespace
 
 bool on_exact_body(const PartBodies& bodies, core::PartId of, core::PartId body) {
-  return body.has_value() && (body == of ? bodies[body].convex : bodies[body].round);
+  return body.has_value() && (body == of ? bodies[body].is_exact() : bodies[body].round);
 }
 
 bool needs_exact_bodies(const PartBodies& bodies, core::PartId of,

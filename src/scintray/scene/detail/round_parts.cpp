@@ -9,10 +9,10 @@ namespace scintray::scene {
 
 namespace {
 
-/// Limit of the planes of a convex body; more are faster by Embree.
-constexpr std::size_t kMostFlatFaces = 32;
-/// Limit of its round faces.
-constexpr std::size_t kMostRoundFaces = 8;
+/// Limits of a convex body; more are faster by a tree of faces, or by Embree.
+constexpr std::size_t kMostFlatFaces = 32, kMostRoundFaces = 8;
+/// Limits of any other body.
+constexpr std::size_t kMostTrimmedFlatFaces = 512, kMostTrimmedRoundFaces = 8192;
 /// Distance from a surface within which corners are on it, in contact tolerances: contacts move them.
 constexpr double kOnSurface = 4.0;
 /// A triangle of a part's boundary, in world coordinates, outwards.
@@ -47,7 +47,7 @@ core::IdVector<core::PartId, std::vector<PartTriangle>> triangles_of_parts(
   return result;
 }
 
-/// Recognition of one part as a convex body.
+/// Recognition of one part as a body.
 class BodyFinder {
  public:
   BodyFinder(const contact::PlacedPart& part, const std::vector<PartTriangle>& triangles, double tolerance_mm)
@@ -60,10 +60,13 @@ class BodyFinder {
       if (t.support != mesh::kNoSupport)
         body.deviation_mm = std::max(body.deviation_mm,
                                      mesh::facet_deviation(body.quadrics[t.support], t.corners).distance_mm);
+    body.off_surface_mm = tolerance_;
+    body.corners = part_.vertices;
     std::string reason = find_planes(body);
-    if (reason.empty()) reason = compare_corners(body);
-    body.convex = reason.empty();
-    body.round = body.convex && !body.quadrics.empty();
+    if (reason.empty()) body.convex = is_convex(body);
+    if (reason.empty() && !body.convex && !body.quadrics.empty())
+      reason = find_trimmed_faces(part_, tolerance_, body);
+    body.round = body.is_exact() && !body.quadrics.empty();
     if (!body.quadrics.empty()) body.facets_because = reason;
     return body;
   }
@@ -76,7 +79,8 @@ class BodyFinder {
   }
 
   std::string find_planes(PartBody& body) const {
-    if (body.quadrics.size() > kMostRoundFaces) return "it has more than 8 round faces";
+    const std::size_t most = body.quadrics.empty() ? kMostFlatFaces : kMostTrimmedFlatFaces;
+    if (body.quadrics.size() > kMostTrimmedRoundFaces) return "it has more than 8192 round faces";
     for (const PartTriangle& t : triangles_) {
       if (t.support != mesh::kNoSupport) continue;
       const core::Vec3 area = doubled_area(t.corners);
@@ -86,29 +90,32 @@ class BodyFinder {
         return plane.normal.dot(normal) > 0.0 && on(plane, t.corners);
       });
       if (known) continue;
-      if (body.planes.size() == kMostFlatFaces) return "it has more than 32 flat faces";
+      if (body.planes.size() == most) return "it has more than 512 flat faces";
       body.planes.push_back({normal, normal.dot(t.corners[0])});
     }
     return {};
   }
 
-  std::string compare_corners(const PartBody& body) const {
+  /// Whether the part is the intersection of the insides of its surfaces.
+  bool is_convex(const PartBody& body) const {
+    if (body.planes.size() > kMostFlatFaces || body.quadrics.size() > kMostRoundFaces) return false;
+    for (const mesh::SupportSurface& quadric : body.quadrics)
+      if (!quadric.is_convex()) return false;
     for (const PartTriangle& t : triangles_) {
       for (const core::Vec3& corner : t.corners) {
         for (const WorldPlane& plane : body.planes)
-          if (plane.normal.dot(corner) > plane.offset + tolerance_) return "the part is not convex";
+          if (plane.normal.dot(corner) > plane.offset + tolerance_) return false;
         for (const mesh::SupportSurface& quadric : body.quadrics)
-          if (quadric.distance(corner) > tolerance_) return "the part is not convex";
+          if (quadric.distance(corner) > tolerance_) return false;
         if (t.own && t.support != mesh::kNoSupport &&
             std::abs(body.quadrics[t.support].distance(corner)) > tolerance_)
-          return "its corners have moved off the surface";
+          return false;
       }
       if (t.support == mesh::kNoSupport) continue;
       const core::Vec3 middle = (t.corners[0] + t.corners[1] + t.corners[2]) / 3.0;
-      if (body.quadrics[t.support].gradient(middle).dot(doubled_area(t.corners)) < 0.0)
-        return "it is the wall of a hole";
+      if (body.quadrics[t.support].gradient(middle).dot(doubled_area(t.corners)) < 0.0) return false;
     }
-    return {};
+    return true;
   }
 
   const contact::PlacedPart& part_;
@@ -124,8 +131,7 @@ void match_contacts(const Assembly& assembly, const std::vector<contact::Interfa
     return support == mesh::kNoSupport || !bodies[part].round ? nullptr : &bodies[part].quadrics[support];
   };
   const auto leave_facets = [&](core::PartId part, core::PartId other) {
-    bodies[part].round = bodies[part].convex = false;
-    bodies[part].facets_because = "it touches facets of \"" + assembly.parts[other].geometry.name + "\"";
+    bodies[part].leave_facets("it touches facets of \"" + assembly.parts[other].geometry.name + "\"");
   };
   for (bool changed = true; changed;) {
     changed = false;
@@ -200,7 +206,8 @@ class ClearanceCheck {
                                          core::Vec3(0.5 * (vb + vc)), core::Vec3(0.5 * (vc + va))}) {
         core::Vec3 point = on_facet;
         for (int step = 0; step < 3; ++step) point += surface.correction(point);
-        point -= tolerance_ * surface.normal(point);
+        const bool wall = surface.gradient(point).dot(doubled_area({va, vb, vc})) < 0.0;
+        point -= (wall ? -tolerance_ : tolerance_) * surface.normal(point);
         result.points.push_back(point);
         result.box.extend(point);
       }
@@ -208,8 +215,18 @@ class ClearanceCheck {
     return result;
   }
 
-  bool contains(core::PartId part, const core::Vec3& point, double margin) const {
+  /// Whether a point is inside a part, or by less than the margin (mm) outside; for a negative margin, by
+  /// more than that inside.
+  bool contains(core::PartId part, const core::Vec3& point, double margin) {
     const PartBody& body = bodies_[part];
+    if (!body.faces.empty()) {
+      const auto [alone, is_new] = alone_.try_emplace(part);
+      if (is_new) alone->second = part_alone(body);
+      const ExactBodies& exact = alone->second;
+      const bool inside = exact.contains(exact.bodies.front(), point);
+      if (margin == 0.0 || inside == (margin > 0.0)) return inside;
+      return (exact.distance_to_faces(exact.bodies.front(), point) <= std::abs(margin)) == (margin > 0.0);
+    }
     return std::all_of(
                body.planes.begin(), body.planes.end(),
                [&](const WorldPlane& plane) { return plane.normal.dot(point) <= plane.offset + margin; }) &&
@@ -219,7 +236,7 @@ class ClearanceCheck {
 
   void compare(core::PartId region, const RegionContent& content, core::PartId part) {
     const Samples& own = samples(part);
-    if (region.has_value() && bodies_[region].convex) {
+    if (region.has_value() && bodies_[region].is_exact()) {
       for (const core::Vec3& point : own.points)
         if (!contains(region, point, 0.0)) return leave_facets(part, region);
     }
@@ -260,9 +277,8 @@ class ClearanceCheck {
   }
 
   void leave_facets(core::PartId part, core::PartId other) {
-    bodies_[part].round = bodies_[part].convex = false;
-    bodies_[part].facets_because =
-        "its exact surface would extend into \"" + assembly_.parts[other].geometry.name + "\"";
+    bodies_[part].leave_facets("its exact surface would extend into \"" +
+                               assembly_.parts[other].geometry.name + "\"");
     changed_ = true;
   }
 
@@ -273,6 +289,7 @@ class ClearanceCheck {
   bool changed_ = false;
   std::map<core::PartId, RegionContent> regions_;
   std::map<core::PartId, Samples> samples_;
+  std::map<core::PartId, ExactBodies> alone_;  ///< of parts that are not convex
 };
 
 }  // namespace
@@ -287,11 +304,8 @@ PartBodies find_part_bodies(const Assembly& assembly,
   for (const core::PartId part : assembly.parts.ids()) {
     const contact::PlacedPart& geometry = assembly.parts[part].geometry;
     PartBody body = BodyFinder(geometry, of_parts[part], assembly.contact_tolerance_mm).find();
-    if (body.round && assembly.curved == scene_file::CurvedFaces::facets) {
-      body.round = body.convex = false;
-      body.facets_because = "run.curved is \"facets\"";
-    }
-    body.corners = geometry.vertices;
+    if (body.round && assembly.curved == scene_file::CurvedFaces::facets)
+      body.leave_facets("run.curved is \"facets\"");
     bodies.push_back(std::move(body));
   }
   do match_contacts(assembly, triangles, bodies);

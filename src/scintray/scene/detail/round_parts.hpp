@@ -1,7 +1,8 @@
 #pragma once
-/// Parts as convex bodies with exact round faces, the regions between them, and the description of both.
+/// Parts as bodies with exact round faces, the regions between them, and the description of both.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,42 @@ struct WorldPlane {
   double offset;      ///< normal . x on the plane, mm
 };
 
-/// A part as the intersection of the insides of its planes and round faces (world, mm).
+/// As Trim: where a function of the place is above zero, in world coordinates.
+struct PartTrim {
+  std::optional<mesh::SupportSurface> surface;  ///< nothing: the plane
+  WorldPlane plane;
+  bool above = false;
+};
+
+/// As TrimmedFace: a face of a part that is not convex.
+struct PartFace {
+  std::uint32_t plane = kNoSurface, quadric = kNoSurface;  ///< one of them, of the part's
+  bool wall = false;                                       ///< the part is outside of the quadric
+  std::vector<PartTrim> trims;
+  std::vector<std::uint64_t> cells;  ///< empty: one
+  std::vector<core::Vec3> corners;   ///< of its triangles
+  double bulge_mm = 0.0;             ///< by which it may extend beyond the box around these
+};
+
+/// A part with exact faces (world, mm).
 struct PartBody {
-  bool convex = false;                         ///< it is that intersection
-  bool round = false;                          ///< and has round faces, which are exact
+  bool convex = false;                         ///< it is the intersection of the insides of its surfaces
+  bool round = false;                          ///< it has round faces, which are exact
   std::string facets_because;                  ///< reason why its known round faces stay facets
-  std::vector<WorldPlane> planes;              ///< where convex
+  std::vector<WorldPlane> planes;              ///< where exact
   std::vector<mesh::SupportSurface> quadrics;  ///< as PlacedPart::supports
+  std::vector<PartFace> faces;                 ///< where exact and not convex
   std::vector<core::Vec3> corners;             ///< of its own triangles
   double deviation_mm = 0.0;                   ///< largest of its facets from their surfaces
+  double off_surface_mm = 0.0;                 ///< largest distance of what touches it from its surfaces
+
+  bool is_exact() const { return convex || !faces.empty(); }
+  /// Leaves facets, for a reason.
+  void leave_facets(const std::string& reason) {
+    round = convex = false;
+    faces.clear();
+    facets_because = reason;
+  }
 };
 using PartBodies = core::IdVector<core::PartId, PartBody>;
 
@@ -37,10 +65,40 @@ using PartBodies = core::IdVector<core::PartId, PartBody>;
 ///
 /// A part whose faces lie on planes and on the outer side of convex quadrics, and on the inner side of none
 /// of these, is the intersection of their insides: its boundary is part of the intersection's, and that is
-/// connected. Corners are compared with every surface. Round faces that touch another part have to be one
-/// surface with the other's face there; else both parts keep their facets.
+/// connected. Corners are compared with every surface. Any other part is what its trimmed faces enclose.
+/// Round faces that touch another part have to be one surface with the other's face there; else both parts
+/// keep their facets.
 PartBodies find_part_bodies(const Assembly& assembly,
                             const std::vector<contact::InterfaceTriangle>& triangles);
+
+/// Finds the trimmed faces of a part that is not convex, whose planes and quadrics are known.
+///
+/// Triangles of one surface are one face. Where it borders on another, that surface, or a plane or cylinder
+/// through their common edge, is a function whose sign changes there; the signs at points of the face's
+/// triangles are its cells. Points of the surface beyond the face, and rays across the part, are compared
+/// with the triangles.
+/// @return the reason why they are not found; empty where they are
+std::string find_trimmed_faces(const contact::PlacedPart& part, double tolerance_mm, PartBody& body);
+
+/// A region's frame: world = centre + rotation * local.
+struct RegionFrame {
+  core::Vec3 centre;
+  Eigen::Matrix3d rotation;
+
+  core::Vec3 point(const core::Vec3& world) const { return rotation.transpose() * (world - centre); }
+  core::Vec3 direction(const core::Vec3& world) const { return rotation.transpose() * world; }
+  mesh::SupportSurface surface(mesh::SupportSurface world) const {
+    world.origin = point(world.origin);
+    world.axis = direction(world.axis);
+    return world;
+  }
+};
+
+/// Adds the trimmed faces of a part to a body whose planes and quadrics are those of the part, in order.
+void add_trimmed_faces(const PartBody& part, const RegionFrame& frame, ExactBody& body, ExactBodies& exact);
+
+/// The part by itself, as the body that holds a region, in world coordinates.
+ExactBodies part_alone(const PartBody& part);
 
 /// A triangle of a region's boundary, and the parts at it.
 struct RegionTriangle {
@@ -48,12 +106,6 @@ struct RegionTriangle {
   std::uint32_t label = 0;                   ///< of what it leads to
   core::PartId body, other;                  ///< the part whose face it is, and that on the other side of it
   std::uint32_t support = mesh::kNoSupport;  ///< in the part's list
-};
-
-/// A region's frame: world = centre + rotation * local.
-struct RegionFrame {
-  core::Vec3 centre;
-  Eigen::Matrix3d rotation;
 };
 
 /// Whether a triangle of the region of `of` is on an exact body, once the region has any.

@@ -150,7 +150,7 @@ std::optional<GlueSpec> read_glue(const config::TomlTable& owner) {
   return glue;
 }
 
-/// Replaces the height of a box, cylinder or prism.
+/// Replaces the height of a box, cylinder, prism, cone or tube.
 void read_height(const config::TomlTable& table, LayerSpec& layer) {
   const std::optional<double> height = table.optional_quantity("height", core::Dimension::length);
   if (!height) return;
@@ -163,8 +163,10 @@ void read_height(const config::TomlTable& table, LayerSpec& layer) {
     prism->height_mm = *height;
   else if (auto* cone = std::get_if<ConeSpec>(&shape))
     cone->height_mm = *height;
+  else if (auto* tube = std::get_if<TubeSpec>(&shape))
+    tube->shape.height = *height;
   else
-    table.expect("height", false, "only boxes, cylinders, cones and prisms have a height to change",
+    table.expect("height", false, "only boxes, cylinders, cones, prisms and tubes have a height to change",
                  "give this layer an element of its own");
   table.expect("height", *height > 0.0, "the height of a layer is not positive", "give a length above 0");
   if (table.good("height")) layer.element_bounds = element_bounds(table, layer.element);

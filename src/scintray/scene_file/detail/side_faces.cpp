@@ -47,6 +47,16 @@ std::vector<std::string> side_names(const ShapeSpec& shape) {
           return {"side", "-z", "+z"};
         else if constexpr (std::is_same_v<Spec, SphereSpec>)
           return {"sphere"};
+        else if constexpr (std::is_same_v<Spec, SpheroidSpec>)
+          return {"spheroid"};
+        else if constexpr (std::is_same_v<Spec, TorusSpec>)
+          return {"torus"};
+        else if constexpr (std::is_same_v<Spec, TubeSpec>)
+          return {"side", "bore", "-z", "+z"};
+        else if constexpr (std::is_same_v<Spec, FibreSpec>)
+          return spec.shape.radius > 0.0
+                     ? std::vector<std::string>{"side", "start", "end"}
+                     : std::vector<std::string>{"side0", "side1", "side2", "side3", "start", "end"};
         else if constexpr (std::is_same_v<Spec, RevolvedSpec>)
           return numbered_sides(spec.profile.size());
         else if constexpr (std::is_same_v<Spec, PrismSpec>) {

@@ -48,9 +48,7 @@ class RoundSolid : public SolidReader {
     result.extent_rad = std::min(angle("deltaphi", core::kTwoPi), core::kTwoPi);
     if (result.extent_rad >= core::kTwoPi - kRounding) result.extent_rad = core::kTwoPi;
     const bool full = result.extent_rad == core::kTwoPi;
-    const int needed = mesh::arc_segments(radius_mm, result.extent_rad, tessellation_, 1);
-    result.segments = mesh::arc_segments(0.0, result.extent_rad, tessellation_, full ? 3 : 1);
-    while (result.segments < needed) result.segments *= 2;
+    result.segments = segments_about(radius_mm, result.extent_rad, full ? 3 : 1);
     return result;
   }
 

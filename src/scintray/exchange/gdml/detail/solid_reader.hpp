@@ -34,6 +34,15 @@ class SolidReader {
   }
   double unit() const { return definitions_.number(solid_, "lunit", 1.0); }
 
+  /// Flat sides of an arc of a wall about the axis: the fewest of an arc, doubled until they satisfy the
+  /// tessellation, so that walls of nearly equal radii keep the same corners.
+  int segments_about(double radius_mm, double arc_rad, int least) const {
+    const int needed = mesh::arc_segments(radius_mm, arc_rad, tessellation_, 1);
+    int segments = mesh::arc_segments(0.0, arc_rad, tessellation_, least);
+    while (segments < needed) segments *= 2;
+    return segments;
+  }
+
   /// Facets with corners in either sense of rotation, welded and oriented outwards.
   static mesh::TriMesh from_facets(const std::vector<std::vector<core::Vec3>>& facets);
 
@@ -49,6 +58,12 @@ class SolidReader {
   const Definitions& definitions_;
   const mesh::Tessellation& tessellation_;
 };
+
+/// The shape of a scene file that has the faces of a solid exactly, in its frame, as a line of a [[part]]: of a
+/// full torus, an uncut or cut ellipsoid of revolution, a paraboloid and a full hyperboloid, whose faces are
+/// not recognized in triangles; empty for other solids. The dimensions are possible: its mesh could be made.
+std::optional<std::string> exact_shape(Node solid, const Definitions& definitions,
+                                       const mesh::Tessellation& tessellation);
 
 /// Mesh of a solid of flat faces or ruled walls, by the name of its element; empty for other solids.
 /// Throws InputError for impossible dimensions.

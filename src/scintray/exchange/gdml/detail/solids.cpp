@@ -88,6 +88,12 @@ std::optional<core::Vec3> Solids::box_sides(const std::string& name, Node where)
                     definitions_.length(solid, "z"));
 }
 
+std::optional<std::string> Solids::exact_shape(const std::string& name, Node where) const {
+  const auto& [solid, variables] = find(name, where);
+  const LoopScope scope(definitions_, variables);
+  return gdml::exact_shape(solid, definitions_, tessellation_);
+}
+
 Node Solids::new_element(const std::string& kind) {
   Node element = added_.append_child(kind.c_str());
   element.append_attribute("lunit") = "mm";

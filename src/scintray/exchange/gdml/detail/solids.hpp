@@ -35,6 +35,10 @@ class Solids {
   /// flat sides are meant, polyhedra and the like, and booleans with one of these are not searched.
   bool is_round(const std::string& name, Node where);
 
+  /// The line of a [[part]] with a shape of scene files that is a solid exactly, where its faces would not be
+  /// recognized in its mesh; empty for other solids.
+  std::optional<std::string> exact_shape(const std::string& name, Node where) const;
+
   /// The <opticalsurface> of this name, an element of <solids>; empty when there is none.
   Node optical_surface(const std::string& name) const;
   /// Lengths of the sides of a box; empty for other solids. Throws when there is no solid of this name.

@@ -27,7 +27,7 @@ class ByteWriter {
   void put(const SupportSurface& surface) {
     put(surface.origin.vec());
     put(surface.axis.vec());
-    for (const double number : {surface.axial, surface.slope, surface.radius2}) put(number);
+    for (const double number : {surface.axial, surface.slope, surface.radius2, surface.major}) put(number);
   }
   void put(const FaceTags& tags) {
     put(tags.size());
@@ -65,7 +65,7 @@ class ByteReader {
     get(axis);
     surface.origin = origin;
     surface.axis = axis;
-    for (double* number : {&surface.axial, &surface.slope, &surface.radius2}) get(*number);
+    for (double* number : {&surface.axial, &surface.slope, &surface.radius2, &surface.major}) get(*number);
   }
   void get(FaceTags& tags) {
     for (std::size_t left = size(); left > 0; --left) {

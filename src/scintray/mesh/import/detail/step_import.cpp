@@ -74,7 +74,7 @@ bool is_no_name(const std::string& name) { return name.empty() || name == "NONE"
 
 core::Vec3 to_vec(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
-/// The sphere, cylinder or cone of a CAD face; nothing for any other surface.
+/// The sphere, cylinder, cone or torus of a CAD face; nothing for any other surface.
 std::optional<SupportSurface> support_of(const Handle(Geom_Surface) & surface, const gp_Trsf& transform) {
   if (surface.IsNull()) return std::nullopt;
   const GeomAdaptor_Surface adaptor(surface);
@@ -96,6 +96,12 @@ std::optional<SupportSurface> support_of(const Handle(Geom_Surface) & surface, c
       const double radius = cone.RefRadius() + step * slope;
       const core::Vec3 axis = to_vec(gp_Pnt(cone.Axis().Direction().XYZ()));
       return SupportSurface::cone(to_vec(cone.Location()) + step * axis, axis, radius, radius + slope, 1.0);
+    }
+    case GeomAbs_Torus: {
+      const gp_Torus torus = adaptor.Torus().Transformed(transform);
+      if (torus.MajorRadius() < torus.MinorRadius()) return std::nullopt;  // it crosses itself
+      return SupportSurface::torus(to_vec(torus.Location()), to_vec(gp_Pnt(torus.Axis().Direction().XYZ())),
+                                   torus.MajorRadius(), torus.MinorRadius());
     }
     default:
       return std::nullopt;

@@ -1,0 +1,435 @@
+// Parts that are not convex, with exact round faces: against searches along the ray for where their defining
+// functions change sign.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/mesh/export/triangle_files.hpp"
+#include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
+#include "support/curved_scenes.hpp"
+
+using namespace scintray;
+using namespace scintray::core;
+using namespace scintray::scene;
+using namespace scintray::scene_file;
+using namespace scintray::source;
+using namespace scintray::transport;
+using namespace scintray::test;
+
+namespace {
+
+/// A body by a function that is below zero inside, of slope 1 or less, and the box in which it lies.
+struct KnownBody {
+  std::string shape;
+  std::function<double(const Vec3&)> inside;
+  Vec3 low, high;
+};
+
+double rho(const Vec3& p) { return std::hypot(p.x(), p.y()); }
+double slab(double z, double low, double high) { return std::max(low - z, z - high); }
+
+/// Distance at which the sign of the function changes first, from a start where it is not zero; infinite
+/// where it does not within `length`.
+double first_change(const std::function<double(const Vec3&)>& f, const Vec3& p, const Vec3& d,
+                    double length) {
+  const bool inside = f(p) < 0.0;
+  double t = 0.0;
+  while (t < length) {
+    const double here = std::abs(f(p + t * d));
+    double next = t + std::max(here, 1e-4);
+    if ((f(p + next * d) < 0.0) != inside) {
+      double low = t, high = next;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((f(p + middle * d) < 0.0) == inside ? low : high) = middle;
+      }
+      return high;
+    }
+    t = next;
+  }
+  return HUGE_VAL;
+}
+
+std::vector<KnownBody> known_bodies() {
+  std::vector<KnownBody> bodies;
+  for (const int segments : {12, 72})
+    bodies.push_back(
+        {fmt::format("revolved = {{ r = [\"1 mm\", \"2 mm\", \"2 mm\", \"1 mm\"], z = [\"0 mm\", "
+                     "\"0 mm\", \"5 mm\", \"5 mm\"], segments = {} }}",
+                     segments),
+         [](const Vec3& p) {
+           return std::max({rho(p) - 2.0, 1.0 - rho(p), slab(p.z(), 0.0, 5.0)});
+         },
+         {-2, -2, 0},
+         {2, 2, 5}});
+  // A stepped drum with a conical bore that widens.
+  bodies.push_back({R"(revolved = { r = ["0.5 mm", "3 mm", "3 mm", "2 mm", "2 mm", "1.5 mm"],
+z = ["0 mm", "0 mm", "2 mm", "2 mm", "4 mm", "4 mm"], segments = 16 })",
+                    [](const Vec3& p) {
+                      const double r = rho(p);
+                      const double drum = std::min(std::max(r - 3.0, slab(p.z(), 0.0, 2.0)),
+                                                   std::max(r - 2.0, slab(p.z(), 0.0, 4.0)));
+                      return std::max(drum, (0.5 + 0.25 * p.z() - r) / std::hypot(1.0, 0.25));
+                    },
+                    {-3, -3, 0},
+                    {3, 3, 4}});
+  // Lenses: one side concave, both sides, and a meniscus.
+  const auto sphere = [](const Vec3& p, double z, double r) { return (p - Vec3(0, 0, z)).norm() - r; };
+  bodies.push_back(
+      {R"(lens = { diameter = "4 mm", thickness = "1 mm", top_radius = "-5 mm", segments = 24 })",
+       [=](const Vec3& p) {
+         return std::max({rho(p) - 2.0, -p.z(), p.z() - 3.0, -sphere(p, 6.0, 5.0)});
+       },
+       {-2, -2, 0},
+       {2, 2, 1.5}});
+  bodies.push_back(
+      {R"(lens = { diameter = "4 mm", thickness = "0.7 mm", bottom_radius = "-3 mm",
+top_radius = "-5 mm", segments = 24 })",
+       [=](const Vec3& p) {
+         return std::max({rho(p) - 2.0, slab(p.z(), -3.0, 3.0), -sphere(p, 5.7, 5.0), -sphere(p, -3.0, 3.0)});
+       },
+       {-2, -2, -1},
+       {2, 2, 1.5}});
+  bodies.push_back({R"(lens = { diameter = "4 mm", thickness = "0.7 mm", bottom_radius = "-5 mm",
+top_radius = "4 mm", segments = 24 })",
+                    [=](const Vec3& p) {
+                      return std::max({rho(p) - 2.0, p.z() - 0.7, sphere(p, 0.7 - 4.0, 4.0), -p.z() - 3.0,
+                                       -sphere(p, -5.0, 5.0)});
+                    },
+                    {-2, -2, -1},
+                    {2, 2, 0.7}});
+  const auto add = [&](const std::string& shape, const Vec3& low, const Vec3& high,
+                       std::function<double(const Vec3&)> inside) {
+    bodies.push_back({shape, std::move(inside), low, high});
+  };
+  add(R"(tube = { outer_radius = "2 mm", inner_radius = "1.9 mm", height = "5 mm", segments = 64 })",
+      {-2, -2, 0}, {2, 2, 5}, [](const Vec3& p) {
+        return std::max({rho(p) - 2.0, 1.9 - rho(p), slab(p.z(), 0.0, 5.0)});
+      });
+  add(R"(torus = { radius = "2 mm", tube_radius = "0.8 mm", segments = 24, tube_segments = 12 })",
+      {-3, -3, -1}, {3, 3, 1}, [](const Vec3& p) { return std::hypot(rho(p) - 2.0, p.z()) - 0.8; });
+  add("box = [\"2 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"0.3 mm\"", {-1, -2, 0}, {1, 2, 3},
+      [](const Vec3& p) {
+        const Vec3 beyond = (p - Vec3(0, 0, 1.5)).cwiseAbs() - Vec3(0.7, 1.7, 1.2);
+        return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0) - 0.3;
+      });
+  add(R"(lens = { diameter = "4 mm", thickness = "1 mm", bottom_radius = "-3 mm", bottom_conic = -2.5,
+segments = 24 })",
+      {-2, -2, -1}, {2, 2, 1}, [](const Vec3& p) {
+        return std::max({rho(p) - 2.0, p.z() - 1.0, -p.z() - mesh::sagitta(3.0, rho(p), -2.5)});
+      });
+  const auto bent = [](const Vec3& p, auto section) {
+    const Vec3 q = p - Vec3(4, 0, 6);
+    const double r = std::hypot(q.x(), q.z());
+    return std::min({std::max(section(p.x(), p.y()), slab(p.z(), 0.0, 6.0)),
+                     std::max(section(p.z() - 10.0, p.y()), slab(p.x(), 4.0, 10.0)),
+                     std::max({section(r - 4.0, q.y()), q.x(), -q.z()})});
+  };
+  const std::string path = R"(x = ["0 mm", "0 mm", "10 mm"], z = ["0 mm", "10 mm", "10 mm"],
+bend_radius = "4 mm", segments = 24 })";
+  add("fibre = { radius = \"1 mm\", " + path, {-1, -1, 0}, {10, 1, 11},
+      [=](const Vec3& p) { return bent(p, [](double u, double v) { return std::hypot(u, v) - 1.0; }); });
+  add("fibre = { side = \"1 mm\", " + path, {-1, -1, 0}, {10, 1, 11}, [=](const Vec3& p) {
+    return bent(p, [](double u, double v) { return std::max(std::abs(u), std::abs(v)) - 0.5; });
+  });
+  return bodies;
+}
+
+}  // namespace
+
+TEST_CASE("Hollow and concave parts are left and entered where their surface is, whatever their facets") {
+  for (const KnownBody& body : known_bodies()) {
+    CAPTURE(body.shape);
+    const SceneSpec spec = spec_of(part("body", body.shape), "body");
+    const BuiltScene built = build(spec);
+    const Region &region = region_of(built, "body"), &ambient = built.scene.regions[kAmbientRegion];
+    CHECK(built.scene.parts.front().facets_because == "");
+    REQUIRE(built.scene.parts.front().curved);
+    const double size = (body.high - body.low).norm();
+    int inside = 0, entered = 0;
+    for (std::uint64_t i = 0; i < 6'000; ++i) {
+      Rng rng(7, StreamKind::other, i);
+      Vec3 p;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = body.low[axis] + rng.uniform() * (body.high[axis] - body.low[axis]);
+      const Vec3 d = sample_isotropic(rng);
+      const double here = body.inside(p);
+      if (std::abs(here) < 1e-6) continue;
+      CHECK(built.scene.region_contains(region_id_of(built, "body"), p) == (here < 0.0));
+      const double expected = first_change(body.inside, p, d, 2.0 * size);
+      const Exit exit = built.scene.find_exit(here < 0.0 ? region : ambient, p, d);
+      if (here >= 0.0 && expected > 2.0 * size) {
+        CHECK(exit.triangle == kNoTriangle);
+        continue;
+      }
+      REQUIRE(exit.triangle != kNoTriangle);
+      // A ray that touches the body over less than a step of the search is found by formula alone.
+      if (std::abs(exit.distance_mm - expected) > 1e-9) {
+        const double beyond = body.inside(p + (exit.distance_mm + 1e-7) * d);
+        CHECK(std::abs(beyond) < 1e-6);
+        continue;
+      }
+      CHECK_FALSE(exit.resolved);
+      const Vec3 normal =
+          built.scene.normal_at(here < 0.0 ? region : ambient, exit.triangle, p + exit.distance_mm * d);
+      CHECK(normal.dot(d) > 0.0);
+      (here < 0.0 ? inside : entered) += 1;
+    }
+    CHECK(inside > 300);
+    CHECK(entered > 40);
+  }
+}
+
+TEST_CASE("Volumes and areas of hollow and concave parts are those of the exact bodies") {
+  const BuiltScene built = build(spec_of(
+      part("tube", R"(revolved = { r = ["1 mm", "2 mm", "2 mm", "1 mm"], z = ["0 mm", "0 mm", "5 mm", "5 mm"],
+segments = 12 })") +
+          part("lens",
+               R"(lens = { diameter = "4 mm", thickness = "1 mm", top_radius = "-5 mm", segments = 24 })",
+               "n15", "surface = \"flat\"\ntranslate = [\"10 mm\", \"0 mm\", \"0 mm\"]\n"),
+      "tube"));
+  CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(kPi * 3.0 * 5.0).epsilon(1e-12));
+  double area = 0.0;
+  for (const FaceInfo& face : built.scene.faces)
+    if (face.name.starts_with("tube:")) area += face.area_mm2;
+  CHECK(area == doctest::Approx(2.0 * kPi * 3.0 * 5.0 + 2.0 * kPi * 3.0).epsilon(1e-12));
+  const PartInfo& lens = *(built.scene.parts.begin() + 1);
+  // A cylinder of the edge's height less the cap of the sphere; of a part of a ball, to the facets' angle
+  // squared.
+  const double depth = 5.0 - std::sqrt(21.0);
+  CHECK(lens.volume_mm3 ==
+        doctest::Approx(kPi * 4.0 * (1.0 + depth) - kPi * depth * depth * (5.0 - depth / 3.0)).epsilon(1e-4));
+}
+
+TEST_CASE("Volumes and areas of round parts are those of closed forms, whatever their facets") {
+  struct Case {
+    std::string shape;
+    double volume, area;
+  };
+  const auto frustum = [](double r, double s, double h) {
+    return std::pair{kPi / 3.0 * h * (r * r + r * s + s * s),
+                     kPi * (r * r + s * s + (r + s) * std::hypot(h, r - s))};
+  };
+  std::vector<Case> cases{
+      {R"(torus = { radius = "3 mm", tube_radius = "1 mm", segments = 16, tube_segments = 12 })",
+       2.0 * kPi * kPi * 3.0, 4.0 * kPi * kPi * 3.0},
+      {R"(tube = { outer_radius = "2 mm", inner_radius = "1.5 mm", height = "3 mm", segments = 16 })",
+       kPi * 1.75 * 3.0, kTwoPi * 3.5 * 3.0 + kTwoPi * 1.75},
+      // Half axes 1 and 2: prolate, with the eccentricity sqrt(3) / 2.
+      {R"(spheroid = { radius = "1 mm", half_height = "2 mm", subdivisions = 4 })", 8.0 / 3.0 * kPi,
+       kTwoPi * (1.0 + 2.0 / std::sqrt(0.75) * std::asin(std::sqrt(0.75)))},
+      {R"(fibre = { radius = "0.5 mm", x = ["0 mm", "0 mm", "6 mm"], z = ["0 mm", "6 mm", "6 mm"],
+bend_radius = "3 mm", segments = 16 })",
+       kPi * 0.25 * (6.0 + 1.5 * kPi), kPi * (6.0 + 1.5 * kPi) + 0.5 * kPi},
+      {"box = [\"2 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"0.3 mm\"",
+       1.4 * 3.4 * 2.4 + 0.6 * (1.4 * 3.4 + 3.4 * 2.4 + 2.4 * 1.4) + kPi * 0.09 * (1.4 + 3.4 + 2.4) +
+           4.0 / 3.0 * kPi * 0.027,
+       2.0 * (1.4 * 3.4 + 3.4 * 2.4 + 2.4 * 1.4) + kTwoPi * 0.3 * (1.4 + 3.4 + 2.4) + 4.0 * kPi * 0.09}};
+
+  // Files of triangles: short cones and discs, and sectors of these about the axis.
+  const auto folder = scratch_folder("round_volumes");
+  const auto add = [&](const std::string& name, const mesh::TriMesh& made, double volume, double area) {
+    const std::filesystem::path path = folder / (name + ".ply");
+    mesh::write_ply(path, made);
+    cases.push_back({"mesh = \"" + path.string() + "\"\nunit = \"mm\"\ncurved = \"recognize\"", volume, area});
+  };
+  const auto [volume, area] = frustum(4.0, 3.0, 8.0 / 3.0);
+  add("cone", mesh::make_cone(4.0, 3.0, 8.0 / 3.0, 48), volume, area);
+  add("tip", mesh::make_cone(3.0, 0.0, 4.0, 48), 12.0 * kPi, kPi * 24.0);
+  const auto sector = [](double inner, double outer, double angle, double height, int sides) {
+    mesh::TriMesh body;
+    const auto n = static_cast<std::uint32_t>(sides + 1);
+    for (const double z : {0.0, height})
+      for (const double radius : {inner, outer})
+        for (std::uint32_t i = 0; i < n; ++i) {
+          const double at = angle * i / sides;
+          body.vertices.push_back({radius * std::cos(at), radius * std::sin(at), z});
+        }
+    const auto corner = [&](bool high, bool out, std::uint32_t i) { return (high ? 2 * n : 0) + (out ? n : 0) + i; };
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      body.triangles.push_back({a, b, c});
+      body.triangles.push_back({a, c, d});
+    };
+    for (std::uint32_t i = 0; i + 1 < n; ++i) {
+      quad(corner(false, true, i), corner(false, true, i + 1), corner(true, true, i + 1), corner(true, true, i));
+      quad(corner(false, false, i + 1), corner(false, false, i), corner(true, false, i),
+           corner(true, false, i + 1));
+      quad(corner(true, false, i), corner(true, true, i), corner(true, true, i + 1), corner(true, false, i + 1));
+      quad(corner(false, false, i + 1), corner(false, true, i + 1), corner(false, true, i),
+           corner(false, false, i));
+    }
+    quad(corner(false, false, 0), corner(false, true, 0), corner(true, true, 0), corner(true, false, 0));
+    quad(corner(true, false, n - 1), corner(true, true, n - 1), corner(false, true, n - 1),
+         corner(false, false, n - 1));
+    body.group.assign(body.triangles.size(), 0);
+    body.groups = {"default"};
+    return body;
+  };
+  add("ring_sector", sector(3.0, 4.0, 0.5 * kPi, 5.0, 18), 0.25 * kPi * 7.0 * 5.0,
+      0.5 * kPi * 7.0 * 5.0 + 2.0 * 0.25 * kPi * 7.0 + 2.0 * 5.0);
+  for (const Case& known : cases) {
+    CAPTURE(known.shape);
+    const BuiltScene built = build(spec_of(part("body", known.shape), "body"));
+    CHECK(built.scene.parts.front().facets_because == "");
+    CHECK(built.scene.parts.front().curved);
+    CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(known.volume).epsilon(1e-9));
+    double sum = 0.0;
+    for (const FaceInfo& face : built.scene.faces) sum += face.area_mm2;
+    CHECK(sum == doctest::Approx(known.area).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Holes, dimples and grooves that a part of higher priority cuts are exact") {
+  // A drilled hole with a conical tip, a spherical dimple, and a groove across.
+  const auto tool = [](const std::string& name, const std::string& shape, const std::string& place) {
+    return "[[part]]\nname = \"" + name + "\"\n" + in_one_line(shape) +
+           "\nmedium = \"vacuum_n1\"\nsurface = \"flat\"\npriority = 2\n" + place;
+  };
+  const std::string parts =
+      part("block", R"(box = { low = ["-5 mm", "-3 mm", "0 mm"], high = ["5 mm", "3 mm", "4 mm"] })") +
+      tool("drill",
+           R"(revolved = { r = ["0 mm", "1 mm", "1 mm", "0 mm"], z = ["0 mm", "0.5 mm", "6 mm", "6 mm"],
+segments = 20 })",
+           "translate = [\"-3 mm\", \"0 mm\", \"1 mm\"]\n") +
+      tool("dimple", R"(sphere = { radius = "1.2 mm", subdivisions = 6 })",
+           "translate = [\"0.1 mm\", \"0.2 mm\", \"4.4 mm\"]\n") +
+      tool("groove", R"(cylinder = { radius = "0.8 mm", height = "8 mm", segments = 24 })",
+           "rotate = { axis = [1, 0, 0], angle = \"90 deg\" }\n"
+           "translate = [\"3 mm\", \"4 mm\", \"4.2 mm\"]\n");
+  const BuiltScene built = build(spec_of(parts, "block"));
+  CHECK(built.scene.parts.front().facets_because == "");
+  REQUIRE(built.scene.parts.front().curved);
+  const auto inside = [](const Vec3& p) {
+    const double box = std::max({std::abs(p.x()) - 5.0, std::abs(p.y()) - 3.0, slab(p.z(), 0.0, 4.0)});
+    const double r = std::hypot(p.x() + 3.0, p.y());
+    const double drill = std::max(r - 1.0, (r - 2.0 * (p.z() - 1.0)) / std::sqrt(5.0));
+    const double dimple = (p - Vec3(0.1, 0.2, 4.4)).norm() - 1.2;
+    const double groove = std::hypot(p.x() - 3.0, p.z() - 4.2) - 0.8;
+    return std::max({box, -drill, -dimple, -groove});
+  };
+  std::uint64_t seen = 0;
+  for (std::uint64_t i = 0; i < 5'000; ++i) {
+    Rng rng(8, StreamKind::other, i);
+    const Vec3 p(10.0 * rng.uniform() - 5.0, 6.0 * rng.uniform() - 3.0, 4.0 * rng.uniform());
+    const Vec3 d = sample_isotropic(rng);
+    if (!(inside(p) < -1e-6)) continue;
+    const Exit exit = built.scene.find_exit(region_of(built, "block"), p, d);
+    const double expected = first_change(inside, p, d, 20.0);
+    REQUIRE(exit.triangle != kNoTriangle);
+    if (std::abs(exit.distance_mm - expected) > 1e-7)
+      CHECK(std::abs(inside(p + (exit.distance_mm + 1e-7) * d)) < 1e-6);
+    ++seen;
+  }
+  CHECK(seen > 3'000);
+  // Below the tip, within the bulge of the cone's facets, where its other nappe has no wall.
+  for (const double below : {0.001, 0.003, 0.01}) {
+    const Vec3 p(-2.5, 0.0, 1.0 - below);
+    const Exit exit = built.scene.find_exit(region_of(built, "block"), p, Vec3(-1, 0, 0));
+    CHECK(exit.distance_mm == doctest::Approx(2.5).epsilon(1e-9));
+    CHECK_FALSE(exit.resolved);
+  }
+}
+
+TEST_CASE("Nothing is lost in hollow, bent and rounded parts, tiny, huge, turned or far away") {
+  struct Case {
+    std::string parts, first;
+  };
+  const std::string path = R"(x = ["0 mm", "0 mm", "8 mm", "8 mm"], y = ["0 mm", "0 mm", "0 mm", "9 mm"],
+z = ["0 mm", "9 mm", "9 mm", "9 mm"], bend_radius = "3 mm", segments = 16 })";
+  const auto fibre = [&](const std::string& name, const std::string& radius, const std::string& medium) {
+    return part(name, "fibre = { radius = \"" + radius + "\", " + path, medium);
+  };
+  const std::string far =
+      "surface = \"flat\"\nrotate = { axis = [1, 2, 3], angle = \"77 deg\" }\n"
+      "translate = [\"10 m\", \"-10 m\", \"3 m\"]\n";
+  const std::vector<Case> cases{
+      // A fibre with two claddings, flush at both ends, round two bends in different planes.
+      {fibre("outer", "1 mm", "n15") + fibre("inner", "0.9 mm", "n16") +
+           fibre("core", "0.8 mm", "lso_clear") +
+           "[media.n16]\nindex = { n = 1.6 }\nabsorption = { none = true }\nscattering = { none = true }\n",
+       "core"},
+      // A ball of nearly the radius of the tube around it, and a thin torus about both.
+      {part("tube",
+            R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "5 mm", segments = 32 })") +
+           part("ball", R"(sphere = { radius = "0.99 mm", subdivisions = 24 })", "lso_clear",
+                "surface = \"flat\"\ntranslate = [\"0 mm\", \"0 mm\", \"2.5 mm\"]\n") +
+           part("ring",
+                R"(torus = { radius = "3 mm", tube_radius = "1 um", segments = 48, tube_segments = 8 })",
+                "n15", "surface = \"flat\"\ntranslate = [\"0 mm\", \"0 mm\", \"2.5 mm\"]\n"),
+       "tube"},
+      // A rod in the bore of a tube, which it fills: one surface; on a window.
+      {part("tube",
+            R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "5 mm", segments = 32 })") +
+           part("rod", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 32 })", "lso_clear") +
+           part("window", R"(box = { low = ["-3 mm", "-3 mm", "-1 mm"], high = ["3 mm", "3 mm", "0 mm"] })",
+                "n15"),
+       "rod"},
+      {part("a", "box = [\"3 mm\", \"3 mm\", \"20 mm\"]\nrounding = \"0.2 mm\"", "n15", far), "a"},
+      {part("a",
+            R"(tube = { outer_radius = "2 mm", inner_radius = "1.999 mm", height = "9 mm", segments = 200 })",
+            "n15", far),
+       "a"},
+      {part("a",
+            R"(tube = { outer_radius = "2 um", inner_radius = "1 um", height = "0.1 mm", segments = 12 })"),
+       "a"},
+      {part("a", R"(torus = { radius = "10 m", tube_radius = "3 m", segments = 24, tube_segments = 12 })"),
+       "a"}};
+  for (const Case& c : cases) {
+    CAPTURE(c.parts);
+    const SceneSpec spec = spec_of(c.parts, c.first, "[run]\ncontact_tolerance = \"0.0001 um\"\n");
+    const BuiltScene built = build(spec);
+    for (const PartInfo& info : built.scene.parts) CHECK(info.facets_because == "");
+    CHECK(region_of(built, c.first).curved);
+    const PhotonSource source(spec.source, built.scene);
+    PropagationLimits limits;
+    limits.interactions = 500;
+    std::uint64_t steps = 0, resolved = 0;
+    for (std::uint64_t i = 0; i < 600; ++i) {
+      Rng rng(19, StreamKind::photon, i);
+      Photon photon = source.emit(built.scene, rng);
+      for (bool on_way = true; on_way && photon.interactions < limits.interactions;) {
+        const RegionId before = photon.region;
+        const Step taken = step(built.scene, photon, rng, limits);
+        on_way = !is_final(taken.event);
+        steps += taken.segments;
+        resolved += taken.resolved;
+        if (taken.event == StepEvent::escaped) REQUIRE(before == kAmbientRegion);
+        if (!on_way || photon.region == kAmbientRegion) continue;
+        // The photon is where its region is, but for rounding.
+        const Region& region = built.scene.regions[photon.region];
+        const ExactBodies& exact = built.scene.accelerator(region).boundary().exact;
+        const Vec3 local = region.point_to_local(photon.position);
+        const ExactBody& body = exact.bodies.front();
+        if (body.is_convex() || exact.contains(body, local)) continue;
+        const double size = (body.high - body.low.vec()).norm();
+        REQUIRE(exact.distance_to_faces(body, local) < 1e-9 * size + 1e-8);
+      }
+    }
+    CHECK(steps > 1'000);
+    CHECK(static_cast<double>(resolved) < 1e-4 * static_cast<double>(steps));
+  }
+}
+
+TEST_CASE("Total reflections round a bend and in a bore keep to the walls over 2e5 of them") {
+  const std::string tube =
+      R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "20 mm", segments = 12 })";
+  const SceneSpec spec = spec_of(part("body", tube), "body");
+  const BuiltScene built = build(spec);
+  // One that meets the outer wall alone, and one that meets both walls.
+  for (const auto& [position, direction] :
+       {std::pair{Vec3(1.9, 0, 3), Vec3(0, 1, 0.1)}, std::pair{Vec3(1.5, 0, 3), Vec3(-0.6, 0.38, 0.7)}}) {
+    Photon photon = photon_in(built, spec, position, direction);
+    const Vec3 turn = photon.position.vec().cross(photon.ray.direction.vec());
+    const double along = photon.ray.direction.z();
+    PropagationLimits limits;
+    limits.interactions = 200'000;
+    Rng rng(1, StreamKind::photon, 1);
+    CHECK(step(built.scene, photon, rng, limits).event == StepEvent::reflected);
+    CHECK(photon.interactions == 200'000);
+    const Vec3 turned = photon.position.vec().cross(photon.ray.direction.vec());
+    CHECK(std::abs(turned.z() - turn.z()) < 1e-8);
+    CHECK(std::abs(std::abs(photon.ray.direction.z()) - std::abs(along)) < 1e-8);
+  }
+}
