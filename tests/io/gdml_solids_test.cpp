@@ -237,7 +237,8 @@ TEST_CASE("GDML: tori, ellipsoids of revolution, paraboloids and hyperboloids ke
        kPi * 9 * (2.5 - (3.375 + 1.0) / 12.0)},
       {R"(<paraboloid name="it" rlo="1" rhi="3" dz="5"/>)", kPi * 10 * 5},
       {R"(<paraboloid name="it" rhi="3" dz="5"/>)", kPi * 9 * 5},
-      {R"(<hype name="it" rmin="1" rmax="3" inst="0" outst="0.5" z="10"/>)", kPi * (8 * 10 + wide * 1000.0 / 12)},
+      {R"(<hype name="it" rmin="1" rmax="3" inst="0" outst="0.5" z="10"/>)",
+       kPi * (8 * 10 + wide * 1000.0 / 12)},
       {R"(<hype name="it" rmin="1" rmax="3" inst="0.1" outst="0.5" z="10"/>)",
        kPi * (8 * 10 + (wide - narrow) * 1000.0 / 12)},
       {R"(<hype name="it" rmax="3" outst="0.5" z="10"/>)", kPi * (9 * 10 + wide * 1000.0 / 12)},
@@ -250,8 +251,7 @@ TEST_CASE("GDML: tori, ellipsoids of revolution, paraboloids and hyperboloids ke
     const SceneDraft draft = gdml::draft_of_gdml(gdml_solid(c.text).text(), "test.gdml", options);
     CHECK(draft.meshes.empty());
     write_scene_draft(draft, file);
-    const scene::BuiltScene built =
-        scene::SceneBuilder().build(scene_file::SceneFile::load(file).spec(0));
+    const scene::BuiltScene built = scene::SceneBuilder().build(scene_file::SceneFile::load(file).spec(0));
     CHECK(built.scene.parts.front().facets_because == "");
     CHECK(built.scene.parts.front().curved);
     CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(c.volume).epsilon(1e-9));

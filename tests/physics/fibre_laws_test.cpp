@@ -24,8 +24,8 @@ const std::string kInVacuum = "ambient = \"vacuum_n1\"\n";
 
 std::string clear_medium(const std::string& name, double index) {
   return fmt::format(
-      "[media.{}]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\nscattering = {{ none = true }}\n", name,
-      index);
+      "[media.{}]\nindex = {{ n = {} }}\nabsorption = {{ none = true }}\nscattering = {{ none = true }}\n",
+      name, index);
 }
 
 std::string photons_of(const std::string& start, int photons, const std::string& rest = "") {
@@ -49,22 +49,26 @@ struct DoubleCladFibre {
   std::string scene() const {
     const auto sensor = [](const char* name, const char* side) {
       return fmt::format(
-          "[[part]]\nname = \"{}\"\nbox = [\"2 mm\", \"2 mm\", \"1 mm\"]\nplace = {{ touch = \"core\", side = "
+          "[[part]]\nname = \"{}\"\nbox = [\"2 mm\", \"2 mm\", \"1 mm\"]\nplace = {{ touch = \"core\", side "
+          "= "
           "\"{}\" }}\nsensor = \"matched\"\n",
           name, side);
     };
     return kInVacuum +
            fmt::format(
-               "[[part]]\nname = \"jacket\"\ncylinder = {{ radius = \"0.6 mm\", height = \"{} mm\", segments = 12 "
+               "[[part]]\nname = \"jacket\"\ncylinder = {{ radius = \"0.6 mm\", height = \"{} mm\", segments "
+               "= 12 "
                "}}\nmedium = \"opaque\"\n",
                length_mm) +
            round_part("outer", outer_mm, length_mm, 16, "outer") +
            round_part("inner", inner_mm, length_mm, 12, "inner") +
-           round_part("core", core_mm, length_mm, 10, "core") + sensor("below", "-z") + sensor("above", "+z") +
-           clear_medium("core", n_core) + clear_medium("inner", n_inner) + clear_medium("outer", n_outer) +
-           fmt::format("[sensors.matched]\nefficiency = {{ definition = \"internal\", value = 1.0 }}\n"
-                       "window = {{ index = {} }}\n",
-                       n_core);
+           round_part("core", core_mm, length_mm, 10, "core") + sensor("below", "-z") +
+           sensor("above", "+z") + clear_medium("core", n_core) + clear_medium("inner", n_inner) +
+           clear_medium("outer", n_outer) +
+           fmt::format(
+               "[sensors.matched]\nefficiency = {{ definition = \"internal\", value = 1.0 }}\n"
+               "window = {{ index = {} }}\n",
+               n_core);
   }
 
   /// Share of the light at an angle theta to the axis, made evenly in the core, that is totally reflected at
@@ -138,9 +142,9 @@ struct BentFibre {
 
 TEST_CASE("Law: a fibre with two claddings keeps light of its axis up to the cosine n_outer / n_core") {
   const DoubleCladFibre fibre;
-  const Traced traced =
-      trace(fibre.scene() +
-            photons_of(fmt::format("position = [\"0 mm\", \"0 mm\", \"{} mm\"]", 0.5 * fibre.length_mm), 60'000));
+  const Traced traced = trace(
+      fibre.scene() +
+      photons_of(fmt::format("position = [\"0 mm\", \"0 mm\", \"{} mm\"]", 0.5 * fibre.length_mm), 60'000));
   for (const PartInfo& part : traced.built.scene.parts)
     if (part.name == "core" || part.name == "inner" || part.name == "outer") CHECK(part.curved);
   check_fraction(traced.result, Fate::detected, 1.0 - fibre.n_outer / fibre.n_core);
@@ -154,10 +158,11 @@ TEST_CASE("Law: a fibre with two claddings keeps meridional and skew light by th
     const double cosine = (i + 0.5) / kPanels;
     kept += fibre.kept(std::acos(cosine)) / kPanels;
   }
-  const Traced traced = trace(
-      fibre.scene() + photons_of(fmt::format("region = {{ part = \"core\", slab_z = [\"{} mm\", \"{} mm\"] }}",
-                                             0.5 * fibre.length_mm - 1.0, 0.5 * fibre.length_mm + 1.0),
-                                 60'000));
+  const Traced traced =
+      trace(fibre.scene() +
+            photons_of(fmt::format("region = {{ part = \"core\", slab_z = [\"{} mm\", \"{} mm\"] }}",
+                                   0.5 * fibre.length_mm - 1.0, 0.5 * fibre.length_mm + 1.0),
+                       60'000));
   check_fraction(traced.result, Fate::detected, kept);
 }
 
@@ -178,8 +183,7 @@ TEST_CASE("Law: light lost round the bend of a fibre, against rays followed from
   }
   const double expected = sum / kRays;
   CHECK(expected < 0.9);
-  const std::string scene =
-      kInVacuum + fmt::format(R"([[part]]
+  const std::string scene = kInVacuum + fmt::format(R"([[part]]
 name = "fibre"
 fibre = {{ radius = "{0} mm", x = ["0 mm", "0 mm", "{1} mm"], z = ["0 mm", "{1} mm", "{1} mm"], bend_radius = "{2} mm", segments = 16 }}
 medium = "n15"
@@ -194,8 +198,8 @@ name = "end"
 box = {{ low = ["{1} mm", "-1 mm", "{3} mm"], high = ["{4} mm", "1 mm", "{5} mm"] }}
 sensor = "perfect"
 )",
-                              fibre.radius, fibre.end(), fibre.bend, fibre.end() - 1.0, fibre.end() + 1.0,
-                              fibre.end() + 1.0);
+                                                    fibre.radius, fibre.end(), fibre.bend, fibre.end() - 1.0,
+                                                    fibre.end() + 1.0, fibre.end() + 1.0);
   const Traced traced =
       trace(scene + photons_of(fmt::format("region = {{ part = \"fibre\", slab_z = [\"{} mm\", \"{} mm\"] }}",
                                            kStart - 1e-6, kStart + 1e-6),
@@ -207,9 +211,10 @@ sensor = "perfect"
             {expected, std::sqrt(expected * (1.0 - expected) / kRays)});
 }
 
-TEST_CASE("Law: an integrating sphere with a port sends out f / (1 - rho (1 - f)) of the light of its centre") {
-  // Every reflection at a white wall of a sphere spreads light evenly over the sphere: f of it, the port's share
-  // of the area, leaves; the sum of a geometric series.
+TEST_CASE(
+    "Law: an integrating sphere with a port sends out f / (1 - rho (1 - f)) of the light of its centre") {
+  // Every reflection at a white wall of a sphere spreads light evenly over the sphere: f of it, the port's
+  // share of the area, leaves; the sum of a geometric series.
   constexpr double kPort = 0.1, kWhite = 0.9;
   const Traced traced = trace(kInVacuum + R"([[part]]
 name = "ball"
@@ -234,7 +239,8 @@ specular_share = 0.0
   check_fraction(traced.result, Fate::detected, kPort / (1.0 - kWhite * (1.0 - kPort)));
 }
 
-TEST_CASE("Law: a Winston cone accepts rays in planes of its axis up to its acceptance angle, and none beyond") {
+TEST_CASE(
+    "Law: a Winston cone accepts rays in planes of its axis up to its acceptance angle, and none beyond") {
   const double length = mesh::winston_length(2.0, 30.0 * kDegree);
   const scene_file::SceneSpec spec = scene_spec(kInVacuum + R"([[part]]
 name = "cone"
@@ -270,13 +276,12 @@ specular_share = 1.0
       Rng rng(5, StreamKind::photon, static_cast<std::uint64_t>(i));
       Photon photon = source.emit(built.scene, rng);
       photon.position = Vec3(-3.99 + 7.98 * i / (kRays - 1), 0.0, length - 1e-9);
-      photon.ray.direction =
-          core::Vec3(std::sin(angle_deg * kDegree), 0.0, -std::cos(angle_deg * kDegree));
+      photon.ray.direction = core::Vec3(std::sin(angle_deg * kDegree), 0.0, -std::cos(angle_deg * kDegree));
       photon.ray.polarisation = core::Vec3(0.0, 1.0, 0.0);
       photon.optical_depth = HUGE_VAL;
       transport::Step taken{};
       do taken = transport::step(built.scene, photon, rng);
-      while (!transport::is_final(taken.event));
+      while (!is_final(taken.event));
       detected += taken.event == StepEvent::detected;
     }
     CAPTURE(angle_deg);
@@ -342,19 +347,21 @@ scattering = { none = true }
   constexpr Layer kLayers[] = {{"glue", 0.7}, {"cladding", 0.6}, {"core", 0.5}};
   const auto folder = scratch_folder("nested_fibre");
 
-  std::string built_in = "[[part]]\nname = \"tile\"\nbox = [\"10 mm\", \"10 mm\", \"6 mm\"]\nmedium = "
-                         "\"tile\"\nsurface = \"flat\"\n";
+  std::string built_in =
+      "[[part]]\nname = \"tile\"\nbox = [\"10 mm\", \"10 mm\", \"6 mm\"]\nmedium = "
+      "\"tile\"\nsurface = \"flat\"\n";
   std::string in_step, in_gdml = built_in;
   for (const Layer& layer : kLayers) built_in += round_part(layer.name, layer.radius, 6.0, 20, layer.name);
 
   std::vector<StepBody> solids{{"tile", StepSolid::box, {10.0, 10.0, 6.0}, {-5.0, -5.0, 0.0}, {}, {}, ""}};
   for (const Layer& layer : kLayers)
-    solids.push_back({layer.name, StepSolid::cylinder, {layer.radius, 0.0, 6.0}, {0.0, 0.0, 0.0}, {}, {}, ""});
+    solids.push_back(
+        {layer.name, StepSolid::cylinder, {layer.radius, 0.0, 6.0}, {0.0, 0.0, 0.0}, {}, {}, ""});
   const auto step = folder / "fibre.step";
   write_step(step, solids);
   for (const StepBody& body : solids)
-    in_step += "[[part]]\nname = \"" + body.name + "\"\nmesh = \"" + step.string() + "\"\nbody = \"" + body.name +
-               "\"\nmedium = \"" + body.name + "\"\nsurface = \"flat\"\n";
+    in_step += "[[part]]\nname = \"" + body.name + "\"\nmesh = \"" + step.string() + "\"\nbody = \"" +
+               body.name + "\"\nmedium = \"" + body.name + "\"\nsurface = \"flat\"\n";
 
   exchange::gdml::GdmlImport options;
   options.mesh_folder = folder;
@@ -373,12 +380,13 @@ scattering = { none = true }
   volumes += "<volume name=\"tile\"><materialref ref=\"Glass\"/><solidref ref=\"tile_box\"/>" + inside +
              "</volume>\n<volume name=\"World\"><materialref ref=\"Vacuum\"/><solidref ref=\"world_box\"/>"
              "<physvol name=\"tile\"><volumeref ref=\"tile\"/></physvol></volume>\n";
-  const std::string gdml = R"(<?xml version="1.0"?><gdml><define>
+  const std::string gdml =
+      R"(<?xml version="1.0"?><gdml><define>
 <matrix name="ONE" coldim="2" values="2*eV 1 4*eV 1"/><matrix name="N15" coldim="2" values="2*eV 1.5 4*eV 1.5"/></define><materials>
 <material name="Vacuum"><property name="RINDEX" ref="ONE"/><D value="1e-25"/></material>
 <material name="Glass"><property name="RINDEX" ref="N15"/><D value="2.5"/></material></materials><solids>)" +
-                           gdml_solids + "</solids>\n<structure>" + volumes +
-                           "</structure><setup name=\"Default\" version=\"1.0\"><world ref=\"World\"/></setup></gdml>";
+      gdml_solids + "</solids>\n<structure>" + volumes +
+      "</structure><setup name=\"Default\" version=\"1.0\"><world ref=\"World\"/></setup></gdml>";
   const exchange::SceneDraft draft = exchange::gdml::draft_of_gdml(gdml, "fibre.gdml", options);
   for (const auto& made : draft.meshes) mesh::write_ply(made.first, made.second);
   for (const Layer& layer : kLayers)

@@ -233,7 +233,8 @@ bend_radius = "3 mm", segments = 16 })",
   const auto add = [&](const std::string& name, const mesh::TriMesh& made, double volume, double area) {
     const std::filesystem::path path = folder / (name + ".ply");
     mesh::write_ply(path, made);
-    cases.push_back({"mesh = \"" + path.string() + "\"\nunit = \"mm\"\ncurved = \"recognize\"", volume, area});
+    cases.push_back(
+        {"mesh = \"" + path.string() + "\"\nunit = \"mm\"\ncurved = \"recognize\"", volume, area});
   };
   const auto [volume, area] = frustum(4.0, 3.0, 8.0 / 3.0);
   add("cone", mesh::make_cone(4.0, 3.0, 8.0 / 3.0, 48), volume, area);
@@ -247,16 +248,20 @@ bend_radius = "3 mm", segments = 16 })",
           const double at = angle * i / sides;
           body.vertices.push_back({radius * std::cos(at), radius * std::sin(at), z});
         }
-    const auto corner = [&](bool high, bool out, std::uint32_t i) { return (high ? 2 * n : 0) + (out ? n : 0) + i; };
+    const auto corner = [&](bool high, bool out, std::uint32_t i) {
+      return (high ? 2 * n : 0) + (out ? n : 0) + i;
+    };
     const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
       body.triangles.push_back({a, b, c});
       body.triangles.push_back({a, c, d});
     };
     for (std::uint32_t i = 0; i + 1 < n; ++i) {
-      quad(corner(false, true, i), corner(false, true, i + 1), corner(true, true, i + 1), corner(true, true, i));
+      quad(corner(false, true, i), corner(false, true, i + 1), corner(true, true, i + 1),
+           corner(true, true, i));
       quad(corner(false, false, i + 1), corner(false, false, i), corner(true, false, i),
            corner(true, false, i + 1));
-      quad(corner(true, false, i), corner(true, true, i), corner(true, true, i + 1), corner(true, false, i + 1));
+      quad(corner(true, false, i), corner(true, true, i), corner(true, true, i + 1),
+           corner(true, false, i + 1));
       quad(corner(false, false, i + 1), corner(false, true, i + 1), corner(false, true, i),
            corner(false, false, i));
     }

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -322,9 +323,7 @@ axes = [{ variable = "wavelength", from = "400 nm", to = "570 nm", bins = 17 }]
             expect(sums[8:].sum() > 0.95 * sums.sum(), 'the light at the end of the fibre is the shifted one')
 
 
-FOLDER.mkdir(parents=True, exist_ok=True)
-for left in FOLDER.iterdir():
-    if left.is_file():
-        left.unlink()
+shutil.rmtree(FOLDER, ignore_errors=True)  # what an interrupted run left, its checkpoints too
+FOLDER.mkdir(parents=True)
 TRIALS = (pet_module, light_guide, gdml_array, height_map, python_results, interrupted, look, tile_with_fibre)
 {trial.__name__: trial for trial in TRIALS}[sys.argv[1]]()

@@ -136,8 +136,8 @@ class SceneMaker {
     left_out_.assign(names_.size(), false);
   }
 
-  /// Keys of the shape: a box and what has a shape of its own as they are, everything else as a mesh beside the
-  /// scene.
+  /// Keys of the shape: a box and what has a shape of its own as they are, everything else as a mesh beside
+  /// the scene.
   std::string shape(const PlacedVolume& placed, bool mirrored) {
     const mesh::TriMesh& mesh = solids_.mesh(placed.solid, placed.element);
     if (const std::optional<core::Vec3> sides = solids_.box_sides(placed.solid, placed.element);

@@ -12,7 +12,8 @@ namespace scintray::mesh {
 
 namespace {
 
-/// A quadric about the z axis, or the one of the profile's last wall, where this is the same over a range of z.
+/// A quadric about the z axis, or the one of the profile's last wall, where this is the same over a range of
+/// z.
 SupportSurface same_as_last(const Profile& profile, const std::string& group,
                             const std::array<double, 2>& range, const SupportSurface& own) {
   if (profile.sides.empty() || profile.sides.back().group != group || !profile.sides.back().surface)

@@ -15,8 +15,8 @@ constexpr int kMostSegments = 10'000;
 
 /// A profile about the z axis with smooth ranges.
 struct SmoothProfile {
-  std::vector<std::array<double, 2>> corners;          ///< (r, z), mm
-  std::vector<std::array<std::size_t, 2>> ranges;      ///< first and last corners
+  std::vector<std::array<double, 2>> corners;      ///< (r, z), mm
+  std::vector<std::array<std::size_t, 2>> ranges;  ///< first and last corners
 
   void add_range(const std::vector<std::array<double, 2>>& points) {
     ranges.push_back({corners.size(), corners.size() + points.size() - 1});
@@ -60,7 +60,8 @@ class ExactShape : public SolidReader {
     for (const auto& range : profile.ranges)
       smooth += fmt::format("{}{}, {}", smooth.empty() ? "" : ", ", range[0], range[1]);
     if (!smooth.empty()) smooth = "smooth = [" + smooth + "], ";
-    return fmt::format("revolved = {{ r = [{}], z = [{}], {}segments = {} }}\n", r, z, smooth, around(widest));
+    return fmt::format("revolved = {{ r = [{}], z = [{}], {}segments = {} }}\n", r, z, smooth,
+                       around(widest));
   }
 
   std::optional<std::string> torus() const {
@@ -106,7 +107,8 @@ class ExactShape : public SolidReader {
     const double inner_slope = std::tan(angle("inst")), outer_slope = std::tan(angle("outst"));
     if (!is_full_turn() || (inner <= 0.0 && inner_slope != 0.0)) return std::nullopt;
     const auto wall = [&](double waist, double slope) {
-      const int steps = slope == 0.0 ? 1 : std::max(8, around(std::max(std::hypot(waist, slope * half), half)) / 4);
+      const int steps =
+          slope == 0.0 ? 1 : std::max(8, around(std::max(std::hypot(waist, slope * half), half)) / 4);
       std::vector<std::array<double, 2>> points;
       for (int i = 0; i <= steps; ++i) {
         const double z = half * (2.0 * i / steps - 1.0);
