@@ -95,7 +95,7 @@ TEST_CASE("absolute errors of until are in the unit of their result") {
       SceneFile::from_text(replaced(scene, "seed = 7", "until = { " + until + " }"), "scene.toml");
     });
   };
-  check_contains(said("of = \"ctr\", absolute_error = \"1 %\""), {"time", "ns"});
+  check_contains(said("of = \"ctr\", absolute_error = \"1 %\""), {"absolute_error", "time"});
   check_contains(said("of = \"ctr\", absolute_error = \"0 ps\""), "above 0");
   check_contains(said("of = \"ctr\", absolute_error = \"0 ps\""), "\"2 ps\"");
   check_contains(said("of = \"photopeak\", absolute_error = \"3 keV\""), "keV");

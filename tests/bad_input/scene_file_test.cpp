@@ -142,7 +142,8 @@ TEST_CASE("mistakes in run.until") {
   check("of = @@\"ctr\", absolute_error = \"3 ps\"", {"result of events", "emits photons"}, "event source");
   check("of = @@\"photopeak\", relative_error = 0.1", {"result of events", "emits photons"}, "event source");
   check("of = \"tally\", tally = @@\"exits\", relative_error = 0.1", {"tally", "\"exits\""}, "crystal:exit");
-  check("of = \"tally\", tally = \"crystal:exit\", bin = @@3, relative_error = 0.1", "no list", "axis");
+  check("of = \"tally\", tally = \"crystal:exit\", bin = @@3, relative_error = 0.1", {"no list", "axis"},
+        "a value within it");
   check_mistake("seed = 7", "until = @@{ of = \"tally\", relative_error = 0.1 }", "no \"tally\"",
                 "add tally");
   check("relative_error = 0.1, @@bin = [3]", {"\"bin\"", "no meaning"}, "remove");
