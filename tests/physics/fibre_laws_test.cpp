@@ -168,7 +168,7 @@ TEST_CASE("Law: a fibre with two claddings keeps meridional and skew light by th
 
 TEST_CASE("Law: light lost round the bend of a fibre, against rays followed from wall to wall") {
   const BentFibre fibre;
-  constexpr double kHalfAngle = 40.0 * kDegree, kStart = 0.5;
+  constexpr double kHalfAngle = 48.0 * kDegree, kStart = 0.5;
   constexpr int kRays = 8'000;
   double sum = 0.0;
   for (int i = 0; i < kRays; ++i) {
@@ -182,7 +182,7 @@ TEST_CASE("Law: light lost round the bend of a fibre, against rays followed from
                           {sine * std::cos(angle), sine * std::sin(angle), cosine});
   }
   const double expected = sum / kRays;
-  CHECK(expected < 0.9);
+  CHECK(expected < 0.95);  // enough is lost to be seen
   const std::string scene = kInVacuum + fmt::format(R"([[part]]
 name = "fibre"
 fibre = {{ radius = "{0} mm", x = ["0 mm", "0 mm", "{1} mm"], z = ["0 mm", "{1} mm", "{1} mm"], bend_radius = "{2} mm", segments = 16 }}
@@ -244,7 +244,7 @@ TEST_CASE(
   const double length = mesh::winston_length(2.0, 30.0 * kDegree);
   const scene_file::SceneSpec spec = scene_spec(kInVacuum + R"([[part]]
 name = "cone"
-winston = { exit_radius = "2 mm", entrance_radius = "4 mm", segments = 12, rings = 64 }
+winston = { exit_radius = "2 mm", entrance_radius = "4 mm", segments = 24, rings = 64 }
 medium = "vacuum_n1"
 surface = "mirror"
 [[part.face]]
