@@ -121,12 +121,16 @@ TEST_CASE("Coaxial cylinders cut each other whatever their numbers of sides") {
         std::to_string(inner) +
         " }\ntranslate = [\"0 mm\", \"0 mm\", \"-15 mm\"]\nmedium = \"lso\"\nsurface = "
         "\"flat\"\npriority = 3\n";
-    const Scene scene = SceneBuilder().build(scene_spec(lit_scene(glue + clad, "clad", 10))).scene;
+    const std::string text = lit_scene(glue + clad, "clad", 10);
+    const Scene scene = SceneBuilder().build(scene_spec(text + "[run]\ncurved = \"facets\"\n")).scene;
     const auto area = [pi](int sides, double radius) {
       return 0.5 * sides * radius * radius * std::sin(2.0 * pi / sides);
     };
     CHECK(scene.parts[PartId(0)].volume_mm3 ==
           doctest::Approx(30.0 * (area(outer, 0.75) - area(inner, 0.5))).epsilon(1e-6));
+    const Scene exact = SceneBuilder().build(scene_spec(text)).scene;
+    CHECK(exact.parts[PartId(0)].volume_mm3 ==
+          doctest::Approx(30.0 * pi * (0.75 * 0.75 - 0.5 * 0.5)).epsilon(1e-9));
   }
 }
 
