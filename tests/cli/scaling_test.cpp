@@ -2,6 +2,7 @@
 #include <random>
 #include <set>
 
+#include "cli/dark_crystal.hpp"
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/results/results.hpp"
@@ -296,41 +297,8 @@ TEST_CASE("A response map whose building is killed is resumed to the same bits, 
 }
 
 TEST_CASE("A fit that is killed is resumed to the same bits, and only on request") {
-  const auto folder = scene_folder("killed_fit", R"(
-ambient = "air"
-[[part]]
-name = "crystal"
-box = ["2 mm", "2 mm", "10 mm"]
-medium = "dark"
-surface = "polished"
-[[part]]
-name = "sensor"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z" }
-sensor = "ideal"
-[source]
-type = "photons"
-region = { part = "crystal", slab_z = ["1 mm", "2 mm"] }
-wavelength = "420 nm"
-photons = 1000
-[media.dark]
-index = { n = 1.8 }
-absorption = { length = "10 mm" }
-scattering = { none = true }
-[fit]
-measurement = "light.csv"
-quantity = "detected_fraction"
-at = "source.region.slab_z.center"
-unit = "mm"
-scale = "free"
-[[fit.parameter]]
-key = "media.dark.absorption.length"
-start = "8 mm"
-low = "2 mm"
-high = "50 mm"
-)");
-  std::ofstream(folder / "light.csv") << "depth,light,error\n1,310,9\n3,240,8\n5,190,7\n7,150,6\n9,120,5\n";
-  check_killed_and_resumed({"fit", "scene.toml", "-q", "--photons", "8000"}, folder);
+  const DarkCrystal crystal("killed_fit");
+  check_killed_and_resumed({"fit", "scene.toml", "-q", "--photons", "8000"}, crystal.folder);
 }
 
 TEST_CASE("A surface table whose building is killed is resumed to the same bits, and only on request") {

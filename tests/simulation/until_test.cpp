@@ -29,13 +29,16 @@ region = { part = "crystal" }
 wavelength = "emission"
 photons = 100_000
 )";
-const std::string kManyEvents = R"(
+std::string events_of(const std::string& energy) {
+  return R"(
 [source]
 type = "gamma_events"
 events = 2000
 region = { part = "crystal" }
-energy = "8 keV"
-)";
+energy = ")" +
+         energy + "\"\n";
+}
+const std::string kManyEvents = events_of("8 keV");
 const std::string kDarkness = R"(
 [[sweep]]
 key = "surfaces.paint.reflectance"
@@ -145,13 +148,7 @@ struct Goal {
 };
 
 /// Of enough light each for a photopeak.
-const std::string kBrightEvents = R"(
-[source]
-type = "gamma_events"
-events = 2000
-region = { part = "crystal" }
-energy = "60 keV"
-)";
+const std::string kBrightEvents = events_of("60 keV");
 const std::string kDecay = "time = \"decay\"\n";
 const std::string kWhen = R"(
 [[tally]]

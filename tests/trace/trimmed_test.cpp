@@ -422,7 +422,7 @@ TEST_CASE("Total reflections round a bend and in a bore keep to the walls over 2
       R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "20 mm", segments = 12 })";
   const SceneSpec spec = spec_of(part("body", tube), "body");
   const BuiltScene built = build(spec);
-  // One that meets the outer wall alone, and one that meets both walls.
+  // One that is reflected by the outer wall alone, and one by both walls.
   for (const auto& [position, direction] :
        {std::pair{Vec3(1.9, 0, 3), Vec3(0, 1, 0.1)}, std::pair{Vec3(1.5, 0, 3), Vec3(-0.6, 0.38, 0.7)}}) {
     Photon photon = photon_in(built, spec, position, direction);

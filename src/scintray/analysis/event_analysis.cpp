@@ -304,11 +304,16 @@ void EventCollector::analyze_photon_orders(const std::vector<const Row*>& rows,
   analysis.orders_against_depth = std::move(slices);
 }
 
-EventAnalysis EventCollector::finish() const {
+EventAnalysis EventCollector::counted() const {
   EventAnalysis analysis;
   analysis.events = events_;
   analysis.pulses = rows_.size();
   analysis.has_readout = has_readout_;
+  return analysis;
+}
+
+EventAnalysis EventCollector::finish() const {
+  EventAnalysis analysis = counted();
   analyze_light(analysis);
   if (!layout_) {
     std::string reason = ": there are no readout channels";
@@ -327,10 +332,7 @@ EventAnalysis EventCollector::finish() const {
 }
 
 EventAnalysis EventCollector::finish_figures() const {
-  EventAnalysis analysis;
-  analysis.events = events_;
-  analysis.pulses = rows_.size();
-  analysis.has_readout = has_readout_;
+  EventAnalysis analysis = counted();
   analyze_peak(analysis);
   analyze_timing(select(analysis), analysis);
   return analysis;

@@ -112,6 +112,8 @@ class EventCollector {
   };
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;
+  /// The numbers of events and pulses alone.
+  EventAnalysis counted() const;
   /// Mean light, light per energy and photopeak. Returns the light of the pulses.
   std::vector<double> analyze_peak(EventAnalysis& analysis) const;
   void analyze_light(EventAnalysis& analysis) const;

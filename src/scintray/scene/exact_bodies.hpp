@@ -199,6 +199,11 @@ struct ExactBodies {
   void enter(std::uint32_t number, const Ray& ray, BodyHit& nearest) const;
   void enter_any(const Ray& ray, BodyHit& nearest) const;
 
+  /// Calls `consider(distance in mm, whether it leads out of the body)` for each crossing of a face's
+  /// surface, of a torus of those between two distances.
+  template <typename Consider>
+  void for_each_crossing(const TrimmedFace& face, const Ray& ray, double low, double high,
+                         const Consider& consider) const;
   void cross_faces(std::uint32_t number, bool outwards, const Ray& ray, BodyHit& nearest) const;
   FaceCrossing nearest_crossing(const ExactBody& body, const Ray& ray, const Wanted& wanted,
                                 double limit) const;

@@ -61,6 +61,25 @@ double ExactBodies::distance_from_outline(const TrimmedFace& face, const core::V
   return std::max(outside_box, least);
 }
 
+template <typename Consider>
+void ExactBodies::for_each_crossing(const TrimmedFace& face, const Ray& ray, double low, double high,
+                                    const Consider& consider) const {
+  if (face.plane != kNoSurface) {
+    const BodyPlane& plane = planes[face.plane];
+    const double cosine = plane.normal.dot(ray.direction);
+    if (cosine != 0.0) consider((plane.offset - plane.normal.dot(ray.origin)) / cosine, cosine > 0.0);
+    return;
+  }
+  const mesh::SupportSurface& surface = quadrics[face.quadric].surface;
+  const bool on_it = face.quadric == ray.left;
+  const Crossings crossings = surface.is_torus()
+                                  ? torus_crossings(surface, ray.origin, ray.direction, on_it, low, high)
+                                  : quadric_crossings(on_ray(surface, ray.origin, ray.direction), on_it);
+  for (const Crossing& crossing : crossings)
+    if (surface.is_on_sheet(ray.origin + crossing.distance_mm * ray.direction))
+      consider(crossing.distance_mm, crossing.leaves != face.wall);
+}
+
 void ExactBodies::cross_face(std::uint32_t number, const ExactBody& body, const Ray& ray,
                              const Wanted& wanted, FaceCrossing& nearest) const {
   const TrimmedFace& face = faces[number];
@@ -71,20 +90,7 @@ void ExactBodies::cross_face(std::uint32_t number, const ExactBody& body, const 
     if (outwards != wanted.outwards && distance <= wanted.others_from) return;
     if (is_within(face, ray.origin + distance * ray.direction)) nearest = {distance, number, outwards};
   };
-  if (face.plane != kNoSurface) {
-    const BodyPlane& plane = planes[face.plane];
-    const double cosine = plane.normal.dot(ray.direction);
-    if (cosine != 0.0) consider((plane.offset - plane.normal.dot(ray.origin)) / cosine, cosine > 0.0);
-    return;
-  }
-  const mesh::SupportSurface& surface = quadrics[face.quadric].surface;
-  const bool on_it = face.quadric == ray.left;
-  const Crossings crossings = surface.is_torus()
-                                  ? torus_crossings(surface, ray.origin, ray.direction, on_it, near, far)
-                                  : quadric_crossings(on_ray(surface, ray.origin, ray.direction), on_it);
-  for (const Crossing& crossing : crossings)
-    if (surface.is_on_sheet(ray.origin + crossing.distance_mm * ray.direction))
-      consider(crossing.distance_mm, crossing.leaves != face.wall);
+  for_each_crossing(face, ray, near, far, consider);
 }
 
 ExactBodies::FaceCrossing ExactBodies::nearest_crossing(const ExactBody& body, const Ray& ray,
@@ -125,21 +131,8 @@ ExactBodies::FaceCrossing ExactBodies::search_faces(const ExactBody& body, const
       least_off = off;
       best = {distance, i, outwards};
     };
-    if (face.plane != kNoSurface) {
-      const BodyPlane& plane = planes[face.plane];
-      const double cosine = plane.normal.dot(ray.direction);
-      if (cosine != 0.0) consider((plane.offset - plane.normal.dot(ray.origin)) / cosine, cosine > 0.0);
-      continue;
-    }
-    const mesh::SupportSurface& surface = quadrics[face.quadric].surface;
     const double size = (body.high - body.low.vec()).norm() + (ray.origin - body.low.vec()).norm();
-    const bool on_it = face.quadric == ray.left;
-    const Crossings crossings = surface.is_torus()
-                                    ? torus_crossings(surface, ray.origin, ray.direction, on_it, -size, size)
-                                    : quadric_crossings(on_ray(surface, ray.origin, ray.direction), on_it);
-    for (const Crossing& crossing : crossings)
-      if (surface.is_on_sheet(ray.origin + crossing.distance_mm * ray.direction))
-        consider(crossing.distance_mm, crossing.leaves != face.wall);
+    for_each_crossing(face, ray, -size, size, consider);
   }
   return best;
 }

@@ -65,10 +65,9 @@ TriMesh make_lens(const LensShape& shape);
 /// r = 0 is on the axis; the profile begins and ends there, or is closed. Walls are cylinders and cones, and
 /// have them as support surfaces; walls across the axis are flat. Groups "side0", "side1"... by the side from
 /// the corner of this number to the next.
-/// @param smooth  first and last corners of ranges in which a smooth curve leads through the corners:
-/// quadrics
-///                of revolution with common tangents, two between each corner and the next; the group is
-///                that of the first
+/// @param smooth  first and last corners of ranges in which a smooth curve leads through the corners: two
+///                quadrics of revolution with a common tangent between each corner and the next; the group
+///                is that of the first
 /// @throws InputError for fewer than 2 corners off the axis, negative radii, a profile that crosses itself,
 ///         a smooth range that turns back along z, or fewer than 3 segments.
 TriMesh make_revolved(const std::vector<std::array<double, 2>>& profile, int segments,

@@ -174,20 +174,18 @@ class RegionBodies {
 
   /// The flat face of a part that is not convex, at a triangle under it, in this region's frame.
   std::uint32_t end_face(core::PartId part, const RegionTriangle& under) {
-    PartBody flat = bodies_[part];
+    const PartBody& of_part = bodies_[part];
     const core::Vec3 normal = frame_.rotation * doubled_area(under.local).normalized() * -1.0;
     const core::Vec3 point = frame_.centre + frame_.rotation * under.local[0];
     const auto off = [&](const PartFace& face) {
       if (face.plane == kNoSurface) return HUGE_VAL;
-      const WorldPlane& plane = flat.planes[face.plane];
+      const WorldPlane& plane = of_part.planes[face.plane];
       return (plane.normal - normal).norm() + std::abs(plane.normal.dot(point) - plane.offset);
     };
-    flat.faces = {*std::min_element(flat.faces.begin(), flat.faces.end(),
-                                    [&](const auto& a, const auto& b) { return off(a) < off(b); })};
-    ExactBody unused;
-    unused.low = unused.high = core::Vec3(core::Vec3::Zero());
-    add_trimmed_faces(flat, frame_, unused, result_);
-    return unused.faces_begin;
+    const PartFace& face =
+        *std::min_element(of_part.faces.begin(), of_part.faces.end(),
+                          [&](const PartFace& a, const PartFace& b) { return off(a) < off(b); });
+    return add_trimmed_face(face, frame_, {}, result_);  // for its outline alone
   }
 
   core::Vec3 local_centre(core::PartId part) const {

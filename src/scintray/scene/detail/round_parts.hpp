@@ -94,6 +94,11 @@ struct RegionFrame {
   }
 };
 
+/// Adds a trimmed face of a part whose planes and quadrics begin where those of `body` do. Returns its
+/// number.
+std::uint32_t add_trimmed_face(const PartFace& face, const RegionFrame& frame, const ExactBody& body,
+                               ExactBodies& exact);
+
 /// Adds the trimmed faces of a part to a body whose planes and quadrics are those of the part, in order.
 void add_trimmed_faces(const PartBody& part, const RegionFrame& frame, ExactBody& body, ExactBodies& exact);
 

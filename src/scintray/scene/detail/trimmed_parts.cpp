@@ -4,6 +4,7 @@
 #include <set>
 
 #include "scintray/mesh/triangle_distance.hpp"
+#include "scintray/scene/detail/arrangement.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
 
 namespace scintray::scene {
@@ -56,33 +57,6 @@ struct SharedEdge {
     return result;
   }
 };
-
-/// How points lie: along a line, in a plane, or neither.
-struct Arrangement {
-  enum class Kind { line, plane, space } kind;
-  core::Vec3 direction;  ///< of the line, or normal of the plane
-  core::Vec3 through;
-};
-
-Arrangement arrangement_of(const std::vector<core::Vec3>& points, double tolerance_mm) {
-  const core::Vec3& first = points.front();
-  const auto far_from = [&](auto distance) {
-    return *std::max_element(points.begin(), points.end(), [&](const core::Vec3& a, const core::Vec3& b) {
-      return distance(a) < distance(b);
-    });
-  };
-  const core::Vec3 second = far_from([&](const core::Vec3& p) { return (p - first).norm(); });
-  const core::Vec3 along = (second - first).normalized();
-  const auto off_line = [&](const core::Vec3& p) { return along.cross(p - first).norm(); };
-  const core::Vec3 third = far_from(off_line);
-  const double near = std::min(tolerance_mm, 1e-3 * (second - first).norm());
-  if (off_line(third) <= near) return {Arrangement::Kind::line, along, first};
-  const core::Vec3 normal = along.cross(third - first).normalized();
-  const auto off_plane = [&](const core::Vec3& p) { return std::abs(normal.dot(p - first)); };
-  const bool flat =
-      std::all_of(points.begin(), points.end(), [&](const core::Vec3& p) { return off_plane(p) <= near; });
-  return {flat ? Arrangement::Kind::plane : Arrangement::Kind::space, normal, first};
-}
 
 PartTrim plane_trim(const core::Vec3& normal, const core::Vec3& through) {
   return {std::nullopt, {normal, normal.dot(through)}, false};
@@ -268,8 +242,9 @@ class TrimmedFaceFinder {
     return find_cells(face);
   }
 
-  /// Adds to a face the functions that part faces beside it from each other, where these are tangent: a bend
-  /// and the straight walls that lead to it have parts of the face between them that no wall tells apart.
+  /// Adds to a face the functions that separate the faces beside it from each other, where these are tangent:
+  /// a flat face beside a bend and its straight walls has parts that the walls' own functions do not
+  /// distinguish.
   /// @return whether there are any
   bool trim_between_neighbours(std::size_t f) {
     Face& face = faces_[f];
@@ -404,63 +379,6 @@ std::string find_trimmed_faces(const contact::PlacedPart& part, double tolerance
   std::string reason = TrimmedFaceFinder(part, tolerance_mm, body).find();
   if (!reason.empty()) body.faces.clear();
   return reason;
-}
-
-void add_trimmed_faces(const PartBody& part, const RegionFrame& frame, ExactBody& body, ExactBodies& exact) {
-  body.faces_begin = static_cast<std::uint32_t>(exact.faces.size());
-  for (const PartFace& face : part.faces) {
-    TrimmedFace result;
-    Eigen::AlignedBox3d box;
-    for (const core::Vec3& corner : face.corners) box.extend(frame.point(corner));
-    result.low = box.min() - core::Vec3::Constant(face.bulge_mm);
-    result.high = box.max() + core::Vec3::Constant(face.bulge_mm);
-    if (face.plane != kNoSurface) result.plane = body.planes_begin + face.plane;
-    if (face.quadric != kNoSurface) result.quadric = body.quadrics_begin + face.quadric;
-    result.wall = face.wall;
-    result.trims_begin = static_cast<std::uint32_t>(exact.trims.size());
-    for (const PartTrim& trim : face.trims) {
-      Trim local;
-      local.above = trim.above;
-      if (trim.surface) {
-        local.normal = core::Vec3(core::Vec3::Zero());
-        local.surface = static_cast<std::uint32_t>(exact.trim_surfaces.size());
-        exact.trim_surfaces.push_back(frame.surface(*trim.surface));
-      } else {
-        local.normal = frame.direction(trim.plane.normal);
-        local.offset = trim.plane.offset - trim.plane.normal.dot(frame.centre);
-      }
-      exact.trims.push_back(local);
-    }
-    result.trims_end = static_cast<std::uint32_t>(exact.trims.size());
-    result.cells_begin = static_cast<std::uint32_t>(exact.cells.size());
-    exact.cells.insert(exact.cells.end(), face.cells.begin(), face.cells.end());
-    result.cells_end = static_cast<std::uint32_t>(exact.cells.size());
-    exact.faces.push_back(result);
-  }
-  body.faces_end = static_cast<std::uint32_t>(exact.faces.size());
-  // Of positions some metres from the origin, and of crossings.
-  constexpr double kRounding = 1e-9, kRounding_mm = 1e-11;
-  body.rounding_mm = kRounding * (body.high - body.low.vec()).norm() + kRounding_mm;
-  body.off_surface_mm = part.off_surface_mm;
-  exact.build_face_tree(body);
-}
-
-ExactBodies part_alone(const PartBody& part) {
-  ExactBodies alone;
-  ExactBody body;
-  Eigen::AlignedBox3d box;
-  for (const core::Vec3& corner : part.corners) box.extend(corner);
-  const core::Vec3 bulge = core::Vec3::Constant(2.0 * part.deviation_mm + 1e-9 * box.diagonal().norm());
-  body.low = box.min() - bulge;
-  body.high = box.max() + bulge;
-  for (const WorldPlane& plane : part.planes) alone.planes.push_back({plane.normal, plane.offset, {}});
-  for (const mesh::SupportSurface& quadric : part.quadrics) alone.quadrics.push_back({quadric, {}, false});
-  body.planes_end = static_cast<std::uint32_t>(alone.planes.size());
-  body.quadrics_end = static_cast<std::uint32_t>(alone.quadrics.size());
-  add_trimmed_faces(part, {core::Vec3::Zero(), Eigen::Matrix3d::Identity()}, body, alone);
-  alone.bodies.push_back(body);
-  alone.held = true;
-  return alone;
 }
 
 }  // namespace scintray::scene
