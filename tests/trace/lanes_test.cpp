@@ -122,6 +122,42 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   std::string scene;
   SUBCASE("polished") { scene = crystal("polished"); }
   SUBCASE("facets") { scene = crystal("roncali2013_unified_rough"); }
+  SUBCASE("facets weighted by area") {
+    scene = crystal("rough", R"([surfaces.rough]
+model = "unified"
+[surfaces.rough.unified]
+sigma_alpha = "12 deg"
+definition = "solid_angle"
+facets = "projected_area"
+lobe = 1.0
+)");
+  }
+  SUBCASE("facets, a gap and a reflector") {
+    scene = crystal("backed", R"([surfaces.backed]
+base = "roncali2013_unified_rough"
+gap = "air"
+reflector = "ESR"
+)");
+  }
+  SUBCASE("paint, in part specular") {
+    scene = crystal("paint", R"([surfaces.paint]
+model = "painted"
+reflectance = 0.97
+specular_share = 0.3
+)");
+  }
+  SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
+  SUBCASE("wide facets weighted by area") {
+    scene = crystal("rough", R"([surfaces.rough]
+model = "unified"
+[surfaces.rough.unified]
+sigma_alpha = "25 deg"
+definition = "solid_angle"
+facets = "projected_area"
+lobe = 1.0
+)");
+  }
+  SUBCASE("unpolarised") { scene = crystal("roncali2013_unified_rough", "polarisation = \"unpolarised\"\n"); }
   SUBCASE("table") { scene = crystal("lso_ground_30um_420nm"); }
   SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
