@@ -1,15 +1,30 @@
 #include "scintray/optics/fresnel.hpp"
 
 #include "scintray/optics/elliptical.hpp"
-#include "scintray/optics/light_ray.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
 
 namespace scintray::optics {
+
+namespace {
+
+core::Triple<double> triple(const core::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+core::Triple<double> triple(const core::PlainVec3& v) { return {v.x(), v.y(), v.z()}; }
+core::Vec3 vec(const core::Triple<double>& v) { return {v.x, v.y, v.z}; }
+
+LightRay<double> light_of(const Ray& ray) { return {triple(ray.direction), triple(ray.polarisation)}; }
+/// Sets direction and polarisation of a ray that keeps no phases.
+void set_light(Ray& ray, const LightRay<double>& light) {
+  ray.direction = vec(light.direction);
+  ray.polarisation = vec(light.polarisation);
+}
+
+}  // namespace
 
 bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
   if (ray.keeps_phases) [[unlikely]]
     return interact_with_phase(ray, m, n1, n2, rng);
   const LightRay<double> light = light_of(ray);
-  const core::Triple<double> normal = core::triple(m);
+  const core::Triple<double> normal = triple(m);
   const double cos_i = cos_incidence(light, normal);
   const RefractionOf<double> refraction(cos_i, n1, n2);
   if (refraction.total()) {
@@ -19,7 +34,7 @@ bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core
   FacetLight<double> facet(light, normal, cos_i, refraction, n1, n2);
   if (is_zero(light.polarisation)) {
     const bool transmitted = rng.uniform() >= facet.unpolarised_reflectance();
-    ray.direction = core::vec(transmitted ? facet.refracted() : facet.mirrored());
+    ray.direction = vec(transmitted ? facet.refracted() : facet.mirrored());
     return transmitted;
   }
   if (refraction.sin2_i < kNormalIncidence) {
@@ -36,7 +51,7 @@ bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core
 bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2) {
   if (n1 == n2) return true;
   const LightRay<double> light = light_of(ray);
-  const core::Triple<double> normal = core::triple(m);
+  const core::Triple<double> normal = triple(m);
   const double cos_i = cos_incidence(light, normal);
   const RefractionOf<double> refraction(cos_i, n1, n2);
   if (refraction.total()) {
@@ -44,7 +59,7 @@ bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2) {
     return false;
   }
   const core::Vec3 before = ray.direction;
-  ray.direction = core::vec(FacetLight<double>(light, normal, cos_i, refraction, n1, n2).refracted());
+  ray.direction = vec(FacetLight<double>(light, normal, cos_i, refraction, n1, n2).refracted());
   if (ray.polarisation.isZero(0.0) || refraction.sin2_i < kNormalIncidence) return true;
   const core::Vec3 s = before.cross(m).normalized();
   if (ray.keeps_phases) [[unlikely]] {
