@@ -128,9 +128,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   /// One or two parallel planes, and the nearest plane so far.
   static void take(Ahead& nearest, const Vector& normal, const Real (&offset_mm)[2], const Vector& local,
                    const Vector& direction, std::size_t i) {
-    // The order of additions of scene/detail/nearest_plane.hpp.
-    const auto product = [](const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
-    const Real signed_along = product(normal, direction), height = product(normal, local);
+    const Real signed_along = dot(normal, direction), height = dot(normal, local);
     const Mask first = signed_along > Real(0.0);
     const Real along = magnitude(signed_along);
     const Real ahead = select(first, offset_mm[0] - height, offset_mm[1] + height);
