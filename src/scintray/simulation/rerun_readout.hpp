@@ -20,12 +20,11 @@ namespace scintray::simulation {
 /// @param options    of the simulation that builds the scene, with the models that it may name; the seed is
 /// that
 ///                   of the run
-/// @param variables  that its tallies may name
+/// @param extensions  that the scene was read with
 /// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
 ///         those of the result, and for electronics that do not suit a sensor
 void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
                    const detector::ReadoutSpec& readout, const std::filesystem::path& output,
-                   SimulationOptions options = {},
-                   const scene_file::TallyVariables& variables = scene_file::TallyVariables::built_in());
+                   SimulationOptions options = {}, const scene_file::Extensions& extensions = {});
 
 }  // namespace scintray::simulation
