@@ -6,12 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/scene_file/definitions.hpp"
-#include "scintray/scene_file/extensions.hpp"
 #include "scintray/scene_file/spec.hpp"
 #include "scintray/scene_file/sweep.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
 
 namespace scintray::scene_file {
+
+/// Lists that are needed while a scene file is read. Models of surfaces and sensors are needed later
+/// (simulation::SimulationOptions::models).
+struct Extensions {
+  TallyVariables variables = TallyVariables::built_in();           ///< that tallies may name
+  mesh::MeshFormats mesh_formats = mesh::MeshFormats::built_in();  ///< of parts, and of elements of arrays
+};
 
 /// Specification of a parsed scene (its sweeps are checked but not applied). `text` is the file's. Every
 /// error is added to `problems`; the result may be used only without any.

@@ -1,4 +1,3 @@
-#include "scintray/simulation/rerun_readout.hpp"
 
 #include <map>
 
