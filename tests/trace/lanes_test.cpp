@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "physics/traced.hpp"
+#include "scintray/transport/detail/lane_kind.hpp"
 #include "scintray/transport/lane_width.hpp"
 
 using namespace scintray;
@@ -86,8 +87,60 @@ photons = 3_000
 )" + more;
 }
 
+/// Five rough faces, of which no two are parallel, and two that are.
+std::string prism() {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+prism = { sides = 5, radius = "1.8 mm", height = "8 mm" }
+medium = "LSO_roncali2013"
+surface = "roncali2013_unified_rough"
+[[part]]
+name = "detector"
+box = ["6 mm", "6 mm", "1 mm"]
+place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease_roncali2013" }
+medium = "optical_grease_roncali2013"
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 3_000
+)";
+}
+
+/// Facets of UNIFIED, weighted by area, in a scene of crystal().
+std::string by_area(const std::string& sigma_alpha) {
+  return R"([surfaces.rough]
+model = "unified"
+[surfaces.rough.unified]
+sigma_alpha = ")" +
+         sigma_alpha + R"("
+definition = "solid_angle"
+facets = "projected_area"
+lobe = 1.0
+)";
+}
+const char* const kBacked = R"([surfaces.backed]
+base = "roncali2013_unified_rough"
+gap = "air"
+reflector = "ESR"
+)";
+const char* const kPaint = R"([surfaces.paint]
+model = "painted"
+reflectance = 0.97
+specular_share = 0.3
+)";
+const char* const kEmission = R"([source]
+type = "photons"
+region = { part = "crystal[*]" }
+wavelength = "emission"
+photons = 3_000
+)";
+
 /// Bare crystals that share their light, and one that is turned.
-std::string array(const std::string& source) {
+std::string array(const std::string& source, const std::string& surface = "polished") {
   return R"(
 ambient = "vacuum"
 [[array]]
@@ -97,7 +150,8 @@ gap = "0.1 mm"
 [array.element]
 box = ["2 mm", "2 mm", "10 mm"]
 medium = "LSO"
-surface = "polished"
+surface = ")" +
+         surface + R"("
 [[part]]
 name = "turned"
 box = ["3 mm", "2 mm", "4 mm"]
@@ -122,17 +176,26 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   std::string scene;
   SUBCASE("polished") { scene = crystal("polished"); }
   SUBCASE("facets") { scene = crystal("roncali2013_unified_rough"); }
+  SUBCASE("facets weighted by area") { scene = crystal("rough", by_area("12 deg")); }
+  SUBCASE("wide facets weighted by area") { scene = crystal("rough", by_area("25 deg")); }
+  SUBCASE("facets, a gap and a reflector") { scene = crystal("backed", kBacked); }
+  SUBCASE("paint, in part specular") { scene = crystal("paint", kPaint); }
+  SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
+  SUBCASE("unpolarised") { scene = crystal("roncali2013_unified_rough", "polarisation = \"unpolarised\"\n"); }
+  SUBCASE("rough prism") { scene = prism(); }
+  SUBCASE("rough, cut by interactions") {
+    scene = crystal("backed", std::string(kBacked) + "[run]\nmax_interactions = 7\n");
+  }
+  SUBCASE("rough, cut by time") {
+    scene = crystal("backed", std::string(kBacked) + "[run]\nmax_time = \"0.3 ns\"\n");
+  }
   SUBCASE("table") { scene = crystal("lso_ground_30um_420nm"); }
   SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
-  SUBCASE("array with the spectrum of its light") {
-    scene = array(R"([source]
-type = "photons"
-region = { part = "crystal[*]" }
-wavelength = "emission"
-photons = 3_000
-)");
+  SUBCASE("array with the spectrum of its light") { scene = array(kEmission); }
+  SUBCASE("rough array with the spectrum of its light") {
+    scene = array(kEmission, "roncali2013_unified_rough");
   }
   SUBCASE("events of energy") {
     scene = array(R"([source]
@@ -151,6 +214,31 @@ vacuum = ["sipm[*]"]
   for (const int width : transport::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(scene, width));
+  }
+}
+
+TEST_CASE("Photons stay in lanes at facets and reflectors, and each is replayed alone") {
+  std::string scene;
+  SUBCASE("facets") { scene = crystal("rough", by_area("18 deg")); }
+  SUBCASE("facets, a gap and a reflector") { scene = crystal("backed", kBacked); }
+  SUBCASE("paint, in part specular") { scene = crystal("paint", kPaint); }
+  SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
+  const auto point = ready(scene_spec(scene));
+  for (const int width : transport::lane_widths()) {
+    CAPTURE(width);
+    const auto kind = width < 4 ? transport::LaneKind::none : transport::LaneKind::surfaces;
+    CHECK(transport::lane_kind(point->scene(), point->start(0, 0).region, width) == kind);
+    const Run traced = trace_with(scene, width);
+    REQUIRE(traced.list.size() > 100);
+    for (std::size_t i = 0; i < traced.list.size(); i += 31) {
+      const DetectedPhoton& seen = traced.list[i];
+      const source::Photon end =
+          point->replay(seen.event, seen.photon, [](const source::Photon&, const transport::Step&) {});
+      CHECK(static_cast<float>(end.path_mm) == seen.path_mm);
+      CHECK(static_cast<float>(end.position.x()) == seen.position_mm[0]);
+      CHECK(static_cast<float>(end.ray.direction.y()) == seen.direction[1]);
+      CHECK(end.interactions == seen.interactions);
+    }
   }
 }
 

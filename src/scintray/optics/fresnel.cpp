@@ -1,21 +1,21 @@
 #include "scintray/optics/fresnel.hpp"
 
 #include "scintray/optics/elliptical.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
 
 namespace scintray::optics {
 
 namespace {
 
-/// Sine squared of the angle of incidence below which the plane of incidence is numerically undefined.
-constexpr double kNormalIncidence = 1e-20;
+core::Triple<double> triple(const core::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+core::Triple<double> triple(const core::PlainVec3& v) { return {v.x(), v.y(), v.z()}; }
+core::Vec3 vec(const core::Triple<double>& v) { return {v.x, v.y, v.z}; }
 
-/// Cosine of incidence of a ray at a facet with normal m against it.
-double cos_incidence(const Ray& ray, const core::Vec3& m) {
-  return std::min(1.0, std::max(0.0, -ray.direction.dot(m)));
-}
-
-void refract(Ray& ray, const core::Vec3& m, double ratio, double cos_i, double cos_t) {
-  ray.direction = (ratio * ray.direction + (ratio * cos_i - cos_t) * m).normalized();
+LightRay<double> light_of(const Ray& ray) { return {triple(ray.direction), triple(ray.polarisation)}; }
+/// Sets direction and polarisation of a ray that keeps no phases.
+void set_light(Ray& ray, const LightRay<double>& light) {
+  ray.direction = vec(light.direction);
+  ray.polarisation = vec(light.polarisation);
 }
 
 }  // namespace
@@ -23,61 +23,43 @@ void refract(Ray& ray, const core::Vec3& m, double ratio, double cos_i, double c
 bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng) {
   if (ray.keeps_phases) [[unlikely]]
     return interact_with_phase(ray, m, n1, n2, rng);
-  const double cos_i = cos_incidence(ray, m);
-  const Refraction refraction(cos_i, n1, n2);
+  const LightRay<double> light = light_of(ray);
+  const core::Triple<double> normal = triple(m);
+  const double cos_i = cos_incidence(light, normal);
+  const RefractionOf<double> refraction(cos_i, n1, n2);
   if (refraction.total()) {
-    reflect(ray, m);
+    set_light(ray, reflected(light, normal));
     return false;
   }
-  const double ratio = refraction.ratio, cos_t = refraction.cos_t();
-  const auto [r_s, r_p] = FresnelAmplitudes(cos_i, cos_t, n1, n2);
-
-  if (ray.polarisation.isZero(0.0)) {
-    const bool transmitted = rng.uniform() >= 0.5 * (r_s * r_s + r_p * r_p);
-    if (transmitted)
-      refract(ray, m, ratio, cos_i, cos_t);
-    else
-      ray.direction = core::mirror(ray.direction, m);
+  FacetLight<double> facet(light, normal, cos_i, refraction, n1, n2);
+  if (is_zero(light.polarisation)) {
+    const bool transmitted = rng.uniform() >= facet.unpolarised_reflectance();
+    ray.direction = vec(transmitted ? facet.refracted() : facet.mirrored());
     return transmitted;
   }
-
   if (refraction.sin2_i < kNormalIncidence) {
-    const bool transmitted = rng.uniform() >= r_s * r_s;
-    if (!transmitted) reflect(ray, m);
+    const bool transmitted = rng.uniform() >= facet.reflectance_s();
+    if (!transmitted) set_light(ray, reflected(light, normal));
     return transmitted;
   }
-  const core::Vec3 s = ray.direction.cross(m).normalized();
-  const core::Vec3 p_in = s.cross(ray.direction.vec());
-  const double e_s = ray.polarisation.dot(s);
-  const double e_p = ray.polarisation.dot(p_in);
-  const double power = e_s * e_s + e_p * e_p;
-  const double reflectance = (r_s * r_s * e_s * e_s + r_p * r_p * e_p * e_p) / power;
-  const bool transmitted = rng.uniform() >= reflectance;
-  double out_s, out_p;
-  if (transmitted) {
-    out_s = (1.0 + r_s) * e_s;
-    out_p = ratio * (1.0 + r_p) * e_p;  // t_p = (n1/n2)(1 + r_p), same convention
-    refract(ray, m, ratio, cos_i, cos_t);
-  } else {
-    out_s = r_s * e_s;
-    out_p = r_p * e_p;
-    ray.direction = core::mirror(ray.direction, m);
-  }
-  // p is s x k on every side, so r_p's sign convention (Born & Wolf fig. 1.10) carries over.
-  ray.polarisation = (out_s * s + out_p * s.cross(ray.direction.vec())).normalized();
+  const bool transmitted = rng.uniform() >= facet.polarised_reflectance();
+  const core::Triple<double> direction = transmitted ? facet.refracted() : facet.mirrored();
+  set_light(ray, {direction, facet.polarised(transmitted, direction)});
   return transmitted;
 }
 
 bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2) {
   if (n1 == n2) return true;
-  const double cos_i = cos_incidence(ray, m);
-  const Refraction refraction(cos_i, n1, n2);
+  const LightRay<double> light = light_of(ray);
+  const core::Triple<double> normal = triple(m);
+  const double cos_i = cos_incidence(light, normal);
+  const RefractionOf<double> refraction(cos_i, n1, n2);
   if (refraction.total()) {
-    reflect(ray, m);
+    set_light(ray, reflected(light, normal));
     return false;
   }
   const core::Vec3 before = ray.direction;
-  refract(ray, m, refraction.ratio, cos_i, refraction.cos_t());
+  ray.direction = vec(FacetLight<double>(light, normal, cos_i, refraction, n1, n2).refracted());
   if (ray.polarisation.isZero(0.0) || refraction.sin2_i < kNormalIncidence) return true;
   const core::Vec3 s = before.cross(m).normalized();
   if (ray.keeps_phases) [[unlikely]] {

@@ -41,10 +41,11 @@ bool shifts_light(const scene::Scene& scene) {
 
 /// True when light starts where photons are propagated in lanes. Elsewhere each is traced alone, which is
 /// then faster.
-bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& source) {
+bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& source, int lane_width) {
   const std::vector<core::RegionId> regions = source.regions();
-  return std::any_of(regions.begin(), regions.end(),
-                     [&](core::RegionId region) { return scene.regions[region].in_lanes; });
+  return std::any_of(regions.begin(), regions.end(), [&](core::RegionId region) {
+    return transport::lane_kind(scene, region, lane_width) != transport::LaneKind::none;
+  });
 }
 
 /// Traces the blocks of one point.
@@ -296,7 +297,7 @@ core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::u
 int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
                   const RunSettings& settings) {
   const bool ends_only = plan.counts.empty() && !plan.history && !shifts_light(scene);
-  return ends_only && starts_in_lanes(scene, source) ? settings.lane_width : 1;
+  return ends_only && starts_in_lanes(scene, source, settings.lane_width) ? settings.lane_width : 1;
 }
 
 tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,

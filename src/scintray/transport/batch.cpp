@@ -31,7 +31,12 @@ core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]
 }  // namespace
 
 Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width)
-    : scene_(scene), limits_(limits), propagate_(propagate_lanes(lane_width)) {
+    : scene_(scene),
+      limits_(limits),
+      lane_width_(lane_width),
+      propagate_(propagate_lanes(lane_width)),
+      surface_lanes_(scene, limits, run_lanes(lane_width)) {
+  kinds_.resize(scene.regions.size());
   const std::vector<int>& widths = lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
@@ -48,13 +53,14 @@ const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream
   travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
   least_sin2_.resize(travellers_.size() * most_planes_);
   for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
-  while (!alone_.empty() || !waiting_.empty()) {
+  while (!alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty()) {
     while (!alone_.empty()) {
       const std::uint32_t traveller = alone_.back();
       alone_.pop_back();
       trace_alone(traveller);
     }
     if (!waiting_.empty()) trace_in_lanes();
+    trace_in_surface_lanes();
   }
   return traced_;
 }
@@ -70,20 +76,49 @@ void Batch::replace(std::uint32_t index) {
   enqueue(index);
 }
 
+LaneKind Batch::kind_of(core::RegionId region) {
+  std::optional<LaneKind>& kind = kinds_[region];
+  if (!kind) kind = lane_kind(scene_, region, lane_width_);
+  return *kind;
+}
+
 void Batch::enqueue(std::uint32_t index) {
-  const scene::Region& region = scene_.regions[travellers_[index].photon.region];
-  if (propagate_ && region.in_lanes)
-    waiting_.push_back({region.accelerator, index});
-  else
-    alone_.push_back(index);
+  const core::RegionId region = travellers_[index].photon.region;
+  switch (kind_of(region)) {
+    case LaneKind::none:
+      alone_.push_back(index);
+      break;
+    case LaneKind::smooth:
+      waiting_.push_back({scene_.regions[region].accelerator, index});
+      break;
+    case LaneKind::surfaces:
+      for_surface_lanes_.push_back(index);
+      break;
+  }
 }
 
 void Batch::trace_alone(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   do {
     if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
-  } while (!propagate_ || !scene_.regions[traveller.photon.region].in_lanes);
+  } while (kind_of(traveller.photon.region) == LaneKind::none);
   enqueue(index);
+}
+
+void Batch::trace_in_surface_lanes() {
+  while (!for_surface_lanes_.empty() && surface_lanes_.has_room()) {
+    const std::uint32_t index = for_surface_lanes_.back();
+    for_surface_lanes_.pop_back();
+    surface_lanes_.enter(index, travellers_[index].photon, travellers_[index].rng);
+  }
+  if (surface_lanes_.empty()) return;
+  for (const SurfaceLanes::Left& left : surface_lanes_.run()) {
+    Traveller& traveller = travellers_[left.name];
+    if (goes_on(traveller, surface_lanes_.finish(left, traveller.photon, traveller.rng)))
+      enqueue(left.name);
+    else
+      replace(left.name);
+  }
 }
 
 void Batch::trace_in_lanes() {

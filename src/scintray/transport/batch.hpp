@@ -7,7 +7,9 @@
 
 #include "scintray/core/function_ref.hpp"
 #include "scintray/scene/boundary.hpp"
+#include "scintray/transport/detail/lane_kind.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/surface_lanes.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
@@ -26,8 +28,9 @@ struct BatchCounts {
 };
 
 /// Traces photons that need no record of their steps: the same photons, to the last bit, as step() does one
-/// by one, for any width of the lanes. Photons inside regions that are bounded by planes are propagated in
-/// lanes; everything else is done for each alone.
+/// by one, for any width of the lanes. Photons in smooth regions that are bounded by planes are propagated in
+/// lanes (lane_kernel.hpp); in those with rough faces and reflectors they stay in lanes through what happens
+/// at their surfaces (lane_pool.hpp); everything else is done for each alone.
 class Batch {
  public:
   /// @param limits      without `passed`
@@ -59,7 +62,9 @@ class Batch {
     std::uint32_t traveller = 0;
   };
 
+  LaneKind kind_of(core::RegionId region);
   void enqueue(std::uint32_t traveller);
+  void trace_in_surface_lanes();
   void trace_alone(std::uint32_t traveller);
   void trace_in_lanes();
   void propagate(const Waiting* first, const Waiting* last);
@@ -72,11 +77,14 @@ class Batch {
 
   const scene::Scene& scene_;
   PropagationLimits limits_;
-  PropagateLanes propagate_;  ///< null: no lanes
+  int lane_width_;
+  PropagateLanes propagate_;                                       ///< null: no lanes
+  core::IdVector<core::RegionId, std::optional<LaneKind>> kinds_;  ///< none: not asked for yet
+  SurfaceLanes surface_lanes_;
   std::size_t most_planes_ = 0;
   std::vector<Traveller> travellers_;
   std::vector<double> least_sin2_;  ///< per traveller and plane: critical angles, most_planes_ each
-  std::vector<std::uint32_t> alone_;
+  std::vector<std::uint32_t> alone_, for_surface_lanes_;
   std::vector<Waiting> waiting_, in_lanes_;
   std::vector<LaneWork> work_;
   std::vector<TracedPhoton> traced_;

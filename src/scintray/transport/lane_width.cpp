@@ -3,12 +3,22 @@
 #include <algorithm>
 
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {
 
 namespace {
 
-constexpr int kWidestByDefault = 4;
+/// Eight lanes are the default where the processor has an extension of AVX-512 that came with Ice Lake and
+/// Zen 4. Processors of before, of which Skylake-X is one, lower their clock for wide vectors; Ice Lake by
+/// 0.1 GHz when one core works and not when several do, Rocket Lake never (T. Downs 2020, "Ice Lake AVX-512
+/// Downclocking", travisdowns.github.io).
+int widest_by_default() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512vbmi2")) return 8;
+#endif
+  return 4;
+}
 
 std::vector<int> find_widths() {
   std::vector<int> widths{1};
@@ -29,8 +39,9 @@ const std::vector<int>& lane_widths() {
 
 int default_lane_width() {
   int width = 1;
+  const int widest = widest_by_default();
   for (const int known : lane_widths())
-    if (known <= kWidestByDefault) width = std::max(width, known);
+    if (known <= widest) width = std::max(width, known);
   return width;
 }
 
@@ -43,6 +54,19 @@ PropagateLanes propagate_lanes(int width) {
       return propagate_lanes_4;
     case 8:
       return propagate_lanes_8;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+RunLanes run_lanes(int width) {
+  switch (width) {
+#if defined(__x86_64__)
+    case 4:
+      return run_lanes_4;
+    case 8:
+      return run_lanes_8;
 #endif
     default:
       return nullptr;

@@ -9,7 +9,7 @@ namespace scintray::transport {
 /// 8 (AVX-512) doubles on x86-64.
 const std::vector<int>& lane_widths();
 
-/// The width used by default: the widest of lane_widths() up to 4. With 8 the processor may lower its clock.
+/// The width used by default: the widest of lane_widths(), but 4 on processors that lower their clock for 8.
 int default_lane_width();
 
 }  // namespace scintray::transport

@@ -283,6 +283,24 @@ bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface
          scene.regions[from_back ? interface.front : interface.back].part == part;
 }
 
+/// Photon and step, of which all but the event is known, when light has passed an interface.
+/// @param there  refractive index behind it
+inline void cross(const scene::Scene& scene, const scene::Interface& interface, double there,
+                  source::Photon& photon, Step& result) {
+  photon.region = result.from_back ? interface.front : interface.back;
+  photon.on_triangle = scene::kNoTriangle;
+  const core::MediumId medium = scene.regions[photon.region].medium;
+  photon.optics = scene.optics.at(medium, photon.wavelength_nm);
+  if (reaches_sensor(scene, interface, result.from_back)) {
+    reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
+  } else if (scene.optics.is_opaque(medium)) {
+    result.event = core::StepEvent::absorbed_in_medium;
+    result.medium = medium;
+  } else {
+    result.event = core::StepEvent::transmitted;
+  }
+}
+
 Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
                           core::Rng& rng, source::PhotonRecords* records) {
   const scene::Region& region = scene.regions[photon.region];
@@ -329,21 +347,49 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     return result;
   }
 
-  photon.region = next;
-  photon.on_triangle = scene::kNoTriangle;
-  photon.optics = optics.at(next_medium, photon.wavelength_nm);
-  if (reaches_sensor(scene, interface, link.from_back)) {
-    reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
-  } else if (next_opaque) {
-    result.event = core::StepEvent::absorbed_in_medium;
-    result.medium = next_medium;
-  } else {
-    result.event = core::StepEvent::transmitted;
-  }
+  cross(scene, interface, there, photon, result);
   return result;
 }
 
+Step step_at(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon) {
+  Step step;
+  step.interface = link.interface;
+  step.triangle = at.triangle;
+  step.from_back = link.from_back;
+  step.cos_before = at.cos_before;
+  step.region = photon.region;
+  return step;
+}
+
 }  // namespace
+
+double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
+                    const source::Photon& photon) {
+  const scene::Interface& interface = scene.interfaces[link.interface];
+  const core::MediumId next = scene.regions[link.from_back ? interface.front : interface.back].medium;
+  if (!scene.optics.is_opaque(next)) return scene.optics.index(next, photon.wavelength_nm);
+  return interface.gap_medium.has_value() ? scene.optics.index(interface.gap_medium, photon.wavelength_nm)
+                                          : photon.optics.index;
+}
+
+Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon) {
+  const scene::Region& region = scene.regions[photon.region];
+  const scene::BoundaryLink& link = scene.link(region, at.triangle);
+  Step result = step_at(link, at, photon);
+  result.cos_after =
+      std::abs(photon.ray.direction.dot(scene.normal_at(region, at.triangle, photon.position)));
+  cross(scene, scene.interfaces[link.interface], index_behind(scene, link, photon), photon, result);
+  return result;
+}
+
+Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
+                        const source::Photon& photon) {
+  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], at.triangle);
+  Step result = step_at(link, at, photon);
+  result.surface = by;
+  absorb_at_surface(scene, scene.interfaces[link.interface], photon, result);
+  return result;
+}
 
 Step step(const scene::Scene& scene, source::Photon& photon, core::Rng& rng, const PropagationLimits& limits,
           source::PhotonRecords* records) {

@@ -1,5 +1,6 @@
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
+#include "scintray/scene/lane_surface_at.hpp"
 
 #include <algorithm>
 #include <array>
@@ -105,20 +106,6 @@ bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& e
   return true;
 }
 
-/// Share of the area of a region's boundary that is smooth.
-double smooth_share(const Scene& scene, const Region& region) {
-  const Accelerator& accelerator = scene.accelerator(region);
-  const BoundaryLink* const links = scene.links_of(region);
-  double all = 0.0, smooth = 0.0;
-  for (std::uint32_t i = 0; i < accelerator.size(); ++i) {
-    const BoundaryTriangle t = accelerator.triangle(i);
-    const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
-    all += area;
-    if (links[i].smooth_to.has_value()) smooth += area;
-  }
-  return smooth / all;
-}
-
 /// Sets BoundaryLink::smooth_to and Region::in_lanes, which requires all regions.
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
@@ -126,9 +113,11 @@ void link_smooth_media(Scene& scene) {
     if (interface.plain && !scene.keeps_phases)
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
   }
-  for (Region& region : scene.regions)
-    region.in_lanes =
-        !region.rotated && scene.accelerator(region).uses_planes() && smooth_share(scene, region) > 0.5;
+  for (Region& region : scene.regions) {
+    if (region.rotated || !scene.accelerator(region).uses_planes()) continue;
+    const LaneShares shares = lane_shares(scene, region);
+    region.in_lanes = shares.smooth > 0.5 || shares.known > 0.5;
+  }
 }
 
 }  // namespace

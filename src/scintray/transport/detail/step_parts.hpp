@@ -30,6 +30,23 @@ inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, co
   return ratio * ratio;
 }
 
+/// Refractive index behind a boundary of the photon's region, at its wavelength: of the next region, or for
+/// an opaque one that of the gap of a dry contact, else the photon's own, as there is no Fresnel reflection
+/// where light enters an opaque part: its reflection is defined by its surface.
+double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link, const source::Photon& photon);
+
+/// A photon at a boundary of its region.
+struct BoundaryPlace {
+  std::uint32_t triangle = scene::kNoTriangle;  ///< of the region's boundary
+  double cos_before = 0.0;                      ///< as of Step
+};
+/// The step of a photon that its surface let through: into the next region, or its sensor. The photon's
+/// direction is that after the interaction, its region still the old one.
+Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon);
+/// The step of a photon absorbed by a surface.
+Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
+                        const source::Photon& photon);
+
 /// The event at the end of a propagation, which completes the step.
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records);

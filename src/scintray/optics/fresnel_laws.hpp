@@ -1,0 +1,124 @@
+#pragma once
+/// Reflection and refraction at a smooth facet between two lossless dielectrics, over a number type
+/// (core/number.hpp).
+///
+/// Formulae: M. Born and E. Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. (20), (21).
+
+#include "scintray/core/number.hpp"
+
+namespace scintray::optics {
+
+using core::root;
+using core::select;
+
+/// Snell's law at an incidence-angle cosine in [0,1], from index n1 to index n2.
+template <typename Real>
+struct RefractionOf {
+  Real ratio;   ///< n1 / n2
+  Real sin2_i;  ///< sine squared of the angle of incidence
+  Real sin2_t;  ///< ... and of refraction; 1 or more: total reflection
+
+  RefractionOf(Real cos_i, Real n1, Real n2)
+      : ratio(n1 / n2), sin2_i(Real(1.0) - cos_i * cos_i), sin2_t(ratio * ratio * sin2_i) {}
+  core::MaskOf<Real> total() const { return sin2_t >= Real(1.0); }
+  Real cos_t() const { return root(Real(1.0) - sin2_t); }
+};
+
+/// Amplitudes of the reflected electric field relative to the incident field, below the critical angle.
+template <typename Real>
+struct FresnelAmplitudesOf {
+  Real s;  ///< electric field across the plane of incidence
+  Real p;  ///< electric field in the plane of incidence
+
+  /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
+  ///               index n2
+  FresnelAmplitudesOf(Real cos_i, Real cos_t, Real n1, Real n2)
+      : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
+        p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
+};
+
+/// Sine squared of the angle of incidence below which the plane of incidence is numerically undefined.
+inline constexpr double kNormalIncidence = 1e-20;
+
+/// Direction and linear polarisation of light, unit vectors; zero polarisation: unpolarised.
+template <typename Real>
+struct LightRay {
+  core::Triple<Real> direction, polarisation;
+
+  friend LightRay select(const core::MaskOf<Real>& condition, const LightRay& yes, const LightRay& no) {
+    return {select(condition, yes.direction, no.direction),
+            select(condition, yes.polarisation, no.polarisation)};
+  }
+};
+
+/// Mirror image of the direction d in a plane with unit normal n (either orientation).
+template <typename Real>
+core::Triple<Real> mirrored(const core::Triple<Real>& d, const core::Triple<Real>& n) {
+  return d - (Real(2.0) * dot(d, n)) * n;
+}
+
+/// Light after specular reflection at a facet with unit normal m. The polarisation component along the normal
+/// is kept and the others change sign, as for total reflection without the phase lag between s and p, which
+/// one linear polarisation vector cannot carry.
+template <typename Real>
+LightRay<Real> reflected(const LightRay<Real>& light, const core::Triple<Real>& m) {
+  return {mirrored(light.direction, m), -mirrored(light.polarisation, m)};
+}
+
+/// Cosine of incidence of light at a facet with normal m against it.
+template <typename Real>
+Real cos_incidence(const LightRay<Real>& light, const core::Triple<Real>& m) {
+  const Real cosine = -dot(light.direction, m);
+  return core::least(core::greatest(cosine, Real(0.0)), Real(1.0));
+}
+
+/// Light at a smooth facet, below the critical angle: its reflectance for its polarisation, and the light
+/// that leaves it.
+template <typename Real>
+class FacetLight {
+  using Vector = core::Triple<Real>;
+
+ public:
+  /// @param m   unit normal opposed to the light; @param cos_i cosine of incidence
+  /// @param n1  index of the medium of incidence; @param n2 index behind the facet
+  FacetLight(const LightRay<Real>& light, const Vector& m, Real cos_i, const RefractionOf<Real>& at, Real n1,
+             Real n2)
+      : light_(light),
+        m_(m),
+        cos_i_(cos_i),
+        cos_t_(at.cos_t()),
+        ratio_(at.ratio),
+        r_(cos_i, cos_t_, n1, n2) {}
+
+  Real reflectance_s() const { return r_.s * r_.s; }
+  Real unpolarised_reflectance() const { return Real(0.5) * (r_.s * r_.s + r_.p * r_.p); }
+  /// Of light with a polarisation and a plane of incidence; has to be called before polarised().
+  Real polarised_reflectance() {
+    across_ = normalised(cross(light_.direction, m_));
+    e_s_ = dot(light_.polarisation, across_);
+    e_p_ = dot(light_.polarisation, cross(across_, light_.direction));
+    return (r_.s * r_.s * e_s_ * e_s_ + r_.p * r_.p * e_p_ * e_p_) / (e_s_ * e_s_ + e_p_ * e_p_);
+  }
+
+  Vector refracted() const { return normalised(ratio_ * light_.direction + (ratio_ * cos_i_ - cos_t_) * m_); }
+  Vector mirrored() const { return optics::mirrored(light_.direction, m_); }
+  /// Polarisation after transmission or reflection into a direction.
+  Vector polarised(const core::MaskOf<Real>& transmitted, const Vector& into) const {
+    // t_p = (n1/n2)(1 + r_p), same convention. p is s x k on every side, so r_p's sign convention (Born &
+    // Wolf fig. 1.10) carries over.
+    const Real one(1.0);
+    const Real out_s = select(transmitted, one + r_.s, r_.s) * e_s_;
+    const Real out_p = select(transmitted, ratio_ * (one + r_.p), r_.p) * e_p_;
+    return normalised(out_s * across_ + out_p * cross(across_, into));
+  }
+
+ private:
+  const LightRay<Real>& light_;
+  const Vector& m_;
+  Real cos_i_, cos_t_, ratio_;
+  FresnelAmplitudesOf<Real> r_;
+  Vector across_{Real(0.0), Real(0.0), Real(0.0)};
+  Real e_s_{0.0}, e_p_{0.0};
+};
+
+}  // namespace scintray::optics

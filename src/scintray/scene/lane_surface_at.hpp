@@ -1,0 +1,52 @@
+#pragma once
+/// Surfaces of a built scene at which photons can be scattered in lanes.
+
+#include "scintray/optics/lane_surface.hpp"
+#include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/scene.hpp"
+
+namespace scintray::scene {
+
+/// The surface that light which leaves a region through one of its boundary's triangles interacts with.
+struct LinkSurface {
+  core::SurfaceId id;
+  bool own = true;  ///< the region is on its inside
+};
+inline LinkSurface first_surface(const Interface& interface, bool from_back) {
+  const bool has_back = interface.back_surface.has_value(), has_front = interface.front_surface.has_value();
+  const bool at_back = from_back ? has_back : !has_front;
+  return {at_back ? interface.back_surface : interface.front_surface, at_back == from_back};
+}
+
+/// The surface at a boundary triangle's interface; nothing where photons are scattered one by one: dry
+/// contacts, reflectors from behind, surfaces that are not for lanes, and all where phases are kept.
+inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, const BoundaryLink& link) {
+  const Interface& interface = scene.interfaces[link.interface];
+  if (scene.keeps_phases || interface.gap_medium.has_value()) return std::nullopt;
+  const LinkSurface at = first_surface(interface, link.from_back);
+  std::optional<optics::LaneSurface> surface = optics::lane_surface(scene.surfaces[at.id]);
+  if (surface && surface->reflector && !at.own) return std::nullopt;
+  return surface;
+}
+
+/// Shares of the area of a region's boundary.
+struct LaneShares {
+  double smooth = 0.0;  ///< smooth, to another medium
+  double known = 0.0;   ///< with a lane_surface_at()
+};
+inline LaneShares lane_shares(const Scene& scene, const Region& region) {
+  const Accelerator& accelerator = scene.accelerator(region);
+  const BoundaryLink* const links = scene.links_of(region);
+  double all = 0.0;
+  LaneShares of;
+  for (std::uint32_t i = 0; i < accelerator.size(); ++i) {
+    const BoundaryTriangle t = accelerator.triangle(i);
+    const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    all += area;
+    if (links[i].smooth_to.has_value()) of.smooth += area;
+    if (lane_surface_at(scene, links[i])) of.known += area;
+  }
+  return {of.smooth / all, of.known / all};
+}
+
+}  // namespace scintray::scene

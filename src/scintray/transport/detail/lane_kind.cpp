@@ -1,0 +1,15 @@
+#include "scintray/transport/detail/lane_kind.hpp"
+
+#include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/transport/detail/lanes/lane_pool.hpp"
+
+namespace scintray::transport {
+
+LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_width) {
+  if (lane_width == 1 || !scene.regions[region].in_lanes) return LaneKind::none;
+  const scene::LaneShares shares = scene::lane_shares(scene, scene.regions[region]);
+  if (shares.smooth > 0.5) return LaneKind::smooth;
+  return run_lanes(lane_width) ? LaneKind::surfaces : LaneKind::none;
+}
+
+}  // namespace scintray::transport

@@ -1,0 +1,132 @@
+#pragma once
+/// Numbers in the lanes of a vector register, with the operations of core/number.hpp. A type for each
+/// instruction set, so that nothing that is compiled for one can stand for another.
+
+#include <cstddef>
+#include <xsimd/xsimd.hpp>
+
+#include "scintray/core/number.hpp"
+#include "scintray/core/philox_laws.hpp"
+
+namespace scintray::transport {
+
+template <typename Arch>
+struct LaneReal;
+template <typename Arch>
+struct LaneBits;
+
+/// A bit for each lane in which a comparison holds, that of the first lane first.
+static inline unsigned bits_of_lanes(__m128d lanes) { return static_cast<unsigned>(_mm_movemask_pd(lanes)); }
+#ifdef __AVX2__
+static inline unsigned bits_of_lanes(__m256d lanes) {
+  return static_cast<unsigned>(_mm256_movemask_pd(lanes));
+}
+#endif
+#ifdef __AVX512F__
+static inline unsigned bits_of_lanes(__mmask8 lanes) { return lanes; }
+#endif
+
+/// The results of a comparison in each lane.
+template <typename Arch>
+struct LaneMask {
+  xsimd::batch_bool<double, Arch> lanes;
+
+  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return {a.lanes & b.lanes}; }
+  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return {a.lanes | b.lanes}; }
+  friend LaneMask operator!(const LaneMask& a) { return {!a.lanes}; }
+  friend bool any(const LaneMask& a) { return xsimd::any(a.lanes); }
+  friend unsigned lanes_of(const LaneMask& a) { return bits_of_lanes(a.lanes); }
+  friend bool all(const LaneMask& a) { return xsimd::all(a.lanes); }
+};
+
+/// Products of the lower 32 bits of each lane.
+static inline __m128i low_products(__m128i a, __m128i b) { return _mm_mul_epu32(a, b); }
+#ifdef __AVX2__
+static inline __m256i low_products(__m256i a, __m256i b) { return _mm256_mul_epu32(a, b); }
+#endif
+#ifdef __AVX512F__
+static inline __m512i low_products(__m512i a, __m512i b) { return _mm512_mul_epu32(a, b); }
+#endif
+
+/// 64 bits in each lane.
+template <typename Arch>
+struct LaneBits {
+  using Lanes = xsimd::batch<std::uint64_t, Arch>;
+  static constexpr std::size_t kWidth = Lanes::size;
+  Lanes lanes;
+
+  LaneBits() = default;
+  explicit LaneBits(std::uint64_t all) : lanes(all) {}
+  LaneBits(const Lanes& of) : lanes(of) {}  // NOLINT(google-explicit-constructor)
+
+  static LaneBits load(const std::uint64_t* from) { return Lanes::load_aligned(from); }
+  void store(std::uint64_t* to) const { lanes.store_aligned(to); }
+
+  friend LaneBits operator+(const LaneBits& a, const LaneBits& b) { return a.lanes + b.lanes; }
+  friend LaneBits operator-(const LaneBits& a, const LaneBits& b) { return a.lanes - b.lanes; }
+  friend LaneBits operator&(const LaneBits& a, const LaneBits& b) { return a.lanes & b.lanes; }
+  friend LaneBits operator|(const LaneBits& a, const LaneBits& b) { return a.lanes | b.lanes; }
+  friend LaneBits operator^(const LaneBits& a, const LaneBits& b) { return a.lanes ^ b.lanes; }
+  friend LaneBits operator<<(const LaneBits& a, int count) { return a.lanes << count; }
+  friend LaneBits operator>>(const LaneBits& a, int count) { return a.lanes >> count; }
+  friend LaneReal<Arch> number_of(const LaneBits& bits) {
+    return {xsimd::bitwise_cast<xsimd::batch<double, Arch>>(bits.lanes)};
+  }
+  /// Of whole numbers below 2^53: the upper and the lower 32 bits, each as the last bits of a number of which
+  /// the others are known.
+  friend LaneReal<Arch> value_of(const LaneBits& whole) {
+    const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(core::bits_of(0x1.0p84)));
+    const LaneReal<Arch> lower =
+        number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(core::bits_of(0x1.0p52)));
+    return (upper - LaneReal<Arch>(0x1.00000001p84)) + lower;
+  }
+  /// By four products of 32 bits.
+  friend core::WideProduct<LaneBits> wide_product(const LaneBits& a, const LaneBits& b) {
+    const LaneBits mask(0xffffffffULL), a_upper = a >> 32, b_upper = b >> 32;
+    const auto product = [](const LaneBits& x, const LaneBits& y) {
+      return LaneBits(Lanes(low_products(x.lanes, y.lanes)));
+    };
+    const LaneBits low = product(a, b), first = product(a_upper, b) + (low >> 32);
+    const LaneBits second = product(a, b_upper) + (first & mask);
+    return {product(a_upper, b_upper) + (first >> 32) + (second >> 32), (second << 32) | (low & mask)};
+  }
+};
+
+/// A double in each lane.
+template <typename Arch>
+struct LaneReal {
+  using Mask = LaneMask<Arch>;
+  using Bits = LaneBits<Arch>;
+  using Lanes = xsimd::batch<double, Arch>;
+  static constexpr std::size_t kWidth = Lanes::size;
+  Lanes lanes;
+
+  LaneReal() = default;
+  explicit LaneReal(double all) : lanes(all) {}
+  LaneReal(const Lanes& of) : lanes(of) {}  // NOLINT(google-explicit-constructor)
+
+  static LaneReal load(const double* from) { return Lanes::load_aligned(from); }
+  void store(double* to) const { lanes.store_aligned(to); }
+
+  friend LaneReal operator+(const LaneReal& a, const LaneReal& b) { return a.lanes + b.lanes; }
+  friend LaneReal operator-(const LaneReal& a, const LaneReal& b) { return a.lanes - b.lanes; }
+  friend LaneReal operator*(const LaneReal& a, const LaneReal& b) { return a.lanes * b.lanes; }
+  friend LaneReal operator/(const LaneReal& a, const LaneReal& b) { return a.lanes / b.lanes; }
+  friend LaneReal operator-(const LaneReal& a) { return number_of(bits_of(a) ^ Bits(kSign)); }
+  friend Mask operator<(const LaneReal& a, const LaneReal& b) { return {a.lanes < b.lanes}; }
+  friend Mask operator>(const LaneReal& a, const LaneReal& b) { return {a.lanes > b.lanes}; }
+  friend Mask operator<=(const LaneReal& a, const LaneReal& b) { return {a.lanes <= b.lanes}; }
+  friend Mask operator>=(const LaneReal& a, const LaneReal& b) { return {a.lanes >= b.lanes}; }
+  friend Mask operator==(const LaneReal& a, const LaneReal& b) { return {a.lanes == b.lanes}; }
+  friend LaneReal select(const Mask& condition, const LaneReal& yes, const LaneReal& no) {
+    return xsimd::select(condition.lanes, yes.lanes, no.lanes);
+  }
+  friend Bits bits_of(const LaneReal& x) { return xsimd::bitwise_cast<typename Bits::Lanes>(x.lanes); }
+  friend LaneReal root(const LaneReal& x) { return xsimd::sqrt(x.lanes); }
+  friend LaneReal magnitude(const LaneReal& x) { return number_of(bits_of(x) & Bits(~kSign)); }
+
+ private:
+  static constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+};
+
+}  // namespace scintray::transport

@@ -1,0 +1,320 @@
+#pragma once
+/// The kernel of lane_pool.hpp for one instruction set. Included by one file for each.
+///
+/// A pass carries each photon of one vector from where it waits (lane_state) as far as the order of the
+/// stages allows: propagation to the next plane, microsurface, reflector, polarisation. A stage without
+/// photons is left out; photons that are not in it are masked. Time goes with the instructions, so what is
+/// repeated until it is accepted, a facet, is repeated alone.
+
+#include <limits>
+
+#include "scintray/core/sampling_laws.hpp"
+#include "scintray/optics/facet_laws.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
+#include "scintray/transport/detail/lanes/lane_photons.hpp"
+
+namespace scintray::transport {
+namespace {
+
+template <typename Real, LaneDraws kDraws>
+class LanePasses : LanePhotons<Real, kDraws> {
+  using Photons = LanePhotons<Real, kDraws>;
+  using Photons::at_;
+  using Photons::choose;
+  using Photons::count_drawn;
+  using Photons::draw;
+  using Photons::kWidth;
+  using Photons::load;
+  using Photons::next_number;
+  using Photons::next_numbers;
+  using Photons::one_if;
+  using Photons::pool_;
+  using Photons::store;
+  using typename Photons::Bits;
+  using typename Photons::Mask;
+  using typename Photons::Random;
+  using typename Photons::Vector;
+  using Light = optics::LightRay<Real>;
+  /// Facets are drawn again until so few lanes are without one; those wait for the next pass.
+  static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
+
+ public:
+  explicit LanePasses(LanePool& pool) : Photons(pool) {}
+
+  void run() {
+    for (bool some_wait = false; !some_wait;)
+      for (at_ = 0; at_ < LanePool::kPhotons; at_ += kWidth) some_wait = pass() || some_wait;
+  }
+
+ private:
+  /// What stages change, and the plane that a photon is at.
+  struct Now {
+    Real state, side;
+    Light light;
+    Vector normal;  ///< of the plane, out of the region
+    Real kind, index_behind, least_sin2, counted, reflector;
+    const double* face[kWidth];  ///< LaneFace
+  };
+
+  /// One pass of the photons at `at_`; true when one of them waits then.
+  [[gnu::flatten]] bool pass() {
+    Now now;
+    now.state = load(pool_.state);
+    const Mask begins =
+        (now.state > Real(lane_state::kEmpty)) & (now.state < Real(lane_state::kFirstWaiting));
+    if (!any(begins)) return any(now.state >= Real(lane_state::kFirstWaiting));
+    now.light = {load(pool_.direction), load(pool_.polarisation)};
+    now.side = load(pool_.side);
+    const auto in = [&now](double state) { return now.state == Real(state); };
+    Mask here = in(lane_state::kPropagate);
+    if (any(here)) {
+      // Between total reflections nothing is drawn.
+      do {
+        propagate(now, here);
+        here = in(lane_state::kPropagate);
+      } while (all(here));
+    } else {
+      load_faces(now);
+    }
+    interact(now);
+    store(pool_.state, now.state);
+    store(pool_.side, now.side);
+    store(pool_.direction, now.light.direction);
+    store(pool_.polarisation, now.light.polarisation);
+    return any(now.state >= Real(lane_state::kFirstWaiting));
+  }
+
+  /// The stages at a surface.
+  void interact(Now& now) {
+    const auto in = [&now](double state) { return now.state == Real(state); };
+    const Mask smooth = in(lane_state::kSmooth), facets = in(lane_state::kFacets);
+    if (any(smooth | facets)) pass_microsurface(now, smooth, facets);
+    if (const Mask here = in(lane_state::kReflector); any(here)) reflect_at_reflector(now, here);
+    if (const Mask here = in(lane_state::kPolarise); any(here)) polarise(now, here);
+    if (const Mask here = in(lane_state::kReflected); any(here)) {
+      const Mask within = (load(pool_.interactions) < Real(pool_.most_interactions)) &
+                          (load(pool_.time_ns) <= Real(pool_.most_time_ns));
+      now.state =
+          select(here, select(within, Real(lane_state::kPropagate), Real(lane_state::kCut)), now.state);
+    }
+  }
+
+  // Planes and faces.
+
+  void load_faces(Now& now) const {
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      now.face[lane] = reinterpret_cast<const double*>(pool_.region[at_ + lane].faces +
+                                                       static_cast<std::size_t>(pool_.plane[at_ + lane]));
+    const LaneFours<Real> first = face_numbers(now, 0), second = face_numbers(now, 1);
+    now.normal = {first.of[0], first.of[1], first.of[2]};
+    now.kind = first.of[3];
+    now.index_behind = second.of[0];
+    now.least_sin2 = second.of[1];
+    now.counted = second.of[2];
+    now.reflector = second.of[3];
+  }
+  /// Four numbers of LaneFace, the first, second, third or fourth.
+  static LaneFours<Real> face_numbers(const Now& now, int which) {
+    const double* at[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = now.face[lane] + 4 * which;
+    LaneFours<Real> fours;
+    load_fours(at, fours);
+    return fours;
+  }
+
+  struct Ahead {
+    Real distance_mm, plane;
+  };
+  /// One or two parallel planes, and the nearest plane so far.
+  static void take(Ahead& nearest, const Vector& normal, const Real (&offset_mm)[2], const Vector& local,
+                   const Vector& direction, std::size_t i) {
+    // The order of additions of scene/detail/nearest_plane.hpp.
+    const auto product = [](const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const Real signed_along = product(normal, direction), height = product(normal, local);
+    const Mask first = signed_along > Real(0.0);
+    const Real along = magnitude(signed_along);
+    const Real ahead = select(first, offset_mm[0] - height, offset_mm[1] + height);
+    const Real distance = ahead / along;
+    const Mask closer = (along > Real(0.0)) & (distance < nearest.distance_mm);
+    const Real number =
+        select(first, Real(2.0 * static_cast<double>(i)), Real(2.0 * static_cast<double>(i) + 1.0));
+    nearest.distance_mm = select(closer, distance, nearest.distance_mm);
+    nearest.plane = select(closer, number, nearest.plane);
+  }
+  Ahead nearest_plane(const Vector& local, const Vector& direction) const {
+    Ahead nearest{Real(std::numeric_limits<double>::infinity()), Real(0.0)};
+    const LaneRegion* const regions = pool_.region + at_;
+    bool same = true;
+    std::size_t count = regions[0].count;
+    for (std::size_t lane = 1; lane < kWidth; ++lane) {
+      same = same && regions[lane].planes == regions[0].planes;
+      count = regions[lane].count > count ? regions[lane].count : count;
+    }
+    if (same) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const PlanePair& planes = regions[0].planes[i];
+        take(nearest, {Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
+             {Real(planes.first_mm), Real(planes.second_mm)}, local, direction, i);
+      }
+      return nearest;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const double *first[kWidth], *second[kWidth];
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        const LaneRegion& region = regions[lane];  // the last planes again where there are fewer
+        const PlanePair& planes = region.planes[i < region.count ? i : region.count - 1];
+        first[lane] = planes.normal;
+        second[lane] = &planes.second_mm;
+      }
+      LaneFours<Real> of_first, of_second;
+      load_fours(first, of_first);
+      load_fours(second, of_second);
+      take(nearest, {of_first.of[0], of_first.of[1], of_first.of[2]}, {of_first.of[3], of_second.of[0]},
+           local, direction, i);
+    }
+    return nearest;
+  }
+
+  // Stages.
+
+  /// To the next plane, and through a total reflection there.
+  void propagate(Now& now, const Mask& here) {
+    constexpr double kTimePerLength = 1.0 / 299.792458;  // core::kSpeedOfLight_mm_per_ns
+    const Vector position = load(pool_.position), direction = now.light.direction;
+    const Ahead ahead = nearest_plane(position - load(pool_.centre), direction);
+    store(pool_.plane, select(here, ahead.plane, load(pool_.plane)));
+    load_faces(now);
+
+    const Real zero(0.0), one(1.0);
+    const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
+    const Real depth = load(pool_.attenuation_per_mm) * distance, depth_left = load(pool_.depth_left);
+    const Mask bulk = depth > depth_left, unclear = now.kind == Real(lane_state::kUnclear);
+    const Mask moves = here & !(bulk | unclear);
+    const Real path = load(pool_.path_mm), time = load(pool_.time_ns);
+    const Real there_time = time + distance * load(pool_.group_index) * Real(kTimePerLength);
+    store(pool_.position, select(moves, position + distance * direction, position));
+    store(pool_.path_mm, select(moves, path + distance, path));
+    store(pool_.time_ns, select(moves, there_time, time));
+    store(pool_.depth_left, select(moves, depth_left - depth, depth_left));
+    store(pool_.segments, load(pool_.segments) + one_if(here & (bulk | !unclear)));
+    const Real interactions = load(pool_.interactions) + select(moves, now.counted, zero);
+    store(pool_.interactions, interactions);
+
+    const Real cosine = dot(direction, now.normal);
+    store(pool_.cos_before, select(here, magnitude(cosine), load(pool_.cos_before)));
+    const Mask total = one - cosine * cosine >= now.least_sin2;
+    now.light = select(moves & total, reflected(now.light, now.normal), now.light);
+    const Mask within =
+        (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
+    const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));
+    const Real stays = select(bulk, Real(lane_state::kBulk), Real(lane_state::kUnclear));
+    const Real moved = select(total, after_total, now.kind);
+    now.state = select(here, select(moves, moved, stays), now.state);
+    now.side = select(here, one, now.side);
+  }
+
+  /// Smooth surfaces, and facets, of which one is drawn first; where none is accepted the photon stays.
+  void pass_microsurface(Now& now, const Mask& smooth, const Mask& facets) {
+    const Vector against = -now.side * now.normal;
+    Vector m = against;
+    Mask pending = facets;
+    if (any(facets)) {
+      const LaneFours<Real> more = face_numbers(now, 2), last = face_numbers(now, 3);
+      const Mask by_area = last.of[0] > Real(0.0);
+      const optics::FacetNumbers<Real> numbers{more.of[0], more.of[1], more.of[2], more.of[3], by_area};
+      do {
+        draw(pending, 4.0);
+        const Random random = next_numbers();
+        const optics::FacetDraw<Real> facet(
+            numbers, now.light.direction, against,
+            {random.uniform_positive(0), random.uniform(1), random.uniform(2), random.uniform(3)});
+        const Mask found = pending & facet.accepted;
+        m = select(found, facet.normal, m);
+        count_drawn(select(pending, facet.drawn, Real(0.0)));
+        pending = pending & !facet.accepted;
+      } while (__builtin_popcount(lanes_of(pending)) > kFewLanes);
+    }
+    const Mask ready = smooth | (facets & !pending);
+    draw(ready, 1.0);
+    const Bits for_fresnel = next_number();
+    const Mask inside = now.side > Real(0.0);
+    const Real index = load(pool_.index);
+    const Refracted after = refract(now.light, m, select(inside, index, now.index_behind),
+                                    select(inside, now.index_behind, index), for_fresnel);
+    now.light = select(ready, after.light, now.light);
+    now.side = select(ready & after.transmitted, -now.side, now.side);
+    const Real outward = now.side * dot(now.light.direction, now.normal);
+    const Mask left = ready & (smooth | (outward < Real(0.0)));
+    const Real through =
+        select(now.reflector > Real(0.0), Real(lane_state::kReflector), Real(lane_state::kCrossed));
+    const Real next = select(now.side > Real(0.0), Real(lane_state::kReflected), through);
+    now.state = select(left, next, now.state);
+    count_drawn(one_if(ready & after.drawn));
+  }
+
+  struct Refracted {
+    Light light;
+    Mask transmitted;
+    Mask drawn;  ///< the random number was used
+  };
+  /// As optics::interact_at_facet.
+  static Refracted refract(const Light& light, const Vector& m, const Real& n1, const Real& n2,
+                           const Bits& random) {
+    const Real cos_i = cos_incidence(light, m);
+    const optics::RefractionOf<Real> refraction(cos_i, n1, n2);
+    const Mask total = refraction.total(), unpolarised = is_zero(light.polarisation);
+    optics::FacetLight<Real> facet(light, m, cos_i, refraction, n1, n2);
+    const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
+    const Real polarised = facet.polarised_reflectance();
+    const Real reflectance = select(unpolarised, facet.unpolarised_reflectance(),
+                                    select(straight, facet.reflectance_s(), polarised));
+    const Mask transmitted = (!total) & (core::uniform_of<Real>(random) >= reflectance);
+    const Light mirrored = optics::reflected(light, m);
+    const Vector direction =
+        select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
+    Vector polarisation = facet.polarised(transmitted, direction);
+    polarisation = select(unpolarised | (straight & transmitted), light.polarisation, polarisation);
+    polarisation = select(total | (straight & !transmitted), mirrored.polarisation, polarisation);
+    return {{direction, polarisation}, transmitted, !total};
+  }
+
+  /// As optics::interact_at_reflector, of an opaque sheet that reflects by Lambert's law and specularly.
+  void reflect_at_reflector(Now& now, const Mask& here) {
+    draw(here, 4.0);
+    const Random random = next_numbers();
+    const LaneFours<Real> sheet = face_numbers(now, 3);
+    const Real zero(0.0), one(1.0), share = sheet.of[2];
+    const Mask absorbed = random.uniform(0) >= sheet.of[1];
+    const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);
+    const Vector against = -now.normal;
+    const Vector diffuse =
+        core::lambertian<Real>(against, core::uniform_of<Real>(choose(mixed, random.bits[2], random.bits[1])),
+                               core::uniform_of<Real>(choose(mixed, random.bits[3], random.bits[2])));
+    const Light mirrored = optics::reflected(now.light, against);
+    const Mask unpolarised = is_zero(now.light.polarisation), kept = here & !absorbed;
+    now.light = select(kept, select(specular, mirrored, Light{diffuse, now.light.polarisation}), now.light);
+    const Real back =
+        select(now.kind == Real(lane_state::kReflector), Real(lane_state::kReflected), now.kind);
+    store(pool_.next, select(here, back, load(pool_.next)));
+    const Real next = select(specular | unpolarised, back, Real(lane_state::kPolarise));
+    now.state = select(here, select(absorbed, Real(lane_state::kAbsorbed), next), now.state);
+    const Real drawn = one + one_if(mixed) + select(specular, zero, Real(2.0));
+    count_drawn(select(here, select(absorbed, one, drawn), zero));
+  }
+
+  /// As core::sample_polarisation, of which at most two points are drawn.
+  void polarise(Now& now, const Mask& here) {
+    draw(here, 2.0);
+    const Random random = next_numbers();
+    const Mask first = core::CirclePoint<Real>(random.bits[0]).accepted;
+    const core::CirclePoint<Real> point(choose(first, random.bits[0], random.bits[1]));
+    const Mask done = here & point.accepted;
+    now.light.polarisation =
+        select(done, core::across_at<Real>(now.light.direction, point), now.light.polarisation);
+    now.state = select(done, load(pool_.next), now.state);
+    count_drawn(select(here, select(first, Real(1.0), Real(2.0)), Real(0.0)));
+  }
+};
+
+}  // namespace
+}  // namespace scintray::transport

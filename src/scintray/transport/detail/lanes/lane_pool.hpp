@@ -1,0 +1,111 @@
+#pragma once
+/// Photons that stay in the lanes of vector registers through all that happens at the surfaces of regions
+/// bounded by planes.
+///
+/// This header has plain data alone: it is included by files that are compiled for instruction sets which not
+/// every processor has, and a function of a common header, compiled there, could be the one that the linker
+/// keeps for all.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "scintray/transport/detail/lanes/lane_kernel.hpp"
+
+namespace scintray::transport {
+
+/// What a photon of the pool does next. Numbers, as they are compared in lanes.
+namespace lane_state {
+inline constexpr double kEmpty = 0.0;
+inline constexpr double kPropagate = 1.0;  ///< along its direction to the next plane
+inline constexpr double kSmooth = 2.0;     ///< Fresnel's equations at the mean normal
+inline constexpr double kFacets = 3.0;     ///< a facet is drawn, then Fresnel's equations
+inline constexpr double kReflector = 5.0;  ///< the reflector behind the microsurface
+inline constexpr double kPolarise = 6.0;   ///< a polarisation is drawn; LanePool::next follows
+inline constexpr double kReflected = 7.0;  ///< back in its region
+// From here on the photon waits for the scalar code.
+inline constexpr double kFirstWaiting = 16.0;
+inline constexpr double kBulk = 16.0;      ///< an event in the medium; the photon is where its segment began
+inline constexpr double kBoundary = 17.0;  ///< at a boundary whose surface is not one for lanes
+inline constexpr double kUnclear = 18.0;   ///< the next plane leads to several regions; as for kBulk
+inline constexpr double kCrossed = 19.0;   ///< through its surface into the region behind
+inline constexpr double kAbsorbed = 20.0;  ///< by the surface
+inline constexpr double kCut = 21.0;       ///< the limits are reached
+}  // namespace lane_state
+
+/// One or two parallel planes around a region, in the region's frame (mm). Number 2 i and 2 i + 1 of its
+/// planes: the first one's normal is `normal`, the second one's the opposite.
+struct PlanePair {
+  double normal[3];  ///< of unit length, out of the region
+  double first_mm;   ///< product of `normal` and a point of the first plane
+  double second_mm;  ///< product of the opposite and a point of the second plane; infinite: none
+  double padding[3] = {0, 0, 0};
+};
+static_assert(sizeof(PlanePair) == 64);
+
+/// A plane around a region, with the surface there, for one wavelength. Four numbers are loaded at once.
+struct LaneFace {
+  double normal[3];  ///< of unit length, out of the region
+  double kind;       ///< kSmooth, kFacets, kReflector; kBoundary, kUnclear: for the scalar code
+
+  double index_behind;  ///< of what the microsurface borders on
+  double least_sin2;    ///< of a plain surface: sine squared from which light is totally reflected
+  double counted;       ///< 1 when reaching it counts as an interaction
+  double reflector;     ///< 1: behind the microsurface is a reflector; 0: the next region
+
+  double sigma_rad;               ///< of facets
+  double widest_rad;              ///< facets beyond this angle are drawn again
+  double sin_widest, cos_widest;  ///< of facets weighted by area: greatest_facing() needs them
+
+  double by_area;         ///< 1: facets are weighted by projected area
+  double reflectance;     ///< of the reflector
+  double specular_share;  ///< of the reflector
+  double padding = 0.0;
+};
+static_assert(sizeof(LaneFace) == 128);
+
+/// Where a photon is: its region's planes and faces.
+struct LaneRegion {
+  const PlanePair* planes = nullptr;
+  const LaneFace* faces = nullptr;  ///< two per PlanePair
+  std::size_t count = 0;            ///< of planes
+};
+
+/// The photons, each at one index of every array.
+struct LanePool {
+  static constexpr std::size_t kPhotons = 32;
+  /// Random numbers of a photon that are not used yet, of whole blocks of four. The first four stand behind
+  /// the last again, so that any four that follow each other can be loaded.
+  static constexpr std::size_t kNumbers = 16;
+  using Numbers = double[kPhotons];
+  using Counts = std::uint64_t[kPhotons];
+
+  alignas(64) Numbers state;
+  alignas(64) Numbers position[3], direction[3], polarisation[3];
+  alignas(64) Numbers path_mm, time_ns, depth_left;
+  alignas(64) Numbers interactions, segments;  ///< whole numbers; segments since the photon was entered
+  alignas(64) Numbers index, group_index, attenuation_per_mm;  ///< of the region
+  alignas(64) Numbers centre[3];                               ///< origin of the region's frame
+  alignas(64) Numbers plane;                                   ///< the last one reached
+  alignas(64) Numbers side;               ///< at a microsurface: 1 in the photon's region, -1 beyond
+  alignas(64) Numbers cos_before;         ///< |cosine| to the normal of the plane, on arrival
+  alignas(64) Numbers next;               ///< state after kPolarise
+  alignas(64) Counts counter[4], key[2];  ///< Philox's; the first counter: of the next block to be drawn
+  alignas(64) Counts drawn;               ///< numbers used
+  alignas(64) std::uint64_t numbers[kPhotons][kNumbers + 4];
+  LaneRegion region[kPhotons];
+
+  double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
+};
+
+/// Moves the photons of the pool until some wait for the scalar code, exactly as step() moves them one by
+/// one. At least one photon is neither empty nor waiting.
+using RunLanes = void (*)(LanePool& pool);
+
+/// The kernel of a width of lane_widths(); null for 1 and 2, which are slower than photons one by one.
+RunLanes run_lanes(int width);
+
+// One for each width that this build has; defined where its instruction set is compiled.
+void run_lanes_4(LanePool&);
+void run_lanes_8(LanePool&);
+
+}  // namespace scintray::transport
