@@ -270,9 +270,10 @@ class CrossingRemover {
   /// there yet.
   bool fits(std::uint32_t v, const Cover& cover) const {
     if (cover.triangles.size() == 1) {
-      const auto& [a, b, c] = cover.triangles.front();
-      return std::none_of(around_[a].begin(), around_[a].end(), [&](std::uint32_t t) {
-        return !has(mesh_.triangles[t], v) && has(mesh_.triangles[t], b) && has(mesh_.triangles[t], c);
+      const Corners& own = cover.triangles.front();
+      return std::none_of(around_[own[0]].begin(), around_[own[0]].end(), [&](std::uint32_t t) {
+        const Corners& corners = mesh_.triangles[t];
+        return !has(corners, v) && has(corners, own[1]) && has(corners, own[2]);
       });
     }
     return std::all_of(cover.triangles.begin(), cover.triangles.end(), [&](const Corners& corners) {
