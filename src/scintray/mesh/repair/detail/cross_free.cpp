@@ -22,7 +22,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 constexpr std::size_t kLargestCover = 48;
 /// Triangles around a hole whose corners have more are not all compared with its cover before it is taken.
 constexpr std::size_t kWholeStar = 24;
-constexpr int kMostRounds = 24;
+constexpr int kMostRemovalRounds = 24;
 /// Where less than half of the crossings are gone after these, two sheets run through each other.
 constexpr int kRoundsToHalve = 3;
 
@@ -54,7 +54,7 @@ class CrossingRemover {
     // More is no local defect, and the body that is left would be another one.
     const std::size_t most_left_out = std::max<std::size_t>(64, mesh_.vertices.size() / 20);
     const std::size_t most_crossings = std::max<std::size_t>(2000, mesh_.triangles.size() / 20);
-    for (int round = 0; first <= most_crossings && round < kMostRounds && !crossings_.empty(); ++round) {
+    for (int round = 0; first <= most_crossings && round < kMostRemovalRounds && !crossings_.empty(); ++round) {
       core::report_activity("repairing: triangles that cross", first - std::min(first, crossings_.size()),
                             first);
       const std::size_t before = left_out_.size();
