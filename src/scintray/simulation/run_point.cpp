@@ -58,7 +58,8 @@ class BlockTracer {
         plan_(plan),
         settings_(settings),
         energy_(source.has_energy()),
-        lane_width_(lane_width_of(scene, source, plan, settings)) {}
+        lane_width_(lane_width_of(scene, source, plan, settings)),
+        lane_kinds_(transport::lane_kinds(scene, lane_width_)) {}
 
   Block trace(std::uint64_t number) const {
     Block block(scene_, plan_);
@@ -102,7 +103,7 @@ class BlockTracer {
   /// Traces photons of which only the ends are recorded. Events of energy are traced one by one.
   void trace_together(const std::vector<source::PhotonSpan>& spans,
                       const transport::PropagationLimits& limits, Block& block) const {
-    transport::Batch batch(scene_, limits, lane_width_);
+    transport::Batch batch(scene_, limits, lane_width_, lane_kinds_);
     source::EventLight light;
     ConversionDraws draws(settings_);
     std::vector<Address> photons;
@@ -202,6 +203,7 @@ class BlockTracer {
   const RunSettings& settings_;
   bool energy_;
   int lane_width_;
+  transport::LaneKinds lane_kinds_;
 };
 
 void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64_t started) {

@@ -30,13 +30,13 @@ core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]
 
 }  // namespace
 
-Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width)
+Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width,
+             const LaneKinds& kinds)
     : scene_(scene),
       limits_(limits),
-      lane_width_(lane_width),
+      kinds_(kinds),
       propagate_(propagate_lanes(lane_width)),
       surface_lanes_(scene, limits, run_lanes(lane_width)) {
-  kinds_.resize(scene.regions.size());
   const std::vector<int>& widths = lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
@@ -76,15 +76,9 @@ void Batch::replace(std::uint32_t index) {
   enqueue(index);
 }
 
-LaneKind Batch::kind_of(core::RegionId region) {
-  std::optional<LaneKind>& kind = kinds_[region];
-  if (!kind) kind = lane_kind(scene_, region, lane_width_);
-  return *kind;
-}
-
 void Batch::enqueue(std::uint32_t index) {
   const core::RegionId region = travellers_[index].photon.region;
-  switch (kind_of(region)) {
+  switch (kinds_[region]) {
     case LaneKind::none:
       alone_.push_back(index);
       break;
@@ -101,7 +95,7 @@ void Batch::trace_alone(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   do {
     if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
-  } while (kind_of(traveller.photon.region) == LaneKind::none);
+  } while (kinds_[traveller.photon.region] == LaneKind::none);
   enqueue(index);
 }
 

@@ -35,7 +35,8 @@ class Batch {
  public:
   /// @param limits      without `passed`
   /// @param lane_width  of lane_widths(). @throws InternalError for another
-  Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width);
+  /// @param kinds       the scene's, at that width
+  Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
 
   /// The state in which photon number i starts, and its random stream.
   using Emit = core::FunctionRef<source::Photon(std::uint64_t i, core::Rng& rng)>;
@@ -62,7 +63,6 @@ class Batch {
     std::uint32_t traveller = 0;
   };
 
-  LaneKind kind_of(core::RegionId region);
   void enqueue(std::uint32_t traveller);
   void trace_in_surface_lanes();
   void trace_alone(std::uint32_t traveller);
@@ -77,9 +77,8 @@ class Batch {
 
   const scene::Scene& scene_;
   PropagationLimits limits_;
-  int lane_width_;
-  PropagateLanes propagate_;                                       ///< null: no lanes
-  core::IdVector<core::RegionId, std::optional<LaneKind>> kinds_;  ///< none: not asked for yet
+  const LaneKinds& kinds_;
+  PropagateLanes propagate_;  ///< null: no lanes
   SurfaceLanes surface_lanes_;
   std::size_t most_planes_ = 0;
   std::vector<Traveller> travellers_;

@@ -12,4 +12,11 @@ LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_wi
   return run_lanes(lane_width) ? LaneKind::surfaces : LaneKind::none;
 }
 
+LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
+  LaneKinds kinds;
+  for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
+    kinds.push_back(lane_kind(scene, core::RegionId(i), lane_width));
+  return kinds;
+}
+
 }  // namespace scintray::transport

@@ -14,4 +14,8 @@ enum class LaneKind {
 /// The fastest for a region at a width of lane_widths(). No result depends on it.
 LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_width);
 
+/// Of all regions of a scene.
+using LaneKinds = core::IdVector<core::RegionId, LaneKind>;
+LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
+
 }  // namespace scintray::transport
