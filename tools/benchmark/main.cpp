@@ -44,9 +44,10 @@ void add_options(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--lane-width", measure.lane_width,
-                 "photons propagated at once, where a scene allows it; by default 8 on processors that keep their "
-                 "clock with it, else the widest up to 4")
+  app.add_option(
+         "--lane-width", measure.lane_width,
+         "photons propagated at once, where a scene allows it; by default 8 on processors that keep their "
+         "clock with it, else the widest up to 4")
       ->check(CLI::IsMember(transport::lane_widths()));
   app.add_option("--seconds", measure.seconds, "timed tracing per scene, about")
       ->check(CLI::Range(0.01, 3600.0))

@@ -54,7 +54,8 @@ class CrossingRemover {
     // More is no local defect, and the body that is left would be another one.
     const std::size_t most_left_out = std::max<std::size_t>(64, mesh_.vertices.size() / 20);
     const std::size_t most_crossings = std::max<std::size_t>(2000, mesh_.triangles.size() / 20);
-    for (int round = 0; first <= most_crossings && round < kMostRemovalRounds && !crossings_.empty(); ++round) {
+    for (int round = 0; first <= most_crossings && round < kMostRemovalRounds && !crossings_.empty();
+         ++round) {
       core::report_activity("repairing: triangles that cross", first - std::min(first, crossings_.size()),
                             first);
       const std::size_t before = left_out_.size();
