@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "analysis/made_up_events.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"
@@ -82,6 +84,18 @@ TEST_CASE("An analysis that does not apply has the reason") {
     CHECK_FALSE(analysis.doi);
     CHECK_FALSE(analysis.light_against_depth);
     CHECK_FALSE(depth_point(analysis));
+    for (const char* name : {"light against depth", "depth of interaction", "timing against depth"})
+      CHECK_MESSAGE(reason_left_out(analysis, name) != "", name);
+  }
+  SUBCASE("few times at one end") {
+    for (std::size_t i = 20; i < events.size(); ++i)
+      for (std::size_t channel = 16; channel < events[i].channels.size(); ++channel)
+        events[i].channels[channel].time_ns = std::nanf("");
+    const EventAnalysis analysis = analyze_events(events, setup);
+    CHECK(analysis.pair_difference_ns);
+    CHECK_FALSE(analysis.end_difference_ns);
+    check_contains(reason_left_out(analysis, "time between the ends"),
+                   {" events with a time at both ends", "50"});
   }
   SUBCASE("one depth") {
     for (EventRecord& event : events) event.position_mm[2] = 7.0F;
@@ -92,6 +106,7 @@ TEST_CASE("An analysis that does not apply has the reason") {
     for (const std::string& line : analysis.left_out) reasons += line + "\n";
     check_contains(reasons, "light against depth: the events lie at one depth");
     check_contains(reasons, "depth of interaction: the events lie at one depth");
+    check_contains(reasons, "timing against depth: ");
     REQUIRE(depth_point(analysis));
     CHECK(depth_point(analysis)->depth_mm == Approx(7.0));
   }

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "analysis/toys.hpp"
-#include "scintray/analysis/position/anger.hpp"
+#include "scintray/analysis/position/channel_layout.hpp"
 #include "scintray/analysis/position/detail/watershed.hpp"
 #include "support/agreement.hpp"
 #include "support/words.hpp"

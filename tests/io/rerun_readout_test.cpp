@@ -1,5 +1,5 @@
 // Electronics rerun from the photons of a result.
-#include "scintray/simulation/rerun_readout.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 
 #include <doctest/doctest.h>
 

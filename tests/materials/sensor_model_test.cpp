@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "database_helpers.hpp"
-#include "scintray/detector/sensor_response.hpp"
+#include "scintray/detector/channel.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

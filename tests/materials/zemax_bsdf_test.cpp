@@ -8,7 +8,7 @@
 #include "scintray/core/statistics.hpp"
 #include "scintray/materials/measured_brdf.hpp"
 #include "scintray/materials/surface_factory.hpp"
-#include "scintray/tables/bsdf_read.hpp"
+#include "scintray/tables/bsdf_text.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;

@@ -2,7 +2,7 @@
 #include "scintray/mesh/import/mesh_format.hpp"
 
 #include "mesh/toy_format.hpp"
-#include "scintray/mesh/import/mesh_files.hpp"
+#include "scintray/mesh/import/import.hpp"
 
 using namespace scintray;
 using namespace scintray::mesh;

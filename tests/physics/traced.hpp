@@ -72,7 +72,8 @@ struct Traced {
 /// Scene text plus the definitions above, with `photons` from `[source]`.
 inline scene_file::SceneSpec scene_spec(const std::string& text, const scene_file::TallyVariables& variables =
                                                                      scene_file::TallyVariables::built_in()) {
-  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string(), variables)
+  return scene_file::SceneFile::from_text(text + kDatabase, source_file("test.toml").string(),
+                                          {.variables = variables})
       .spec(0);
 }
 

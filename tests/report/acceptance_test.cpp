@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scintray/optics/fresnel.hpp"
-#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/surface_acceptance.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "support/made_up_result.hpp"

@@ -1,5 +1,5 @@
 // Several results, number by number.
-#include "scintray/report/comparison.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <doctest/doctest.h>
 

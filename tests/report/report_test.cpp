@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "scintray/core/error.hpp"
-#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/sweep_view.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scintray/mesh/shapes/primitives.hpp"
-#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/view/view_page.hpp"
 #include "support/made_up_result.hpp"
 #include "support/page_scripts.hpp"

@@ -1,5 +1,5 @@
 // Tallies that a view paints on faces.
-#include "scintray/report/view/view_tallies.hpp"
+#include "scintray/report/view/view_page.hpp"
 
 #include <doctest/doctest.h>
 

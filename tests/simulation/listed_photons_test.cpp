@@ -6,8 +6,8 @@
 
 #include "scenes.hpp"
 #include "scintray/core/h5.hpp"
+#include "scintray/simulation/analyze_results.hpp"
 #include "scintray/simulation/memory_sink.hpp"
-#include "scintray/simulation/rerun_readout.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/same_results.hpp"

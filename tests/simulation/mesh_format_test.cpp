@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "mesh/toy_format.hpp"
 #include "scenes.hpp"
 
@@ -57,6 +59,40 @@ TEST_CASE("Unit, scale and body of a part hold for a mesh format from outside") 
   check_contains(
       complaint_of([&] { Simulation(crystal_of(two, "unit = \"mm\""), with_formats(formats)).build(); }),
       {"pair.toy", "the file states the unit cm"});
+}
+
+TEST_CASE("Elements of an array are of a mesh format from outside, as the part that they repeat") {
+  const std::string element = mesh_file("element.toy", kToyBox).generic_string();
+  const std::string text = R"(ambient = "air"
+[[array]]
+name = "block"
+count = [2, 2]
+gap = "0.1 mm"
+element = { mesh = ")" + element +
+                           R"(", medium = "LSO", surface = "polished" }
+[[part]]
+name = "pmt"
+box = ["21 mm", "41 mm", "1 mm"]
+sensor = "R6231"
+place = { at = ["0 mm", "0 mm", "-1 mm"] }
+[source]
+type = "photons"
+region = { part = "block[0,0]" }
+wavelength = "420 nm"
+photons = 100
+)";
+  const auto load = [&](const scene_file::Extensions& extensions) {
+    return scene_file::SceneFile::from_text(text, source_file("test.toml").string(), extensions);
+  };
+  Simulation simulation(load({.mesh_formats = with_toy()}));
+  const auto built = simulation.point(0)->built();
+  CHECK(built->parts.size() == 5);
+  CHECK(built->parts.at(3).diagnosis.volume_mm3 == doctest::Approx(6000.0));
+  const auto last = std::find_if(built->scene.parts.begin(), built->scene.parts.end(),
+                                 [](const scene::PartInfo& part) { return part.name == "block[1,1]"; });
+  REQUIRE(last != built->scene.parts.end());
+  CHECK(last->bounds.max().x() == doctest::Approx(10.05));
+  check_contains(complaint_of([&] { load({}); }), {"element.toy", "\".toy\" is not a mesh format"});
 }
 
 TEST_CASE("Without the list, a scene with a mesh of a format from outside is refused, and the file named") {

@@ -18,6 +18,7 @@ namespace {
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kLeastTimed = 50, kLeastPlane = 4;
 constexpr const char* kNoDepthAxis = "[analysis] states no direction of depth";
+constexpr const char* kTooFewSlices = ": too few events for two slices of depth";
 
 core::Vec3 to_vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -273,10 +274,20 @@ void EventCollector::analyze_timing(const std::vector<const Row*>& rows, EventAn
   if (has_readout_)
     analysis.first_photon_difference_ns = spread_of(paired_differences(column(rows, &Row::first_ns)));
   const Spread ends = spread_of(column(rows, &Row::end_difference_ns));
-  if (ends.count >= kLeastTimed) analysis.end_difference_ns = ends;
-  if (!setup_.depth) return;
+  if (ends.count >= kLeastTimed)
+    analysis.end_difference_ns = ends;
+  else if (layout_ && !layout_->far.empty())
+    analysis.left_out.push_back(fmt::format(
+        "time between the ends: {} events with a time at both ends; {} are needed", ends.count, kLeastTimed));
+  if (!setup_.depth) {
+    analysis.left_out.push_back(std::string("timing against depth: ") + kNoDepthAxis);
+    return;
+  }
   const TimingDepth timing = timing_against_depth(column(rows, &Row::depth_mm), times, setup_.slices);
-  if (timing.slices.size() > 1) analysis.timing_against_depth = timing;
+  if (timing.slices.size() > 1)
+    analysis.timing_against_depth = timing;
+  else
+    analysis.left_out.push_back(std::string("timing against depth") + kTooFewSlices);
 }
 
 void EventCollector::analyze_photon_orders(const std::vector<const Row*>& rows,
@@ -299,7 +310,10 @@ void EventCollector::analyze_photon_orders(const std::vector<const Row*>& rows,
   if (!setup_.depth) return;
   std::vector<OrderSlice> slices =
       orders_against_depth(column(rows, &Row::depth_mm), times, detected, setup_.slices);
-  if (slices.size() < 2) return;
+  if (slices.size() < 2) {
+    analysis.left_out.push_back(std::string("timing by order of photons against depth") + kTooFewSlices);
+    return;
+  }
   for (const OrderSlice& slice : slices) analysis.depth_bounds.push_back(bound(slice.photons, slice.orders));
   analysis.orders_against_depth = std::move(slices);
 }

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "scintray/analysis/position/anger.hpp"
 #include "scintray/analysis/position/channel_layout.hpp"
 #include "scintray/analysis/position/confusion.hpp"
 #include "scintray/analysis/position/depth_curve.hpp"

@@ -15,7 +15,6 @@
 #include "scintray/scene_file/analysis.hpp"
 #include "scintray/scene_file/readout.hpp"
 #include "scintray/simulation/analyze_results.hpp"
-#include "scintray/simulation/rerun_readout.hpp"
 
 namespace scintray::cli {
 

@@ -6,7 +6,7 @@
 #include "scintray/core/output_file.hpp"
 #include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
-#include "scintray/results/export_rows.hpp"
+#include "scintray/results/results.hpp"
 #include "scintray/simulation/simulation.hpp"
 
 namespace scintray::cli {

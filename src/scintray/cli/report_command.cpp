@@ -7,7 +7,7 @@
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
-#include "scintray/report/comparison.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"

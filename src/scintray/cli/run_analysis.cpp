@@ -5,7 +5,7 @@
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/scene_view.hpp"
 #include "scintray/report/acceptance.hpp"
-#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/pages/pages.hpp"
 #include "scintray/report/surface_acceptance.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scintray/core/error.hpp"
-#include "scintray/report/view/view_tallies.hpp"
+#include "scintray/report/view/view_page.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene/place_parts.hpp"
 #include "scintray/scene_file/read_scene.hpp"

@@ -1,5 +1,6 @@
 #pragma once
-/// Adjacent placed parts: closing curved contacts, cutting intended overlaps, finding small gaps.
+/// Adjacent placed parts: where they touch, closing curved contacts, cutting intended overlaps, finding small
+/// gaps.
 
 #include <string>
 #include <vector>
@@ -62,5 +63,11 @@ inline constexpr double kSmallGapShare = 1e-3;
 /// Gaps filled by a third part are left out.
 [[nodiscard]] std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,
                                                     double share = kSmallGapShare);
+
+/// Mask over the triangles of `part`: 1 where some of its area lies on a face of `other`, facing it. Flat
+/// triangles touch within `tolerance_mm`; with `curved_mm` above it, the tolerance of a conforming contact of
+/// the two, curved ones do within that.
+[[nodiscard]] std::vector<char> touching_triangles(const PlacedMesh& part, const PlacedMesh& other,
+                                                   double tolerance_mm, double curved_mm = 0.0);
 
 }  // namespace scintray::contact

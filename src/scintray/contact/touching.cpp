@@ -1,4 +1,4 @@
-#include "scintray/contact/touching.hpp"
+#include "scintray/contact/neighbours.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "scintray/core/philox_laws.hpp"
+
 namespace scintray::core {
 
 /// Philox4x64-10 of `counter` under `key`: 256 random bits.
@@ -33,6 +35,21 @@ class Rng {
  public:
   Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0, std::uint64_t set = 0)
       : counter_{0, b, a, static_cast<std::uint64_t>(kind)}, key_{seed, set} {}
+
+  /// Where a stream is: its next block, and what is left of the last.
+  struct State {
+    std::array<std::uint64_t, 4> counter;
+    std::array<std::uint64_t, 2> key;
+    std::array<std::uint64_t, 4> buffer;
+    int used;  ///< of the buffer
+  };
+  State state() const { return {counter_, key_, buffer_, used_}; }
+  /// Goes on from where a copy of this stream was.
+  void go_on_from(const State& state) {
+    counter_ = state.counter;
+    buffer_ = state.buffer;
+    used_ = state.used;
+  }
 
   /// 64 random bits.
   std::uint64_t bits() {
@@ -62,24 +79,10 @@ class Rng {
 
 inline std::array<std::uint64_t, 4> philox4x64(std::array<std::uint64_t, 4> counter,
                                                std::array<std::uint64_t, 2> key) {
-  constexpr std::uint64_t kMultiplier0 = 0xD2E7470EE14C6C93ULL;
-  constexpr std::uint64_t kMultiplier1 = 0xCA5A826395121157ULL;
-  constexpr std::uint64_t kWeyl0 = 0x9E3779B97F4A7C15ULL;
-  constexpr std::uint64_t kWeyl1 = 0xBB67AE8584CAA73BULL;
-  __extension__ using Wide = unsigned __int128;
-  for (int round = 0; round < 10; ++round) {
-    if (round > 0) {
-      key[0] += kWeyl0;
-      key[1] += kWeyl1;
-    }
-    const Wide product0 = static_cast<Wide>(kMultiplier0) * counter[0];
-    const Wide product1 = static_cast<Wide>(kMultiplier1) * counter[2];
-    counter = {static_cast<std::uint64_t>(product1 >> 64) ^ counter[1] ^ key[0],
-               static_cast<std::uint64_t>(product1),
-               static_cast<std::uint64_t>(product0 >> 64) ^ counter[3] ^ key[1],
-               static_cast<std::uint64_t>(product0)};
-  }
-  return counter;
+  using Block = PhiloxBlock<std::uint64_t>;
+  const Block block(Block::Counter{{counter[0], counter[1], counter[2], counter[3]}},
+                    Block::Key{{key[0], key[1]}});
+  return {block.words[0], block.words[1], block.words[2], block.words[3]};
 }
 
 }  // namespace scintray::core

@@ -73,4 +73,6 @@ class PlainMatrix3 {
 static_assert(std::is_trivially_copyable_v<PlainVec3> && sizeof(PlainVec3) == 3 * sizeof(double));
 static_assert(std::is_trivially_copyable_v<PlainMatrix3> && sizeof(PlainMatrix3) == 9 * sizeof(double));
 
+inline Triple<double> triple(const PlainVec3& v) { return {v.x(), v.y(), v.z()}; }
+
 }  // namespace scintray::core

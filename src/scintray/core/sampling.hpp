@@ -6,16 +6,15 @@
 
 #include "scintray/core/elementary.hpp"
 #include "scintray/core/philox.hpp"
+#include "scintray/core/sampling_laws.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::core {
 
 /// Direction uniform over the sphere.
 inline Vec3 sample_isotropic(Rng& rng) {
-  const double cosine = 2.0 * rng.uniform() - 1.0;
-  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const SineCosine azimuth = sincos_of_turn(rng.uniform());
-  return {sine * azimuth.cosine, sine * azimuth.sine, cosine};
+  const double first = rng.uniform();
+  return vec(isotropic<double>(first, rng.uniform()));
 }
 
 /// Unit vector at the polar angle of cosine `cosine` from the unit vector `axis`, at an azimuth about it.
@@ -29,29 +28,18 @@ inline Vec3 turned(const Vec3& axis, double cosine, double azimuth_rad) {
 /// Direction about the unit vector `normal` with density cos(theta)/pi per solid angle (Lambert).
 inline Vec3 sample_lambertian(const Vec3& normal, Rng& rng) {
   const double sine2 = rng.uniform();
-  const double sine = std::sqrt(sine2);
-  const SineCosine azimuth = sincos_of_turn(rng.uniform());
-  const Frame frame = Frame::about(normal);
-  return sine * azimuth.cosine * frame.x + sine * azimuth.sine * frame.y + std::sqrt(1.0 - sine2) * frame.z;
+  return vec(lambertian<double>(triple(normal), sine2, rng.uniform()));
 }
 
-/// A point of the unit circle, uniform in angle, without trigonometry: twice the angle of a point that
-/// is uniform in the disc (J. von Neumann 1951, NBS Applied Math. Series 12, 36).
-inline Eigen::Vector2d sample_circle(Rng& rng) {
-  for (;;) {
-    const std::uint64_t bits = rng.bits();
-    const double x = static_cast<double>(static_cast<std::int32_t>(bits)) * 0x1.0p-31;
-    const double y = static_cast<double>(static_cast<std::int32_t>(bits >> 32)) * 0x1.0p-31;
-    const double r2 = x * x + y * y;
-    if (r2 > 0.0 && r2 <= 1.0) return {(x * x - y * y) / r2, 2.0 * x * y / r2};
-  }
+/// A point of the unit circle, uniform in angle.
+inline CirclePoint<double> sample_circle(Rng& rng) {
+  for (;;)
+    if (const CirclePoint<double> point(rng.bits()); point.accepted) return point;
 }
 
 /// Unit vector perpendicular to `direction`, uniform in azimuth: the polarisation of unpolarised light.
 inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
-  const Frame frame = Frame::about(direction);
-  const Eigen::Vector2d at = sample_circle(rng);
-  return at.x() * frame.x + at.y() * frame.y;
+  return vec(across_at<double>(triple(direction), sample_circle(rng)));
 }
 
 /// Exponential deviate with mean 1.

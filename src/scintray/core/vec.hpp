@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scintray/core/number.hpp"
+
 namespace scintray::core {
 
 /// A point (mm) or a direction (unit length), in double precision.
@@ -18,18 +20,18 @@ inline constexpr double kDegree = std::numbers::pi / 180.0;
 /// Speed of light in vacuum, mm/ns (exact, SI definition of the metre).
 inline constexpr double kSpeedOfLight_mm_per_ns = 299.792458;
 
+/// A vector as the laws of light transport have it (number.hpp), and back.
+inline Triple<double> triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3 vec(const Triple<double>& v) { return {v.x, v.y, v.z}; }
+
 /// Right-handed orthonormal frame whose third axis is a given unit vector.
 struct Frame {
   Vec3 x, y, z;
 
   /// Frame about the unit vector `axis`.
-  /// Source: T. Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1), listing 3.
   static Frame about(const Vec3& axis) {
-    const double sign = std::copysign(1.0, axis.z());
-    const double a = -1.0 / (sign + axis.z());
-    const double b = axis.x() * axis.y() * a;
-    return {Vec3(1.0 + sign * axis.x() * axis.x() * a, sign * b, -sign * axis.x()),
-            Vec3(b, sign + axis.y() * axis.y() * a, -axis.y()), axis};
+    const Across<double> across(triple(axis));
+    return {vec(across.x), vec(across.y), axis};
   }
 
   Vec3 to_world(const Vec3& v) const { return v.x() * x + v.y() * y + v.z() * z; }

@@ -1,4 +1,4 @@
-#include "scintray/detector/sensor_response.hpp"
+#include "scintray/detector/channel.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Facets as FacetSurface::sample_facet (facets.hpp) draws them, over a number type (core/number.hpp): the
-/// same random numbers, results and bits.
+/// Facets whose angles are normally distributed, over a number type (core/number.hpp): of one photon, which
+/// FacetSurface::sample_facet (facets.hpp) draws number by number, and of several in lanes, with the same
+/// random numbers, results and bits. Sources: facets.hpp.
 
 #include "scintray/core/elementary_laws.hpp"
 
@@ -11,6 +12,33 @@ using core::select;
 
 inline constexpr double kQuarterTurn_rad = 1.57079632679489661923;
 
+/// Facets weighted by area beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again,
+/// which bounds the projected area of a facet.
+inline constexpr double kWidestFacet_sigma = 6.0;
+
+/// Angle between facet and mean normal from a number uniform on (0, 1], of density g(angle) angle; an angle
+/// below a quarter turn is accepted with probability sin(angle) / angle, for g(angle) sin(angle).
+template <typename Real>
+Real facet_angle(const Real& sigma_rad, const Real& random) {
+  return sigma_rad * root(Real(-2.0) * core::laws::log<Real>(random));
+}
+
+/// Normal of a facet of a tilt at an azimuth about the mean normal.
+template <typename Real>
+core::Triple<Real> facet_normal(const core::SineCosineOf<Real>& tilt, const core::SineCosineOf<Real>& azimuth,
+                                const core::Across<Real>& across, const core::Triple<Real>& mean) {
+  return (tilt.sine * azimuth.cosine) * across.x + (tilt.sine * azimuth.sine) * across.y + tilt.cosine * mean;
+}
+
+/// Largest cosine between the reversed direction of light and any facet normal: that of the incidence less
+/// the widest angle.
+template <typename Real>
+Real greatest_facing(const Real& cos_incidence, const core::SineCosineOf<Real>& of_widest) {
+  const Real c = core::least(core::greatest(cos_incidence, Real(0.0)), Real(1.0));
+  const Real widest = c * of_widest.cosine + root(Real(1.0) - c * c) * of_widest.sine;
+  return select(c >= of_widest.cosine, Real(1.0), widest);
+}
+
 /// Numbers of a surface's facets.
 template <typename Real>
 struct FacetNumbers {
@@ -18,13 +46,6 @@ struct FacetNumbers {
   Real widest_rad;              ///< of facets weighted by area: those beyond are drawn again
   Real sin_widest, cos_widest;  ///< at a quarter turn, 1 and -1: nothing is bounded
   core::MaskOf<Real> by_area;   ///< facets are weighted by the area that the light sees
-
-  /// Largest cosine between the reversed direction of light and any facet normal.
-  Real greatest_facing(const Real& cos_incidence) const {
-    const Real c = core::least(core::greatest(cos_incidence, Real(0.0)), Real(1.0));
-    const Real widest = c * cos_widest + root(Real(1.0) - c * c) * sin_widest;
-    return select(c >= cos_widest, Real(1.0), widest);
-  }
 };
 
 /// An attempt to draw a facet.
@@ -41,19 +62,17 @@ struct FacetDraw {
   /// @param k  direction of the light; @param mean  mean normal, against it
   FacetDraw(const FacetNumbers<Real>& of, const core::Triple<Real>& k, const core::Triple<Real>& mean,
             const Random& random) {
-    const Real angle = of.sigma_rad * root(Real(-2.0) * core::laws::log<Real>(random.tilt));
+    const Real angle = facet_angle<Real>(of.sigma_rad, random.tilt);
     const core::SineCosineOf<Real> tilt = core::laws::sincos<Real>(angle);
     const core::SineCosineOf<Real> azimuth = core::laws::sincos_of_turn<Real>(random.azimuth);
-    const core::Across<Real> across(mean);
-    normal =
-        (tilt.sine * azimuth.cosine) * across.x + (tilt.sine * azimuth.sine) * across.y + tilt.cosine * mean;
+    normal = facet_normal<Real>(tilt, azimuth, core::Across<Real>(mean), mean);
     const Real facing = -dot(k, normal);
     // In the order of the numbers: each is drawn where those before are accepted.
     const core::MaskOf<Real> below = angle < Real(kQuarterTurn_rad);
     const core::MaskOf<Real> tilted = below & (random.for_tilt * angle <= tilt.sine);
     const core::MaskOf<Real> turned = tilted & !(of.by_area & (angle > of.widest_rad));
     const core::MaskOf<Real> seen = turned & (facing > Real(0.0));
-    const Real bound = of.greatest_facing(-dot(k, mean));
+    const Real bound = greatest_facing<Real>(-dot(k, mean), {of.sin_widest, of.cos_widest});
     accepted = seen & !(of.by_area & (random.for_area * bound > facing));
     const Real one(1.0), zero(0.0);
     drawn = one + select(below, one, zero) + select(turned, one, zero) + select(seen & of.by_area, one, zero);
@@ -66,12 +85,10 @@ struct FacetLimits {
   double widest_rad;
   core::SineCosineOf<double> of_widest{1.0, -1.0};
 
-  FacetLimits(double sigma_rad, bool weighted) : by_area(weighted), widest_rad(kWidest_sigma * sigma_rad) {
-    if (widest_rad < kQuarterTurn_rad) of_widest = core::laws::sincos(widest_rad);
+  FacetLimits(double sigma_rad, bool weighted)
+      : by_area(weighted), widest_rad(kWidestFacet_sigma * sigma_rad) {
+    if (by_area && widest_rad < kQuarterTurn_rad) of_widest = core::laws::sincos(widest_rad);
   }
-
- private:
-  static constexpr double kWidest_sigma = 6.0;  // of FacetSurface
 };
 
 }  // namespace scintray::optics

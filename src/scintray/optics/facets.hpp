@@ -11,6 +11,7 @@
 
 #include "scintray/core/elementary.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/optics/facet_laws.hpp"
 #include "scintray/optics/microsurface.hpp"
 
 namespace scintray::optics {
@@ -59,10 +60,6 @@ class FacetSurface : public MicrosurfaceModel {
   static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
 
  private:
-  /// Facet angles beyond this many sigma (one in 7e7 of the solid-angle density) are drawn again, which
-  /// bounds the projected area of a facet.
-  static constexpr double kWidestFacet_sigma = 6.0;
-
   /// Angle between facet and mean normal.
   struct FacetTilt {
     double angle_rad;
@@ -70,8 +67,6 @@ class FacetSurface : public MicrosurfaceModel {
   };
   /// Tilt of a facet, drawn at random, below 90 deg.
   FacetTilt sample_facet_tilt(core::Rng& rng) const;
-  /// Largest cosine between the reversed direction of a ray and any facet normal.
-  double greatest_facing(double cos_incidence) const;
   core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
@@ -84,21 +79,11 @@ inline FacetSurface::FacetTilt FacetSurface::sample_facet_tilt(core::Rng& rng) c
       continue;
     }
     // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
-    const double alpha = sigma * std::sqrt(2.0 * core::sample_exponential(rng));
+    const double alpha = facet_angle<double>(sigma, rng.uniform_positive());
     if (!(alpha < 0.5 * core::kPi)) continue;
     const core::SineCosine of = core::sincos(alpha);
     if (rng.uniform() * alpha <= of.sine) return {alpha, of};
   }
-}
-
-inline double FacetSurface::greatest_facing(double cos_incidence) const {
-  const double widest = kWidestFacet_sigma * sigma_alpha_rad;
-  if (widest >= 0.5 * core::kPi) return 1.0;
-  const core::SineCosine of_widest = core::sincos(widest);
-  const double cosine = std::clamp(cos_incidence, 0.0, 1.0);
-  if (cosine >= of_widest.cosine) return 1.0;
-  // The cosine of the incidence less the widest angle.
-  return cosine * of_widest.cosine + std::sqrt(1.0 - cosine * cosine) * of_widest.sine;
 }
 
 inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
@@ -106,17 +91,18 @@ inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Fr
   if (smear > 0.0) [[unlikely]]
     return sample_smeared_facet(k, frame.z, rng);
   if (sigma_alpha_rad == 0.0) return frame.z;
-  const bool weighted = sampling == FacetSampling::projected_area;
-  const double bound = weighted ? greatest_facing(-k.dot(frame.z)) : 1.0;
+  const FacetLimits limits(sigma_alpha_rad, sampling == FacetSampling::projected_area);
+  const double bound = limits.by_area ? greatest_facing<double>(-k.dot(frame.z), limits.of_widest) : 1.0;
+  const core::Across<double> across(core::triple(frame.x), core::triple(frame.y));
+  const core::Triple<double> mean = core::triple(frame.z);
   for (;;) {
     const auto [alpha, tilt] = sample_facet_tilt(rng);
-    if (weighted && alpha > kWidestFacet_sigma * sigma_alpha_rad) continue;
-    const core::SineCosine azimuth = core::sincos_of_turn(rng.uniform());
+    if (limits.by_area && alpha > limits.widest_rad) continue;
     const core::Vec3 m =
-        tilt.sine * azimuth.cosine * frame.x + tilt.sine * azimuth.sine * frame.y + tilt.cosine * frame.z;
+        core::vec(facet_normal<double>(tilt, core::sincos_of_turn(rng.uniform()), across, mean));
     const double facing = -k.dot(m);
     if (facing <= 0.0) continue;
-    if (weighted && rng.uniform() * bound > facing) continue;
+    if (limits.by_area && rng.uniform() * bound > facing) continue;
     return m;
   }
 }

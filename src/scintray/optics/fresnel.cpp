@@ -7,9 +7,8 @@ namespace scintray::optics {
 
 namespace {
 
-core::Triple<double> triple(const core::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-core::Triple<double> triple(const core::PlainVec3& v) { return {v.x(), v.y(), v.z()}; }
-core::Vec3 vec(const core::Triple<double>& v) { return {v.x, v.y, v.z}; }
+using core::triple;
+using core::vec;
 
 LightRay<double> light_of(const Ray& ray) { return {triple(ray.direction), triple(ray.polarisation)}; }
 /// Sets direction and polarisation of a ray that keeps no phases.

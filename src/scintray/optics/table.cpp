@@ -1,6 +1,7 @@
 #include "scintray/optics/table.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <span>
 #include <thread>
@@ -8,7 +9,6 @@
 #include "scintray/core/elementary.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/core/thread_slot.hpp"
 
 namespace scintray::optics {
 
@@ -21,6 +21,15 @@ constexpr double kLeastCosine = 1e-7;
 
 /// Largest total size of all copies of a table's samplers, unless a single copy is larger.
 constexpr std::size_t kMostCopiedBytes = 16'000'000;
+
+/// Number of the calling thread: 1, 2, ... in the order of the first calls. It selects one of several equal
+/// copies; results do not depend on it.
+unsigned thread_slot() {
+  static std::atomic<unsigned> last{0};
+  static thread_local unsigned slot = 0;
+  if (slot == 0) slot = ++last;
+  return slot;
+}
 
 std::size_t threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
@@ -230,7 +239,7 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
     return leave(exit.side, std::sqrt(1.0 - cos2), std::sqrt(cos2),
                  (rng.bits() & 1) != 0 ? turn.sine : -turn.sine, turn.cosine);
   }
-  const Samplers& samplers = samplers_[core::thread_slot() % samplers_.size()];
+  const Samplers& samplers = samplers_[thread_slot() % samplers_.size()];
   const TableSampler& sampler = samplers[2 * slice + static_cast<std::size_t>(side)];
   const TableSampler::Place at = sampler.place(sine, std::abs(cosine));
   const double reflectance = at.reflectance();

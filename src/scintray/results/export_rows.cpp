@@ -1,4 +1,4 @@
-#include "scintray/results/export_rows.hpp"
+#include "scintray/results/results.hpp"
 
 #include <fmt/format.h>
 

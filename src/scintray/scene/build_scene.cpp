@@ -8,7 +8,6 @@
 #include "scintray/core/pattern.hpp"
 #include "scintray/detector/channel.hpp"
 #include "scintray/materials/database.hpp"
-#include "scintray/materials/photocathode_surface.hpp"
 #include "scintray/materials/wavelength_cover.hpp"
 #include "scintray/scene/detail/assemble.hpp"
 #include "scintray/scene/detail/build_steps.hpp"
@@ -17,6 +16,16 @@
 namespace scintray::scene {
 
 namespace {
+
+/// The film of a sensor's photocathode as a surface, between the media on its two sides. The caller checks
+/// that n and k cover the wavelengths in use.
+materials::SurfaceSpec photocathode_surface(const detector::Sensor& sensor) {
+  materials::SurfaceSpec spec;
+  spec.name = "photocathode of " + sensor.name;
+  spec.sources = sensor.sources;
+  spec.microsurface = materials::FixedMicrosurface(optics::ThinFilmSurface({sensor.cathode->film}));
+  return spec;
+}
 
 /// Maker of an Assembly: looks up every name of a scene.
 class AssemblyMaker {
@@ -109,7 +118,7 @@ class AssemblyMaker {
 
   /// Name of the surface of a sensor's photocathode.
   std::string cathode_surface(core::SensorId id) {
-    materials::SurfaceSpec spec = materials::photocathode_surface(assembly_.sensors[id]);
+    materials::SurfaceSpec spec = photocathode_surface(assembly_.sensors[id]);
     const std::string name = spec.name;
     surfaces_.try_emplace(name, std::move(spec));
     return name;

@@ -1,4 +1,4 @@
-#include "scintray/scene_file/photon_output.hpp"
+#include "scintray/scene_file/run.hpp"
 
 #include <algorithm>
 

@@ -128,7 +128,8 @@ class DistinctProblems {
 };
 
 /// Expands a swept value with "*" to every part that it matches: a sweep can run over an array's elements.
-void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& document) {
+void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& document,
+                     const mesh::MeshFormats& formats) {
   std::vector<std::string> parts;
   for (SweepSpec& sweep : sweeps) {
     std::vector<config::TomlNode> values;
@@ -137,7 +138,8 @@ void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& 
       if (value.kind == Kind::string && core::is_pattern(value.text)) {
         core::Problems reported_when_the_scene_is_read;
         if (parts.empty()) {
-          const Bodies bodies = read_bodies(config::TomlTable(document, reported_when_the_scene_is_read));
+          const Bodies bodies =
+              read_bodies(config::TomlTable(document, reported_when_the_scene_is_read), formats);
           parts = part_names(bodies.parts, bodies.groups);
         }
         found = core::matching(value.text, parts);
@@ -152,7 +154,7 @@ void expand_patterns(std::vector<SweepSpec>& sweeps, const config::TomlNodePtr& 
   }
 }
 
-SceneSpec read_from(const config::TomlTable& root, const std::string& text, const TallyVariables& variables) {
+SceneSpec read_from(const config::TomlTable& root, const std::string& text, const Extensions& extensions) {
   SceneSpec scene;
   scene.file = root.where().file;
   scene.folder = scene.file.parent_path();
@@ -161,7 +163,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   scene.ambient = read_name(root, "ambient", true);
   scene.contacts_default_given = root.has("contacts_default");
   scene.contacts_default = root.choice("contacts_default", kContactKinds, ContactKind::bonded);
-  Bodies bodies = read_bodies(root);
+  Bodies bodies = read_bodies(root, extensions.mesh_formats);
   const std::vector<std::string> names =
       bodies.names_known ? part_names(bodies.parts, bodies.groups) : std::vector<std::string>{};
   scene.parts = std::move(bodies.parts);
@@ -175,7 +177,8 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   scene.analysis = read_analysis(root);
   scene.criteria = read_criteria(root);
   scene.goniometers = read_goniometers(root);
-  scene.tallies = read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), variables);
+  scene.tallies =
+      read_tallies(root, scene.parts, part_names(scene.parts, scene.groups), extensions.variables);
   expect_goal(root, scene);
   name_sides(scene);
   read_all_definitions(root, scene);
@@ -188,9 +191,9 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
 }  // namespace
 
 SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems,
-                     const TallyVariables& variables) {
+                     const Extensions& extensions) {
   const config::TomlTable root(document, problems);
-  SceneSpec scene = read_from(root, text, variables);
+  SceneSpec scene = read_from(root, text, extensions);
   root.finish();
   return scene;
 }
@@ -198,7 +201,7 @@ SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& tex
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document) {
   core::Problems ignored;
   const config::TomlTable root(document, ignored);
-  read_from(root, "", TallyVariables::built_in());
+  read_from(root, "", {});
   return root.known_keys();
 }
 
@@ -206,24 +209,24 @@ std::vector<config::KeyUse> scene_key_uses(const config::TomlNodePtr& document) 
   core::Problems ignored;
   const config::TomlTable root(document, ignored);
   root.record_uses();
-  read_from(root, "", TallyVariables::built_in());
+  read_from(root, "", {});
   return root.key_uses();
 }
 
-SceneFile SceneFile::load(const std::filesystem::path& path, const TallyVariables& variables) {
-  return from_text(config::read_text_file(path), path.string(), variables);
+SceneFile SceneFile::load(const std::filesystem::path& path, const Extensions& extensions) {
+  return from_text(config::read_text_file(path), path.string(), extensions);
 }
 
 SceneFile SceneFile::from_text(const std::string& text, const std::string& file,
-                               const TallyVariables& variables) {
+                               const Extensions& extensions) {
   SceneFile scene;
-  scene.variables_ = variables;
+  scene.extensions_ = std::make_shared<const Extensions>(extensions);
   scene.text_ = text;
   scene.document_ = config::parse_toml(text, file);
   DistinctProblems found;
   core::Problems sweep_problems;
   scene.sweeps_ = read_sweeps(config::TomlTable(scene.document_, sweep_problems));
-  expand_patterns(scene.sweeps_, scene.document_);
+  expand_patterns(scene.sweeps_, scene.document_, extensions.mesh_formats);
   const auto try_point = [&](std::size_t point, const std::vector<KeySetting>& settings = {}) {
     core::Problems problems;
     SceneSpec spec = scene.read_point(point, settings, problems);
@@ -309,7 +312,8 @@ SceneSpec SceneFile::read_point(std::size_t point, const std::vector<KeySetting>
   for (std::size_t i = 0; i < sweeps_.size(); ++i)
     edited = with_value(edited, {sweeps_[i].path, value_at(point, i)}, problems);
   for (const KeySetting& setting : settings) edited = with_value(edited, setting, problems);
-  return read_scene(std::make_shared<const config::TomlNode>(std::move(edited)), text_, problems, variables_);
+  return read_scene(std::make_shared<const config::TomlNode>(std::move(edited)), text_, problems,
+                    *extensions_);
 }
 
 SceneSpec SceneFile::spec(std::size_t point) const { return spec(point, {}); }

@@ -2,20 +2,29 @@
 /// Scene files: parse, then transform (sweeps), then instantiate (SceneSpec).
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/scene_file/definitions.hpp"
 #include "scintray/scene_file/spec.hpp"
 #include "scintray/scene_file/sweep.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
 
 namespace scintray::scene_file {
 
+/// Lists that are needed while a scene file is read. Models of surfaces and sensors are needed later
+/// (simulation::SimulationOptions::models).
+struct Extensions {
+  TallyVariables variables = TallyVariables::built_in();           ///< that tallies may name
+  mesh::MeshFormats mesh_formats = mesh::MeshFormats::built_in();  ///< of parts, and of elements of arrays
+};
+
 /// Specification of a parsed scene (its sweeps are checked but not applied). `text` is the file's. Every
 /// error is added to `problems`; the result may be used only without any.
-/// @param variables  that its tallies may name
 SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& text, core::Problems& problems,
-                     const TallyVariables& variables = TallyVariables::built_in());
+                     const Extensions& extensions = {});
 
 /// All keys that read_scene can read in the tables of this document, as "part.place.gap", sorted.
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
@@ -29,12 +38,10 @@ class SceneFile {
  public:
   /// The scene file of a path; every value of its sweeps and of its fit's starts and bounds is read at least
   /// once. Throws InputError with every distinct problem; names without a definition are then reported too.
-  /// @param variables  that its tallies may name
-  static SceneFile load(const std::filesystem::path& path,
-                        const TallyVariables& variables = TallyVariables::built_in());
+  static SceneFile load(const std::filesystem::path& path, const Extensions& extensions = {});
   /// The same for a scene in memory; `file` is used in messages and for relative paths.
   static SceneFile from_text(const std::string& text, const std::string& file,
-                             const TallyVariables& variables = TallyVariables::built_in());
+                             const Extensions& extensions = {});
 
   /// The scene of a path, without its sweeps, as far as it can be read: for pictures of what load() refuses.
   /// Throws InputError for a file that is not TOML.
@@ -59,6 +66,8 @@ class SceneFile {
   /// The same with further keys set after those of the sweeps, which may be the same keys.
   SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
   const std::string& text() const { return text_; }
+  /// What it was read with; lives as long as this file or a copy.
+  const Extensions& extensions() const { return *extensions_; }
   /// Its own definitions that nothing in it names.
   std::vector<DefinitionRef> unused_definitions() const;
 
@@ -69,7 +78,7 @@ class SceneFile {
 
   config::TomlNodePtr document_;
   std::vector<SweepSpec> sweeps_;
-  TallyVariables variables_;
+  std::shared_ptr<const Extensions> extensions_;
   std::string text_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Meshes of shapes of which several may be in one file.
 
-#include "scintray/mesh/import/mesh_files.hpp"
+#include "scintray/mesh/import/import.hpp"
 #include "scintray/scene_file/shape.hpp"
 
 namespace scintray::scene_file {

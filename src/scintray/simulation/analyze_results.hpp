@@ -1,5 +1,5 @@
 #pragma once
-/// Analysis of the events of a results file.
+/// Analysis of the events of a results file, and the same events with other electronics.
 
 #include <filesystem>
 #include <optional>
@@ -9,6 +9,8 @@
 #include "scintray/analysis/event_analysis.hpp"
 #include "scintray/detector/readout_spec.hpp"
 #include "scintray/scene_file/analysis.hpp"
+#include "scintray/scene_file/tally_variable.hpp"
+#include "scintray/simulation/simulation_options.hpp"
 #include "scintray/tally/readout_channels.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -47,5 +49,22 @@ class RunningAnalysis {
   scene_file::AnalysisSpec spec_;
   std::optional<analysis::EventCollector> collector_;
 };
+
+/// Writes a result like the one at `path`, whose events have the charges, times and waveforms of other
+/// electronics for the same detected photons. The list of photons is not copied. With the electronics of the
+/// run the numbers are its own, except for the rounding of recorded times and positions to single precision:
+/// random streams are those of the run. Sensors are those of the scene.
+/// @param run        of the same file; its scene is built again, so files that it names must be where they
+/// were
+/// @param readout    checked by the reader of [readout]
+/// @param options    of the simulation that builds the scene, with the models that it may name; the seed is
+/// that
+///                   of the run
+/// @param extensions  that the scene was read with
+/// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
+///         those of the result, and for electronics that do not suit a sensor
+void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
+                   const detector::ReadoutSpec& readout, const std::filesystem::path& output,
+                   SimulationOptions options = {}, const scene_file::Extensions& extensions = {});
 
 }  // namespace scintray::simulation

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
-#include "scintray/simulation/detail/backward_tracer.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
 #include "scintray/transport/in_order.hpp"
 
@@ -100,13 +100,14 @@ struct Work {
   std::uint64_t done = 0, total = 0;
 };
 
-/// Traces the light of all channels through the grids of one medium; false when stopped.
-bool trace_medium(const BackwardTracer& tracer, std::uint64_t first_stream, const RunSettings& run,
-                  const ResponseHooks& hooks, const ResponseMap& map, Work& work,
-                  std::vector<ChannelLight>& lights) {
+/// Light of all channels through the grids of one medium; nothing when stopped.
+std::optional<std::vector<ChannelLight>> trace_medium(const BackwardTracer& tracer,
+                                                      std::uint64_t first_stream, const RunSettings& run,
+                                                      const ResponseHooks& hooks, const ResponseMap& map,
+                                                      Work& work) {
   const std::uint64_t pieces = tracer.cells() * map.delays_kept > kLargeDelays ? 1 : kPieces;
   const std::uint64_t channels = map.channels.size(), photons = map.photons_per_channel;
-  lights.resize(channels);
+  std::vector<ChannelLight> lights(channels);
   const auto trace = [&](std::uint64_t number) {
     const std::uint64_t channel = number / pieces, piece = number % pieces;
     const std::string key = detail::encoded(first_stream + channel, piece);  // longer than that of a cell
@@ -128,8 +129,10 @@ bool trace_medium(const BackwardTracer& tracer, std::uint64_t first_stream, cons
     work.done += photons / pieces;
     if (hooks.progress) hooks.progress(std::min(work.done, work.total), work.total);
   };
-  return transport::work_in_order(channels * pieces, run.threads, hooks.stop, trace, collect) ==
-         channels * pieces;
+  const std::uint64_t done =
+      transport::work_in_order(channels * pieces, run.threads, hooks.stop, trace, collect);
+  if (done < channels * pieces) return std::nullopt;
+  return lights;
 }
 
 }  // namespace
@@ -149,9 +152,9 @@ bool trace_backward(const scene::Scene& scene, const tally::ReadoutChannels& cha
       grids.push_back(grid);
     }
     const BackwardTracer tracer(scene, channels, map, std::move(grids), std::move(volumes), run);
-    std::vector<ChannelLight> lights;
-    if (!trace_medium(tracer, stream, run, hooks, map, work, lights)) return false;
-    GridFiller(map, medium.grids, std::move(lights)).fill(tracer);
+    std::optional<std::vector<ChannelLight>> lights = trace_medium(tracer, stream, run, hooks, map, work);
+    if (!lights) return false;
+    GridFiller(map, medium.grids, std::move(*lights)).fill(tracer);
     stream += 2 * map.channels.size();
   }
   return true;

@@ -1,4 +1,4 @@
-#include "scintray/simulation/detail/backward_tracer.hpp"
+#include "scintray/simulation/detail/backward_response.hpp"
 
 #include <algorithm>
 #include <cmath>

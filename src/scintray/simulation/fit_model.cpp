@@ -72,7 +72,7 @@ class SceneCurve : public FitModel {
         fit_(fit),
         measured_(measured),
         settings_(settings),
-        builder_(settings.run.surface_hooks, settings.run.models, *settings.run.mesh_formats) {
+        builder_(settings.run.surface_hooks, settings.run.models, mesh_formats_of(settings.run, &file_)) {
     check();
     journal_ = detail::fit_journal(settings_, file_, fit_, inputs_);
   }

@@ -1,4 +1,3 @@
-#include "scintray/simulation/rerun_readout.hpp"
 
 #include <map>
 
@@ -111,7 +110,7 @@ class PointElectronics {
 
 void rerun_readout(const std::filesystem::path& path, const tally::RunResult& run,
                    const detector::ReadoutSpec& readout, const std::filesystem::path& output,
-                   SimulationOptions options, const scene_file::TallyVariables& variables) {
+                   SimulationOptions options, const scene_file::Extensions& extensions) {
   const results::ResultsStatus status = results::read_results_status(path);
   if (status.listed_events == 0)
     throw not_to_read_out(path, "this result has no events to read out",
@@ -127,7 +126,7 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
   if (std::filesystem::equivalent(path, output, ignored))
     throw not_to_read_out(output, "the new result would replace its own source", "name another file");
   const scene_file::SceneFile file =
-      scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file, variables);
+      scene_file::SceneFile::from_text(run.header.scene_text, run.header.scene_file, extensions);
   tally::RunHeader header = run.header;
   header.note += (header.note.empty() ? "" : "\n") + std::string("electronics applied again by ") +
                  readout.where.file + " from the photons of " + path.filename().string();

@@ -64,13 +64,13 @@ void seal_what_there_is(const SimulationHooks& hooks) {
 Simulation::Simulation(scene_file::SceneFile file, SimulationOptions options)
     : file_(std::move(file)),
       options_(std::move(options)),
-      builder_(options_.surface_hooks, options_.models, *options_.mesh_formats),
+      builder_(options_.surface_hooks, options_.models, mesh_formats_of(options_, &*file_)),
       kept_(file_->points()) {}
 
 Simulation::Simulation(scene_file::SceneSpec scene, SimulationOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
-      builder_(options_.surface_hooks, options_.models, *options_.mesh_formats),
+      builder_(options_.surface_hooks, options_.models, mesh_formats_of(options_, nullptr)),
       kept_(1) {}
 
 std::size_t Simulation::points() const { return kept_.size(); }

@@ -13,6 +13,12 @@ RunSettings run_settings(const scene_file::RunSpec& run, std::uint32_t point) {
   return settings;
 }
 
+const mesh::MeshFormats& mesh_formats_of(const SimulationOptions& options,
+                                         const scene_file::SceneFile* file) {
+  if (options.mesh_formats) return *options.mesh_formats;
+  return file ? file->extensions().mesh_formats : mesh::MeshFormats::built_in();
+}
+
 scene_file::SceneSpec with_options(scene_file::SceneSpec spec, const SimulationOptions& options) {
   if (options.threads) spec.run.threads = options.threads;
   if (options.seed) spec.run.seed = *options.seed;

@@ -1,4 +1,4 @@
-#include "scintray/tables/bsdf_read.hpp"
+#include "scintray/tables/bsdf_text.hpp"
 
 #include <fmt/format.h>
 

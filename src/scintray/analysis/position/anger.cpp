@@ -1,4 +1,4 @@
-#include "scintray/analysis/position/anger.hpp"
+#include "scintray/analysis/position/channel_layout.hpp"
 
 #include <algorithm>
 #include <cmath>

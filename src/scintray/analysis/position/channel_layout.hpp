@@ -1,5 +1,6 @@
 #pragma once
-/// Arrangement of readout channels: in one plane, or at two ends.
+/// Readout channels: their arrangement, in one plane or at two ends, and the position of an event from their
+/// light.
 
 #include <array>
 #include <cstddef>
@@ -36,5 +37,20 @@ struct ChannelLayout {
 /// depth is along the axis of the world in which the channels' positions differ least.
 std::optional<ChannelLayout> layout_of(std::span<const core::Vec3> channels_mm,
                                        const std::optional<DepthAxis>& axis);
+
+struct AngerOptions {
+  /// Exponent of the light in the weights: above 1, near channels count more.
+  double power = 1.0;
+  /// Channels below this share of the event's brightest one are left out, 0 to below 1: reduces the bias to
+  /// the middle by light that is everywhere.
+  double threshold = 0.0;
+};
+
+/// Mean of the channels' positions weighted by their light (H. O. Anger 1958, Rev. Sci. Instrum. 29, 27,
+/// eq. 1, with weights as in the options). Empty when no channel has light.
+/// @throws std::invalid_argument when the sizes differ or an option is out of its range
+std::optional<std::array<double, 2>> anger_position(std::span<const double> light,
+                                                    std::span<const std::array<double, 2>> channels_mm,
+                                                    const AngerOptions& options = {});
 
 }  // namespace scintray::analysis

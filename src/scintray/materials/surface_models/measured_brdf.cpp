@@ -9,7 +9,7 @@
 #include "scintray/materials/measured_brdf.hpp"
 #include "scintray/materials/surface_models.hpp"
 #include "scintray/materials/table_key.hpp"
-#include "scintray/tables/bsdf_read.hpp"
+#include "scintray/tables/bsdf_text.hpp"
 
 namespace scintray::materials {
 

@@ -155,10 +155,10 @@ class MirrorScatterSurface : public optics::OpaqueFace {
     optics::reflect(ray, normal);
     if (u >= scattered(waves_nm, at.wavelength_nm)) return true;
     const double r = law_->distance(at.rng.uniform(), waves_nm);
-    const Eigen::Vector2d on_circle = core::sample_circle(at.rng);
+    const core::CirclePoint<double> on_circle = core::sample_circle(at.rng);
     const core::Frame frame = core::Frame::about(normal);
-    const double x = ray.direction.dot(frame.x) + r * on_circle.x(),
-                 y = ray.direction.dot(frame.y) + r * on_circle.y();
+    const double x = ray.direction.dot(frame.x) + r * on_circle.x,
+                 y = ray.direction.dot(frame.y) + r * on_circle.y;
     const double cos2 = 1.0 - x * x - y * y;
     if (cos2 <= optics::kLeastOpaqueCosine * optics::kLeastOpaqueCosine) return true;
     const double cosine = std::sqrt(cos2);

@@ -56,24 +56,58 @@ bool intersect(const std::vector<Point>& p, Corners a, Corners b) {
   return false;
 }
 
+/// The exact test of pairs of triangles whose boxes overlap.
+class CrossingTest {
+ public:
+  /// The mesh must outlive this object.
+  explicit CrossingTest(const TriMesh& mesh) : mesh_(mesh), points_(points_of(mesh)), planes_(mesh) {}
+
+  /// Adds the box of a triangle, unless it has no area.
+  void add_box(std::uint32_t t, std::vector<Box>& boxes) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    if (CGAL::collinear(points_[a], points_[b], points_[c])) return;
+    boxes.emplace_back(points_[a].bbox() + points_[b].bbox() + points_[c].bbox(), t);
+  }
+
+  bool cross(std::uint32_t a, std::uint32_t b) const {
+    return !planes_.clearly_apart(a, b) && intersect(points_, mesh_.triangles[a], mesh_.triangles[b]);
+  }
+
+ private:
+  const TriMesh& mesh_;
+  std::vector<Point> points_;
+  TrianglePlanes planes_;
+};
+
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const TriMesh& mesh) {
-  const auto points = points_of(mesh);
-  const TrianglePlanes triangles(mesh);
+  const CrossingTest test(mesh);
   std::vector<Box> boxes;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (CGAL::collinear(points[a], points[b], points[c])) continue;
-    boxes.emplace_back(points[a].bbox() + points[b].bbox() + points[c].bbox(), static_cast<std::uint32_t>(t));
-  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) test.add_box(t, boxes);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if (triangles.clearly_apart(a.info(), b.info())) return;
-    if (intersect(points, mesh.triangles[a.info()], mesh.triangles[b.info()])) {
-      pairs.emplace_back(std::minmax(a.info(), b.info()));
-    }
+    if (test.cross(a.info(), b.info())) pairs.emplace_back(std::minmax(a.info(), b.info()));
   });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_with(const TriMesh& mesh,
+                                                                    const std::vector<std::uint32_t>& listed,
+                                                                    const std::vector<char>& alive) {
+  const CrossingTest test(mesh);
+  std::vector<Box> of_listed, others;
+  std::vector<char> is_listed(mesh.triangles.size(), 0);
+  for (const std::uint32_t t : listed) is_listed[t] = 1;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    if (alive[t] != 0) test.add_box(t, is_listed[t] != 0 ? of_listed : others);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  const auto compare = [&](const Box& a, const Box& b) {
+    if (test.cross(a.info(), b.info())) pairs.emplace_back(std::minmax(a.info(), b.info()));
+  };
+  CGAL::box_self_intersection_d(of_listed.begin(), of_listed.end(), compare);
+  CGAL::box_intersection_d(of_listed.begin(), of_listed.end(), others.begin(), others.end(), compare);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -14,6 +14,11 @@ namespace scintray::mesh {
 /// without area, and pairs with the same three vertices, are left out: they are counted elsewhere.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(const TriMesh& mesh);
 
+/// The pairs of which one triangle at least is listed. Triangles whose entry in `alive` is 0 are left out.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_with(const TriMesh& mesh,
+                                                                    const std::vector<std::uint32_t>& listed,
+                                                                    const std::vector<char>& alive);
+
 /// Mask of triangles to reverse so that normals point out of the solid, nested shells alternating.
 /// The mesh must be closed, consistently oriented and free of self-intersections.
 std::vector<char> reversed_to_bound_a_volume(const TriMesh& mesh);

@@ -1,8 +1,10 @@
 #pragma once
-/// Reading meshes from files.
+/// Reading meshes from files, once or body by body.
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,5 +73,28 @@ bool is_step(const std::string& extension);
 /// True for an extension (with the dot, lower case) whose files or format state the unit of length. False for
 /// an extension that is not built in.
 bool states_its_unit(const std::string& extension);
+
+struct RawMesh;
+
+/// Imports mesh files, and reads each only once where further imports of it are announced: an assembly of
+/// hundreds of bodies, each a part of its own, is one file.
+class MeshFiles {
+ public:
+  MeshFiles();
+  ~MeshFiles();
+  MeshFiles(const MeshFiles&) = delete;
+  MeshFiles& operator=(const MeshFiles&) = delete;
+
+  /// One more import of this file is to come. Its content is kept until as many have been made.
+  void announce(const std::filesystem::path& path);
+
+  /// As import_mesh(path, options).
+  MeshImport import(const std::filesystem::path& path, const ImportOptions& options);
+
+ private:
+  struct Content;
+  std::map<std::filesystem::path, std::size_t> announced_;
+  std::map<std::filesystem::path, std::vector<Content>> contents_;
+};
 
 }  // namespace scintray::mesh

@@ -1,4 +1,4 @@
-#include "scintray/mesh/import/mesh_files.hpp"
+#include "scintray/mesh/import/import.hpp"
 
 #include <algorithm>
 

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "scintray/core/activity.hpp"
 #include "scintray/mesh/boolean.hpp"
@@ -26,6 +28,8 @@ void append(TriMesh& mesh, const TriMesh& other) {
 }
 
 class Repairer {
+  using Crossings = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
  public:
   Repairer(TriMesh mesh, const RepairSettings& settings) : settings_(settings) {
     result_.mesh = std::move(mesh);
@@ -126,12 +130,12 @@ class Repairer {
   /// Bodies of one mesh, and the pairs that cross or touch.
   struct Bodies {
     std::vector<TriMesh> body;
-    std::vector<Defects> tangled;  ///< pairs of triangles of one body that cross
+    std::vector<Crossings> tangled;  ///< pairs of triangles of one body that cross, by their numbers in it
     std::map<std::pair<std::uint32_t, std::uint32_t>, core::Vec3>
         first_contact;  ///< where each pair of bodies first does
   };
 
-  Bodies take_apart(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossings) {
+  Bodies take_apart(const Crossings& crossings) {
     Bodies bodies;
     std::size_t count = 0;
     const auto label = connected_bodies(mesh(), count);
@@ -144,7 +148,11 @@ class Repairer {
     // are.
     constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::vector<std::uint32_t>> triangles_of(count);
-    for (std::uint32_t t = 0; t < label.size(); ++t) triangles_of[label[t]].push_back(t);
+    std::vector<std::uint32_t> number(label.size());  // within its body
+    for (std::uint32_t t = 0; t < label.size(); ++t) {
+      number[t] = static_cast<std::uint32_t>(triangles_of[label[t]].size());
+      triangles_of[label[t]].push_back(t);
+    }
     std::vector<std::uint32_t> own(mesh().vertices.size(), kNone), touched;
     for (std::uint32_t b = 0; b < count; ++b) {
       TriMesh& body = bodies.body[b];
@@ -169,11 +177,10 @@ class Repairer {
     }
     bodies.tangled.resize(count);
     for (const auto& [s, t] : crossings) {
-      const core::Vec3 place = centre_of(mesh(), s);
       if (label[s] == label[t])
-        bodies.tangled[label[s]].add(place);
+        bodies.tangled[label[s]].emplace_back(number[s], number[t]);
       else
-        bodies.first_contact.try_emplace(std::minmax(label[s], label[t]), place);
+        bodies.first_contact.try_emplace(std::minmax(label[s], label[t]), centre_of(mesh(), s));
     }
     return bodies;
   }
@@ -213,26 +220,51 @@ class Repairer {
   }
 
   void untangle(Bodies& bodies) {
-    Defects replaced;
+    Defects replaced, left_out;
     std::size_t refused = 0;
+    double farthest_mm = 0.0;
     for (std::size_t b = 0; b < bodies.body.size(); ++b) {
-      const Defects& tangled = bodies.tangled[b];
-      if (tangled.count == 0) continue;
-      // Crossings beyond this are no local defect, and CGAL takes minutes to find that it cannot mend them.
-      constexpr std::size_t kMostTangled = 2000;
-      const bool local = tangled.count <= kMostTangled && edge_defects(bodies.body[b]).closed();
-      auto better = local ? untangled(bodies.body[b]) : std::nullopt;
-      if (!better || !diagnose(*better).sound()) {
+      if (bodies.tangled[b].empty()) continue;
+      const auto better = crossing_free(bodies.body[b], bodies.tangled[b]);
+      if (!better) {
         ++refused;
         continue;
       }
-      bodies.body[b] = std::move(*better);
-      for (std::size_t i = 0; i < tangled.count; ++i)
-        replaced.add(tangled.examples[std::min(i, tangled.examples.size() - 1)]);
+      for (const auto& pair : bodies.tangled[b]) replaced.add(centre_of(bodies.body[b], pair.first));
+      for (std::size_t i = 0; i < better->left_out.count; ++i)
+        left_out.add(better->left_out.examples[std::min(i, better->left_out.examples.size() - 1)]);
+      farthest_mm = std::max(farthest_mm, better->farthest_mm);
+      bodies.body[b] = better->mesh;
     }
     note("pairs of crossing triangles replaced, with some around them", replaced);
-    refuse(refused, "body crosses itself in a way that CGAL cannot mend",
-           "bodies cross themselves in a way that CGAL cannot mend");
+    std::ostringstream where;
+    where << "vertices left out where triangles crossed, at most " << farthest_mm
+          << " mm from what is there now";
+    note(where.str(), left_out);
+    refuse(refused, "body crosses itself in a way that cannot be mended",
+           "bodies cross themselves in a way that cannot be mended");
+  }
+
+  /// A closed body without its crossings; nothing when that does not succeed.
+  static std::optional<CrossFree> crossing_free(const TriMesh& body, const Crossings& crossings) {
+    if (!edge_defects(body).closed()) return std::nullopt;
+    CrossFree better = without_crossings(body, crossings);
+    if (better.remaining == 0) {
+      const MeshDiagnosis edges = edge_defects(better.mesh);
+      if (edges.closed() && edges.flipped_edges.count == 0 && better.mesh.volume() > 0.0) return better;
+    }
+    // Crossings beyond this are no local defect, and CGAL takes minutes to find that it cannot mend them; its
+    // time grows faster than the square of a vertex's number of edges.
+    constexpr std::size_t kMostCrossings = 2000, kMostEdges = 500;
+    std::vector<std::size_t> edges(body.vertices.size());
+    for (const auto& triangle : body.triangles)
+      for (const std::uint32_t v : triangle) ++edges[v];
+    if (crossings.size() > kMostCrossings || *std::max_element(edges.begin(), edges.end()) > kMostEdges)
+      return std::nullopt;
+    core::report_activity("repairing: cutting out triangles that cross, by CGAL");
+    const auto other = untangled(body);
+    if (!other || !diagnose(*other).sound()) return std::nullopt;
+    return CrossFree{*other, {}, 0.0, 0, 0};
   }
 
   void unite(Bodies& bodies) {

@@ -1,4 +1,4 @@
-#include "scintray/report/pages/html_report.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #pragma once
-/// The self-contained HTML pages beside that of a run: goniometer, surfaces, height maps, fits.
+/// The self-contained HTML pages, which load nothing from elsewhere: runs, comparisons, goniometer, surfaces,
+/// height maps, fits.
 
 #include <filesystem>
 #include <optional>
@@ -11,9 +12,22 @@
 #include "scintray/analysis/goniometer/measured_profile.hpp"
 #include "scintray/analysis/goniometer/sample_surface.hpp"
 #include "scintray/materials/database.hpp"
+#include "scintray/report/run_analysis.hpp"
+#include "scintray/report/view/view_page.hpp"
+#include "scintray/tally/result.hpp"
 #include "scintray/topography/height_map.hpp"
 
 namespace scintray::report {
+
+/// The page: the answer first, then events, fates, sensors, angles, paths, the scene in three dimensions,
+/// conditions and the scene file.
+std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses = {},
+                        const RunView& view = {});
+
+/// Writes the page under a temporary name and renames it, so that a partly written page is never found.
+/// Throws SystemError with path and reason.
+void write_report(const std::filesystem::path& path, const tally::RunResult& run,
+                  const RunAnalysis& analyses = {}, const RunView& view = {});
 
 /// A measurement shown with the reflected light of the only reading.
 struct Overlay {
@@ -64,5 +78,35 @@ void write_map_page(const std::filesystem::path& path, const std::string& title,
 
 /// Page of a fit: measured points, the curves of the start and of the result, residuals, parameters.
 std::string fit_page(const analysis::FitRecord& record);
+
+/// A result with the name under which it is shown.
+struct NamedResult {
+  std::string name;
+  tally::RunResult run;
+  RunAnalysis analyses;
+};
+
+/// A quantity of a point in several results.
+struct ComparedNumber {
+  std::string point;                                  ///< label of the point: its swept values
+  std::string quantity;                               ///< "detected", "energy resolution (FWHM)", ...
+  std::vector<std::optional<core::Estimate>> values;  ///< in the order of the results; nothing: it has none
+  /// Difference from the first result over the standard error of the difference, for each result; nothing for
+  /// the first, for one without the quantity, and where both errors are zero.
+  std::vector<std::optional<double>> sigmas;
+};
+
+/// Quantities of all points that the first result has, in its order: shares of the photons by fate, light and
+/// photons detected per event, photopeak, resolution, depth of interaction and coincidence time resolution.
+/// Points are matched by their swept values; a single point by itself. A quantity that no two results have is
+/// left out. @throws std::invalid_argument without results
+std::vector<ComparedNumber> compare_results(const std::vector<NamedResult>& results);
+
+/// The comparison for a terminal: a table, the largest difference, and how often a difference is so large by
+/// chance.
+std::string comparison_text(const std::vector<NamedResult>& results);
+
+/// The comparison as a self-contained page.
+std::string comparison_page(const std::vector<NamedResult>& results);
 
 }  // namespace scintray::report

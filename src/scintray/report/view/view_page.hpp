@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scintray/mesh/trimesh.hpp"
+#include "scintray/scene_file/tally.hpp"
 #include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/result.hpp"
 
@@ -43,7 +44,7 @@ struct ViewGrid {
   std::vector<double> values;  ///< per bin, the second axis fastest
 };
 
-/// What a run counted on faces (view_tallies.hpp).
+/// What a run counted on faces, as a view paints it there.
 struct ViewTally {
   std::string name, unit;
   /// Per face, over the parts in their order; not a number for a face without a value. Empty with a grid.
@@ -81,5 +82,18 @@ std::string view_section(const RunView& view, const tally::RunResult& run);
 std::string_view view_style();
 /// Scripts that a page with a view needs after it, in their order; empty without three.js.
 std::vector<std::string_view> view_scripts();
+
+/// Largest number of bins along each direction of a grid on faces; finer grids are joined by twos, threes,
+/// ...
+inline constexpr std::size_t kMostViewBins = 256;
+
+/// What a point counted on faces, per emitted photon: detected and not detected light at each sensor face;
+/// tallies over an axis of faces, one for each step event with any count; tallies over two axes of position
+/// that are bound to faces. Other axes are summed over. Tallies of exit angles and grids over angles are left
+/// out.
+/// @param specs  the tallies of the scene file, whose names are those of the results
+std::vector<ViewTally> view_tallies(const tally::RunHeader& header, const tally::PointResult& point,
+                                    const std::vector<scene_file::TallySpec>& specs,
+                                    const std::vector<ViewPart>& parts);
 
 }  // namespace scintray::report

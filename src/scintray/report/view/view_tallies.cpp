@@ -1,4 +1,4 @@
-#include "scintray/report/view/view_tallies.hpp"
+#include "scintray/report/view/view_page.hpp"
 
 #include <algorithm>
 #include <cmath>

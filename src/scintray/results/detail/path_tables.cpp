@@ -1,4 +1,4 @@
-#include "scintray/results/detail/path_tables.hpp"
+#include "scintray/results/detail/point_records.hpp"
 
 #include <algorithm>
 #include <cmath>

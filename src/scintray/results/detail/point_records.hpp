@@ -1,10 +1,14 @@
 #pragma once
-/// Records of a point that some results files have.
+/// What some results files have: records of a point; the tables of photon paths, /paths, /path_steps and
+/// /step_texts.
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "scintray/core/h5.hpp"
+#include "scintray/results/detail/row_table.hpp"
+#include "scintray/tally/photon_path.hpp"
 #include "scintray/tally/result.hpp"
 
 namespace scintray::results::format {
@@ -19,5 +23,22 @@ tally::EventFates get_event_fates(const core::h5::Group& point);
 /// files without them. @throws std::invalid_argument when their number is another
 std::vector<tally::EventShare> get_event_shares(const core::h5::Group& point, const std::string& name,
                                                 std::size_t size);
+
+/// Writer of photon paths.
+class PathTables {
+ public:
+  /// Creates the groups.
+  explicit PathTables(core::h5::Group& root);
+  void add(std::size_t point, const std::vector<tally::PhotonPath>& paths);
+  /// Writes what waits, and the texts of all steps.
+  void finish();
+
+ private:
+  core::h5::Group root_;
+  RowWriter<PathRow> paths_;
+  RowWriter<PathStepRow> steps_;
+  std::map<std::string, std::uint32_t> numbers_;  ///< of texts, by first appearance
+  std::vector<std::string> texts_;
+};
 
 }  // namespace scintray::results::format

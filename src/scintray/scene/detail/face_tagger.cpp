@@ -5,7 +5,7 @@
 #include <set>
 #include <span>
 
-#include "scintray/contact/touching.hpp"
+#include "scintray/contact/neighbours.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/core/text.hpp"
 #include "scintray/mesh/face_selection.hpp"

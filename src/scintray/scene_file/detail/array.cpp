@@ -25,11 +25,13 @@ std::string mm_text(double mm) {
 }
 
 /// Extent of an element after its own rotation; a unit box where that is not available.
-Eigen::AlignedBox3d element_bounds(const config::TomlTable& table, const PartSpec& element) {
+Eigen::AlignedBox3d element_bounds(const config::TomlTable& table, const PartSpec& element,
+                                   const mesh::MeshFormats& formats) {
   Eigen::AlignedBox3d bounds;
   try {
     const Eigen::Matrix3d rotation = rotation_of(element.placement);
-    for (const core::Vec3& vertex : shape_mesh(element.shape).mesh.vertices) bounds.extend(rotation * vertex);
+    for (const core::Vec3& vertex : shape_mesh(element.shape, formats).mesh.vertices)
+      bounds.extend(rotation * vertex);
   } catch (const core::InputError& error) {
     for (const core::Problem& problem : error.problems()) table.report("element", problem.what, problem.hint);
     return {core::Vec3::Zero(), core::Vec3::Ones()};
@@ -38,14 +40,14 @@ Eigen::AlignedBox3d element_bounds(const config::TomlTable& table, const PartSpe
 }
 
 /// The whole element, of the array or of a layer.
-void read_element(const config::TomlTable& owner, LayerSpec& layer) {
+void read_element(const config::TomlTable& owner, LayerSpec& layer, const mesh::MeshFormats& formats) {
   const config::TomlTable table = owner.table("element");
   const std::size_t problems = table.problem_count();
   layer.element = {};
   layer.element.where = table.where();
   layer.element.placement.rotate = read_rotations(table);
   read_body(table, layer.element);
-  if (table.problem_count() == problems) layer.element_bounds = element_bounds(owner, layer.element);
+  if (table.problem_count() == problems) layer.element_bounds = element_bounds(owner, layer.element, formats);
 }
 
 /// Pitch along x and y from "pitch" or "gap". Not required for a single element.
@@ -151,7 +153,7 @@ std::optional<GlueSpec> read_glue(const config::TomlTable& owner) {
 }
 
 /// Replaces the height of a box, cylinder, prism, cone or tube.
-void read_height(const config::TomlTable& table, LayerSpec& layer) {
+void read_height(const config::TomlTable& table, LayerSpec& layer, const mesh::MeshFormats& formats) {
   const std::optional<double> height = table.optional_quantity("height", core::Dimension::length);
   if (!height) return;
   ShapeSpec& shape = layer.element.shape;
@@ -169,20 +171,21 @@ void read_height(const config::TomlTable& table, LayerSpec& layer) {
     table.expect("height", false, "only boxes, cylinders, cones, prisms and tubes have a height to change",
                  "give this layer an element of its own");
   table.expect("height", *height > 0.0, "the height of a layer is not positive", "give a length above 0");
-  if (table.good("height")) layer.element_bounds = element_bounds(table, layer.element);
+  if (table.good("height")) layer.element_bounds = element_bounds(table, layer.element, formats);
 }
 
 /// Reads one layer: a key that its own table lacks is taken from the array's.
 class LayerReader {
  public:
   /// @param own  the layer's table; the array's where it has no [[array.layer]]
-  LayerReader(const config::TomlTable& array, const config::TomlTable& own, InlineTables& surfaces)
-      : array_(array), own_(own), surfaces_(surfaces) {}
+  LayerReader(const config::TomlTable& array, const config::TomlTable& own, InlineTables& surfaces,
+              const mesh::MeshFormats& formats)
+      : array_(array), own_(own), surfaces_(surfaces), formats_(formats) {}
 
   LayerSpec read() {
     LayerSpec layer;
     layer.where = own_.where();
-    read_element(pick({"element"}), layer);
+    read_element(pick({"element"}), layer, formats_);
     const bool one_of_several = own_.node() != array_.node();
     if (one_of_several) read_changes(layer);
     layer.count = read_count(pick({"count"}), "count");
@@ -208,7 +211,7 @@ class LayerReader {
   }
 
   void read_changes(LayerSpec& layer) const {
-    read_height(own_, layer);
+    read_height(own_, layer, formats_);
     if (own_.has("medium")) layer.element.medium = read_name(own_, "medium", true);
     if (own_.has("surface")) layer.element.surface = read_name(own_, "surface", true);
   }
@@ -216,6 +219,7 @@ class LayerReader {
   const config::TomlTable& array_;
   const config::TomlTable& own_;
   InlineTables& surfaces_;
+  const mesh::MeshFormats& formats_;
 };
 
 std::vector<int> read_indices(const config::TomlTable& table, const std::string& key) {
@@ -291,7 +295,7 @@ std::size_t element_count(const std::vector<LayerSpec>& layers) {
 }  // namespace
 
 ArraySpec read_array(const config::TomlTable& table, const std::vector<std::string>& earlier,
-                     InlineTables& surfaces) {
+                     InlineTables& surfaces, const mesh::MeshFormats& formats) {
   ArraySpec array;
   array.where = table.where();
   array.name = read_name(table, "name", true);
@@ -300,8 +304,8 @@ ArraySpec read_array(const config::TomlTable& table, const std::vector<std::stri
   const std::vector<config::TomlTable> layers = table.tables("layer");
   array.layered = !layers.empty();
   for (const config::TomlTable& own : layers)
-    array.layers.push_back(LayerReader(table, own, surfaces).read());
-  if (!array.layered) array.layers.push_back(LayerReader(table, table, surfaces).read());
+    array.layers.push_back(LayerReader(table, own, surfaces, formats).read());
+  if (!array.layered) array.layers.push_back(LayerReader(table, table, surfaces, formats).read());
   if (element_count(array.layers) > kMostParts) {
     table.report("layer", "more than " + std::to_string(kMostParts) + " elements", "give fewer");
     array.layers.resize(1);

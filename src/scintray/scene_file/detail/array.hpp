@@ -76,9 +76,9 @@ struct ArraySpec {
 };
 
 /// One [[array]]. `earlier` are the names that it may touch; `surfaces` receives the surfaces of sheets that
-/// are defined by their reflector.
+/// are defined by their reflector; `formats` are those of elements from mesh files, whose size is needed.
 ArraySpec read_array(const config::TomlTable& table, const std::vector<std::string>& earlier,
-                     InlineTables& surfaces);
+                     InlineTables& surfaces, const mesh::MeshFormats& formats);
 
 /// Elements "NAME[i,j]" (column i along x, row j along y, from 0; "NAME[k,i,j]" in layers), sheets
 /// "NAME_septum_x[..]", "NAME_septum_y[..]", "NAME_wrap[-x]"..., glue "NAME_glue[k]" above layer k, and

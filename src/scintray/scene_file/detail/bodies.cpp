@@ -36,11 +36,13 @@ bool has_fill(const PlacementSpec& placement) { return placement.touch && !place
 /// Reader of all bodies; every name is unique.
 class BodyReader {
  public:
+  explicit BodyReader(const mesh::MeshFormats& formats) : formats_(formats) {}
+
   void read(const BodyTable& body) {
     if (body.kind == BodyKind::part) return add_part(body.table);
     const std::size_t problems = body.table.problem_count();
     if (body.kind == BodyKind::array) {
-      const ArraySpec array = read_array(body.table, touchable_, bodies_.surfaces);
+      const ArraySpec array = read_array(body.table, touchable_, bodies_.surfaces, formats_);
       add_group(body.table, array.name, array.placement, expand(array));
     } else {
       const LightGuideSpec guide = read_light_guide(body.table, touchable_, bodies_.surfaces);
@@ -91,12 +93,13 @@ class BodyReader {
   Bodies bodies_;
   std::set<std::string> names_;
   std::vector<std::string> touchable_;  ///< names of parts and builders so far
+  const mesh::MeshFormats& formats_;
 };
 
 }  // namespace
 
-Bodies read_bodies(const config::TomlTable& scene) {
-  BodyReader reader;
+Bodies read_bodies(const config::TomlTable& scene, const mesh::MeshFormats& formats) {
+  BodyReader reader(formats);
   const std::vector<BodyTable> tables = body_tables(scene);
   for (const BodyTable& table : tables) reader.read(table);
   if (tables.empty())

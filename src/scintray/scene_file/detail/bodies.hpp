@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/mesh/import/mesh_format.hpp"
 #include "scintray/scene_file/contact.hpp"
 #include "scintray/scene_file/part.hpp"
 
@@ -19,7 +20,9 @@ struct Bodies {
 };
 
 /// Reads all bodies and checks their names against each other.
-Bodies read_bodies(const config::TomlTable& scene);
+/// @param formats  of mesh files
+Bodies read_bodies(const config::TomlTable& scene,
+                   const mesh::MeshFormats& formats = mesh::MeshFormats::built_in());
 
 /// Names of all parts, those that fill gaps of placements included, in file order.
 std::vector<std::string> part_names(const std::vector<PartSpec>& parts, const std::vector<GroupSpec>& groups);

@@ -1,7 +1,5 @@
 #include "scintray/transport/detail/surface_lanes.hpp"
 
-#include <bit>
-
 #include "scintray/scene/lane_surface_at.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
@@ -17,15 +15,6 @@ void put(const core::PlainVec3& from, Numbers& to, std::size_t slot) {
 core::PlainVec3 vec(const Numbers& from, std::size_t slot) {
   return {from[0][slot], from[1][slot], from[2][slot]};
 }
-
-/// State of a random stream.
-struct StreamState {
-  std::array<std::uint64_t, 4> counter;
-  std::array<std::uint64_t, 2> key;
-  std::array<std::uint64_t, 4> buffer;
-  int used;
-};
-static_assert(sizeof(StreamState) == sizeof(core::Rng));
 
 /// A region without planes, for lanes that have no photon.
 LaneRegion empty_region() {
@@ -126,7 +115,7 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
 
 /// Puts the photon's random stream into the pool.
 void SurfaceLanes::give_numbers(std::size_t slot, const core::Rng& rng) {
-  const auto stream = std::bit_cast<StreamState>(rng);
+  const core::Rng::State stream = rng.state();
   pool_.drawn[slot] = 4 * stream.counter[0] + static_cast<std::uint64_t>(stream.used) - 4;
   for (std::size_t i = 0; i < 4; ++i) pool_.counter[i][slot] = stream.counter[i];
   for (std::size_t i = 0; i < 2; ++i) pool_.key[i][slot] = stream.key[i];
@@ -140,13 +129,13 @@ void SurfaceLanes::give_numbers(std::size_t slot, const core::Rng& rng) {
 
 /// Sets the photon's random stream to where the pool has drawn up to.
 void SurfaceLanes::take_numbers(std::size_t slot, core::Rng& rng) const {
-  auto stream = std::bit_cast<StreamState>(rng);
+  core::Rng::State stream = rng.state();
   const std::uint64_t drawn = pool_.drawn[slot], in_block = drawn % 4;
   stream.counter[0] = (drawn + 3) / 4;
   stream.used = static_cast<int>(in_block == 0 ? 4 : in_block);
   const std::size_t first = (drawn - in_block) % LanePool::kNumbers;
   for (std::size_t i = 0; i < 4; ++i) stream.buffer[i] = pool_.numbers[slot][first + i];
-  rng = std::bit_cast<core::Rng>(stream);
+  rng.go_on_from(stream);
 }
 
 }  // namespace scintray::transport

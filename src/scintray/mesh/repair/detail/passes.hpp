@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scintray/mesh/diagnosis.hpp"
@@ -46,10 +48,36 @@ struct HoleFilling {
 /// when CGAL finds none.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangulate_hole(const std::vector<core::Vec3>& loop);
 
-/// The mesh with the triangles that cross each other, and some around them, replaced: smoothed, or cut
-/// out and the hole filled (CGAL's remove_self_intersections, which works where defects are local).
-/// New triangles take the group of the first triangle. Empty when the mesh is not a closed, consistently
-/// oriented surface or CGAL does not succeed.
+/// Triangles (indices into `outline`) over a closed outline, along it, of the least area together; long ones
+/// count a little more, which decides in flat holes. By trying all, in the cube of the number of corners: for
+/// a few dozen. Empty when there are none.
+/// @param least_height_mm  a triangle is higher than this above its longest side
+/// @param joined  true for two corners that no new edge may join
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of_least_area(
+    const std::vector<core::Vec3>& outline, double least_height_mm,
+    const std::function<bool(std::size_t, std::size_t)>& joined);
+
+struct CrossFree {
+  TriMesh mesh;
+  Defects left_out;              ///< vertices that the mesh no longer has
+  double farthest_mm = 0.0;      ///< largest distance of one of them from the triangles in its place
+  std::size_t remaining = 0;     ///< pairs of triangles that still cross
+  std::size_t covers_tried = 0;  ///< covers of holes that were made, taken or not: a measure of the work
+};
+
+/// A closed mesh without some vertices, so that no triangles cross. Those in most crossings go first, each
+/// with the triangles around it, whose outline is covered by flat triangles or, where it has many corners, by
+/// as many triangles around its middle. A new triangle takes the group of the one that had its side of the
+/// outline. Where more than a twentieth of the vertices would go, or none can, or two sheets cross along a
+/// line of thousands of triangles, crossings remain.
+/// @param crossings  as self_intersections() finds them
+[[nodiscard]] CrossFree without_crossings(TriMesh mesh,
+                                          std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings);
+
+/// The mesh with the triangles that cross each other, and some around them, cut out and the holes filled
+/// (CGAL's remove_self_intersections, which works where defects are local, without its smoothing: the time of
+/// that grows with the fourth power of a vertex's number of edges). New triangles take the group of the first
+/// triangle. Empty when the mesh is not a closed, consistently oriented surface or CGAL does not succeed.
 [[nodiscard]] std::optional<TriMesh> untangled(const TriMesh& mesh);
 
 }  // namespace scintray::mesh

@@ -1,5 +1,7 @@
 #include "scintray/mesh/repair/detail/passes.hpp"
 
+// Its smoothing computes normals of vertices, at a cost of the fourth power of their number of edges.
+#define CGAL_PMP_REMOVE_SELF_INTERSECTIONS_NO_SMOOTHING
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>

@@ -1,4 +1,4 @@
-#include "scintray/report/comparison.hpp"
+#include "scintray/report/pages/pages.hpp"
 
 #include <fmt/format.h>
 
