@@ -137,6 +137,17 @@ TEST_CASE("a quantity without a space is that with a space") {
   CHECK((box.high - box.low - core::Vec3(3.0, 3.0, 20.0)).norm() < 1e-12);
 }
 
+TEST_CASE("a key that is needed is written out as it has to be, quotes and unit included") {
+  const Answer answer = answer_to(
+      "ambient = \"air\"\n[[part]]\nname = \"crystal\"\nsurface = \"polished\"\n"
+      "cylinder = { radius = \"2 mm\" }\n",
+      "few.toml");
+  std::string text;
+  for (const core::Problem& problem : answer.problems) text += problem.text() + "\n";
+  check_contains(text, {"height = \"...\"", "length", "\"2 mm\""});
+  check_contains(text, {"medium = \"...\""});
+}
+
 TEST_CASE("no answer speaks the language of a parser") {
   for (const auto& entry : std::filesystem::directory_iterator(source_file("tests/bad_input/mistakes"))) {
     const Answer answer = answer_to(read_mistake(entry.path()).text, entry.path().filename().string());

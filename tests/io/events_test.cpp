@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/analysis.hpp"
@@ -167,6 +168,19 @@ TEST_CASE("A result without events has no analysis, and reading its events is re
   CHECK(analyze_results(path, run, AnalysisSpec()).empty());
   CHECK(read_channels(path, 0).empty());
   check_contains(complaint_of([&] { read_events(path, 0, 1); }), "no events");
+}
+
+TEST_CASE("The analysis of a file reports how far it is") {
+  const auto path = written("progress", true);
+  const RunResult run = read_results(path);
+  std::vector<Activity> seen;
+  const ActivityObserver observer([&](const Activity& activity) { seen.push_back(activity); });
+  analyze_results(path, run, AnalysisSpec());
+  REQUIRE(!seen.empty());
+  CHECK(seen.front().what == "analysing the events");
+  CHECK(seen.front().done == 0);
+  CHECK(seen.front().total == kPoints * kEvents);
+  CHECK(seen.back().done == kPoints * kEvents);
 }
 
 TEST_CASE("The analysis of a file uses the events of each point and the requested settings") {

@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/optics/facets.hpp"
 #include "scintray/results/results.hpp"
@@ -65,7 +67,14 @@ std::string refusal(const Made& of, const std::filesystem::path& output) {
 TEST_CASE("The electronics of the run reproduce its own signals, others make theirs") {
   const Made traced = made("same", kElectronics + "[run]\nphoton_list = true\n");
   const auto again = traced.path.parent_path() / "again.h5";
-  rerun_readout(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
+  std::vector<Activity> seen;
+  {
+    const ActivityObserver observer([&](const Activity& activity) { seen.push_back(activity); });
+    rerun_readout(traced.path, traced.run, readout_of_text(kElectronics, "same.toml"), again);
+  }
+  CHECK(std::any_of(seen.begin(), seen.end(), [](const Activity& activity) {
+    return activity.what == "applying the electronics" && activity.total > 0;
+  }));
   const auto before = read_events(traced.path, 0, 100), after = read_events(again, 0, 100);
   REQUIRE(after.size() == before.size());
   REQUIRE(before.size() == 5);

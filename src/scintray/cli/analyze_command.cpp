@@ -34,7 +34,10 @@ std::filesystem::path result_to_analyze(const AnalyzeOptions& options) {
   if (options.readout.empty()) return options.results;
   const detector::ReadoutSpec readout =
       scene_file::readout_of_text(config::read_text_file(options.readout), options.readout.string());
-  simulation::rerun_readout(options.results, results::read_results(options.results), readout, options.output);
+  with_progress("applying the electronics", [&] {
+    simulation::rerun_readout(options.results, results::read_results(options.results), readout,
+                              options.output);
+  });
   return options.output;
 }
 
@@ -67,9 +70,11 @@ void analyze(const AnalyzeOptions& options) {
   });
   if (!options.output.empty()) std::cout << "results  " << options.output.string() << "\n";
   if (options.page.empty()) return;
-  core::write_whole_file(options.page,
-                         report::event_page(run.header.title, results.string(), points, run.header.parts),
-                         "the page");
+  with_progress("writing the page", [&] {
+    core::write_whole_file(options.page,
+                           report::event_page(run.header.title, results.string(), points, run.header.parts),
+                           "the page");
+  });
   std::cout << "page     " << options.page.string() << "\n";
 }
 

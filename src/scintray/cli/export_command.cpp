@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/exchange/scene_draft.hpp"
@@ -20,7 +21,9 @@ struct ExportArguments {
 };
 
 void export_table(const ExportArguments& arguments) {
-  const std::uint64_t rows = results::export_rows(arguments.scene, arguments.table, arguments.output);
+  const std::uint64_t rows = with_progress("writing " + arguments.output.string(), [&] {
+    return results::export_rows(arguments.scene, arguments.table, arguments.output);
+  });
   std::cout << "wrote " << rows << " rows of " << arguments.table << " to " << arguments.output.string()
             << "\n";
 }
@@ -31,7 +34,7 @@ void export_scene(const ExportArguments& arguments) {
                                          "scenes are exported as GDML",
                                          "name a file that ends in .gdml, as: -o detector.gdml"});
   simulation::Simulation simulation(scene_file::SceneFile::load(arguments.scene));
-  const auto point = simulation.point(arguments.point);
+  const auto point = with_progress("building the scene", [&] { return simulation.point(arguments.point); });
   const exchange::gdml::GdmlExport gdml = exchange::gdml::export_gdml(*point->built());
   core::write_whole_file(arguments.output, gdml.text);
   for (const std::string& note : gdml.notes) std::cout << "not the same in Geant4: " << note << "\n";

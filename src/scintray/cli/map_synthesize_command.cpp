@@ -7,6 +7,7 @@
 #include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/map_options.hpp"
 #include "scintray/cli/map_text.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
@@ -178,8 +179,11 @@ void print_seeds(topography::SynthesisRecipe recipe, std::uint32_t seeds) {
 void synthesize_map(const SynthesisArguments& arguments) {
   const JsonAnswer answer(arguments.json);
   topography::SynthesisRecipe recipe = recipe_of(arguments);
-  if (!arguments.fit_normal.empty()) recipe = topography::fit_recipe(recipe, target_of(arguments));
-  const topography::HeightMap map = topography::synthesize(recipe);
+  if (!arguments.fit_normal.empty())
+    recipe = with_progress("fitting the recipe to the slopes",
+                           [&] { return topography::fit_recipe(recipe, target_of(arguments)); });
+  const topography::HeightMap map =
+      with_progress("making the map", [&] { return topography::synthesize(recipe); });
   print_summary(map);
   print_visible_slopes(topography::make_height_field(map));
   if (arguments.seeds > 1) print_seeds(recipe, arguments.seeds);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/progress.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -63,7 +64,7 @@ void replay_photon(const ReplayOptions& options) {
   run.seed = options.seed;
   scene_file::SceneFile scene = scene_of(options, run);
   simulation::Simulation simulation(std::move(scene), run);
-  const auto point = simulation.point(options.point);
+  const auto point = with_progress("building the scene", [&] { return simulation.point(options.point); });
 
   const source::Photon start = point->start(options.event, options.photon);
   std::cout << fmt::format("{:>6} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>10} {:>10}  event\n", "step",

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scintray/cli/progress.hpp"
 #include "scintray/cli/results_so_far.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
@@ -38,11 +39,15 @@ std::filesystem::path page_path(const ReportOptions& options) {
   return page;
 }
 
+tally::RunResult read_with_progress(const std::filesystem::path& file) {
+  return with_progress("reading " + file.string(), [&] { return results::read_results(file); });
+}
+
 void report_one(ReportOptions options) {
   const ReadableResults readable(options.files.front());
   const std::filesystem::path& results = readable.path();
   options.files.front() = readable.finished();
-  const tally::RunResult run = results::read_results(results);
+  const tally::RunResult run = read_with_progress(results);
   if (options.text) {
     std::cout << report::text_summary(run, analysis_of(results, run));
     return;
@@ -60,7 +65,7 @@ void compare(const ReportOptions& options) {
     throw CLI::ValidationError("--json", "prints one result; compare several with --text, or on a page");
   std::vector<report::NamedResult> compared;
   for (const std::filesystem::path& file : options.files) {
-    tally::RunResult run = results::read_results(file);
+    tally::RunResult run = read_with_progress(file);
     report::RunAnalysis analyses = analysis_of(file, run);
     compared.push_back({file.stem().string(), std::move(run), std::move(analyses)});
   }
@@ -70,7 +75,8 @@ void compare(const ReportOptions& options) {
   std::cout << report::comparison_text(compared);
   if (options.text) return;
   const auto page = page_path(options);
-  core::write_whole_file(page, report::comparison_page(compared), "the comparison");
+  with_progress("writing the comparison",
+                [&] { core::write_whole_file(page, report::comparison_page(compared), "the comparison"); });
   std::cout << "report   " << page.string() << "\n";
 }
 

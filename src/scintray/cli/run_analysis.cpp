@@ -51,8 +51,10 @@ report::RunAnalysis show_results(const std::filesystem::path& results, const tal
 
 void write_page(const std::filesystem::path& page, const RunFile& results,
                 const report::RunAnalysis& analyses, bool view) {
-  const SceneOfResults scene = view ? scene_of_results(results.path, results.run) : SceneOfResults();
-  report::write_report(page, results.run, analyses, scene.view);
+  with_progress("writing " + page.string(), [&] {
+    const SceneOfResults scene = view ? scene_of_results(results.path, results.run) : SceneOfResults();
+    report::write_report(page, results.run, analyses, scene.view);
+  });
   std::cout << "report   " << page.string() << "\n";
 }
 

@@ -12,6 +12,10 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
+std::string missing_text(const std::string& table, const std::string& key) {
+  return (table.empty() ? "the file" : "[" + table + "]") + " has no \"" + key + "\", which is needed";
+}
+
 }  // namespace
 
 /// State shared by the tables opened from one outermost table.
@@ -155,12 +159,35 @@ const TomlNode* TomlTable::read(const std::string& key, bool required) const {
   if (value) marks.read.insert(key);
   if (!value && required && !marks.absent) {
     marks.bad.insert(key);
-    session_->problems->add(
-        node_->where,
-        (path_.empty() ? "the file" : "[" + path_ + "]") + " has no \"" + key + "\", which is needed",
-        "add " + key + " = ... there");
+    session_->problems->add(node_->where, missing_text(path_, key), "add " + key + " = ... there");
   }
   return value;
+}
+
+// What stands in the place of a key that is needed is stated where it is known.
+
+double TomlTable::quantity(const std::string& key, core::Dimension dimension) const {
+  if (!node_->find(key) && !session_->of(node_, path_).absent) {
+    const std::string value = dimension == core::Dimension::dimensionless ? " = ..." : " = \"...\"";
+    session_->of(node_, path_).bad.insert(key);
+    session_->problems->add(node_->where, missing_text(path_, key),
+                            "add " + key + value + " there: " + expected_quantity(dimension));
+    record(key, {.form = KeyUse::Form::present, .required = true});
+  } else {
+    read(key, true);
+  }
+  return optional_quantity(key, dimension).value_or(0.0);
+}
+
+std::string TomlTable::string(const std::string& key) const {
+  if (!node_->find(key) && !session_->of(node_, path_).absent) {
+    session_->of(node_, path_).bad.insert(key);
+    session_->problems->add(node_->where, missing_text(path_, key), "add " + key + " = \"...\" there");
+    record(key, {.form = KeyUse::Form::present, .required = true});
+  } else {
+    read(key, true);
+  }
+  return optional_string(key).value_or("");
 }
 
 TomlTable TomlTable::table(const std::string& key) const {

@@ -59,12 +59,6 @@ std::optional<std::string> TomlTable::optional_string(const std::string& key) co
   return value->text;
 }
 
-std::string TomlTable::string(const std::string& key) const {
-  if (read(key, true)) return optional_string(key).value_or("");
-  record(key, {.form = KeyUse::Form::text});
-  return "";
-}
-
 std::string TomlTable::string(const std::string& key, const std::string& fallback) const {
   record(key, {.form = KeyUse::Form::text, .note = fallback});
   return optional_string(key).value_or(fallback);
@@ -158,11 +152,6 @@ std::optional<double> TomlTable::optional_quantity(const std::string& key, core:
   record(key, {.form = KeyUse::Form::quantity, .dimension = dimension});
   const TomlNode* value = read(key, false);
   return value ? quantity_of(key, *value, dimension) : std::nullopt;
-}
-
-double TomlTable::quantity(const std::string& key, core::Dimension dimension) const {
-  read(key, true);
-  return optional_quantity(key, dimension).value_or(0.0);
 }
 
 double TomlTable::quantity(const std::string& key, core::Dimension dimension, double fallback) const {

@@ -1,5 +1,6 @@
 #include "scintray/simulation/analyze_results.hpp"
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/results/results.hpp"
 
@@ -49,7 +50,8 @@ analysis::AnalysisSetup analysis_setup(const scene_file::AnalysisSpec& spec,
 std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path& path,
                                                      const tally::RunResult& run,
                                                      const scene_file::AnalysisSpec& spec) {
-  if (results::read_results_status(path).listed_events == 0) return {};
+  const std::uint64_t listed = results::read_results_status(path).listed_events;
+  if (listed == 0) return {};
   const std::vector<std::uint64_t> photon_order = results::read_photon_order(path);
   const results::EventDetail detail =
       photon_order.empty() ? results::EventDetail::numbers : results::EventDetail::photon_times;
@@ -65,6 +67,7 @@ std::vector<analysis::EventAnalysis> analyze_results(const std::filesystem::path
     analysis::EventCollector collector(std::move(setup));
     for (;;) {
       if (at == events.size()) {
+        core::report_activity("analysing the events", row, listed);
         events = results::read_events(path, row, kPortion, detail);
         row += events.size();
         at = 0;

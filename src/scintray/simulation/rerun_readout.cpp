@@ -1,6 +1,7 @@
 
 #include <map>
 
+#include "scintray/core/activity.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
@@ -151,6 +152,7 @@ void rerun_readout(const std::filesystem::path& path, const tally::RunResult& ru
     PointElectronics electronics(path, run, *built, recorded);
     for (;;) {
       if (at == events.size()) {
+        core::report_activity("applying the electronics", row, status.listed_events);
         events = results::read_events(path, row, kRows, results::EventDetail::numbers);
         row += events.size();
         at = 0;

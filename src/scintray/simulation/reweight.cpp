@@ -7,6 +7,7 @@
 
 #include "scintray/analysis/ratio.hpp"
 #include "scintray/analysis/reweight.hpp"
+#include "scintray/core/activity.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/results/results_format.hpp"
 
@@ -131,11 +132,15 @@ std::vector<ReweightedPoint> reweight_results(const std::filesystem::path& path,
   std::vector<std::map<std::uint64_t, double>> emitted = emitted_by_event(path, run.points.size());
   std::vector<ReweightedPoint> results;
   tally::PhotonHistories rows;
+  std::uint64_t all = 0;  // histories of the file
+  for (std::size_t number = 0; number < run.points.size(); ++number)
+    if (histories.traced(number)) all += run.points[number].count(core::Fate::detected);
   std::uint64_t offset = 0;  // of `rows`
   std::size_t row = 0;       // in `rows`
   const auto more = [&] {
     if (row < rows.rows()) return true;
     offset += rows.rows();
+    core::report_activity("reweighting photons", offset, all);
     rows = histories.read(offset, kRowsAtOnce);
     row = 0;
     return rows.rows() > 0;
