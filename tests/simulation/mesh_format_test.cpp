@@ -72,9 +72,8 @@ element = { mesh = ")" + element +
                            R"(", medium = "LSO", surface = "polished" }
 [[part]]
 name = "pmt"
-box = ["21 mm", "41 mm", "1 mm"]
+box = { low = ["-11 mm", "-21 mm", "-1 mm"], high = ["11 mm", "21 mm", "0 mm"] }
 sensor = "R6231"
-place = { at = ["0 mm", "0 mm", "-1 mm"] }
 [source]
 type = "photons"
 region = { part = "block[0,0]" }
@@ -92,7 +91,7 @@ photons = 100
                                  [](const scene::PartInfo& part) { return part.name == "block[1,1]"; });
   REQUIRE(last != built->scene.parts.end());
   CHECK(last->bounds.max().x() == doctest::Approx(10.05));
-  check_contains(complaint_of([&] { load({}); }), {"element.toy", "\".toy\" is not a mesh format"});
+  check_contains(complaint_of([&] { load({}); }), {"test.toml:6", "\".toy\" is not a mesh format"});
 }
 
 TEST_CASE("Without the list, a scene with a mesh of a format from outside is refused, and the file named") {
