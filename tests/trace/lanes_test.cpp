@@ -4,7 +4,7 @@
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/sampling_laws.hpp"
-#include "scintray/transport/detail/lane_kind.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/lane_width.hpp"
 
 using namespace scintray;
@@ -62,6 +62,23 @@ void check_same(const Run& a, const Run& b) {
   CHECK(same);
 }
 
+/// A square sensor behind grease, and photons from all of the crystal.
+std::string sensor_and_source(const std::string& side) {
+  return R"([[part]]
+name = "detector"
+box = [")" +
+         side + R"(", ")" + side + R"(", "1 mm"]
+place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease_roncali2013" }
+medium = "optical_grease_roncali2013"
+sensor = "ideal"
+[source]
+type = "photons"
+region = { part = "crystal" }
+wavelength = "420 nm"
+photons = 3_000
+)";
+}
+
 /// A crystal of absorbing, scattering LSO with a sensor behind grease.
 std::string crystal(const std::string& surface, const std::string& more = "") {
   return R"(
@@ -76,18 +93,8 @@ surface = ")" +
 name = "exit"
 select = { normal = [0, 0, -1] }
 surface = "polished"
-[[part]]
-name = "detector"
-box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease_roncali2013" }
-medium = "optical_grease_roncali2013"
-sensor = "ideal"
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-photons = 3_000
-)" + more;
+)" + sensor_and_source("2 mm") +
+         more;
 }
 
 /// Five rough faces, of which no two are parallel, and two that are.
@@ -99,18 +106,7 @@ name = "crystal"
 prism = { sides = 5, radius = "1.8 mm", height = "8 mm" }
 medium = "LSO_roncali2013"
 surface = "roncali2013_unified_rough"
-[[part]]
-name = "detector"
-box = ["6 mm", "6 mm", "1 mm"]
-place = { touch = "crystal", side = "-z", gap = "0.1 mm", fill = "optical_grease_roncali2013" }
-medium = "optical_grease_roncali2013"
-sensor = "ideal"
-[source]
-type = "photons"
-region = { part = "crystal" }
-wavelength = "420 nm"
-photons = 3_000
-)";
+)" + sensor_and_source("6 mm");
 }
 
 /// Facets of UNIFIED, weighted by area, in a scene of crystal().

@@ -113,6 +113,12 @@ struct Triple {
   }
 };
 
+/// Mirror image of the direction d in a plane with unit normal n (either orientation).
+template <typename Real>
+Triple<Real> mirrored(const Triple<Real>& d, const Triple<Real>& n) {
+  return d - (Real(2.0) * dot(d, n)) * n;
+}
+
 /// Two unit vectors across a unit vector, which form a right-handed frame with it.
 /// Source: T. Duff et al. 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1), listing 3.
 template <typename Real>

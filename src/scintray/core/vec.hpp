@@ -39,6 +39,6 @@ struct Frame {
 };
 
 /// Mirror image of the direction `d` in a plane with unit normal `n` (either orientation).
-inline Vec3 mirror(const Vec3& d, const Vec3& n) { return d - (2.0 * d.dot(n)) * n; }
+inline Vec3 mirror(const Vec3& d, const Vec3& n) { return vec(mirrored(triple(d), triple(n))); }
 
 }  // namespace scintray::core

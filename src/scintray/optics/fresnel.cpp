@@ -1,7 +1,6 @@
 #include "scintray/optics/fresnel.hpp"
 
 #include "scintray/optics/elliptical.hpp"
-#include "scintray/optics/fresnel_laws.hpp"
 
 namespace scintray::optics {
 
@@ -25,7 +24,7 @@ bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core
   const LightRay<double> light = light_of(ray);
   const core::Triple<double> normal = triple(m);
   const double cos_i = cos_incidence(light, normal);
-  const RefractionOf<double> refraction(cos_i, n1, n2);
+  const Refraction refraction(cos_i, n1, n2);
   if (refraction.total()) {
     set_light(ray, reflected(light, normal));
     return false;
@@ -52,7 +51,7 @@ bool refract_only(Ray& ray, const core::Vec3& m, double n1, double n2) {
   const LightRay<double> light = light_of(ray);
   const core::Triple<double> normal = triple(m);
   const double cos_i = cos_incidence(light, normal);
-  const RefractionOf<double> refraction(cos_i, n1, n2);
+  const Refraction refraction(cos_i, n1, n2);
   if (refraction.total()) {
     set_light(ray, reflected(light, normal));
     return false;

@@ -1,7 +1,6 @@
 #pragma once
-/// Reflection and refraction at a smooth facet between two lossless dielectrics.
-///
-/// Formulae: M. Born and E. Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. (20), (21).
+/// Reflection and refraction of a photon at a smooth facet between two lossless dielectrics: the laws of
+/// fresnel_laws.hpp.
 
 #include <algorithm>
 #include <cmath>
@@ -11,32 +10,12 @@
 #include "scintray/core/plain_vec.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
 
 namespace scintray::optics {
 
-/// Snell's law at an incidence-angle cosine in [0,1], from index n1 to index n2.
-struct Refraction {
-  double ratio;   ///< n1 / n2
-  double sin2_i;  ///< sine squared of the angle of incidence
-  double sin2_t;  ///< ... and of refraction; 1 or more: total reflection
-
-  Refraction(double cos_i, double n1, double n2)
-      : ratio(n1 / n2), sin2_i(1.0 - cos_i * cos_i), sin2_t(ratio * ratio * sin2_i) {}
-  bool total() const { return sin2_t >= 1.0; }
-  double cos_t() const { return std::sqrt(1.0 - sin2_t); }
-};
-
-/// Amplitudes of the reflected electric field relative to the incident field, below the critical angle.
-struct FresnelAmplitudes {
-  double s;  ///< electric field across the plane of incidence
-  double p;  ///< electric field in the plane of incidence
-
-  /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
-  ///               index n2
-  FresnelAmplitudes(double cos_i, double cos_t, double n1, double n2)
-      : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
-        p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
-};
+using Refraction = RefractionOf<double>;
+using FresnelAmplitudes = FresnelAmplitudesOf<double>;
 
 /// Power reflectances of the two polarisations, and the angle of refraction.
 struct FresnelCoefficients {

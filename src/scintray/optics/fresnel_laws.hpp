@@ -51,18 +51,12 @@ struct LightRay {
   }
 };
 
-/// Mirror image of the direction d in a plane with unit normal n (either orientation).
-template <typename Real>
-core::Triple<Real> mirrored(const core::Triple<Real>& d, const core::Triple<Real>& n) {
-  return d - (Real(2.0) * dot(d, n)) * n;
-}
-
 /// Light after specular reflection at a facet with unit normal m. The polarisation component along the normal
 /// is kept and the others change sign, as for total reflection without the phase lag between s and p, which
 /// one linear polarisation vector cannot carry.
 template <typename Real>
 LightRay<Real> reflected(const LightRay<Real>& light, const core::Triple<Real>& m) {
-  return {mirrored(light.direction, m), -mirrored(light.polarisation, m)};
+  return {core::mirrored(light.direction, m), -core::mirrored(light.polarisation, m)};
 }
 
 /// Cosine of incidence of light at a facet with normal m against it.
@@ -101,7 +95,7 @@ class FacetLight {
   }
 
   Vector refracted() const { return normalised(ratio_ * light_.direction + (ratio_ * cos_i_ - cos_t_) * m_); }
-  Vector mirrored() const { return optics::mirrored(light_.direction, m_); }
+  Vector mirrored() const { return core::mirrored(light_.direction, m_); }
   /// Polarisation after transmission or reflection into a direction.
   Vector polarised(const core::MaskOf<Real>& transmitted, const Vector& into) const {
     // t_p = (n1/n2)(1 + r_p), same convention. p is s x k on every side, so r_p's sign convention (Born &

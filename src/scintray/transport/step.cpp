@@ -126,112 +126,6 @@ Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
   return result;
 }
 
-/// Outcome at an interface: the region that the ray enters, or the surface that absorbed it.
-struct InterfaceOutcome {
-  bool in_front = false;
-  core::SurfaceId absorbed_by;
-};
-
-/// Indices on the two sides of an interface and in the gap of a dry contact, at one wavelength.
-struct InterfaceIndex {
-  double back = 1.0, front = 1.0, gap = 0.0;
-  bool dry = false;
-
-  /// Indices on the two sides of one of its surfaces.
-  optics::IndexPair around(bool back_surface) const {
-    const double inside = back_surface ? back : front;
-    return {inside, dry ? gap : (back_surface ? front : back)};
-  }
-};
-
-InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& interface,
-                          double wavelength_nm) {
-  const scene::SceneOptics& optics = scene.optics;
-  const core::MediumId back = scene.regions[interface.back].medium;
-  const core::MediumId front = scene.regions[interface.front].medium;
-  InterfaceIndex index;
-  index.dry = interface.gap_medium.has_value();
-  // An opaque part has no index: light enters it with matched indices, from the gap where there is one.
-  const auto at = [&](core::MediumId own, core::MediumId other) {
-    const core::MediumId outside = index.dry ? interface.gap_medium : other;
-    return optics.index(optics.is_opaque(own) ? outside : own, wavelength_nm);
-  };
-  index.back = at(back, front);
-  index.front = at(front, back);
-  if (index.dry) index.gap = optics.index(interface.gap_medium, wavelength_nm);
-  return index;
-}
-
-/// Conditions of incidence of a photon at an interface.
-struct InterfaceApproach {
-  const scene::Scene& scene;
-  const scene::Interface& interface;
-  bool from_back = false;  ///< the region of incidence is the back region
-  core::Vec3 normal;       ///< of unit length, out of the back region
-  InterfaceIndex index;    ///< at the photon's wavelength
-};
-
-/// Conditions of incidence at one of the interface's surfaces.
-struct SurfaceApproach {
-  const scene::Scene& scene;
-  const scene::Interface& interface;
-  bool at_back = false;  ///< the back region's surface, else the front region's
-  optics::Side side = optics::Side::inside;
-  const core::Vec3& outward;  ///< of unit length, out of the region of the surface
-  InterfaceIndex& index;      ///< at the photon's wavelength, updated when it is shifted
-};
-
-/// Interaction with a surface in which the photon's wavelength may change.
-[[gnu::noinline, gnu::cold]] optics::SurfaceOutcome interact_with_shift(const SurfaceApproach& at,
-                                                                        source::Photon& photon,
-                                                                        core::Rng& rng,
-                                                                        source::PhotonRecords* records) {
-  const core::SurfaceId id = at.at_back ? at.interface.back_surface : at.interface.front_surface;
-  optics::ShiftingLight light;
-  light.wavelength_nm = photon.wavelength_nm;
-  const auto index_at = [&](double wavelength_nm) {
-    at.index = indices_at(at.scene, at.interface, wavelength_nm);
-    return at.index.around(at.at_back);
-  };
-  light.index = index_at;
-  const optics::SurfaceOutcome outcome = at.scene.surfaces[id].interact(
-      photon.ray, at.side, at.outward, light, rng, records ? records->reflection_log() : nullptr);
-  photon.wavelength_nm = light.wavelength_nm;
-  photon.time_ns += light.delay_ns;
-  if (records && light.count.absorbed > 0) records->shifts_of(id) += light.count;
-  return outcome;
-}
-
-/// Interactions with the interface's surfaces, reflections between the two included, until the photon is in
-/// one of the regions or absorbed.
-InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
-                                       source::PhotonRecords* records) {
-  const scene::Interface& interface = at.interface;
-  const bool has_back = interface.back_surface.has_value(), has_front = interface.front_surface.has_value();
-  bool at_back = at.from_back ? has_back : !has_front;  // which of the two surfaces comes next
-  bool came_from_back = at.from_back;
-  InterfaceIndex index = at.index;
-  for (;;) {
-    const core::SurfaceId id = at_back ? interface.back_surface : interface.front_surface;
-    const optics::Surface& surface = at.scene.surfaces[id];
-    // A surface's inside is the region of the part it belongs to.
-    const core::Vec3 outward = at_back ? at.normal : core::Vec3(-at.normal);
-    const optics::Side side = came_from_back == at_back ? optics::Side::inside : optics::Side::outside;
-    const optics::SurfaceOutcome outcome =
-        surface.shifts()
-            ? interact_with_shift({at.scene, interface, at_back, side, outward, index}, photon, rng, records)
-            : surface.interact(photon.ray,
-                               {side, outward, index.around(at_back), photon.wavelength_nm,
-                                records ? records->reflection_log() : nullptr},
-                               rng);
-    if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
-    if (outcome == optics::SurfaceOutcome::inside) return {!at_back, core::SurfaceId::none()};
-    if (!index.dry) return {at_back, core::SurfaceId::none()};
-    came_from_back = at_back;  // in the gap, on the way from this surface to the other
-    at_back = !at_back;
-  }
-}
-
 /// Medium and angle in which light reaches a sensor.
 struct Arrival {
   double index = 1.0;   ///< refractive index
@@ -301,6 +195,16 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
   }
 }
 
+Step step_at(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon) {
+  Step step;
+  step.interface = link.interface;
+  step.triangle = at.triangle;
+  step.from_back = link.from_back;
+  step.cos_before = at.cos_before;
+  step.region = photon.region;
+  return step;
+}
+
 Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
                           core::Rng& rng, source::PhotonRecords* records) {
   const scene::Region& region = scene.regions[photon.region];
@@ -308,20 +212,10 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
   const core::Vec3 outward = scene.normal_at(region, triangle, photon.position);
-  const core::RegionId next = link.from_back ? interface.front : interface.back;
-  const core::MediumId next_medium = scene.regions[next].medium;
-  const bool next_opaque = optics.is_opaque(next_medium);
-
-  Step result;
-  result.interface = link.interface;
-  result.triangle = triangle;
-  result.from_back = link.from_back;
-  result.cos_before = std::abs(photon.ray.direction.dot(outward));
-  const double here = photon.optics.index;
+  Step result = step_at(link, {triangle, std::abs(photon.ray.direction.dot(outward))}, photon);
+  const double here = photon.optics.index, there = index_behind(scene, link, photon);
   const bool dry = interface.gap_medium.has_value();
   const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
-  // No Fresnel reflection where light enters an opaque part: its reflection is defined by its surface.
-  const double there = !next_opaque ? optics.index(next_medium, photon.wavelength_nm) : dry ? gap : here;
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
@@ -349,16 +243,6 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 
   cross(scene, interface, there, photon, result);
   return result;
-}
-
-Step step_at(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon) {
-  Step step;
-  step.interface = link.interface;
-  step.triangle = at.triangle;
-  step.from_back = link.from_back;
-  step.cos_before = at.cos_before;
-  step.region = photon.region;
-  return step;
 }
 
 }  // namespace

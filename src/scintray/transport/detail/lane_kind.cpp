@@ -1,6 +1,5 @@
-#include "scintray/transport/detail/lane_kind.hpp"
-
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {

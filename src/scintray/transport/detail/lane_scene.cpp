@@ -1,4 +1,4 @@
-#include "scintray/transport/detail/lane_scene.hpp"
+#include "scintray/transport/detail/surface_lanes.hpp"
 
 #include <limits>
 

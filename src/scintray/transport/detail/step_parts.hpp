@@ -1,6 +1,6 @@
 #pragma once
 /// The parts of a step: propagation to its end, and the event there, with what a photon may undergo in the
-/// bulk of a medium.
+/// bulk of a medium and at an interface.
 
 #include "scintray/transport/step.hpp"
 
@@ -46,6 +46,38 @@ Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::
 /// The step of a photon absorbed by a surface.
 Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
                         const source::Photon& photon);
+
+/// Outcome at an interface: the region that the ray enters, or the surface that absorbed it.
+struct InterfaceOutcome {
+  bool in_front = false;
+  core::SurfaceId absorbed_by;
+};
+
+/// Indices on the two sides of an interface and in the gap of a dry contact, at one wavelength.
+struct InterfaceIndex {
+  double back = 1.0, front = 1.0, gap = 0.0;
+  bool dry = false;
+
+  /// Indices on the two sides of one of its surfaces.
+  optics::IndexPair around(bool back_surface) const {
+    const double inside = back_surface ? back : front;
+    return {inside, dry ? gap : (back_surface ? front : back)};
+  }
+};
+
+/// Conditions of incidence of a photon at an interface.
+struct InterfaceApproach {
+  const scene::Scene& scene;
+  const scene::Interface& interface;
+  bool from_back = false;  ///< the region of incidence is the back region
+  core::Vec3 normal;       ///< of unit length, out of the back region
+  InterfaceIndex index;    ///< at the photon's wavelength
+};
+
+/// Interactions with the interface's surfaces, reflections between the two included, until the photon is in
+/// one of the regions or absorbed.
+InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
+                                       source::PhotonRecords* records);
 
 /// The event at the end of a propagation, which completes the step.
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,

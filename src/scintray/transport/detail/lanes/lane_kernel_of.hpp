@@ -1,42 +1,20 @@
 #pragma once
 /// The kernel of lane_kernel.hpp for one instruction set. Included by one file for each.
 
-#include <limits>
-#include <xsimd/xsimd.hpp>
-
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_planes.hpp"
 
 namespace scintray::transport {
 namespace {
-
-/// The operations of core::Vec3 on lanes, with the same order of additions, so that each lane has the bits of
-/// the same photon alone.
-template <typename Real>
-struct LaneVec3 {
-  Real x, y, z;
-
-  friend LaneVec3 operator+(const LaneVec3& a, const LaneVec3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  friend LaneVec3 operator-(const LaneVec3& a, const LaneVec3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-  }
-  friend LaneVec3 operator*(const Real& s, const LaneVec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-  friend Real dot(const LaneVec3& a, const LaneVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-};
-
-template <typename Real, typename Mask>
-LaneVec3<Real> select(const Mask& mask, const LaneVec3<Real>& a, const LaneVec3<Real>& b) {
-  return {xsimd::select(mask, a.x, b.x), xsimd::select(mask, a.y, b.y), xsimd::select(mask, a.z, b.z)};
-}
 
 /// The photons in the lanes. A lane whose photon has ended is filled with the next one at once; without a
 /// next one it repeats another lane's photon, and its result is not stored.
 template <typename Arch>
 class LanePropagation {
-  using Real = xsimd::batch<double, Arch>;
-  using Mask = typename Real::batch_bool_type;
-  static constexpr std::size_t kWidth = Real::size;
+  using Real = LaneReal<Arch>;
+  using Mask = LaneMask<Arch>;
+  using Vector = core::Triple<Real>;
+  static constexpr std::size_t kWidth = Real::kWidth;
 
  public:
   LanePropagation(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons, std::size_t count)
@@ -57,13 +35,13 @@ class LanePropagation {
  private:
   struct alignas(64) Numbers {
     double of[kWidth];
-    Real load() const { return Real::load_aligned(of); }
-    void store(const Real& value) { value.store_aligned(of); }
+    Real load() const { return Real::load(of); }
+    void store(const Real& value) { value.store(of); }
   };
-  struct Triple {
+  struct Numbers3 {
     Numbers x, y, z;
-    LaneVec3<Real> load() const { return {x.load(), y.load(), z.load()}; }
-    void store(const LaneVec3<Real>& value) { x.store(value.x), y.store(value.y), z.store(value.z); }
+    Vector load() const { return {x.load(), y.load(), z.load()}; }
+    void store(const Vector& value) { x.store(value.x), y.store(value.y), z.store(value.z); }
     void set(std::size_t lane, const double* from) {
       x.of[lane] = from[0], y.of[lane] = from[1], z.of[lane] = from[2];
     }
@@ -89,7 +67,7 @@ class LanePropagation {
       if (!photon_[lane] && code_.of[lane] != kGoesOn) copy(busy, lane);
   }
   void copy(std::size_t from, std::size_t to) {
-    for (Triple* const triple : {&position_, &direction_, &polarisation_, &centre_}) triple->copy(from, to);
+    for (Numbers3* const triple : {&position_, &direction_, &polarisation_, &centre_}) triple->copy(from, to);
     for (Numbers* const numbers : {&path_, &time_, &depth_, &group_, &attenuation_, &interactions_})
       numbers->of[to] = numbers->of[from];
     least_sin2_[to] = least_sin2_[from];
@@ -113,44 +91,26 @@ class LanePropagation {
   void pass() {
     constexpr double kTimePerLength = 1.0 / 299.792458;  // core::kSpeedOfLight_mm_per_ns
     const Real zero(0.0), one(1.0), two(2.0);
-    const LaneVec3<Real> centre = centre_.load();
+    const Vector centre = centre_.load();
     const Real group = group_.load(), attenuation = attenuation_.load();
-    LaneVec3<Real> position = position_.load(), direction = direction_.load(),
-                   polarisation = polarisation_.load();
+    Vector position = position_.load(), direction = direction_.load(), polarisation = polarisation_.load();
     Real path = path_.load(), time = time_.load(), depth_left = depth_.load(),
          interactions = interactions_.load();
     Numbers plane_numbers, least;
-    Triple normals;
+    Numbers3 normals;
     for (;;) {
       ++segments_;
-      const LaneVec3<Real> local = position - centre;
-      Real nearest(std::numeric_limits<double>::infinity()), cosine(0.0), plane(0.0);
-      for (std::uint32_t i = 0; i < planes_.opposite; i += 2) {
+      const Vector local = position - centre;
+      LaneAhead<Real> ahead;
+      const auto take = [&](std::uint32_t i, const Real& second_mm) {
         const double* const p = planes_.plane(i);
-        const LaneVec3<Real> normal{Real(p[0]), Real(p[1]), Real(p[2])};
-        const Real signed_along = dot(normal, direction), height = dot(normal, local);
-        const Mask first = signed_along > zero;
-        const Real along = xsimd::abs(signed_along);
-        const Real ahead = xsimd::select(first, Real(p[3]) - height, Real(planes_.plane(i + 1)[3]) + height);
-        const Real distance = ahead / along;
-        const Mask closer = (along > zero) & (distance < nearest);
-        nearest = xsimd::select(closer, distance, nearest);
-        cosine = xsimd::select(closer, along, cosine);
-        const Real of_pair = xsimd::select(first, Real(static_cast<double>(i)), Real(i + 1.0));
-        plane = xsimd::select(closer, of_pair, plane);
-      }
-      for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i) {
-        const double* const p = planes_.plane(i);
-        const LaneVec3<Real> normal{Real(p[0]), Real(p[1]), Real(p[2])};
-        const Real along = dot(normal, direction);
-        const Real distance = (Real(p[3]) - dot(normal, local)) / along;
-        const Mask closer = (along > zero) & (distance < nearest);
-        nearest = xsimd::select(closer, distance, nearest);
-        cosine = xsimd::select(closer, along, cosine);
-        plane = xsimd::select(closer, Real(static_cast<double>(i)), plane);
-      }
-      nearest = xsimd::select(nearest < zero, zero, nearest);
-      plane_numbers.store(plane);
+        ahead.take({Real(p[0]), Real(p[1]), Real(p[2])}, Real(p[3]), second_mm, local, direction, i);
+      };
+      for (std::uint32_t i = 0; i < planes_.opposite; i += 2) take(i, Real(planes_.plane(i + 1)[3]));
+      for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i)
+        take(i, Real(std::numeric_limits<double>::infinity()));
+      const Real nearest = select(ahead.distance_mm < zero, zero, ahead.distance_mm), cosine = ahead.cosine;
+      plane_numbers.store(ahead.plane);
       for (std::size_t lane = 0; lane < kWidth; ++lane) {
         const auto at = static_cast<std::size_t>(plane_numbers.of[lane]);
         least.of[lane] = least_sin2_[lane][at];
@@ -161,33 +121,31 @@ class LanePropagation {
       const Mask stays =
           (depth > depth_left) | (least_sin2 > Real(0.5 * (kNoTotalReflection + kManyRegions)));
       const Mask total = one - cosine * cosine >= least_sin2;
-      const LaneVec3<Real> there = position + nearest * direction;
+      const Vector there = position + nearest * direction;
       const Real there_path = path + nearest, there_depth = depth_left - depth,
                  there_time = time + nearest * group * Real(kTimePerLength);
       // optics::reflect.
-      const LaneVec3<Real> normal = normals.load();
-      const LaneVec3<Real> reflected = direction - (two * cosine) * normal;
-      const LaneVec3<Real> turned = polarisation - (two * dot(polarisation, normal)) * normal;
-      const LaneVec3<Real> reflected_polarisation{-turned.x, -turned.y, -turned.z};
+      const Vector normal = normals.load();
+      const Vector reflected = direction - (two * cosine) * normal;
+      const Vector reflected_polarisation = -core::mirrored(polarisation, normal);
       const Real counted = interactions + one;
       const Mask within = (counted < Real(limits_.interactions)) & (there_time <= Real(limits_.time_ns));
-      if (xsimd::all(total & within & !stays)) {
+      if (all(total & within & !stays)) {
         position = there, direction = reflected, polarisation = reflected_polarisation;
         path = there_path, time = there_time, depth_left = there_depth, interactions = counted;
         continue;
       }
       position_.store(select(stays, position, there));
-      path_.store(xsimd::select(stays, path, there_path));
-      time_.store(xsimd::select(stays, time, there_time));
-      depth_.store(xsimd::select(stays, depth_left, there_depth));
+      path_.store(select(stays, path, there_path));
+      time_.store(select(stays, time, there_time));
+      depth_.store(select(stays, depth_left, there_depth));
       const Mask turns = total & !stays;
       direction_.store(select(turns, reflected, direction));
       polarisation_.store(select(turns, reflected_polarisation, polarisation));
-      interactions_.store(xsimd::select(turns, counted, interactions));
+      interactions_.store(select(turns, counted, interactions));
       cosine_.store(cosine);
-      const Real bulk = xsimd::select(depth > depth_left, one, zero);
-      const Real code =
-          xsimd::select(stays, bulk, xsimd::select(total, xsimd::select(within, Real(4.0), Real(3.0)), two));
+      const Real bulk = select(depth > depth_left, one, zero);
+      const Real code = select(stays, bulk, select(total, select(within, Real(4.0), Real(3.0)), two));
       code_.store(code);
       break;
     }
@@ -226,7 +184,7 @@ class LanePropagation {
   LaneWork* photon_[kWidth];
   std::uint32_t begun_[kWidth];
   const double* least_sin2_[kWidth];
-  Triple position_, direction_, polarisation_, centre_;
+  Numbers3 position_, direction_, polarisation_, centre_;
   Numbers path_, time_, depth_, group_, attenuation_, interactions_, cosine_, code_;
 };
 

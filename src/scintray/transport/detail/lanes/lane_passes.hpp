@@ -6,12 +6,11 @@
 /// photons is left out; photons that are not in it are masked. Time goes with the instructions, so what is
 /// repeated until it is accepted, a facet, is repeated alone.
 
-#include <limits>
-
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/optics/facet_laws.hpp"
 #include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_photons.hpp"
+#include "scintray/transport/detail/lanes/lane_planes.hpp"
 
 namespace scintray::transport {
 namespace {
@@ -122,25 +121,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
     return fours;
   }
 
-  struct Ahead {
-    Real distance_mm, plane;
-  };
-  /// One or two parallel planes, and the nearest plane so far.
-  static void take(Ahead& nearest, const Vector& normal, const Real (&offset_mm)[2], const Vector& local,
-                   const Vector& direction, std::size_t i) {
-    const Real signed_along = dot(normal, direction), height = dot(normal, local);
-    const Mask first = signed_along > Real(0.0);
-    const Real along = magnitude(signed_along);
-    const Real ahead = select(first, offset_mm[0] - height, offset_mm[1] + height);
-    const Real distance = ahead / along;
-    const Mask closer = (along > Real(0.0)) & (distance < nearest.distance_mm);
-    const Real number =
-        select(first, Real(2.0 * static_cast<double>(i)), Real(2.0 * static_cast<double>(i) + 1.0));
-    nearest.distance_mm = select(closer, distance, nearest.distance_mm);
-    nearest.plane = select(closer, number, nearest.plane);
-  }
-  Ahead nearest_plane(const Vector& local, const Vector& direction) const {
-    Ahead nearest{Real(std::numeric_limits<double>::infinity()), Real(0.0)};
+  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
+    LaneAhead<Real> nearest;
     const LaneRegion* const regions = pool_.region + at_;
     bool same = true;
     std::size_t count = regions[0].count;
@@ -151,8 +133,9 @@ class LanePasses : LanePhotons<Real, kDraws> {
     if (same) {
       for (std::size_t i = 0; i < count; ++i) {
         const PlanePair& planes = regions[0].planes[i];
-        take(nearest, {Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
-             {Real(planes.first_mm), Real(planes.second_mm)}, local, direction, i);
+        nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
+                     Real(planes.first_mm), Real(planes.second_mm), local, direction,
+                     2.0 * static_cast<double>(i));
       }
       return nearest;
     }
@@ -167,8 +150,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
       LaneFours<Real> of_first, of_second;
       load_fours(first, of_first);
       load_fours(second, of_second);
-      take(nearest, {of_first.of[0], of_first.of[1], of_first.of[2]}, {of_first.of[3], of_second.of[0]},
-           local, direction, i);
+      nearest.take({of_first.of[0], of_first.of[1], of_first.of[2]}, of_first.of[3], of_second.of[0], local,
+                   direction, 2.0 * static_cast<double>(i));
     }
     return nearest;
   }
@@ -179,7 +162,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   void propagate(Now& now, const Mask& here) {
     constexpr double kTimePerLength = 1.0 / 299.792458;  // core::kSpeedOfLight_mm_per_ns
     const Vector position = load(pool_.position), direction = now.light.direction;
-    const Ahead ahead = nearest_plane(position - load(pool_.centre), direction);
+    const LaneAhead<Real> ahead = nearest_plane(position - load(pool_.centre), direction);
     store(pool_.plane, select(here, ahead.plane, load(pool_.plane)));
     load_faces(now);
 

@@ -1,0 +1,38 @@
+#pragma once
+/// The plane through which a ray in each lane leaves a convex region, as scene/detail/nearest_plane.hpp finds
+/// it for one ray: the same numbers, in the same order.
+
+#include <limits>
+
+#include "scintray/transport/detail/lanes/lane_number.hpp"
+
+namespace scintray::transport {
+namespace {
+
+/// The nearest plane so far, the distance (mm) to it, and the cosine between ray and normal.
+template <typename Real>
+struct LaneAhead {
+  Real distance_mm{std::numeric_limits<double>::infinity()};
+  Real plane{0.0}, cosine{0.0};
+
+  /// Takes two opposite planes, of numbers `first` and the next.
+  /// @param normal    of the first one
+  /// @param first_mm  product of its normal and any point of it; @param second_mm  likewise of the other,
+  /// whose
+  ///                  normal is the opposite; infinite: there is none
+  /// @param from      the ray's origin
+  void take(const core::Triple<Real>& normal, const Real& first_mm, const Real& second_mm,
+            const core::Triple<Real>& from, const core::Triple<Real>& direction, double first) {
+    const Real signed_along = dot(normal, direction), height = dot(normal, from);
+    const auto along_first = signed_along > Real(0.0);
+    const Real along = magnitude(signed_along);
+    const Real distance = select(along_first, first_mm - height, second_mm + height) / along;
+    const auto closer = (along > Real(0.0)) & (distance < distance_mm);
+    distance_mm = select(closer, distance, distance_mm);
+    plane = select(closer, select(along_first, Real(first), Real(first + 1.0)), plane);
+    cosine = select(closer, along, cosine);
+  }
+};
+
+}  // namespace
+}  // namespace scintray::transport
