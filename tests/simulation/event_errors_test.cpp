@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "scenes.hpp"
+#include "scintray/analysis/light_analysis.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/results_file.hpp"
@@ -39,6 +41,28 @@ type = "count"
 name = "path"
 at = "detected"
 score = "path"
+)";
+/// From several bins of which light spread, divergence, etendue and crosstalk are computed.
+const std::string kLightTallies = R"(
+[[tally]]
+type = "light_spread"
+name = "light"
+face = "pmt:crystal"
+pixels = [8, 8]
+[[tally]]
+type = "exit_angle"
+face = "crystal:exit"
+bins = 90
+[[tally]]
+type = "etendue"
+name = "etendue"
+face = "crystal:exit"
+pixels = [2, 2]
+polar_bins = 4
+azimuth_bins = 4
+[[tally]]
+type = "crosstalk"
+name = "matrix"
 )";
 
 /// Results of runs that differ in their seeds alone.
@@ -201,8 +225,84 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Means of time, path and interactions have pulls of mean 0 and width 1 with an event source") {
+  const auto runs = runs_of(black_crystal(), kRuns);
+  for (const auto member : {&tally::PointResult::detected_path_mm, &tally::PointResult::detected_time_ns,
+                            &tally::PointResult::interactions}) {
+    const double truth = ratio_of_all(
+        runs, [&](const tally::PointResult& run) { return (run.*member).sum; },
+        [&](const tally::PointResult& run) { return static_cast<double>((run.*member).count); });
+    std::vector<Estimate> values, as_independent;
+    for (const tally::PointResult& run : runs) {
+      values.push_back((run.*member).mean());
+      as_independent.push_back((run.*member).Moments::mean());
+    }
+    const Pulls pulls(values, truth), before(as_independent, truth);
+    CAPTURE(pulls.mean);
+    CAPTURE(pulls.width());
+    CAPTURE(before.width());
+    CHECK(pulls.are_standard(kEventsOfARun));
+    CHECK_FALSE(before.are_standard(kEventsOfARun));
+  }
+}
+
+TEST_CASE("What is computed from several bins has pulls of mean 0 and width 1 with an event source") {
+  const auto runs = runs_of(black_crystal() + kLightTallies, kRuns);
+  using Read = Estimate (*)(const tally::PointResult&);
+  struct Result {
+    const char* name;
+    Read read;
+  };
+  const Result results[] = {
+      {"centre of light",
+       [](const tally::PointResult& run) -> Estimate {
+         const analysis::LightSpread spread = analysis::light_spread(analysis::find_tally(run, "light"));
+         return {spread.centre_mm[0], spread.centre_error_mm[0]};
+       }},
+      {"half-angle of half of the light",
+       [](const tally::PointResult& run) {
+         const analysis::CrossingAngles angles = analysis::crossing_angles(run).at(0);
+         return analysis::divergence(angles.inside, angles.inside_groups).half_rad;
+       }},
+      {"mean cosine",
+       [](const tally::PointResult& run) {
+         const analysis::CrossingAngles angles = analysis::crossing_angles(run).at(0);
+         return analysis::divergence(angles.outside, angles.outside_groups).mean_cosine;
+       }},
+      {"etendue",
+       [](const tally::PointResult& run) {
+         return analysis::read_etendue(analysis::find_tally(run, "etendue")).filled_mm2_sr;
+       }},
+      {"share of the light of the crystal that the sensor detects",
+       [](const tally::PointResult& run) {
+         const analysis::Crosstalk crosstalk = analysis::read_crosstalk(run, "matrix");
+         Estimate most{};
+         for (const auto& row : crosstalk.share)
+           for (const Estimate& share : row) most = share.value > most.value ? share : most;
+         return most;
+       }}};
+  for (const Result& result : results) {
+    CAPTURE(result.name);
+    std::vector<Estimate> values, as_independent;
+    double truth = 0.0;
+    for (const tally::PointResult& run : runs) {
+      values.push_back(result.read(run));
+      truth += values.back().value / static_cast<double>(runs.size());
+      tally::PointResult photons = run;
+      for (tally::TallyResult& tally : photons.tallies) tally.group_sums.clear();
+      as_independent.push_back(result.read(photons));
+    }
+    const Pulls pulls(values, truth), before(as_independent, truth);
+    CAPTURE(pulls.mean);
+    CAPTURE(pulls.width());
+    CAPTURE(before.width());
+    CHECK(pulls.are_standard(kEventsOfARun));
+    CHECK_FALSE(before.are_standard(kEventsOfARun));
+  }
+}
+
 TEST_CASE("Sums over events are those of the events, in memory, in shards and in the file") {
-  const scene_file::SceneFile scene = scene_of(black_crystal() + kTallies);
+  const scene_file::SceneFile scene = scene_of(black_crystal() + kTallies + kLightTallies);
   const std::filesystem::path folder = scratch_folder("event_errors");
   MemorySink memory;
   ResultsFile file(folder / "a.h5");
@@ -241,6 +341,19 @@ TEST_CASE("Sums over events are those of the events, in memory, in shards and in
       CHECK(other.sensor_faces[face].events_not_detected == point.sensor_faces[face].events_not_detected);
       CHECK(other.sensor_faces[face].events_both == point.sensor_faces[face].events_both);
     }
+    CHECK(other.interactions.of_events == point.interactions.of_events);
+    CHECK(other.detected_path_mm.of_events == point.detected_path_mm.of_events);
+    CHECK(other.detected_time_ns.of_events == point.detected_time_ns.of_events);
+    CHECK(other.detected_interactions.of_events == point.detected_interactions.of_events);
+    for (const char* const tally : {"light", "etendue", "matrix", "matrix: emitted"}) {
+      const std::vector<double>& sums = analysis::find_tally(point, tally).group_sums;
+      CHECK(analysis::find_tally(other, tally).group_sums == sums);
+      CHECK(std::accumulate(sums.begin(), sums.end(), 0.0) > 0.0);
+    }
+    CHECK(analysis::crossing_angles(other).at(0).inside_groups ==
+          analysis::crossing_angles(point).at(0).inside_groups);
+    CHECK(analysis::crossing_angles(other).at(0).outside_groups ==
+          analysis::crossing_angles(point).at(0).outside_groups);
     for (const std::size_t tally : {0, 1}) {
       CHECK(other.tallies.at(tally).event_squares == point.tallies.at(tally).event_squares);
       CHECK(other.tallies.at(tally).event_products == point.tallies.at(tally).event_products);
@@ -254,6 +367,7 @@ TEST_CASE("A source of photons has no sums over events") {
   const tally::RunResult run = Simulation(scene_of(kCrystal + kPhotons + kTallies)).run_all();
   CHECK(run.points.at(0).event_fates == tally::EventFates{});
   CHECK(run.points.at(0).tallies.at(0).event_squares.empty());
+  CHECK(run.points.at(0).interactions.of_events == tally::EventMoments{});
   const Estimate share = run.points.at(0).fraction(Fate::escaped);
   CHECK(share.error == binomial_estimate(run.points.at(0).count(Fate::escaped), 3000).error);
 }

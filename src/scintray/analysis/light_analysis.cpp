@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/function_ref.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/scene_file/tally.hpp"
 
@@ -23,30 +25,119 @@ std::vector<std::uint64_t> counts_of(const tally::TallyResult& tally) {
   return counts;
 }
 
-/// Angle below which a share of the histogram lies, and its error.
-core::Estimate quantile(const std::vector<std::uint64_t>& counts, double share, double total) {
-  const double width = 0.5 * core::kPi / static_cast<double>(counts.size());
-  double below = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto here = static_cast<double>(counts[i]);
-    if (below + here < share * total) {
-      below += here;
-      continue;
-    }
-    const double angle = width * (static_cast<double>(i) + (share * total - below) / here);
-    const double density = here / (total * width);
-    return {angle, std::hypot(std::sqrt(share * (1.0 - share) / total) / density, width / std::sqrt(12.0))};
-  }
-  return {0.5 * core::kPi, width};
+using Quantity = core::FunctionRef<std::optional<double>(const std::vector<double>& sums)>;
+
+/// Number of the groups of events: of fewer events than groups the last ones are empty.
+std::size_t groups_with_events(const std::vector<double>& groups, std::size_t bins) {
+  const auto last = std::find_if(groups.rbegin(), groups.rend(), [](double sum) { return sum > 0.0; });
+  return (static_cast<std::size_t>(groups.rend() - last) + bins - 1) / bins;
 }
 
-/// Sums across all axes but one.
-std::vector<double> marginal(const tally::TallyResult& tally, std::size_t axis) {
+/// Error of a quantity of the sums of all bins, from those of groups of events: by leaving out each group.
+/// Nothing with fewer than two groups, or where the quantity is not defined without one.
+std::optional<double> error_by_events(const std::vector<double>& sums, const std::vector<double>& groups,
+                                      Quantity quantity) {
+  const std::size_t count = groups_with_events(groups, sums.size());
+  if (count < 2) return std::nullopt;
+  std::vector<double> without, left(sums.size());
+  for (std::size_t group = 0; group < count; ++group) {
+    for (std::size_t bin = 0; bin < sums.size(); ++bin)
+      left[bin] = sums[bin] - groups[group * sums.size() + bin];
+    const std::optional<double> value = quantity(left);
+    if (!value) return std::nullopt;
+    without.push_back(*value);
+  }
+  return core::jackknife_error(without);
+}
+
+double sum_of(const std::vector<double>& sums) { return std::accumulate(sums.begin(), sums.end(), 0.0); }
+
+/// Angle below which a share of a histogram lies, and the density of the light there, per radian.
+struct Quantile {
+  double angle = 0.5 * core::kPi, density = 0.0;
+};
+std::optional<Quantile> quantile(const std::vector<double>& counts, double share) {
+  const double width = 0.5 * core::kPi / static_cast<double>(counts.size());
+  const double total = sum_of(counts);
+  double below = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (below + counts[i] < share * total || counts[i] <= 0.0) {
+      below += counts[i];
+      continue;
+    }
+    return Quantile{width * (static_cast<double>(i) + (share * total - below) / counts[i]),
+                    counts[i] / (total * width)};
+  }
+  return std::nullopt;
+}
+
+/// Mean of the cosine over a histogram, and its variance.
+struct Cosine {
+  double mean = 0.0, variance = 0.0;
+};
+std::optional<Cosine> cosine_of(const std::vector<double>& counts) {
+  const double total = sum_of(counts);
+  if (total <= 0.0) return std::nullopt;
+  const double width = 0.5 * core::kPi / static_cast<double>(counts.size());
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double cosine = std::cos(width * (static_cast<double>(i) + 0.5));
+    sum += counts[i] * cosine;
+    squares += counts[i] * cosine * cosine;
+  }
+  const double mean = sum / total;
+  return Cosine{mean, std::max(0.0, squares / total - mean * mean)};
+}
+
+/// Sums of a grid across all axes but one.
+std::vector<double> marginal(const tally::TallyResult& tally, const std::vector<double>& grid,
+                             std::size_t axis) {
   const std::size_t columns = tally.axes[1].bins();
   std::vector<double> sums(tally.axes[axis].bins(), 0.0);
-  for (std::size_t bin = 0; bin < tally.sum.size(); ++bin)
-    sums[axis == 0 ? bin / columns : bin % columns] += tally.sum[bin];
+  for (std::size_t bin = 0; bin < grid.size(); ++bin)
+    sums[axis == 0 ? bin / columns : bin % columns] += grid[bin];
   return sums;
+}
+
+/// Mean and mean square of the centres of bins.
+struct Spread {
+  double mean = 0.0, mean_square = 0.0;
+};
+std::optional<Spread> spread_of(const std::vector<double>& sums, const std::vector<double>& edges) {
+  const double total = sum_of(sums);
+  if (total <= 0.0) return std::nullopt;
+  Spread spread;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double x = 0.5 * (edges[i] + edges[i + 1]);
+    spread.mean += sums[i] / total * x;
+    spread.mean_square += sums[i] / total * x * x;
+  }
+  return spread;
+}
+
+/// A bin of a tally of photons.
+struct Bin {
+  const tally::TallyResult& tally;
+  std::size_t number;
+
+  double sum() const { return tally.sum[number]; }
+  bool has_groups() const { return !tally.group_sums.empty(); }
+  double group(std::size_t group) const { return tally.group_sums[group * tally.sum.size() + number]; }
+};
+
+/// The photons of one bin over those of another.
+core::Estimate share_of(const Bin& of, const Bin& all) {
+  const auto count = static_cast<std::uint64_t>(of.sum());
+  core::Estimate share = core::binomial_estimate(count, static_cast<std::uint64_t>(all.sum()));
+  if (!of.has_groups() || !all.has_groups() || count == 0) return share;
+  std::vector<double> groups;
+  for (std::size_t group = 0; group < tally::kEventGroups; ++group)
+    groups.insert(groups.end(), {of.group(group), all.group(group)});
+  const auto ratio = [](const std::vector<double>& left) -> std::optional<double> {
+    return left[1] > 0.0 ? std::optional(left[0] / left[1]) : std::nullopt;
+  };
+  share.error = error_by_events({of.sum(), all.sum()}, groups, ratio).value_or(share.error);
+  return share;
 }
 
 double full_width_at_half_maximum(const std::vector<double>& sums, const std::vector<double>& edges) {
@@ -84,7 +175,7 @@ const tally::TallyResult& find_tally(const tally::PointResult& point, const std:
 
 Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& name) {
   const tally::TallyResult& matrix = find_tally(point, name);
-  if (matrix.type != "crosstalk") throw wrong_tally(matrix, "is not a crosstalk matrix");
+  if (matrix.type != scene_file::kCrosstalk) throw wrong_tally(matrix, "is not a crosstalk matrix");
   const tally::TallyResult& emitted = find_tally(point, name + ": emitted");
   Crosstalk crosstalk;
   crosstalk.sources = matrix.axes[0].names;
@@ -92,10 +183,8 @@ Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& nam
   for (std::size_t row = 0; row < crosstalk.sources.size(); ++row) {
     crosstalk.emitted.push_back(static_cast<std::uint64_t>(emitted.sum[row]));
     std::vector<core::Estimate> shares;
-    for (std::size_t column = 0; column < crosstalk.sensors.size(); ++column) {
-      const double count = matrix.sum[row * crosstalk.sensors.size() + column];
-      shares.push_back(core::binomial_estimate(static_cast<std::uint64_t>(count), crosstalk.emitted.back()));
-    }
+    for (std::size_t column = 0; column < crosstalk.sensors.size(); ++column)
+      shares.push_back(share_of({matrix, row * crosstalk.sensors.size() + column}, {emitted, row}));
     crosstalk.share.push_back(std::move(shares));
   }
   return crosstalk;
@@ -112,15 +201,15 @@ std::vector<CrossingAngles> crossing_angles(const tally::PointResult& point) {
         });
     if (beyond == point.tallies.end())
       throw core::InternalError("the exit angle tally \"" + inside.name + "\" has no second histogram");
-    all.push_back(
-        {inside.name, inside.faces.front(), inside.detected_only, counts_of(inside), counts_of(*beyond)});
+    all.push_back({inside.name, inside.faces.front(), inside.detected_only, counts_of(inside),
+                   counts_of(*beyond), inside.group_sums, beyond->group_sums});
   }
   return all;
 }
 
 std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles) {
   const auto tally_of = [&](const char* type, const std::string& name, const char* variable,
-                            const std::vector<std::uint64_t>& counts) {
+                            const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
     tally::TallyResult tally;
     tally.name = name;
     tally.type = type;
@@ -134,29 +223,40 @@ std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles) {
                                     static_cast<double>(counts.size()));
     tally.sum.assign(counts.begin(), counts.end());
     tally.sum_of_squares = tally.sum;
+    tally.group_sums = groups;
     return tally;
   };
   return {tally_of(scene_file::kExitAngleBeyond, scene_file::beyond_name(angles.name), "angle_after",
-                   angles.outside),
-          tally_of(scene_file::kExitAngle, angles.name, "angle_before", angles.inside)};
+                   angles.outside, angles.outside_groups),
+          tally_of(scene_file::kExitAngle, angles.name, "angle_before", angles.inside, angles.inside_groups)};
 }
 
-Divergence divergence(const std::vector<std::uint64_t>& counts) {
+Divergence divergence(const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
   Divergence result;
   result.photons = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   if (result.photons == 0) return result;
   const auto total = static_cast<double>(result.photons);
-  result.half_rad = quantile(counts, 0.5, total);
-  result.ninety_rad = quantile(counts, 0.9, total);
-  const double width = 0.5 * core::kPi / static_cast<double>(counts.size());
-  double sum = 0.0, squares = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double cosine = std::cos(width * (static_cast<double>(i) + 0.5));
-    sum += static_cast<double>(counts[i]) * cosine;
-    squares += static_cast<double>(counts[i]) * cosine * cosine;
-  }
-  const double mean = sum / total;
-  result.mean_cosine = {mean, std::sqrt(std::max(0.0, squares / total - mean * mean) / total)};
+  const std::vector<double> sums(counts.begin(), counts.end());
+  const double binning = 0.5 * core::kPi / static_cast<double>(counts.size()) / std::sqrt(12.0);
+  const auto angle_with = [&](double share) -> core::Estimate {
+    const Quantile at = quantile(sums, share).value();
+    const auto angle = [share](const std::vector<double>& left) -> std::optional<double> {
+      const std::optional<Quantile> found = quantile(left, share);
+      return found ? std::optional(found->angle) : std::nullopt;
+    };
+    const std::optional<double> by_events = error_by_events(sums, groups, angle);
+    const double by_photons = std::sqrt(share * (1.0 - share) / total) / at.density;
+    return {at.angle, std::hypot(by_events.value_or(by_photons), binning)};
+  };
+  result.half_rad = angle_with(0.5);
+  result.ninety_rad = angle_with(0.9);
+  const Cosine cosine = cosine_of(sums).value();
+  const auto mean = [](const std::vector<double>& left) -> std::optional<double> {
+    const std::optional<Cosine> found = cosine_of(left);
+    return found ? std::optional(found->mean) : std::nullopt;
+  };
+  result.mean_cosine = {cosine.mean,
+                        error_by_events(sums, groups, mean).value_or(std::sqrt(cosine.variance / total))};
   return result;
 }
 
@@ -165,28 +265,42 @@ LightSpread light_spread(const tally::TallyResult& tally) {
   if (tally.axes.size() != 2 || !std::all_of(tally.axes.begin(), tally.axes.end(), is_position))
     throw wrong_tally(tally, "is not a grid of positions");
   LightSpread spread;
-  spread.photons = std::accumulate(tally.sum.begin(), tally.sum.end(), 0.0);
+  spread.photons = sum_of(tally.sum);
   if (spread.photons <= 0.0) return spread;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::vector<double>& edges = tally.axes[axis].edges;
-    const std::vector<double> sums = marginal(tally, axis);
-    double first = 0.0, second = 0.0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const double x = 0.5 * (edges[i] + edges[i + 1]);
-      first += sums[i] * x;
-      second += sums[i] * x * x;
-    }
-    spread.centre_mm[axis] = first / spread.photons;
-    spread.rms_mm[axis] =
-        std::sqrt(std::max(0.0, second / spread.photons - spread.centre_mm[axis] * spread.centre_mm[axis]));
-    spread.centre_error_mm[axis] = spread.rms_mm[axis] / std::sqrt(spread.photons);
+    const std::vector<double> sums = marginal(tally, tally.sum, axis);
+    const Spread found = spread_of(sums, edges).value();
+    const auto centre = [&](const std::vector<double>& left) -> std::optional<double> {
+      const std::optional<Spread> without = spread_of(marginal(tally, left, axis), edges);
+      return without ? std::optional(without->mean) : std::nullopt;
+    };
+    spread.centre_mm[axis] = found.mean;
+    spread.rms_mm[axis] = std::sqrt(std::max(0.0, found.mean_square - found.mean * found.mean));
+    spread.centre_error_mm[axis] = error_by_events(tally.sum, tally.group_sums, centre)
+                                       .value_or(spread.rms_mm[axis] / std::sqrt(spread.photons));
     spread.fwhm_mm[axis] = full_width_at_half_maximum(sums, edges);
   }
   return spread;
 }
 
+/// Of the counts of bins: sums over pairs and triples of photons in one bin, each over all.
+struct Clusters {
+  double photons = 0.0, pairs = 0.0, triples = 0.0;  ///< numbers
+
+  explicit Clusters(const std::vector<double>& counts) {
+    for (const double count : counts) {
+      photons += count;
+      pairs += count * (count - 1.0);
+      triples += count * (count - 1.0) * (count - 2.0);
+    }
+  }
+  double square() const { return pairs / (photons * (photons - 1.0)); }                    ///< sum of p^2
+  double cube() const { return triples / (photons * (photons - 1.0) * (photons - 2.0)); }  ///< of p^3
+};
+
 Etendue read_etendue(const tally::TallyResult& tally) {
-  if (tally.type != "etendue") throw wrong_tally(tally, "is not an etendue");
+  if (tally.type != scene_file::kEtendue) throw wrong_tally(tally, "is not an etendue");
   if (tally.index <= 0.0)
     throw wrong_tally(tally, "has directions in media of several indices, or in an opaque part");
   Etendue result;
@@ -197,22 +311,22 @@ Etendue read_etendue(const tally::TallyResult& tally) {
   // dOmega cos(theta) = d(sin^2 theta) dphi / 2
   result.grid_mm2_sr = tally.index * tally.index * span(0) * span(1) * 0.5 * span(2) * span(3);
   const double bin = result.grid_mm2_sr / static_cast<double>(tally.sum.size());
-  double n = 0.0, pairs = 0.0, triples = 0.0;
-  for (const double count : tally.sum) {
-    n += count;
-    pairs += count * (count - 1.0);
-    triples += count * (count - 1.0) * (count - 2.0);
-  }
-  if (pairs <= 0.0)
+  const Clusters clusters(tally.sum);
+  if (clusters.pairs <= 0.0)
     throw core::InputError(
         core::Problem{{},
                       "the tally \"" + tally.name + "\" does not have two photons in any bin",
                       "trace more photons, or use fewer bins"});
-  const double square = pairs / (n * (n - 1.0));              // sum of p^2
-  const double cube = triples / (n * (n - 1.0) * (n - 2.0));  // sum of p^3
-  const double variance = 4.0 * (n - 2.0) / (n * (n - 1.0)) * std::max(0.0, cube - square * square) +
-                          2.0 / (n * (n - 1.0)) * std::max(0.0, square - square * square);
-  result.filled_mm2_sr = {bin / square, bin / square * std::sqrt(variance) / square};
+  const double n = clusters.photons, square = clusters.square();
+  const double variance =
+      4.0 * (n - 2.0) / (n * (n - 1.0)) * std::max(0.0, clusters.cube() - square * square) +
+      2.0 / (n * (n - 1.0)) * std::max(0.0, square - square * square);
+  const auto filled = [bin](const std::vector<double>& left) -> std::optional<double> {
+    const Clusters without(left);
+    return without.pairs > 0.0 ? std::optional(bin / without.square()) : std::nullopt;
+  };
+  result.filled_mm2_sr = {bin / square, error_by_events(tally.sum, tally.group_sums, filled)
+                                            .value_or(bin / square * std::sqrt(variance) / square)};
   return result;
 }
 

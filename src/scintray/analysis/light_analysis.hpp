@@ -1,5 +1,10 @@
 #pragma once
 /// Light from the tallies of a result: crosstalk, light spread, divergence, etendue.
+///
+/// With a source of photons errors are those of independent photons, by the formula that each states. With an
+/// event source they are those of independent events, by the jackknife over groups of events
+/// (core::jackknife_error, tally::TallyResult::group_sums); of a result without such sums, or where a group
+/// has all the light, those of independent photons.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +22,8 @@ struct Crosstalk {
   std::vector<std::vector<core::Estimate>> share;  ///< [source][sensor], of the photons emitted there
 };
 
-/// Crosstalk from a "crosstalk" tally and its companion "NAME: emitted". Errors are binomial.
+/// Crosstalk from a "crosstalk" tally and its companion "NAME: emitted". Errors of independent photons are
+/// binomial.
 /// @throws InputError when the point has no such tally.
 Crosstalk read_crosstalk(const tally::PointResult& point, const std::string& name);
 
@@ -29,6 +35,8 @@ struct CrossingAngles {
   std::vector<std::uint64_t>
       inside;  ///< in equal bins of 0 to 90 deg: angle in the medium of the face's part
   std::vector<std::uint64_t> outside;  ///< angle in the medium beyond
+  /// Of both, tally::TallyResult::group_sums.
+  std::vector<double> inside_groups = {}, outside_groups = {};
 };
 
 /// Of all exit angle tallies of a point, in their order.
@@ -48,7 +56,9 @@ struct Divergence {
 /// Divergence from a histogram over equal bins of 0 to 90 deg, even within each bin. The error of a quantile
 /// is sqrt(q (1 - q) / N) over the density there (Kendall & Stuart, The Advanced Theory of Statistics, vol.
 /// 1, section 10.10), with half a bin's width divided by sqrt(3) for the binning, in quadrature.
-Divergence divergence(const std::vector<std::uint64_t>& counts);
+/// @param groups  the histograms of groups of events, tally::TallyResult::group_sums; empty: the photons are
+///                independent
+Divergence divergence(const std::vector<std::uint64_t>& counts, const std::vector<double>& groups = {});
 
 /// Centre and width of light on a grid.
 struct LightSpread {

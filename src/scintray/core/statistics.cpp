@@ -62,6 +62,14 @@ double Moments::standard_deviation() const {
   return std::sqrt(std::max(0.0, (sum_of_squares - sum * sum / n) / (n - 1.0)));
 }
 
+double jackknife_error(std::span<const double> without) {
+  const auto groups = static_cast<double>(without.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double value : without) sum += value;
+  for (const double value : without) squares += (value - sum / groups) * (value - sum / groups);
+  return std::sqrt((groups - 1.0) / groups * squares);
+}
+
 double sigmas(const Estimate& a, const Estimate& b) {
   const double combined = std::sqrt(a.error * a.error + b.error * b.error);
   if (combined == 0.0) return a.value == b.value ? 0.0 : std::numeric_limits<double>::infinity();

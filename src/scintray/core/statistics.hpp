@@ -42,6 +42,12 @@ struct Moments {
   double standard_deviation() const;
 };
 
+/// Standard error of an estimate from its G values without one of G groups of the sample each, independent
+/// and alike: s^2 = (G - 1) / G sum (value - mean of the values)^2. For the mean of groups of one size this
+/// is the variance of a mean; for what is nearly linear in the sums over groups it holds to first order.
+/// @param without  at least two values
+double jackknife_error(std::span<const double> without);
+
 /// |a - b| in units of the combined standard error.
 double sigmas(const Estimate& a, const Estimate& b);
 

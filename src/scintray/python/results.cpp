@@ -26,12 +26,12 @@ std::vector<std::int32_t> indices_of(const std::vector<IdType>& ids) {
   return indices;
 }
 
-py::dict moments(const core::Moments& of) {
+py::dict moments(const core::Moments& of, const core::Estimate& mean) {
   py::dict entry;
   entry["count"] = of.count;
   entry["sum"] = of.sum;
   entry["sum_of_squares"] = of.sum_of_squares;
-  entry["mean"] = estimate(of.mean());
+  entry["mean"] = estimate(mean);
   entry["standard_deviation"] = of.standard_deviation();
   return entry;
 }
@@ -123,7 +123,7 @@ py::dict energy_of(const tally::EnergyBalance& energy) {
   entry["deposited_keV"] = energy.deposited;
   entry["escaped_keV"] = energy.escaped;
   entry["non_scintillating_keV"] = energy.non_scintillating;
-  entry["detected_per_event"] = moments(energy.detected);
+  entry["detected_per_event"] = moments(energy.detected, energy.detected.mean());
   return entry;
 }
 
@@ -145,10 +145,10 @@ py::dict point_of(const RunDataPtr& data, std::size_t number) {
   entry["absorbed_at_surface"] = view(point.absorbed_at_surface.values(), owner);
   entry["sensor_faces"] = sensor_faces_of(point);
   entry["energy"] = energy_of(point.energy);
-  entry["interactions"] = moments(point.interactions);
-  entry["detected_path_mm"] = moments(point.detected_path_mm);
-  entry["detected_time_ns"] = moments(point.detected_time_ns);
-  entry["detected_interactions"] = moments(point.detected_interactions);
+  entry["interactions"] = moments(point.interactions, point.interactions.mean());
+  entry["detected_path_mm"] = moments(point.detected_path_mm, point.detected_path_mm.mean());
+  entry["detected_time_ns"] = moments(point.detected_time_ns, point.detected_time_ns.mean());
+  entry["detected_interactions"] = moments(point.detected_interactions, point.detected_interactions.mean());
   entry["detected_path_histogram"] =
       view(point.detected_path_histogram.data(), {count_of(point.detected_path_histogram.size())}, owner);
   entry["scatterings"] = point.scatterings;

@@ -103,6 +103,8 @@ constexpr std::array kFields = {
     // exit_angles
     Field{"inside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium of the face's part"},
     Field{"outside", "1", "crossings per equal bin of 0 to 90 deg, angle in the medium beyond"},
+    Field{"inside_group_sums", "1", "the same of each group of events: of an event, its number modulo 64"},
+    Field{"outside_group_sums", "1", "the same of each group of events: of an event, its number modulo 64"},
     // tallies
     Field{"names", "", "meaning of each bin of the axis"},
     Field{"edges", "see group", "edges of the bins, one more than bins"},
@@ -110,6 +112,7 @@ constexpr std::array kFields = {
     Field{"event_squares", "see group, squared", "sum over the events of the square of each event's score"},
     Field{"event_products", "see group",
           "sum over the events of the product of each event's score and the photons traced of it"},
+    Field{"group_sums", "see group", "sum over each group of events: of an event, its number modulo 64"},
     Field{"beyond", "see group", "score outside the axes"},
     Field{"refractive_index", "1",
           "of the medium in which directions at the face are; 0 when there is no one index"},
@@ -197,6 +200,12 @@ constexpr std::array kFields = {
     Field{"count", "1", "photons counted"},
     Field{"sum", "see group", "sum over the photons"},
     Field{"sum_of_squares", "see group, squared", "sum over the photons of the square of each value"},
+    Field{"events_counted", "1", "events in which photons have a value"},
+    Field{"event_count_squares", "1", "sum over the events of the square of the number of their values"},
+    Field{"event_sum_squares", "see group, squared",
+          "sum over the events of the square of the sum of their values"},
+    Field{"event_sum_products", "see group",
+          "sum over the events of the sum of their values, times their number"},
     Field{"mean", "see group", "sum / count"},
     Field{"mean_error", "see group", "standard error of mean"},
     // photons

@@ -100,7 +100,7 @@ std::vector<TallySpec> read_crosstalk(const TallyTable& from) {
                 named_axis(from.variables.at("part"), read_names(table, "part", false))};
   TallySpec emitted = tally;
   emitted.name += ": emitted";
-  emitted.type = "emitted";
+  emitted.type = kCrosstalkEmitted;
   emitted.at = {core::StepEvent::emitted};
   emitted.axes.pop_back();
   return {std::move(emitted), std::move(tally)};
@@ -189,9 +189,10 @@ std::vector<TallySpec> read_count(const TallyTable& from) {
 /// Reads a type's table: the tally that has its name last, its companions before it.
 using ReadType = std::vector<TallySpec> (*)(const TallyTable&);
 constexpr core::Word<ReadType> kTypes[] = {
-    {kExitAngle, read_exit_angle},       {"count", read_count},           {"crosstalk", read_crosstalk},
-    {"light_spread", read_light_spread}, {"irradiance", read_irradiance}, {"angles", read_angles},
-    {"etendue", read_etendue},           {"ledger", read_ledger}};
+    {kExitAngle, read_exit_angle},   {"count", read_count},
+    {kCrosstalk, read_crosstalk},    {"light_spread", read_light_spread},
+    {"irradiance", read_irradiance}, {"angles", read_angles},
+    {kEtendue, read_etendue},        {"ledger", read_ledger}};
 
 /// Reports contradictions: faces for events away from faces, directions at a face without one.
 void check_faces(const config::TomlTable& table, const TallySpec& tally) {

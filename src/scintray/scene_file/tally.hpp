@@ -73,6 +73,9 @@ inline constexpr const char* kPhotonScore = "photons";
 /// angles in front of it, has the type "exit_angle" and the tally's name.
 inline constexpr const char* kExitAngle = "exit_angle";
 inline constexpr const char* kExitAngleBeyond = "exit_angle_beyond";
+inline constexpr const char* kCrosstalk = "crosstalk";
+inline constexpr const char* kCrosstalkEmitted = "emitted";  ///< its companion, the light of each part
+inline constexpr const char* kEtendue = "etendue";
 inline std::string beyond_name(const std::string& name) { return name + ": beyond"; }
 
 /// [[tally]] of a scene.

@@ -83,7 +83,9 @@ bool is_consistent(const tally::PointSums& sums, const tally::RunHeader& header)
            none_or_all(tally.event_count_squares, tally.counts) &&
            tally.event_count_products.size() == tally.event_count_squares.size() &&
            none_or_all(tally.event_squares, tally.sums) &&
-           tally.event_products.size() == tally.event_squares.size();
+           tally.event_products.size() == tally.event_squares.size() &&
+           (tally.group_counts.empty() ||
+            tally.group_counts.size() == tally::kEventGroups * tally.counts.size());
   };
   return sums.counts.absorbed_in_medium.size() == header.media.size() &&
          sums.shifted_in_medium.size() == header.media.size() &&

@@ -113,12 +113,12 @@ void BlockTally::cut(const source::Photon& photon, core::Fate fate) {
 }
 
 void BlockTally::add_to(PointSums& total, bool is_event) const {
-  total.add(result_);
+  total.add(result_, is_event);
   if (scorer_) add_contributions(scorer_->contributions(), total.tallies);
   if (!is_event) return;
   total.counts.event_fates.add(result_.fates);
   add_event_places(result_, total.counts);
-  if (scorer_) add_event(scorer_->contributions(), result_.photons, total.tallies);
+  if (scorer_) add_event(scorer_->contributions(), event_, result_.photons, total.tallies);
 }
 
 void BlockTally::finish(const source::Photon& photon, core::Fate fate) {

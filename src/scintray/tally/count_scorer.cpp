@@ -178,7 +178,7 @@ void add_contributions(const std::vector<Contribution>& contributions, std::vect
   }
 }
 
-void add_event(std::vector<Contribution> contributions, std::uint64_t photons,
+void add_event(std::vector<Contribution> contributions, std::uint64_t event, std::uint64_t photons,
                std::vector<TallySums>& total) {
   // Stable, so that scores are summed in the order of photons.
   std::stable_sort(contributions.begin(), contributions.end(), before_in_order);
@@ -186,7 +186,8 @@ void add_event(std::vector<Contribution> contributions, std::uint64_t photons,
     double score = 0.0;
     auto last = first;
     for (; last != contributions.end() && !before_in_order(*first, *last); ++last) score += last->score;
-    if (first->bin != Contribution::kOutside) total[first->count].add_event(first->bin, score, photons);
+    if (first->bin != Contribution::kOutside)
+      total[first->count].add_event(first->bin, score, event, photons);
     first = last;
   }
 }

@@ -56,7 +56,9 @@ class CountScorer {
 void add_contributions(const std::vector<Contribution>& contributions, std::vector<TallySums>& total);
 
 /// Adds all contributions of the photons of one event to the sums over events of `total`.
-/// @param photons  traced of the event
-void add_event(std::vector<Contribution> contributions, std::uint64_t photons, std::vector<TallySums>& total);
+/// @param event    its number
+/// @param photons  traced of it
+void add_event(std::vector<Contribution> contributions, std::uint64_t event, std::uint64_t photons,
+               std::vector<TallySums>& total);
 
 }  // namespace scintray::tally

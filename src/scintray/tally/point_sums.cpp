@@ -79,6 +79,27 @@ void MomentSums::merge(const MomentSums& other) {
 
 core::Moments MomentSums::value() const { return {count, sum.value(), sum_of_squares.value()}; }
 
+void PhotonMomentSums::add(const core::Moments& block, bool is_event) {
+  photons.add(block);
+  if (!is_event || block.count == 0) return;
+  ++events;
+  count_squares += block.count * block.count;
+  squares.add(block.sum * block.sum);
+  products.add(block.sum * static_cast<double>(block.count));
+}
+
+void PhotonMomentSums::merge(const PhotonMomentSums& other) {
+  photons.merge(other.photons);
+  events += other.events;
+  count_squares += other.count_squares;
+  squares.merge(other.squares);
+  products.merge(other.products);
+}
+
+PhotonMoments PhotonMomentSums::value() const {
+  return {photons.value(), {events, count_squares, squares.value(), products.value()}};
+}
+
 void ShiftSums::add(const optics::ShiftCount& block) {
   absorbed += block.absorbed;
   emitted += block.emitted;
@@ -134,7 +155,7 @@ EnergyBalance EnergySums::value() const {
   return balance;
 }
 
-TallySums::TallySums(const TallyResult& tally) : empty(tally) {
+TallySums::TallySums(const TallyResult& tally) : empty(tally), grouped_(tally.is_grouped()) {
   const std::size_t bins = empty.sum.size();
   if (empty.score == scene_file::kPhotonScore) {
     counts.assign(bins, 0);
@@ -160,7 +181,7 @@ void TallySums::add(std::size_t bin, double score) {
 
 void TallySums::add_outside(double score) { outside.add(score); }
 
-void TallySums::add_event(std::size_t bin, double score, std::uint64_t photons) {
+void TallySums::add_event(std::size_t bin, double score, std::uint64_t event, std::uint64_t photons) {
   if (counts.empty()) {
     if (event_squares.empty()) {
       event_squares.resize(sums.size());
@@ -177,6 +198,9 @@ void TallySums::add_event(std::size_t bin, double score, std::uint64_t photons) 
   const auto scored = static_cast<std::uint64_t>(score);
   event_count_squares[bin] += scored * scored;
   event_count_products[bin] += scored * photons;
+  if (!grouped_) return;
+  if (group_counts.empty()) group_counts.resize(kEventGroups * counts.size());
+  group_counts[event % kEventGroups * counts.size() + bin] += scored;
 }
 
 void TallySums::merge(const TallySums& other) {
@@ -188,6 +212,7 @@ void TallySums::merge(const TallySums& other) {
   add_to_some(event_count_products, other.event_count_products);
   merge_some(event_squares, other.event_squares);
   merge_some(event_products, other.event_products);
+  add_to_some(group_counts, other.group_counts);
   outside.merge(other.outside);
 }
 
@@ -201,20 +226,21 @@ TallyResult TallySums::value() const {
   result.event_products.assign(event_count_products.begin(), event_count_products.end());
   for (const core::ExactSum& sum : event_squares) result.event_squares.push_back(sum.value());
   for (const core::ExactSum& sum : event_products) result.event_products.push_back(sum.value());
+  result.group_sums.assign(group_counts.begin(), group_counts.end());
   result.outside = outside.value();
   return result;
 }
 
-void PointSums::add(const PointResult& block) {
+void PointSums::add(const PointResult& block, bool is_event) {
   add_counts(counts, block);
   for (const core::MediumId id : shifted_in_medium.ids())
     shifted_in_medium[id].add(block.shifted_in_medium[id]);
   for (const core::SurfaceId id : shifted_at_surface.ids())
     shifted_at_surface[id].add(block.shifted_at_surface[id]);
-  interactions.add(block.interactions);
-  detected_path_mm.add(block.detected_path_mm);
-  detected_time_ns.add(block.detected_time_ns);
-  detected_interactions.add(block.detected_interactions);
+  interactions.add(block.interactions, is_event);
+  detected_path_mm.add(block.detected_path_mm, is_event);
+  detected_time_ns.add(block.detected_time_ns, is_event);
+  detected_interactions.add(block.detected_interactions, is_event);
 }
 
 void PointSums::merge(const PointSums& other) {
@@ -266,6 +292,7 @@ PointResult PointSums::result() const {
     if (events.all > 0 && made.event_squares.empty()) {
       made.event_squares.assign(made.sum.size(), 0.0);
       made.event_products = made.event_squares;
+      if (made.is_grouped()) made.group_sums.assign(kEventGroups * made.sum.size(), 0.0);
     }
   }
   return result;

@@ -28,6 +28,19 @@ struct MomentSums {
   bool operator==(const MomentSums&) const = default;
 };
 
+/// Sums of PhotonMoments.
+struct PhotonMomentSums {
+  MomentSums photons;
+  std::uint64_t events = 0, count_squares = 0;
+  core::ExactSum squares, products;
+
+  /// @param is_event  the block is one event of an event source
+  void add(const core::Moments& block, bool is_event);
+  void merge(const PhotonMomentSums& other);
+  PhotonMoments value() const;
+  bool operator==(const PhotonMomentSums&) const = default;
+};
+
 /// Sums of optics::ShiftCount.
 struct ShiftSums {
   std::uint64_t absorbed = 0, emitted = 0, additional = 0;
@@ -63,8 +76,9 @@ class TallySums {
   /// Adds a score beyond the axes.
   void add_outside(double score);
   /// Adds the score of one event in a bin, beside its photons.
-  /// @param photons  traced of the event
-  void add_event(std::size_t bin, double score, std::uint64_t photons);
+  /// @param event    its number
+  /// @param photons  traced of it
+  void add_event(std::size_t bin, double score, std::uint64_t event, std::uint64_t photons);
   /// @pre those of the same tally
   void merge(const TallySums& other);
   TallyResult value() const;
@@ -77,8 +91,13 @@ class TallySums {
   /// it. Integers for photons, else exact sums; all zero for a source of photons.
   std::vector<std::uint64_t> event_count_squares, event_count_products;
   std::vector<core::ExactSum> event_squares, event_products;
+  /// TallyResult::group_sums; empty: zeros, or not grouped.
+  std::vector<std::uint64_t> group_counts;
   core::ExactSum outside;
   TallyResult empty;  ///< name and axes; its sums are empty
+
+ private:
+  bool grouped_ = false;
 };
 
 /// Sums over any blocks of a point. Each photon's contribution depends on the photon alone, or on its block;
@@ -89,12 +108,13 @@ struct PointSums {
   PointResult counts;
   core::IdVector<core::MediumId, ShiftSums> shifted_in_medium;
   core::IdVector<core::SurfaceId, ShiftSums> shifted_at_surface;
-  MomentSums interactions, detected_path_mm, detected_time_ns, detected_interactions;
+  PhotonMomentSums interactions, detected_path_mm, detected_time_ns, detected_interactions;
   EnergySums energy;
   std::vector<TallySums> tallies;
 
   /// Adds the result of a block, but for its tallies and energy. @pre of the same point
-  void add(const PointResult& block);
+  /// @param is_event  the block is one event of an event source, the photons of which are not independent
+  void add(const PointResult& block, bool is_event);
   /// @pre of the same point
   void merge(const PointSums& other);
   /// True when both have media, surfaces, sensor faces, tallies and bins alike, so that they can be merged.

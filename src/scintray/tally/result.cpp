@@ -14,6 +14,15 @@ std::size_t TallyResult::bins() const {
   return bins;
 }
 
+bool TallyResult::is_grouped() const {
+  if (score != scene_file::kPhotonScore) return false;
+  const auto is_position = [](const TallyAxis& axis) { return axis.variable == "position"; };
+  return type == scene_file::kExitAngle || type == scene_file::kExitAngleBeyond ||
+         type == scene_file::kCrosstalk || type == scene_file::kCrosstalkEmitted ||
+         type == scene_file::kEtendue ||
+         (axes.size() == 2 && std::all_of(axes.begin(), axes.end(), is_position));
+}
+
 namespace {
 
 /// Standard error of a ratio of sums over events: the root of the sum of squared residuals, by the number of
@@ -25,6 +34,15 @@ double ratio_error(double residual_squares, std::uint64_t events, double denomin
 }
 
 }  // namespace
+
+core::Estimate PhotonMoments::mean() const {
+  const core::Estimate of_photons = core::Moments::mean();
+  if (of_events.events < 2) return of_photons;
+  const double r = of_photons.value;
+  const double residual =
+      of_events.squares - 2.0 * r * of_events.products + r * r * static_cast<double>(of_events.count_squares);
+  return {r, ratio_error(residual, of_events.events, static_cast<double>(count))};
+}
 
 core::Estimate TallyResult::at(std::size_t bin, std::uint64_t photons) const {
   if (photons == 0) return {};

@@ -34,6 +34,29 @@ struct EventShare {
   bool operator==(const EventShare&) const = default;
 };
 
+/// Groups of the events of an event source, by their numbers modulo this, for the errors of quantities that
+/// are computed from several bins of a tally.
+inline constexpr std::size_t kEventGroups = 64;
+
+/// Sums over the events of an event source in which photons have a quantity: n photons of an event sum to s.
+struct EventMoments {
+  std::uint64_t events = 0;         ///< 0: photons are independent, or older than these sums
+  std::uint64_t count_squares = 0;  ///< of n^2
+  double squares = 0.0;             ///< of s^2
+  double products = 0.0;            ///< of s n
+
+  bool operator==(const EventMoments&) const = default;
+};
+
+/// Sums of a quantity over photons.
+struct PhotonMoments : core::Moments {
+  EventMoments of_events;
+
+  /// Mean with its standard error: of independent photons, or of independent events where there are two or
+  /// more (docs/physics.md, Estimates).
+  core::Estimate mean() const;
+};
+
 /// Photons that reached one sensor through one face.
 struct SensorFaceCount {
   core::PartId part;  ///< the sensor's
@@ -79,6 +102,9 @@ struct TallyResult {
   /// Per bin, over the events of an event source: of the square of an event's score, and of its product with
   /// the photons traced of the event. Empty: photons are independent, or older than these sums.
   std::vector<double> event_squares, event_products;
+  /// Sums over the events of each of kEventGroups groups, of all bins; the groups one after the other. Empty:
+  /// as above, or nothing is computed from several bins of the tally.
+  std::vector<double> group_sums;
   EventCounts events;    ///< of these
   double outside = 0.0;  ///< score beyond the axes
   /// Refractive index, at the middle of the wavelengths in use, of the medium of its directions at faces; 0
@@ -86,6 +112,9 @@ struct TallyResult {
   double index = 0.0;
 
   std::size_t bins() const;
+  /// True when quantities are computed from several bins together: crosstalk, divergence, light spread,
+  /// etendue.
+  bool is_grouped() const;
   /// Score of a bin with its standard error, from `photons` independent photons, or from the events. A bin
   /// of photons without any has the error of one.
   core::Estimate at(std::size_t bin, std::uint64_t photons) const;
@@ -189,10 +218,10 @@ struct PointResult : PointFacts {
   core::IdVector<core::SurfaceId, optics::ShiftCount> shifted_at_surface;
   std::vector<SensorFaceCount> sensor_faces;
   std::vector<TallyResult> tallies;
-  core::Moments interactions;      ///< boundary interactions per photon
-  core::Moments detected_path_mm;  ///< path length of detected photons
-  core::Moments detected_time_ns;  ///< time from emission, plus emission time, of detected photons
-  core::Moments detected_interactions;
+  PhotonMoments interactions;      ///< boundary interactions per photon
+  PhotonMoments detected_path_mm;  ///< path length of detected photons
+  PhotonMoments detected_time_ns;  ///< time from emission, plus emission time, of detected photons
+  PhotonMoments detected_interactions;
   std::array<std::uint64_t, 51> detected_path_histogram{};  ///< 10 mm bins, last: 500 mm and more
   std::uint64_t scatterings = 0;                            ///< bulk scatterings
   std::uint64_t segments = 0;                               ///< straight segments traced

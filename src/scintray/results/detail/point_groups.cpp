@@ -15,16 +15,29 @@ namespace scintray::results::format {
 
 namespace {
 
-void put_moments(core::h5::Group& point, const std::string& name, const std::string& unit,
-                 const std::string& description, const core::Moments& moments) {
+/// @param mean  of the moments
+core::h5::Group put_moments(core::h5::Group& point, const std::string& name, const std::string& unit,
+                            const std::string& description, const core::Moments& moments,
+                            const core::Estimate& mean) {
   core::h5::Group group = point.create_group(name);
   group.set_attribute("", "description", description);
   group.set_attribute("", "unit", unit);
   put(group, "count", moments.count);
   put(group, "sum", moments.sum);
   put(group, "sum_of_squares", moments.sum_of_squares);
-  put(group, "mean", moments.mean().value);
-  put(group, "mean_error", moments.mean().error);
+  put(group, "mean", mean.value);
+  put(group, "mean_error", mean.error);
+  return group;
+}
+
+void put_photon_moments(core::h5::Group& point, const std::string& name, const std::string& unit,
+                        const std::string& description, const tally::PhotonMoments& moments) {
+  core::h5::Group group = put_moments(point, name, unit, description, moments, moments.mean());
+  if (moments.of_events.events == 0) return;
+  put(group, "events_counted", moments.of_events.events);
+  put(group, "event_count_squares", moments.of_events.count_squares);
+  put(group, "event_sum_squares", moments.of_events.squares);
+  put(group, "event_sum_products", moments.of_events.products);
 }
 
 /// Lower ends of the bins of path length.
@@ -103,6 +116,15 @@ void put_sensor_faces(core::h5::Group& point, const std::vector<tally::SensorFac
   name_dimensions(group);
 }
 
+/// Sums over groups of events: the groups before the bins, whose shape is `shape`.
+void put_group_sums(core::h5::Group& tally, const std::string& name, const std::vector<double>& sums,
+                    std::vector<std::size_t> shape) {
+  if (sums.empty()) return;
+  shape.insert(shape.begin(), tally::kEventGroups);
+  tally.write(name, sums, shape);
+  describe(tally, name);
+}
+
 /// @param faces  of the run, to one of which each tally is bound
 void put_exit_angles(core::h5::Group& point, const std::vector<analysis::CrossingAngles>& tallies,
                      const core::IdVector<core::FaceId, std::string>& faces) {
@@ -117,12 +139,19 @@ void put_exit_angles(core::h5::Group& point, const std::vector<analysis::Crossin
     tally.set_attribute("", "detected_only", static_cast<std::int64_t>(tallies[i].detected_only));
     put(tally, "inside", tallies[i].inside);
     put(tally, "outside", tallies[i].outside);
+    put_group_sums(tally, "inside_group_sums", tallies[i].inside_groups, {tallies[i].inside.size()});
+    put_group_sums(tally, "outside_group_sums", tallies[i].outside_groups, {tallies[i].outside.size()});
     std::vector<double> low;
     for (std::size_t bin = 0; bin < tallies[i].inside.size(); ++bin)
       low.push_back(90.0 * static_cast<double>(bin) / static_cast<double>(tallies[i].inside.size()));
     put(tally, "angle_low_deg", low);
     const std::vector<std::string> angles{"angle_low_deg"};
-    name_dimensions(tally, {{"angle_low_deg", angles}, {"inside", angles}, {"outside", angles}});
+    const std::vector<std::string> groups{"event_group", "angle_low_deg"};
+    name_dimensions(tally, {{"angle_low_deg", angles},
+                            {"inside", angles},
+                            {"outside", angles},
+                            {"inside_group_sums", groups},
+                            {"outside_group_sums", groups}});
   }
 }
 
@@ -166,12 +195,17 @@ void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& 
       tally.write("event_products", from.event_products, shape);
       describe(tally, "event_products");
     }
+    put_group_sums(tally, "group_sums", from.group_sums, shape);
     put(tally, "beyond", from.outside);
     put(tally, "refractive_index", from.index);
     std::vector<std::string> bins;
     for (std::size_t k = 0; k < from.axes.size(); ++k) bins.push_back("bin_" + std::to_string(k));
     name_dimensions(
         tally, {{"sum", bins}, {"sum_of_squares", bins}, {"event_squares", bins}, {"event_products", bins}});
+    if (!from.group_sums.empty()) {
+      bins.insert(bins.begin(), "event_group");
+      name_dimensions(tally, {{"group_sums", bins}});
+    }
   }
 }
 
@@ -186,7 +220,8 @@ void put_energy(core::h5::Group& point, const tally::EnergyBalance& energy) {
   put(group, "escaped_total_keV", energy.escaped);
   put(group, "unseen_total_keV", energy.non_scintillating);
   put_moments(group, "detected_per_event", "1",
-              "photons detected per event with energy deposited in a scintillator", energy.detected);
+              "photons detected per event with energy deposited in a scintillator", energy.detected,
+              energy.detected.mean());
 }
 
 void put_light_timing(core::h5::Group& point, const tally::LightTiming& timing) {
@@ -323,12 +358,13 @@ void put_point(core::h5::Group& group, const tally::PointResult& point, const Po
   put_sensor_faces(group, point.sensor_faces, point.event_fates.events > 0);
   put_exit_angles(group, analysis::crossing_angles(point), names.faces);
   put_tallies(group, point.tallies);
-  put_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
-              point.interactions);
-  put_moments(group, "detected_path", "mm", "path length of detected photons", point.detected_path_mm);
-  put_moments(group, "detected_time", "ns", "time of detection since the event", point.detected_time_ns);
-  put_moments(group, "detected_interactions", "1", "boundary interactions of detected photons",
-              point.detected_interactions);
+  put_photon_moments(group, "interactions_per_photon", "1", "boundary interactions of each photon",
+                     point.interactions);
+  put_photon_moments(group, "detected_path", "mm", "path length of detected photons", point.detected_path_mm);
+  put_photon_moments(group, "detected_time", "ns", "time of detection since the event",
+                     point.detected_time_ns);
+  put_photon_moments(group, "detected_interactions", "1", "boundary interactions of detected photons",
+                     point.detected_interactions);
   put(group, "scatterings", point.scatterings);
   put(group, "segments", point.segments);
   put(group, "resolved_misses", point.resolved_misses);

@@ -43,6 +43,25 @@ core::Moments get_moments(const core::h5::Group& point, const std::string& name)
           get<double>(group, "sum_of_squares")};
 }
 
+tally::PhotonMoments get_photon_moments(const core::h5::Group& point, const std::string& name) {
+  tally::PhotonMoments moments{get_moments(point, name), {}};
+  const core::h5::Group group = point.open_group(name);
+  if (!group.has("events_counted")) return moments;
+  moments.of_events = {get<std::uint64_t>(group, "events_counted"),
+                       get<std::uint64_t>(group, "event_count_squares"),
+                       get<double>(group, "event_sum_squares"), get<double>(group, "event_sum_products")};
+  return moments;
+}
+
+/// Sums over groups of events of a tally with `bins` bins; empty where the file has none.
+std::vector<double> get_group_sums(const core::h5::Group& tally, const std::string& name, std::size_t bins) {
+  if (!tally.has(name)) return {};
+  std::vector<double> sums = tally.read<double>(name);
+  if (sums.size() != tally::kEventGroups * bins)
+    throw core::SystemError(name + " does not match the bins of its tally");
+  return sums;
+}
+
 template <typename IdType>
 core::IdVector<IdType, std::string> get_names(const core::h5::Group& root, const std::string& name) {
   return core::IdVector<IdType, std::string>(root.read_strings(name));
@@ -110,10 +129,10 @@ class PointReader {
     point.sensor_faces = sensor_faces();
     if (group_.has("tallies")) point.tallies = tallies();
     add_exit_angles(point.tallies);
-    point.interactions = get_moments(group_, "interactions_per_photon");
-    point.detected_path_mm = get_moments(group_, "detected_path");
-    point.detected_time_ns = get_moments(group_, "detected_time");
-    point.detected_interactions = get_moments(group_, "detected_interactions");
+    point.interactions = get_photon_moments(group_, "interactions_per_photon");
+    point.detected_path_mm = get_photon_moments(group_, "detected_path");
+    point.detected_time_ns = get_photon_moments(group_, "detected_time");
+    point.detected_interactions = get_photon_moments(group_, "detected_interactions");
     point.scatterings = get<std::uint64_t>(group_, "scatterings");
     point.segments = get<std::uint64_t>(group_, "segments");
     point.resolved_misses = get<std::uint64_t>(group_, "resolved_misses");
@@ -192,11 +211,18 @@ class PointReader {
             std::string("the sums of ") + name + " contradict each other");
   }
 
+  void require_photon_moments(const tally::PhotonMoments& moments, const char* name) const {
+    require_moments(moments, name);
+    require_number(moments.of_events.squares, name);
+    require(std::isfinite(moments.of_events.products) && moments.of_events.events <= moments.count,
+            std::string("the sums over events of ") + name + " are no such sums");
+  }
+
   void check_numbers(const tally::PointResult& point) const {
-    require_moments(point.interactions, "interactions_per_photon");
-    require_moments(point.detected_path_mm, "detected_path");
-    require_moments(point.detected_time_ns, "detected_time");
-    require_moments(point.detected_interactions, "detected_interactions");
+    require_photon_moments(point.interactions, "interactions_per_photon");
+    require_photon_moments(point.detected_path_mm, "detected_path");
+    require_photon_moments(point.detected_time_ns, "detected_time");
+    require_photon_moments(point.detected_interactions, "detected_interactions");
     require_moments(point.energy.detected, "detected_per_event");
     require_number(point.wall_seconds, "wall_seconds");
     require_number(point.energy.started, "started_keV");
@@ -210,6 +236,7 @@ class PointReader {
       for (const double sum : tally.event_squares) require_number(sum, "a sum over events of a tally");
       for (const double sum : tally.event_products)
         require(std::isfinite(sum), "a sum over events of a tally is not a number");
+      for (const double sum : tally.group_sums) require_number(sum, "a sum over a group of events");
       require_number(tally.index, "refractive_index");
     }
   }
@@ -291,6 +318,8 @@ class PointReader {
       angles.detected_only = from.integer_attribute("", "detected_only") != 0;
       angles.inside = from.read<std::uint64_t>("inside");
       angles.outside = from.read<std::uint64_t>("outside");
+      angles.inside_groups = get_group_sums(from, "inside_group_sums", angles.inside.size());
+      angles.outside_groups = get_group_sums(from, "outside_group_sums", angles.outside.size());
       for (tally::TallyResult& tally : analysis::tallies_of(angles)) tallies.push_back(std::move(tally));
     }
   }
@@ -335,6 +364,7 @@ class PointReader {
         require(tally.event_squares.size() == tally.bins() && tally.event_products.size() == tally.bins(),
                 "the sums over events of the tally \"" + tally.name + "\" do not match its axes");
       }
+      tally.group_sums = get_group_sums(from, "group_sums", tally.bins());
       tally.outside = get<double>(from, "beyond");
       tally.index = get<double>(from, "refractive_index");
       tallies.push_back(std::move(tally));

@@ -26,7 +26,7 @@ enum class Record : std::uint8_t {
 
 /// First bytes of a file, and the version of its layout after them.
 inline constexpr std::string_view kMagic = "ScintRay block ranges\n";
-inline constexpr std::uint32_t kRangesVersion = 4;
+inline constexpr std::uint32_t kRangesVersion = 5;
 /// Of a record: its kind and the number of its bytes before them, their CRC-32 and those of both after.
 inline constexpr std::size_t kRecordHead = 1 + sizeof(std::uint64_t), kRecordTail = sizeof(std::uint32_t);
 
@@ -148,6 +148,10 @@ void exchange(A& a, tally::MomentSums& v) {
   pass(a, v.count, v.sum, v.sum_of_squares);
 }
 template <typename A>
+void exchange(A& a, tally::PhotonMomentSums& v) {
+  pass(a, v.photons, v.events, v.count_squares, v.squares, v.products);
+}
+template <typename A>
 void exchange(A& a, tally::ShiftSums& v) {
   pass(a, v.absorbed, v.emitted, v.additional, v.before_eV, v.after_eV, v.kept_eV);
 }
@@ -172,6 +176,7 @@ void exchange(A& a, tally::TallySums& v) {
   exchange_sparse(a, v.event_count_products);
   exchange_sparse(a, v.event_squares);
   exchange_sparse(a, v.event_products);
+  exchange_sparse(a, v.group_counts);
 }
 template <typename A>
 void exchange(A& a, tally::EventFates& v) {

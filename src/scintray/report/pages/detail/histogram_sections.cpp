@@ -45,11 +45,12 @@ std::vector<std::size_t> shown_points(const tally::RunResult& run) {
 
 /// "31.2 ± 0.1° inside and 40.1 ± 0.2° outside".
 std::string half_angles(const analysis::CrossingAngles& tally) {
-  const auto text = [](const std::vector<std::uint64_t>& counts) {
-    const core::Estimate half = analysis::divergence(counts).half_rad;
+  const auto text = [](const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
+    const core::Estimate half = analysis::divergence(counts, groups).half_rad;
     return with_error({half.value / core::kDegree, half.error / core::kDegree}) + "°";
   };
-  return text(tally.inside) + " inside and " + text(tally.outside) + " outside";
+  return text(tally.inside, tally.inside_groups) + " inside and " +
+         text(tally.outside, tally.outside_groups) + " outside";
 }
 
 std::string angle_figures(const tally::PointResult& point) {

@@ -29,8 +29,8 @@ constexpr std::size_t kMostRows = 400;
 /// Form of a tally where its axes do not determine it.
 /// Hidden are companions of other tallies and exit angles, which have figures of their own.
 enum class TallyView { by_axes, crosstalk, etendue, hemisphere, ledger, hidden };
-constexpr core::Word<TallyView> kTallyViews[] = {{"crosstalk", TallyView::crosstalk},
-                                                 {"etendue", TallyView::etendue},
+constexpr core::Word<TallyView> kTallyViews[] = {{scene_file::kCrosstalk, TallyView::crosstalk},
+                                                 {scene_file::kEtendue, TallyView::etendue},
                                                  {"angles", TallyView::hemisphere},
                                                  {"emitted", TallyView::hidden},
                                                  {"ledger", TallyView::ledger},
@@ -286,8 +286,8 @@ std::string tally_section(const tally::RunResult& run) {
 std::string tally_lines(const tally::RunHeader& header, const tally::PointResult& point) {
   std::string lines;
   for (const analysis::CrossingAngles& tally : analysis::crossing_angles(point)) {
-    const auto within = [](const std::vector<std::uint64_t>& counts) {
-      const analysis::Divergence d = analysis::divergence(counts);
+    const auto within = [](const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
+      const analysis::Divergence d = analysis::divergence(counts, groups);
       const auto degrees = [](const core::Estimate& e) {
         return with_error({e.value / core::kDegree, e.error / core::kDegree});
       };
@@ -295,8 +295,8 @@ std::string tally_lines(const tally::RunHeader& header, const tally::PointResult
              " deg (nine tenths)";
     };
     if (analysis::divergence(tally.inside).photons == 0) continue;
-    lines += "divergence, " + tally.name + ": inside " + within(tally.inside) + "; outside " +
-             within(tally.outside) + "\n";
+    lines += "divergence, " + tally.name + ": inside " + within(tally.inside, tally.inside_groups) +
+             "; outside " + within(tally.outside, tally.outside_groups) + "\n";
   }
   for (const tally::TallyResult& tally : point.tallies) {
     const TallyView view = view_of(tally);
