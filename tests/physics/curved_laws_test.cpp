@@ -7,6 +7,7 @@
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/optics/fresnel.hpp"
+#include "scintray/scene/facet_faces.hpp"
 #include "scintray/transport/step.hpp"
 #include "support/photon_source.hpp"
 #include "support/shared.hpp"
@@ -204,6 +205,61 @@ sensor = "perfect"
     check_fraction(traced.result, Fate::escaped, expected.escaped);
     check_fraction(traced.result, Fate::absorbed_in_medium, expected.absorbed);
   }
+}
+
+TEST_CASE("Facets of a rod let out light that its wall would keep, and no more than is estimated") {
+  const RodShares expected = rod_shares(kLso, 1.5, 20.0, 300.0, 1.5);
+  for (const int sides : {16, 64, 256}) {
+    CAPTURE(sides);
+    const std::string scene = kVacuum +
+                              fmt::format(R"([[part]]
+name = "rod"
+cylinder = {{ radius = "1.5 mm", height = "20 mm", segments = {} }}
+medium = "lso_300"
+surface = "flat"
+[[part]]
+name = "sensor"
+cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
+place = {{ touch = "rod", side = "-z" }}
+sensor = "perfect"
+)",
+                                          sides, sides) +
+                              source_in("rod", 100'000) +
+                              "[run]\ncurved = \"facets\"\n[media.lso_300]\nindex = { n = 1.82 }\nabsorption "
+                              "= { length = \"300 mm\" }\n"
+                              "scattering = { none = true }\n";
+    const Traced traced = trace(scene);
+    const Estimate escaped = traced.result.fraction(Fate::escaped);
+    const double let_out = escaped.value - expected.escaped;
+    CAPTURE(let_out);
+    const std::vector<FacetFace> faces = facet_faces(traced.built);
+    const auto wall = std::find_if(faces.begin(), faces.end(),
+                                   [](const FacetFace& face) { return face.name.starts_with("rod:"); });
+    REQUIRE(wall != faces.end());
+    CHECK(wall->deviation.angle_rad == doctest::Approx(kPi / sides).epsilon(1e-6));
+    CAPTURE(wall->let_out);
+    CHECK(let_out > kSigmas * escaped.error);
+    CHECK(wall->let_out > let_out + kSigmas * escaped.error);
+    CHECK(wall->let_out < 8.0 * let_out);  // an estimate, not only a bound
+  }
+}
+
+TEST_CASE("The light that facets let out is estimated as none without total reflection, and as all at most") {
+  RoundWall wall{1.82, 1.0, 0.0, 2.8, 0.1};
+  const double all = 1.0 - 1.0 / (1.82 * 1.82);
+  CHECK(light_let_out(wall) == doctest::Approx(all));  // light that is never absorbed
+  wall.absorption_per_mm = 1.0 / 300.0;
+  CHECK(light_let_out(wall) < all + 1e-12);
+  // Little light, by the derivative of sin^2 at the critical angle.
+  wall.facet_angle_rad = 1e-6;
+  const double spread = 2e-6 * std::sqrt(300.0 / 2.8 / 3.0), sine = 1.0 / 1.82;
+  CHECK(light_let_out(wall) ==
+        doctest::Approx(2.0 * sine * std::sqrt(1.0 - sine * sine) * spread).epsilon(1e-4));
+  wall.index_outside = 1.9;
+  CHECK(light_let_out(wall) == 0.0);
+  wall.index_outside = 1.0;
+  wall.facet_angle_rad = 0.0;
+  CHECK(light_let_out(wall) == 0.0);
 }
 
 TEST_CASE("Law: a round fibre keeps light by its angle at the wall, meridional and skew") {

@@ -273,8 +273,7 @@ TEST_CASE("What is computed from several bins has pulls of mean 0 and width 1 wi
        [](const tally::PointResult& run) {
          return analysis::read_etendue(analysis::find_tally(run, "etendue")).filled_mm2_sr;
        }},
-      {"share of the light of the crystal that the sensor detects",
-       [](const tally::PointResult& run) {
+      {"share of the light of the crystal that the sensor detects", [](const tally::PointResult& run) {
          const analysis::Crosstalk crosstalk = analysis::read_crosstalk(run, "matrix");
          Estimate most{};
          for (const auto& row : crosstalk.share)

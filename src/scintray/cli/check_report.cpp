@@ -13,7 +13,7 @@
 
 #include "scintray/cli/alike.hpp"
 #include "scintray/core/pattern.hpp"
-#include "scintray/mesh/smooth_faces.hpp"
+#include "scintray/scene/facet_faces.hpp"
 
 namespace scintray::cli {
 namespace {
@@ -135,26 +135,32 @@ class Printer {
     print_rows(rows, 28);
   }
 
+  static std::string facets_text(const scene::FacetFace& face, const scene::PartInfo& part) {
+    const double degrees = face.deviation.angle_rad / core::kDegree;
+    std::string text =
+        face.surface_known
+            ? fmt::format("facets up to {:.3g} mm and {:.3g} deg from it: {}", face.deviation.distance_mm,
+                          degrees, part.facets_because)
+            : fmt::format("facets, estimated up to {:.3g} mm and {:.3g} deg from a smooth surface",
+                          face.deviation.distance_mm, degrees);
+    if (face.let_out > 0.0)
+      text +=
+          fmt::format("; of the light in the part up to {:.2g} % may leave that total reflection would keep",
+                      100.0 * face.let_out);
+    return text;
+  }
+
   /// Faces that approximate a known surface: by that surface, or by how far their facets are from it.
   void print_round_faces() const {
+    std::map<std::string, scene::FacetFace> of_facets;
+    for (scene::FacetFace& face : scene::facet_faces(built_)) of_facets[face.name] = face;
     Alike<Row> rows;
     for (const scene::FaceInfo& face : scene_.faces) {
-      if (face.curve.empty()) continue;
+      const auto facets = of_facets.find(face.name);
+      if (face.curve.empty() && facets == of_facets.end()) continue;
       std::string how = "exact";
-      if (!face.exact)
-        how =
-            fmt::format("facets up to {:.3g} mm and {:.3g} deg from it: {}", face.deviation.distance_mm,
-                        face.deviation.angle_rad * 180.0 / core::kPi, scene_.parts[face.part].facets_because);
-      add(rows, face.name, fmt::format("{:<28} {}", face.curve, how));
-    }
-    for (const contact::PlacedMesh& part : built_.placed) {
-      const std::vector<mesh::FacetDeviation> faces =
-          mesh::smooth_face_deviations(part.mesh, part.face_of, part.faces.size());
-      for (std::size_t face = 0; face < faces.size(); ++face)
-        if (faces[face].angle_rad > 0.0)
-          add(rows, part.name + ":" + part.faces[face].name,
-              fmt::format("{:<28} facets, estimated up to {:.3g} mm and {:.3g} deg from a smooth surface",
-                          "not known", faces[face].distance_mm, faces[face].angle_rad * 180.0 / core::kPi));
+      if (facets != of_facets.end()) how = facets_text(facets->second, scene_.parts[face.part]);
+      add(rows, face.name, fmt::format("{:<28} {}", face.curve.empty() ? "not known" : face.curve, how));
     }
     if (rows.lines().empty()) return;
     std::cout << "\nround faces\n";

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scintray/detector/microcells.hpp"
-#include "scintray/mesh/smooth_faces.hpp"
+#include "scintray/scene/facet_faces.hpp"
 #include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::simulation {
@@ -89,32 +89,34 @@ void add_electronics(const std::optional<detector::ReadoutSpec>& readout,
     effects.push_back(effect("electronic noise", "", Figures::both, "[readout] noise"));
 }
 
-/// Round faces whose triangles are traced: how many, and how far the steepest is from its surface.
+/// Round faces whose triangles are traced: how many, how far the steepest is from its surface, and what light
+/// they may let out.
 void add_facets(const scene::BuiltScene& built, std::vector<OmittedEffect>& effects) {
-  std::size_t known = 0, unknown = 0;
-  double known_rad = 0.0, unknown_rad = 0.0;
-  for (const scene::FaceInfo& face : built.scene.faces) {
-    if (face.curve.empty() || face.exact) continue;
-    ++known;
-    known_rad = std::max(known_rad, face.deviation.angle_rad);
-  }
-  for (const contact::PlacedMesh& part : built.placed)
-    for (const mesh::FacetDeviation& face :
-         mesh::smooth_face_deviations(part.mesh, part.face_of, part.faces.size())) {
-      if (!(face.angle_rad > 0.0)) continue;
-      ++unknown;
-      unknown_rad = std::max(unknown_rad, face.angle_rad);
+  struct Faces {
+    std::size_t count = 0;
+    double angle_rad = 0.0, let_out = 0.0;
+
+    std::string text() const {
+      const std::string faces = fmt::format("{} face{}, facets up to {:.2g} deg from it", count,
+                                            count == 1 ? "" : "s", angle_rad / core::kDegree);
+      if (!(let_out > 0.0)) return faces;
+      return faces +
+             fmt::format(", which may let out up to {:.2g} % of the light of a part", 100.0 * let_out);
     }
-  const auto faces = [](std::size_t count, double angle_rad) {
-    return fmt::format("{} face{}, facets up to {:.2g} deg from it", count, count == 1 ? "" : "s",
-                       angle_rad / core::kDegree);
   };
-  if (known > 0)
-    effects.push_back(effect("the true surface of round faces", faces(known, known_rad), Figures::fraction,
+  Faces known, unknown;
+  for (const scene::FacetFace& face : scene::facet_faces(built)) {
+    Faces& faces = face.surface_known ? known : unknown;
+    ++faces.count;
+    faces.angle_rad = std::max(faces.angle_rad, face.deviation.angle_rad);
+    faces.let_out = std::max(faces.let_out, face.let_out);
+  }
+  if (known.count > 0)
+    effects.push_back(effect("the true surface of round faces", known.text(), Figures::fraction,
                              "scintray check lists them with the reason why facets stay"));
-  if (unknown > 0)
+  if (unknown.count > 0)
     effects.push_back(
-        effect("the true surface of smooth faces of meshes", faces(unknown, unknown_rad), Figures::fraction,
+        effect("the true surface of smooth faces of meshes", unknown.text(), Figures::fraction,
                "curved = \"recognize\" of a mesh of triangles, where they are spheres, cylinders or cones"));
 }
 
