@@ -100,13 +100,13 @@ std::vector<double> marginal(const tally::TallyResult& tally, const std::vector<
 }
 
 /// Mean and mean square of the centres of bins.
-struct Spread {
+struct PositionMoments {
   double mean = 0.0, mean_square = 0.0;
 };
-std::optional<Spread> spread_of(const std::vector<double>& sums, const std::vector<double>& edges) {
+std::optional<PositionMoments> spread_of(const std::vector<double>& sums, const std::vector<double>& edges) {
   const double total = sum_of(sums);
   if (total <= 0.0) return std::nullopt;
-  Spread spread;
+  PositionMoments spread;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double x = 0.5 * (edges[i] + edges[i + 1]);
     spread.mean += sums[i] / total * x;
@@ -270,9 +270,9 @@ LightSpread light_spread(const tally::TallyResult& tally) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::vector<double>& edges = tally.axes[axis].edges;
     const std::vector<double> sums = marginal(tally, tally.sum, axis);
-    const Spread found = spread_of(sums, edges).value();
+    const PositionMoments found = spread_of(sums, edges).value();
     const auto centre = [&](const std::vector<double>& left) -> std::optional<double> {
-      const std::optional<Spread> without = spread_of(marginal(tally, left, axis), edges);
+      const std::optional<PositionMoments> without = spread_of(marginal(tally, left, axis), edges);
       return without ? std::optional(without->mean) : std::nullopt;
     };
     spread.centre_mm[axis] = found.mean;
