@@ -82,7 +82,8 @@ TEST_CASE("the help of every command has examples, and each of them parses") {
   std::map<std::string, std::string> footers;
   collect(IdleProgram().app(), "scintray", footers);
   CHECK(footers.size() > 30);
-  for (const auto& [name, footer] : footers) {
+  for (const auto& [command_name, footer] : footers) {
+    const std::string& name = command_name;
     CAPTURE(name);
     const std::vector<std::string> lines = examples(footer);
     CHECK_FALSE(lines.empty());
@@ -130,7 +131,8 @@ TEST_CASE("every command that prints numbers prints them as JSON on request") {
   std::map<std::string, std::string> footers;
   IdleProgram program;
   collect(program.app(), "scintray", footers);
-  for (const auto& [name, footer] : footers) {
+  for (const auto& [command_name, footer] : footers) {
+    const std::string& name = command_name;
     CAPTURE(name);
     CLI::App* command = &program.app();
     std::istringstream words(name.substr(std::string("scintray ").size()));

@@ -181,7 +181,7 @@ TEST_CASE("import explains options that do not fit") {
 // Peak memory is measured, not limited: what a library takes at its start would count against a limit. A
 // crash is exit code -1, a hang runs into the time limit of the test.
 TEST_CASE("no file of the reference collections makes the program crash, hang or take memory without bound") {
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef SCINTRAY_SANITIZED
   constexpr long kKibPerByte = 4, kAlways_kib = 512 * 1024;  // shadow memory, red zones and what is freed
 #else
   constexpr long kKibPerByte = 1, kAlways_kib = 64 * 1024;

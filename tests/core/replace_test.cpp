@@ -40,8 +40,8 @@ TEST_CASE("A file replaces its like, an empty file and nothing else") {
   const auto folder = scratch_folder("replace");
   for (const auto& [old_name, old_content] : kKinds)
     for (const auto& [new_name, new_content] : kKinds) {
-      CAPTURE(old_name);
-      CAPTURE(new_name);
+      const std::string names = old_name + " and " + new_name;
+      CAPTURE(names);
       const auto path = folder / "file";
       std::ofstream(path, std::ios::binary) << old_content;
       const std::string refused =

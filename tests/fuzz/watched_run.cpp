@@ -7,7 +7,7 @@
 #include <new>
 
 // Memory is watched through the global operator new; the sanitizers bring their own.
-#if !defined(__SANITIZE_ADDRESS__)
+#ifndef SCINTRAY_SANITIZED
 namespace {
 std::size_t largest_request = 0;
 }

@@ -280,7 +280,7 @@ TEST_CASE("A result with impossible numbers is refused with what is wrong") {
 }
 
 TEST_CASE("A list of three million photons streams through bounded memory") {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef SCINTRAY_SANITIZED
   MESSAGE("[skipped] the address sanitizer keeps freed memory, so the program's own cannot be told");
   return;
 #endif
