@@ -110,8 +110,8 @@ TEST_CASE("A cut that needs a surface, and one that grazes, are refused with the
 
 TEST_CASE("Coaxial cylinders cut each other whatever their numbers of sides") {
   const double pi = 3.14159265358979;
-  for (const auto& sides : {std::pair{64, 64}, {64, 48}, {48, 64}, {72, 64}, {32, 64}}) {
-    const int outer = sides.first, inner = sides.second;
+  for (const auto& pair : {std::pair{64, 64}, {64, 48}, {48, 64}, {72, 64}, {32, 64}}) {
+    const int outer = pair.first, inner = pair.second;
     CAPTURE(outer);
     CAPTURE(inner);
     const std::string glue =
