@@ -167,6 +167,9 @@ TEST_CASE("reweight prints light under other optics and writes a table, and refu
       "reflectance of white 0.95: detected");
   did({"--absorption-length", "glass=100,200 mm,none", "--reflectance", "white=x0.9"}, cli::kSuccess,
       "absorption length of glass none, reflectance of white x 0.9: detected");
+  // What the fractions leave out stands beside them.
+  did({"--reflectance", "white=0.8"}, cli::kSuccess, "The detected fraction ");
+  did({"--reflectance", "white=0.8", "--json"}, cli::kSuccess, "\"not_included\": [");
   did({"--reflectance", "whit=0.8"}, cli::kBadInput, "did you mean \"white\"");
   did({"--reflectance", "white"}, cli::kBadUsage, "no name before");
   did({"--reflectance", "white=x0.9,0.8"}, cli::kBadUsage, "mixed");
